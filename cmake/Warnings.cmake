@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# flexneck::warnings: linked privately by every target of ours.
+add_library(flexneck_warnings INTERFACE)
+add_library(flexneck::warnings ALIAS flexneck_warnings)
+target_compile_options(
+  flexneck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+                              $<$<BOOL:${FLEXNECK_WARNINGS_AS_ERRORS}>:-Werror>)

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace flexneck::fe_modal {
+
+/// Inertia invariants of a body with m modes: integrals over the undeformed volume (equations.md
+/// section 2, after Yoo and Haug). s0 is the position in the body frame, psi the (3, m) mode shapes,
+/// ~ the skew matrix. SI units; modes are mass-normalised, so a modal coordinate has the unit
+/// kg^(1/2) m and a shape kg^(-1/2).
+struct InertiaInvariants {
+  double mass = 0;                     ///< m = int rho, kg
+  Eigen::Vector3d S1;                  ///< int rho s0, kg m
+  Eigen::Matrix3Xd S2;                 ///< int rho psi, (3, m)
+  Eigen::Matrix3d J0;                  ///< -int rho ~s0 ~s0, kg m^2
+  std::vector<Eigen::Matrix3d> G0;     ///< G0[l] = -int rho ~s0 ~psi_l, m of them
+  std::vector<Eigen::Matrix3d> G;      ///< G[j * m + l] = -int rho ~psi_j ~psi_l, m * m of them
+  Eigen::Matrix3Xd N0;                 ///< int rho ~s0 psi, (3, m)
+  std::vector<Eigen::Vector3d> N;      ///< N[j * m + l] = int rho ~psi_j psi_l, m * m of them
+  Eigen::MatrixXd Maa;                 ///< int rho psi^T psi, (m, m): the identity
+};
+
+/// A place where other bodies attach: a rigid frame that moves with the modes.
+struct Interface {
+  std::string name;
+  Eigen::Vector3d position_m;    ///< of the undeformed interface, body frame
+  Eigen::Matrix3Xd translation;  ///< psi at the interface, (3, m)
+  Eigen::Matrix3Xd rotation;     ///< mu at the interface, (3, m)
+};
+
+/// What is known of each basis vector.
+struct ModeRecord {
+  std::string name;  ///< e.g. "fore-aft bending 1"
+  std::string kind;  ///< "normal": an eigenvector with the boundary of ModalBody::boundary
+  /// Per cent of the kinetic energy of the plates' rigid motions: fore-aft (x with theta_y), lateral
+  /// (y with theta_x), twist (theta_z), axial (z).
+  std::array<double, 4> shares_percent{};
+  double residual = 0;  ///< ||K x - lambda M x|| / ||K x||
+};
+
+/// Frequencies of the finite element model with a rigid body fixed to an interface, no gravity.
+struct AttachedFrequencies {
+  std::string body;       ///< name of the rigid body
+  std::string interface;  ///< name of the interface it is fixed to
+  Eigen::VectorXd frequencies_Hz;
+};
+
+/// A deformable body reduced to m mass-normalised modes in its body frame, which rides on the held
+/// nodes. Row k of a shape belongs to row k of `nodes_m`.
+struct ModalBody {
+  Eigen::VectorXd frequencies_Hz;        ///< (m), ascending
+  std::vector<ModeRecord> modes;         ///< m of them
+  std::string boundary;                  ///< what was held, e.g. "fixed: bolts"
+  std::string certificate;               ///< "not certified" until completeness has been proved
+  double orthogonality = 0;              ///< largest |Psi^T M Psi - I|
+  Eigen::Matrix3Xd nodes_m;              ///< (3, n)
+  std::vector<Eigen::Matrix3Xd> shapes;  ///< m of (3, n), kg^(-1/2)
+  std::vector<Interface> interfaces;
+  InertiaInvariants invariants;
+  std::vector<AttachedFrequencies> attached;  ///< may be empty
+
+  Eigen::Index mode_count() const { return frequencies_Hz.size(); }
+  /// @throws InputError if there is none of that name; the message lists those there are.
+  const Interface& interface(const std::string& name) const;
+  Eigen::Index mode_index(const std::string& name) const;
+};
+
+/// The body reduced further to the named modes, in the order given.
+/// @throws InputError for a name that the body has not, or one that comes twice.
+ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& names);
+
+}  // namespace flexneck::fe_modal

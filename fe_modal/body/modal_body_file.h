@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "fe_modal/body/modal_body.h"
+#include "geometry/foundation/hdf5_file.h"
+#include "geometry/foundation/provenance.h"
+
+namespace flexneck::fe_modal {
+
+/// The layout is described in fe_modal/body/README.md.
+inline constexpr FileFormat kModalBodyFormat{"flexneck modal body", 1, "flexneck modes"};
+
+struct ModalBodyFile {
+  ModalBody body;
+  Provenance provenance;
+};
+
+void write_modal_body(const std::filesystem::path& path, const ModalBodyFile& file);
+/// @throws InputError if the file is missing, truncated, foreign, inconsistent in its shapes, or
+/// its modes are not mass-normalised (|Maa - I| > 1e-6).
+ModalBodyFile read_modal_body(const std::filesystem::path& path);
+
+}  // namespace flexneck::fe_modal

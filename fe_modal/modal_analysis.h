@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fe_modal/body/modal_body.h"
+#include "geometry/foundation/progress.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Keeps PETSc and SLEPc (and MPI) initialised while it lives; one at a time. analyse_modes needs it.
+class PetscSession {
+ public:
+  PetscSession();
+  ~PetscSession();
+  PetscSession(const PetscSession&) = delete;
+  PetscSession& operator=(const PetscSession&) = delete;
+};
+
+/// Versions of PETSc, SLEPc and MUMPS, for the provenance.
+std::map<std::string, std::string> library_versions();
+
+/// The least-squares rigid motion of a face set about a point: minimises
+/// int |u - t - theta x (x - position)|^2 dA. On a held face set or node set it is zero.
+struct InterfaceDefinition {
+  std::string name;
+  std::string set;  ///< a face set; for the held interface a node set
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+};
+
+/// A rigid body fixed to an interface, for the frequencies of the loaded structure.
+struct RigidAttachment {
+  std::string name;
+  std::string interface;
+  double mass_kg = 0;
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();      ///< mesh frame
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre, mesh axes
+};
+
+struct ModalOptions {
+  int mode_count = 10;
+  std::string held_set;            ///< node set held in all directions; empty: a free body
+  std::string held_interface;      ///< name of the interface on the held nodes, modes zero there
+  Eigen::Vector3d held_position_m = Eigen::Vector3d::Zero();
+  std::vector<InterfaceDefinition> interfaces;
+  std::vector<std::string> rigid_parts;  ///< parts whose rigid motions name the modes: the plates
+  double length_m = 0;                   ///< turns rotations into lengths for the sign rule
+  std::string sign_interface;            ///< interface whose motion fixes the signs
+  std::vector<RigidAttachment> attachments;
+};
+
+/// Normal modes by shift-invert, reduced to a modal body.
+/// @throws InputError for unknown sets, parts or interfaces, or more modes than degrees of freedom.
+/// @throws ComputationError if the factorisation or the eigensolver fails.
+ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+                        const Progress& progress);
+
+}  // namespace flexneck::fe_modal

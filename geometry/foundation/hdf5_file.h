@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexneck {
+
+/// Extents of a dataset, slowest index first. In an expected shape kAnyExtent matches everything.
+using Shape = std::vector<std::size_t>;
+inline constexpr std::size_t kAnyExtent = static_cast<std::size_t>(-1);
+
+/// What a file of ours is. Written as the root attributes `format` and `schema_version`, next to
+/// `units` = "SI".
+struct FileFormat {
+  std::string_view name;     ///< e.g. "flexneck mesh"
+  int schema_version;        ///< raised when a reader of the old layout would fail
+  std::string_view made_by;  ///< the command that makes such a file, for error messages
+};
+
+/// Writes an HDF5 file under a temporary name beside its own and renames it on commit(); without
+/// commit() nothing is left. Object names are absolute paths; missing groups are made on the way.
+/// The same writes give the same bytes. All members throw ComputationError when writing fails.
+class Hdf5Writer {
+ public:
+  /// @throws InputError if the folder cannot be written.
+  Hdf5Writer(std::filesystem::path path, const FileFormat& format);
+  ~Hdf5Writer();
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+  /// Row-major values. `unit` is the SI unit, "1" for pure numbers.
+  void write(const std::string& dataset, std::span<const double> values, const Shape& shape,
+             std::string_view unit);
+  /// Row-major indices or counts.
+  void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape);
+  void write(const std::string& dataset, const std::vector<std::string>& values);
+
+  void write_attribute(const std::string& object, const std::string& name, std::string_view value);
+  void write_attribute(const std::string& object, const std::string& name, double value);
+  void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
+
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads an HDF5 file of ours. Every member throws InputError with one line: the file, the dataset
+/// or attribute, what was expected, what was found, what to do.
+class Hdf5Reader {
+ public:
+  /// Checks that the file is HDF5, of this format and of a schema version no newer than known.
+  Hdf5Reader(std::filesystem::path path, const FileFormat& format);
+  ~Hdf5Reader();
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  const std::filesystem::path& path() const;
+
+  /// True if the group or dataset exists.
+  bool has(const std::string& object) const;
+  /// Names of the members of a group, in alphabetical order; empty if there is no such group.
+  std::vector<std::string> members(const std::string& group) const;
+  Shape shape(const std::string& dataset) const;
+
+  /// Row-major values; `expected` has the dataset's rank, extents may be kAnyExtent. Values that
+  /// are not finite are refused. `unit` must equal the dataset's attribute `units`.
+  std::vector<double> read_doubles(const std::string& dataset, const Shape& expected,
+                                   std::string_view unit) const;
+  std::vector<std::int32_t> read_integers(const std::string& dataset, const Shape& expected) const;
+  std::vector<std::string> read_strings(const std::string& dataset) const;
+
+  std::string string_attribute(const std::string& object, const std::string& name) const;
+  double double_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+
+  /// For checks that only the caller can make: throws InputError "<path>: <object>: <problem>;
+  /// make it again with '<command>'".
+  [[noreturn]] void refuse(const std::string& object, const std::string& problem) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace flexneck

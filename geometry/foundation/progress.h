@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace flexneck {
+
+/// How a stage tells what it does: one line without a line break per call. May be empty.
+using Progress = std::function<void(const std::string&)>;
+
+}  // namespace flexneck

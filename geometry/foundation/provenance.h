@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/origin.h"
+
+namespace flexneck {
+
+class Hdf5Writer;
+class Hdf5Reader;
+
+/// One input of a study as the user wrote it.
+struct Parameter {
+  std::string key;    ///< dotted, e.g. "geometry.plate_diameter"
+  std::string value;  ///< with its unit, e.g. "3.4 in"
+  Origin origin = Origin::synthetic;
+  std::string note;  ///< source or reason, may be empty
+};
+
+/// A file that a result was computed from.
+struct InputFile {
+  std::string name;  ///< without its folder, so that results do not depend on where they were made
+  std::string hash;  ///< 128-bit XXH3 of the contents, 32 hexadecimal digits
+};
+
+/// How a result came about; stored in the group /provenance of every file.
+struct Provenance {
+  std::string program;   ///< e.g. "flexneck 0.1.0"
+  std::string git_hash;  ///< of the sources the program was built from, or "unknown"
+  std::vector<InputFile> inputs;
+  std::vector<Parameter> parameters;
+  std::map<std::string, std::string> libraries;  ///< name to version
+};
+
+/// 128-bit XXH3 hash, 32 hexadecimal digits.
+std::string hash_of_text(const std::string& text);
+/// @throws InputError if the file cannot be read.
+std::string hash_of_file(const std::string& path);
+
+void write_provenance(Hdf5Writer& file, const Provenance& provenance);
+Provenance read_provenance(const Hdf5Reader& file);
+
+}  // namespace flexneck

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flexneck::geometry {
+
+/// Dimensions of the Hybrid III neck, in m. Frame: x forward, z from base to head, origin on the
+/// plate axis at the base face. From below: base plate, rubber 1, plate 1, rubber 2, plate 2,
+/// rubber 3, plate 3, rubber 4, top plate; the four rubber sections are equally high. Rubber
+/// sections are straight cylinders shifted towards +x; the hole goes through everything.
+struct NeckParameters {
+  double length = 0;
+  double base_plate_thickness = 0;
+  double plate_thickness = 0;  ///< of each of the three intermediate plates
+  double top_plate_thickness = 0;
+  double plate_diameter = 0;
+  double hole_diameter = 0;
+  double centre_rubber_diameter = 0;  ///< of rubber 2 and 3
+  double centre_rubber_offset = 0;
+  double bottom_rubber_diameter = 0;  ///< of rubber 1
+  double bottom_rubber_offset = 0;
+  double top_rubber_diameter = 0;  ///< of rubber 4
+  double top_rubber_offset = 0;
+  double bolt_circle_radius = 0;
+  double bolt_patch_radius = 0;  ///< base-face nodes this close to a bolt's centre are held
+};
+
+/// Mesh divisions of the neck's blocks.
+struct NeckDivisions {
+  int quadrant = 4;       ///< round a quarter of the circumference
+  int inner_ring = 3;     ///< from the hole to the rubber's rim
+  int outer_ring = 1;     ///< from the rubber's rim to the plate's
+  int rubber_layers = 3;  ///< through one rubber section
+  int plate_layers = 1;   ///< through an intermediate plate
+  int end_plate_layers = 1;
+  double ring_grading = 1;    ///< ratio of neighbouring elements towards the rim, 1 = even
+  double rubber_grading = 1;  ///< ratio of neighbouring layers towards the bonds, 1 = even
+};
+
+/// Height of one rubber section: (length - plates) / 4.
+double rubber_height(const NeckParameters& neck);
+
+/// Centres of the four bolt patches on the base face, at 45, 135, 225 and 315 degrees.
+std::array<std::array<double, 3>, 4> bolt_centres(const NeckParameters& neck);
+
+/// Refuses impossible dimensions. @throws InputError with the inequality that fails and its values.
+void check(const NeckParameters& neck);
+void check(const NeckDivisions& divisions);
+
+/// Values of the constants that geometry/neck.geo declares, by name. Lengths in m.
+std::map<std::string, double> script_constants(const NeckParameters& neck,
+                                               const NeckDivisions& divisions);
+
+}  // namespace flexneck::geometry

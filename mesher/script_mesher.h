@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/progress.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::mesher {
+
+/// Nodes of a face set within `radius_m` of one of the centres become a node set.
+struct NodePatches {
+  std::string name;
+  std::string face_set;
+  std::vector<std::array<double, 3>> centres_m;
+  double radius_m = 0;
+};
+
+/// A gmsh script and what is made of its physical groups: each physical volume is a part, each
+/// physical surface a face set and a node set of the same name.
+struct ScriptMeshOptions {
+  std::filesystem::path script;
+  std::map<std::string, double> constants;  ///< override the script's DefineConstant values
+  std::vector<Material> materials;
+  std::map<std::string, std::string> material_of_part;  ///< part to material name
+  std::vector<NodePatches> patches;
+};
+
+/// Runs the script in gmsh, meshes it with second-order elements and takes the mesh over.
+/// A script is a program: it may do what gmsh scripts may do.
+/// @throws InputError if the script cannot be read, has an error (gmsh's message), sets a constant
+/// that it does not declare, names a part without material, or leaves a set empty.
+/// @throws ComputationError if an element is inverted or degenerate.
+Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress);
+
+}  // namespace flexneck::mesher

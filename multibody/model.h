@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fe_modal/body/modal_body.h"
+#include "multibody/time_table.h"
+
+namespace flexneck::multibody {
+
+/// Position of a frame's origin and its rotation to the world: v_World = rotation * v_Frame.
+struct Pose {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+struct RigidBody {
+  double mass_kg = 0;
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();      ///< body frame
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre, body axes
+};
+
+struct DeformableBody {
+  fe_modal::ModalBody modes;      ///< the chosen modes only
+  Eigen::VectorXd damping_ratio;  ///< zeta of each mode
+};
+
+/// A body that translates in a given way, whatever acts on it. With an empty table and no velocity
+/// it is the ground.
+struct DrivenBody {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
+  double initial_velocity_m_s = 0;                       ///< along `direction`
+  TimeTable acceleration_m_s2;                           ///< along `direction`; zero outside
+};
+
+struct Body {
+  std::string name;
+  std::variant<RigidBody, DeformableBody, DrivenBody> kind;
+  Pose initial_pose;
+  Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();          ///< of the origin, world
+  Eigen::Vector3d initial_angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< body axes
+};
+
+/// A frame on a body: on a rigid or driven body anywhere, on a deformable one at an interface, whose
+/// motion it follows (finite rotation).
+struct Marker {
+  std::string name;
+  std::size_t body = 0;
+  std::string interface;                                 ///< of a deformable body; else empty
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< body frame; unused at an interface
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< marker axes to body axes
+};
+
+enum class JointKind { ball, pin, fixed };
+
+/// Joins two markers. Its reaction is what body i exerts on body j, so let i be the lower one.
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::fixed;
+  std::size_t marker_i = 0;
+  std::size_t marker_j = 0;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< of a pin, in the axes of both markers
+};
+
+/// A force on a marker's origin, fixed in the world's axes.
+struct PointForce {
+  std::string name;
+  std::size_t marker = 0;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
+  TimeTable magnitude_N;
+};
+
+struct Model {
+  std::vector<Body> bodies;
+  std::vector<Marker> markers;
+  std::vector<Joint> joints;
+  std::vector<PointForce> forces;
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< world
+
+  /// @throws InputError if there is none of that name; the message lists those there are.
+  std::size_t body_index(const std::string& name) const;
+  std::size_t marker_index(const std::string& name) const;
+  std::size_t joint_index(const std::string& name) const;
+};
+
+/// Checks names, indices, masses and inertias (symmetric, positive, triangle inequality), damping,
+/// unit vectors. @throws InputError naming the body, marker, joint or force.
+void check(const Model& model);
+
+}  // namespace flexneck::multibody

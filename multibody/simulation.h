@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "multibody/history.h"
+#include "multibody/model.h"
+
+namespace flexneck::multibody {
+
+struct SolverOptions {
+  double relative_tolerance = 1e-6;
+  double absolute_tolerance = 1e-9;
+  double largest_step_s = 0.05;
+  double smallest_step_s = 1e-10;
+};
+
+struct OutputOptions {
+  double end_time_s = 1.0;
+  double interval_s = 1e-3;
+};
+
+/// One mode of the linearised system.
+struct SystemMode {
+  double frequency_Hz = 0;  ///< |lambda| / 2 pi, the undamped frequency
+  double damped_frequency_Hz = 0;
+  double damping_ratio = 0;
+};
+
+
+/// Runs a model from the state its bodies are given; constraints are projected first.
+/// @throws InputError if the model is not sound or a joint is violated at the start.
+/// @throws ComputationError if the step collapses: time and what limited it.
+History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output);
+
+/// Runs a model from the static equilibrium of its free bodies relative to the driven ones under
+/// gravity and the forces at time zero, all moving with the driven bodies' initial velocity.
+History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
+                                  const OutputOptions& output);
+
+/// Small motions about that equilibrium, ascending in frequency.
+std::vector<SystemMode> system_modes(const Model& model);
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+namespace flexneck::multibody {
+
+/// A piecewise linear function of time, with its exact first and second integrals.
+class TimeTable {
+ public:
+  /// What holds before the first and after the last time.
+  enum class Outside { zero, constant };
+
+  TimeTable() = default;  ///< zero everywhere
+  /// Times in s, strictly increasing. @throws InputError otherwise, or for values that are not finite.
+  TimeTable(std::vector<double> times_s, std::vector<double> values, Outside outside);
+
+  double value(double time_s) const;
+  double integral(double time_s) const;         ///< from the first time on; before it zero
+  double second_integral(double time_s) const;  ///< integral of integral()
+
+  /// Where the function has a kink or a jump: the integrator steps onto these times.
+  const std::vector<double>& times_s() const { return times_s_; }
+
+ private:
+  std::vector<double> times_s_;
+  std::vector<double> values_;
+  std::vector<double> integrals_;
+  std::vector<double> second_integrals_;
+  Outside outside_ = Outside::zero;
+};
+
+}  // namespace flexneck::multibody
