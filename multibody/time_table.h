@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace flexneck::multibody {
@@ -12,9 +13,12 @@ class TimeTable {
   enum class Outside { zero, constant };
 
   TimeTable() = default;  ///< zero everywhere
-  /// Times in s, strictly increasing. @throws InputError otherwise, or for values that are not finite.
+  /// Times in s, strictly increasing. @throws InputError otherwise, or for values that are not
+  /// finite.
   TimeTable(std::vector<double> times_s, std::vector<double> values, Outside outside);
 
+  /// At the first and the last time it is the table's own value, even where the function jumps to
+  /// zero outside.
   double value(double time_s) const;
   double integral(double time_s) const;         ///< from the first time on; before it zero
   double second_integral(double time_s) const;  ///< integral of integral()
@@ -23,6 +27,15 @@ class TimeTable {
   const std::vector<double>& times_s() const { return times_s_; }
 
  private:
+  /// The straight piece that holds at a time from the first on: the row it starts from, its value
+  /// there and its slope.
+  struct Segment {
+    std::size_t start;
+    double value;
+    double slope;
+  };
+  Segment segment(double time_s) const;
+
   std::vector<double> times_s_;
   std::vector<double> values_;
   std::vector<double> integrals_;
