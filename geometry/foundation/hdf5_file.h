@@ -68,6 +68,8 @@ class Hdf5Reader {
   bool has(const std::string& object) const;
   /// Names of the members of a group, in alphabetical order; empty if there is no such group.
   std::vector<std::string> members(const std::string& group) const;
+  /// Names of an object's attributes, in alphabetical order; empty if there is no such object.
+  std::vector<std::string> attributes(const std::string& object) const;
   Shape shape(const std::string& dataset) const;
 
   /// Row-major values; `expected` has the dataset's rank, extents may be kAnyExtent. Values that
