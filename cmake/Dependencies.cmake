@@ -3,7 +3,7 @@ find_package(MPI REQUIRED COMPONENTS C CXX)
 
 # PETSc is built on the parallel HDF5; a serial one beside it could not share handles.
 set(HDF5_PREFER_PARALLEL ON)
-find_package(HDF5 REQUIRED COMPONENTS C CXX)
+find_package(HDF5 REQUIRED COMPONENTS C)
 if(NOT HDF5_IS_PARALLEL)
   message(FATAL_ERROR "HDF5 is the serial variant; install libhdf5-openmpi-dev")
 endif()

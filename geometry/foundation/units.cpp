@@ -24,9 +24,13 @@ const ut_system& unit_system() {
     ut_set_error_message_handler(ut_ignore);
     UnitSystem fresh(ut_read_xml(nullptr), ut_free_system);
     if (!fresh) throw ComputationError("the unit database of UDUNITS-2 cannot be read");
-    // In the database "gravity" and "g" (gram) exist, but no short name for pulses in g.
-    const Unit gravity(ut_parse(fresh.get(), "gravity", UT_ASCII), ut_free);
-    ut_map_symbol_to_unit("g0", UT_ASCII, gravity.get());
+    // The database knows these units only by longer names.
+    const Unit gravity(ut_parse(fresh.get(), "standard_free_fall", UT_ASCII), ut_free);
+    const Unit degree(ut_parse(fresh.get(), "arc_degree", UT_ASCII), ut_free);
+    if (ut_map_symbol_to_unit("gn", UT_ASCII, gravity.get()) != UT_SUCCESS ||
+        ut_map_symbol_to_unit("deg", UT_ASCII, degree.get()) != UT_SUCCESS) {
+      throw ComputationError("the unit database of UDUNITS-2 lacks gravity or degree");
+    }
     return fresh;
   }();
   return *system;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/hdf5_file.h"
+#include "geometry/foundation/provenance.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using flexneck::test::TemporaryFolder;
+
+namespace {
+
+constexpr FileFormat kFormat{"flexneck example", 2, "flexneck example"};
+
+void write_example(const std::filesystem::path& path) {
+  Hdf5Writer file(path, kFormat);
+  const std::vector<double> values = {1, 2, 3, 4, 5, 6};
+  const std::vector<std::int32_t> indices = {7, 8};
+  file.write("/group/values", values, {3, 2}, "m");
+  file.write("/indices", indices, {2});
+  file.write("/names", std::vector<std::string>{"a", "", "ζ"});
+  file.write_attribute("/group", "mass", 1.5);
+  file.commit();
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST_CASE("what was written comes back, and the same writes give the same bytes") {
+  const TemporaryFolder folder;
+  write_example(folder / "a.h5");
+  write_example(folder / "b.h5");
+  CHECK(bytes_of(folder / "a.h5") == bytes_of(folder / "b.h5"));
+
+  const Hdf5Reader file(folder / "a.h5", kFormat);
+  CHECK(file.read_doubles("/group/values", {3, kAnyExtent}, "m") ==
+        std::vector<double>{1, 2, 3, 4, 5, 6});
+  CHECK(file.read_integers("/indices", {2}) == std::vector<std::int32_t>{7, 8});
+  CHECK(file.read_strings("/names") == std::vector<std::string>{"a", "", "ζ"});
+  CHECK(file.double_attribute("/group", "mass") == 1.5);
+  CHECK(file.string_attribute("/", "units") == "SI");
+  CHECK(file.members("/group") == std::vector<std::string>{"values"});
+  CHECK(file.members("/nowhere").empty());
+  CHECK_FALSE(file.has("/group/values/deeper"));
+}
+
+TEST_CASE("a file that is not committed leaves nothing behind") {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "a.h5", kFormat);
+    file.write_attribute("/group", "mass", 1.5);
+  }
+  CHECK(std::filesystem::is_empty(folder.path()));
+  CHECK_THROWS_WITH(Hdf5Writer(folder / "none/a.h5", kFormat), Contains("cannot be written"));
+}
+
+TEST_CASE("what does not fit is refused with file, dataset, expectation and remedy") {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.h5";
+  write_example(path);
+  const Hdf5Reader file(path, kFormat);
+  CHECK_THROWS_WITH(file.read_doubles("/group/values", {3, 3}, "m"),
+                    Contains("a.h5: /group/values: expected the shape (3, 3), found (3, 2)") &&
+                        Contains("make it again with 'flexneck example'"));
+  CHECK_THROWS_WITH(file.read_doubles("/group/values", {3, 2}, "s"), Contains("found 'm'"));
+  CHECK_THROWS_WITH(file.read_doubles("/indices", {2}, "m"), Contains("another type"));
+  CHECK_THROWS_WITH(file.read_doubles("/absent", {2}, "m"), Contains("found none"));
+  CHECK_THROWS_WITH(file.read_doubles("/group", {2}, "m"), Contains("something else"));
+  CHECK_THROWS_WITH(file.integer_attribute("/group", "mass"), Contains("one integer"));
+  CHECK_THROWS_WITH(file.double_attribute("/group", "absent"),
+                    Contains("'absent', found none") || Contains("attribute 'absent'"));
+  CHECK_THROWS_WITH(Hdf5Reader(path, {"flexneck other", 1, "x"}),
+                    Contains("expected the format 'flexneck other', found 'flexneck example'"));
+  CHECK_THROWS_WITH(Hdf5Reader(path, {"flexneck example", 1, "x"}), Contains("found 2"));
+}
+
+TEST_CASE("missing, foreign and truncated files and values that are not finite are refused") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(Hdf5Reader(folder / "none.h5", kFormat), Contains("no such file"));
+  CHECK_THROWS_WITH(Hdf5Reader(folder.path(), kFormat), Contains("expected an HDF5 file"));
+  std::ofstream(folder / "text.h5") << "not HDF5";
+  CHECK_THROWS_WITH(Hdf5Reader(folder / "text.h5", kFormat), Contains("expected an HDF5 file"));
+
+  write_example(folder / "cut.h5");
+  const auto size = std::filesystem::file_size(folder / "cut.h5");
+  std::filesystem::resize_file(folder / "cut.h5", size / 2);
+  CHECK_THROWS_WITH(Hdf5Reader(folder / "cut.h5", kFormat), Contains("truncated"));
+
+  {
+    Hdf5Writer file(folder / "nan.h5", kFormat);
+    const std::vector<double> values = {1, std::numeric_limits<double>::quiet_NaN()};
+    file.write("/values", values, {2}, "m");
+    file.commit();
+  }
+  const Hdf5Reader file(folder / "nan.h5", kFormat);
+  CHECK_THROWS_WITH(file.read_doubles("/values", {2}, "m"), Contains("finite"));
+}
+
+TEST_CASE("provenance survives the file") {
+  const TemporaryFolder folder;
+  Provenance written;
+  written.program = "flexneck test";
+  written.git_hash = "abc";
+  written.inputs = {{"study.toml", hash_of_text("text")}};
+  written.parameters = {{"geometry.length", "5.66 in", Origin::published, "paper"},
+                        {"modes.count", "10", Origin::synthetic, ""}};
+  written.libraries = {{"gmsh", "4.8.4"}};
+  {
+    Hdf5Writer file(folder / "a.h5", kFormat);
+    write_provenance(file, written);
+    file.commit();
+  }
+  const Provenance read = read_provenance(Hdf5Reader(folder / "a.h5", kFormat));
+  CHECK(read.program == written.program);
+  CHECK(read.git_hash == written.git_hash);
+  CHECK(read.libraries == written.libraries);
+  REQUIRE(read.inputs.size() == 1);
+  CHECK(read.inputs[0].hash == written.inputs[0].hash);
+  REQUIRE(read.parameters.size() == 2);
+  CHECK(read.parameters[0].key == "geometry.length");
+  CHECK(read.parameters[0].value == "5.66 in");
+  CHECK(read.parameters[0].origin == Origin::published);
+  CHECK(read.parameters[1].origin == Origin::synthetic);
+}
+
+TEST_CASE("the hash of a text is the published one of XXH3") {
+  // xxhsum -H2 of an empty input.
+  CHECK(hash_of_text("") == "99aa06d3014798d86001c324468d497f");
+}
