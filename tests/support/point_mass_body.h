@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "fe_modal/body/modal_body.h"
+
+namespace flexneck::testing {
+
+/// Reproducible numbers in [-1, 1), the same on every platform.
+class RandomNumbers {
+ public:
+  explicit RandomNumbers(unsigned seed) : engine_(seed) {}
+  double next() { return static_cast<double>(engine_()) / 2147483648.0 - 1.0; }
+  template <typename Derived>
+  void fill(Eigen::MatrixBase<Derived>& matrix) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      for (Eigen::Index i = 0; i < matrix.rows(); ++i) matrix(i, j) = next();
+  }
+  Eigen::Vector3d vector() {
+    Eigen::Vector3d v;
+    fill(v);
+    return v;
+  }
+  Eigen::VectorXd vector(Eigen::Index size) {
+    Eigen::VectorXd v(size);
+    fill(v);
+    return v;
+  }
+  Eigen::Quaterniond rotation() {
+    const double w = next();
+    return Eigen::Quaterniond(w, next(), next(), next()).normalized();
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A body of n point masses that moves in m shapes: everything about it follows from sums over
+/// its points, without any of the formulas under test.
+struct PointMassBody {
+  Eigen::VectorXd masses_kg;  ///< (n)
+  fe_modal::ModalBody body;   ///< points, shapes, interfaces and the sums as invariants
+
+  Eigen::Index point_count() const { return masses_kg.size(); }
+  /// Position of point k in the body frame at modal coordinates a.
+  Eigen::Vector3d point(Eigen::Index k, const Eigen::VectorXd& a) const {
+    Eigen::Vector3d s = body.nodes_m.col(k);
+    for (std::size_t l = 0; l < body.shapes.size(); ++l)
+      s += a[static_cast<Eigen::Index>(l)] * body.shapes[l].col(k);
+    return s;
+  }
+};
+
+namespace detail {
+
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d result;
+  result << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return result;
+}
+
+/// Makes the shapes orthonormal in the masses, so that Maa = I.
+inline void mass_orthonormalise(const Eigen::VectorXd& masses,
+                                std::vector<Eigen::Matrix3Xd>& shapes) {
+  const auto product = [&](const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+    return (a.cwiseProduct(b) * masses).sum();
+  };
+  for (int pass = 0; pass < 2; ++pass)
+    for (std::size_t l = 0; l < shapes.size(); ++l) {
+      for (std::size_t j = 0; j < l; ++j) shapes[l] -= product(shapes[j], shapes[l]) * shapes[j];
+      shapes[l] /= std::sqrt(product(shapes[l], shapes[l]));
+    }
+}
+
+/// The sums of equations.md section 2.
+inline fe_modal::InertiaInvariants invariants_of_points(
+    const Eigen::VectorXd& masses, const Eigen::Matrix3Xd& points,
+    const std::vector<Eigen::Matrix3Xd>& shapes) {
+  const std::size_t m = shapes.size();
+  const auto size = static_cast<Eigen::Index>(m);
+  fe_modal::InertiaInvariants sums;
+  sums.mass = masses.sum();
+  sums.S1 = points * masses;
+  sums.S2.setZero(3, size);
+  sums.J0.setZero();
+  sums.G0.assign(m, Eigen::Matrix3d::Zero());
+  sums.G.assign(m * m, Eigen::Matrix3d::Zero());
+  sums.N0.setZero(3, size);
+  sums.N.assign(m * m, Eigen::Vector3d::Zero());
+  sums.Maa.setZero(size, size);
+  for (Eigen::Index k = 0; k < masses.size(); ++k) {
+    const double mass = masses[k];
+    const Eigen::Matrix3d s = cross_matrix(points.col(k));
+    sums.J0 -= mass * s * s;
+    for (std::size_t l = 0; l < m; ++l) {
+      const Eigen::Vector3d psi_l = shapes[l].col(k);
+      const auto column = static_cast<Eigen::Index>(l);
+      sums.S2.col(column) += mass * psi_l;
+      sums.G0[l] -= mass * s * cross_matrix(psi_l);
+      sums.N0.col(column) += mass * s * psi_l;
+      for (std::size_t j = 0; j < m; ++j) {
+        const Eigen::Matrix3d psi_j = cross_matrix(shapes[j].col(k));
+        sums.G[j * m + l] -= mass * psi_j * cross_matrix(psi_l);
+        sums.N[j * m + l] += mass * psi_j * psi_l;
+        sums.Maa(static_cast<Eigen::Index>(j), column) += mass * shapes[j].col(k).dot(psi_l);
+      }
+    }
+  }
+  return sums;
+}
+
+}  // namespace detail
+
+/// A random body about 0.2 m long and 2 kg heavy. Interfaces: "root" at the origin, which no mode
+/// moves (the body frame rides on it); "tip" and "side", which translate with a point and turn by
+/// random modal matrices, a few degrees per centimetre of motion. Nothing else is held, so every
+/// invariant is full.
+inline PointMassBody make_point_mass_body(unsigned seed, int mode_count = 3, int point_count = 12) {
+  RandomNumbers random(seed);
+  PointMassBody result;
+  result.masses_kg = 0.15 * (random.vector(point_count).array() + 1.2).matrix();
+  fe_modal::ModalBody& body = result.body;
+  body.nodes_m.resize(3, point_count);
+  random.fill(body.nodes_m);
+  body.nodes_m *= 0.1;
+  body.nodes_m.row(2).array() += 0.08;
+  body.shapes.assign(static_cast<std::size_t>(mode_count), Eigen::Matrix3Xd(3, point_count));
+  for (Eigen::Matrix3Xd& shape : body.shapes) random.fill(shape);
+  detail::mass_orthonormalise(result.masses_kg, body.shapes);
+
+  body.frequencies_Hz.resize(mode_count);
+  for (int l = 0; l < mode_count; ++l) {
+    body.frequencies_Hz[l] = 4.0 + 3.0 * l;
+    body.modes.push_back({"mode " + std::to_string(l + 1), "normal", {}, 0.0});
+  }
+  body.boundary = "free points on a moving frame";
+  body.certificate = "not certified";
+  body.invariants = detail::invariants_of_points(result.masses_kg, body.nodes_m, body.shapes);
+
+  const Eigen::Matrix3Xd none = Eigen::Matrix3Xd::Zero(3, mode_count);
+  body.interfaces.push_back({"root", Eigen::Vector3d::Zero(), none, none});
+  for (const auto& [name, point] : {std::pair("tip", point_count - 1), std::pair("side", 0)}) {
+    Eigen::Matrix3Xd translation(3, mode_count);
+    Eigen::Matrix3Xd rotation(3, mode_count);
+    for (int l = 0; l < mode_count; ++l)
+      translation.col(l) = body.shapes[static_cast<std::size_t>(l)].col(point);
+    random.fill(rotation);
+    body.interfaces.push_back({name, body.nodes_m.col(point), translation, 5.0 * rotation});
+  }
+  return result;
+}
+
+}  // namespace flexneck::testing
