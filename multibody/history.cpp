@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/history.h"
 
-#include "multibody/names.h"
+#include "geometry/foundation/names.h"
 
 namespace flexneck::multibody {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "geometry/foundation/error.h"
-#include "multibody/names.h"
+#include "geometry/foundation/names.h"
 
 namespace flexneck::multibody {
 namespace {

@@ -6,8 +6,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "multibody/model.h"
-#include "multibody/names.h"
 
 namespace flexneck::multibody {
 namespace {
