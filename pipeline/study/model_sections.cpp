@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "geometry/foundation/names.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+std::size_t choice(const StudyTable& table, const std::string& key,
+                   const std::vector<std::string>& names) {
+  const std::string name = table.text(key);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return i;
+  }
+  std::string expected = "expected one of";
+  for (const std::string& each : names) expected += " \"" + each + "\"";
+  table.refuse(key, expected + ", found \"" + name + "\"" + did_you_mean(names, name));
+}
+
+Eigen::Vector3d unit_vector(const StudyTable& table, const std::string& key) {
+  const std::vector<double> numbers = table.numbers(key, 3);
+  const Eigen::Vector3d vector = Eigen::Map<const Eigen::Vector3d>(numbers.data());
+  if (!(vector.norm() > 0)) table.refuse(key, "expected a direction, found a vector of length 0");
+  return vector.normalized();
+}
+
+namespace {
+
+Eigen::Vector3d position(const StudyTable& table, const std::string& key) {
+  const std::vector<double> lengths = table.quantities(key, "m", 3);
+  return Eigen::Map<const Eigen::Vector3d>(lengths.data());
+}
+
+/// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor: the
+/// products carry the tensor's sign, Ixz = -int x z dm.
+Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
+  const std::vector<double> i = table.quantities(key, "kg*m^2", 6);
+  Eigen::Matrix3d tensor;
+  tensor << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  return tensor;
+}
+
+}  // namespace
+
+BodySection read_body(const StudyTable& table) {
+  BodySection body;
+  body.name = table.text("name");
+  body.kind = static_cast<BodySection::Kind>(
+      choice(table, "kind", {"ground", "driven", "rigid", "deformable"}));
+  switch (body.kind) {
+    case BodySection::Kind::ground:
+      break;
+    case BodySection::Kind::driven:
+      body.pulse_times_s = table.quantities("pulse_times", "s", 0);
+      body.pulse_m_s2 = table.quantities("pulse_deceleration", "m/s^2", body.pulse_times_s.size());
+      break;
+    case BodySection::Kind::rigid:
+      body.rigid = {table.quantity("mass", "kg"), position(table, "center"),
+                    inertia(table, "inertia")};
+      break;
+    case BodySection::Kind::deformable:
+      body.modes = table.texts("modes");
+      body.damping_ratio = table.number("damping_ratio");
+      break;
+  }
+  table.finish();
+  return body;
+}
+
+MarkerSection read_marker(const StudyTable& table) {
+  MarkerSection marker;
+  marker.body = table.text("body");
+  marker.name = marker.body + "." + table.text("name");
+  marker.position_m = position(table, "position");
+  table.finish();
+  return marker;
+}
+
+JointSection read_joint(const StudyTable& table) {
+  JointSection joint;
+  joint.name = table.text("name");
+  joint.kind = static_cast<multibody::JointKind>(choice(table, "kind", {"ball", "pin", "fixed"}));
+  joint.marker_i = table.text("lower");
+  joint.marker_j = table.text("upper");
+  if (joint.kind == multibody::JointKind::pin) joint.axis = unit_vector(table, "axis");
+  table.finish();
+  return joint;
+}
+
+ForceSection read_force(const StudyTable& table) {
+  ForceSection force;
+  force.name = table.text("name");
+  force.marker = table.text("marker");
+  force.direction = unit_vector(table, "direction");
+  force.times_s = table.quantities("times", "s", 0);
+  force.magnitudes_N = table.quantities("magnitudes", "N", force.times_s.size());
+  table.finish();
+  return force;
+}
+
+CaseSection read_case(const StudyTable& table) {
+  CaseSection experiment;
+  experiment.name = table.text("name");
+  experiment.kind = static_cast<CaseSection::Kind>(choice(table, "kind", {"pendulum", "static"}));
+  experiment.bodies = table.texts("bodies");
+  experiment.direction = static_cast<CaseSection::Direction>(
+      choice(table, "direction", {"flexion", "extension", "lateral"}));
+  experiment.duration_s = table.quantity("duration", "s");
+  if (!(experiment.duration_s > 0)) table.refuse("duration", "expected a positive time");
+  if (experiment.kind == CaseSection::Kind::pendulum) {
+    experiment.impact_velocity_m_s = table.quantity("impact_velocity", "m/s");
+    if (!(experiment.impact_velocity_m_s > 0)) {
+      table.refuse("impact_velocity", "expected a positive velocity");
+    }
+  } else {
+    experiment.forces = table.texts("forces");
+  }
+  table.finish();
+  return experiment;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+ModesSection read_modes(const StudyTable& table) {
+  ModesSection modes;
+  modes.count = table.count_or("count", 1, modes.count);
+  modes.attached_body = table.text_or("attached_body", "");
+  table.finish();
+  return modes;
+}
+
+void read_solver(const StudyTable& table, Study& study) {
+  study.solver.relative_tolerance =
+      table.number_or("relative_tolerance", study.solver.relative_tolerance);
+  study.solver.absolute_tolerance =
+      table.number_or("absolute_tolerance", study.solver.absolute_tolerance);
+  study.solver.largest_step_s = table.quantity_or("largest_step", "s", study.solver.largest_step_s);
+  study.solver.smallest_step_s =
+      table.quantity_or("smallest_step", "s", study.solver.smallest_step_s);
+  if (table.has("gravity")) {
+    const std::vector<double> gravity = table.quantities("gravity", "m/s^2", 3);
+    study.gravity_m_s2 = Eigen::Map<const Eigen::Vector3d>(gravity.data());
+  }
+  if (!(study.solver.relative_tolerance > 0) || !(study.solver.absolute_tolerance > 0)) {
+    table.refuse("relative_tolerance", "expected positive tolerances");
+  }
+  if (!(study.solver.smallest_step_s > 0) ||
+      !(study.solver.largest_step_s > study.solver.smallest_step_s)) {
+    table.refuse("largest_step", "expected 0 < smallest_step < largest_step");
+  }
+  table.finish();
+}
+
+namespace {
+
+template <typename Section>
+std::vector<Section> read_all(const StudyTable& root, const std::string& key,
+                              Section (*read)(const StudyTable&)) {
+  std::vector<Section> sections;
+  for (const StudyTable& table : root.tables(key)) sections.push_back(read(table));
+  check_names(names_of(sections), key);
+  return sections;
+}
+
+void read_output(const StudyTable& table, Study& study) {
+  study.output_interval_s = table.quantity_or("interval", "s", study.output_interval_s);
+  if (!(study.output_interval_s > 0)) table.refuse("interval", "expected a positive time");
+  if (table.has("verification")) {
+    study.verification = table.folder_of("verification") / table.text("verification");
+  }
+  table.finish();
+}
+
+/// Names that one part of the study uses and another must define.
+void check_references(const Study& study) {
+  const auto require = [&](const std::string& who, const std::vector<std::string>& names,
+                           const std::string& name, const std::string& kind) {
+    try {
+      find_name(names, name, kind);
+    } catch (const InputError& error) {
+      throw InputError(study.file.string() + ": " + who + ": " + error.what());
+    }
+  };
+  const std::vector<std::string> bodies = names_of(study.bodies);
+  for (const MarkerSection& marker : study.markers) {
+    require("marker." + marker.name, bodies, marker.body, "body");
+  }
+  for (const CaseSection& experiment : study.cases) {
+    const std::string who = "case." + experiment.name;
+    for (const std::string& body : experiment.bodies) require(who, bodies, body, "body");
+    for (const std::string& force : experiment.forces) {
+      require(who, names_of(study.forces), force, "force");
+    }
+  }
+  if (!study.modes.attached_body.empty()) {
+    require("modes.attached_body", bodies, study.modes.attached_body, "body");
+    if (study.body(study.modes.attached_body).kind != BodySection::Kind::rigid) {
+      throw InputError(study.file.string() +
+                       ": modes.attached_body: expected a rigid body, found '" +
+                       study.modes.attached_body + "', which is not");
+    }
+  }
+}
+
+}  // namespace
+
+const BodySection& Study::body(const std::string& name) const {
+  return bodies[find_name(names_of(bodies), name, "body")];
+}
+
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  const StudyDocument document(path, settings);
+  const StudyTable root = document.root();
+  Study study;
+  study.file = path;
+  const StudyTable mesh = root.table("mesh");
+  if (root.has("geometry")) study.geometry = read_geometry(root.table("geometry"), mesh);
+  study.modes = read_modes(root.table("modes"));
+  study.bodies = read_all(root, "body", read_body);
+  study.markers = read_all(root, "marker", read_marker);
+  study.joints = read_all(root, "joint", read_joint);
+  study.forces = read_all(root, "force", read_force);
+  study.cases = read_all(root, "case", read_case);
+  read_solver(root.table("solver"), study);
+  read_output(root.table("output"), study);
+  root.finish();
+  check_references(study);
+  study.files = document.files();
+  study.parameters = document.parameters();
+  return study;
+}
+
+std::filesystem::path built_in_study() {
+  return std::filesystem::path(FLEXNECK_DATA_DIR) / "pipeline/studies/hybrid3.toml";
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "geometry/foundation/provenance.h"
+#include "geometry/neck_parameters.h"
+#include "mesher/mesh/mesh.h"
+#include "multibody/model.h"
+#include "multibody/simulation.h"
+
+namespace flexneck::pipeline {
+
+/// [geometry] and [mesh]: what is meshed.
+struct GeometrySection {
+  std::filesystem::path script;
+  geometry::NeckParameters neck;
+  geometry::NeckDivisions divisions;
+  std::vector<mesher::Material> materials;
+  std::map<std::string, std::string> material_of_part;
+  Eigen::Vector3d joint_point_m = Eigen::Vector3d::Zero();
+  std::vector<std::string> fitted_to;  ///< published figures that the dimensions were fitted to
+};
+
+/// [modes]
+struct ModesSection {
+  int count = 10;
+  std::string attached_body;  ///< rigid body set on the top interface for the loaded frequencies
+};
+
+/// [[body]]
+struct BodySection {
+  enum class Kind { ground, driven, rigid, deformable };
+  std::string name;
+  Kind kind = Kind::rigid;
+  multibody::RigidBody rigid;
+  std::vector<std::string> modes;  ///< of a deformable body
+  double damping_ratio = 0;
+  /// Deceleration of a driven body; a case scales it to its impact velocity.
+  std::vector<double> pulse_times_s;
+  std::vector<double> pulse_m_s2;
+};
+
+/// [[marker]]; the interfaces of deformable bodies are markers without being listed.
+struct MarkerSection {
+  std::string name;  ///< "body.marker"
+  std::string body;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+};
+
+/// [[joint]]: the lower body's marker first.
+struct JointSection {
+  std::string name;
+  multibody::JointKind kind = multibody::JointKind::fixed;
+  std::string marker_i, marker_j;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
+};
+
+/// [[force]]
+struct ForceSection {
+  std::string name;
+  std::string marker;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, world
+  std::vector<double> times_s;
+  std::vector<double> magnitudes_N;
+};
+
+/// [[case]]: one experiment. Its bodies, and the joints between them, make the model.
+struct CaseSection {
+  enum class Kind { pendulum, static_test };
+  enum class Direction { flexion, extension, lateral };
+  std::string name;
+  Kind kind = Kind::pendulum;
+  std::vector<std::string> bodies;
+  std::vector<std::string> forces;
+  Direction direction = Direction::flexion;
+  double impact_velocity_m_s = 0;  ///< of a pendulum
+  double duration_s = 1.0;
+};
+
+/// Everything that a study file says, checked and in SI units.
+struct Study {
+  std::filesystem::path file;
+  std::optional<GeometrySection> geometry;
+  ModesSection modes;
+  std::vector<BodySection> bodies;
+  std::vector<MarkerSection> markers;
+  std::vector<JointSection> joints;
+  std::vector<ForceSection> forces;
+  std::vector<CaseSection> cases;
+  Eigen::Vector3d gravity_m_s2{0, 0, -9.80665};  ///< of pendulum cases, world
+  multibody::SolverOptions solver;
+  double output_interval_s = 1e-3;
+  std::filesystem::path verification;  ///< table of reference figures; empty for none
+
+  std::vector<InputFile> files;
+  std::vector<Parameter> parameters;
+
+  const BodySection& body(const std::string& name) const;
+};
+
+/// @throws InputError with file, line, column and key for everything that is not right.
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings);
+
+/// The Hybrid III study that runs when none is named.
+std::filesystem::path built_in_study();
+
+}  // namespace flexneck::pipeline

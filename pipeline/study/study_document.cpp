@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/study/study_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "geometry/foundation/units.h"
+#include "pipeline/study/toml_source.h"
+
+namespace flexneck::pipeline {
+
+struct StudyDocument::Impl {
+  toml::table root;
+  std::vector<InputFile> files;
+  std::vector<Parameter> parameters;
+};
+
+struct StudyTable::Node {
+  const toml::table* table = nullptr;  // kept alive by `parameters`' owner; null if absent
+  std::shared_ptr<std::vector<Parameter>> parameters;
+  std::string path;
+  std::vector<std::string> known;
+
+  std::string dotted(const std::string& key) const { return path.empty() ? key : path + "." + key; }
+
+  const toml::node* find(const std::string& key) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
+    return table == nullptr ? nullptr : table->get(key);
+  }
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& problem) const {
+    const toml::node* node = table == nullptr ? nullptr : table->get(key);
+    if (node == nullptr) node = table;
+    const std::string where = node == nullptr ? std::string() : location_of(*node);
+    throw InputError(where + dotted(key) + ": " + problem);
+  }
+
+  /// The value of a key, out of its { value, origin, note } where it has one; notes the parameter.
+  const toml::node& value(const std::string& key);
+  void record(const std::string& key, const toml::node& value, const toml::table* labels);
+
+  template <typename T>
+  T scalar(const std::string& key, const char* expected) {
+    const auto found = value(key).value_exact<T>();
+    if (!found) refuse(key, std::string("expected ") + expected);
+    return *found;
+  }
+
+  double number_of(const toml::node& node, const std::string& key) const {
+    if (!node.is_integer() && !node.is_floating_point()) {
+      refuse(key, "expected a pure number without quotes or unit");
+    }
+    const double number = node.value_or(std::numeric_limits<double>::quiet_NaN());
+    if (!std::isfinite(number)) refuse(key, "expected a finite number");
+    return number;
+  }
+
+  double quantity_of(const toml::node& node, const std::string& key,
+                     const std::string& si_unit) const {
+    const auto text = node.value_exact<std::string>();
+    if (!text) {
+      refuse(key, "expected a number with its unit in quotes, such as \"1.5 " + si_unit + "\"");
+    }
+    try {
+      return parse_quantity(*text, si_unit);
+    } catch (const InputError& error) {
+      refuse(key, error.what());
+    }
+  }
+
+  const toml::array& array(const std::string& key, std::size_t size) {
+    const toml::array* const found = value(key).as_array();
+    if (found == nullptr || (size != 0 && found->size() != size)) {
+      refuse(key, "expected a list" +
+                      (size == 0 ? std::string() : " of " + std::to_string(size) + " entries"));
+    }
+    return *found;
+  }
+};
+
+namespace {
+
+std::string text_of(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  std::ostringstream stream;
+  node.visit([&](const auto& value) { stream << value; });
+  return stream.str();
+}
+
+Origin origin_of(const toml::table& labels, const std::string& key) {
+  const toml::node* const node = labels.get("origin");
+  if (node == nullptr) return Origin::synthetic;
+  const auto* const found =
+      std::find(kOriginNames.begin(), kOriginNames.end(), node->value_or(std::string()));
+  if (found == kOriginNames.end()) {
+    throw InputError(location_of(*node) + key +
+                     ": expected the origin published, inferred, calibrated or synthetic, found " +
+                     text_of(*node));
+  }
+  return static_cast<Origin>(found - kOriginNames.begin());
+}
+
+}  // namespace
+
+void StudyTable::Node::record(const std::string& key, const toml::node& value,
+                              const toml::table* labels) {
+  Parameter parameter{dotted(key), text_of(value), Origin::synthetic, {}};
+  if (labels != nullptr) {
+    parameter.origin = origin_of(*labels, dotted(key));
+    parameter.note = (*labels)["note"].value_or(std::string());
+  }
+  const auto same = [&](const Parameter& other) { return other.key == parameter.key; };
+  if (std::none_of(parameters->begin(), parameters->end(), same)) parameters->push_back(parameter);
+}
+
+const toml::node& StudyTable::Node::value(const std::string& key) {
+  const toml::node* const node = find(key);
+  if (node == nullptr) refuse(key, "expected this key, found none");
+  const toml::table* const labels = node->as_table();
+  if (labels == nullptr) {
+    record(key, *node, nullptr);
+    return *node;
+  }
+  const toml::node* const inner = labels->get("value");
+  if (inner == nullptr) refuse(key, "expected a value or { value = …, origin = …, note = … }");
+  const std::vector<std::string> allowed = {"value", "origin", "note"};
+  for (const auto& [name, ignored] : *labels) {
+    const std::string label(name.str());
+    if (std::find(allowed.begin(), allowed.end(), label) == allowed.end()) {
+      refuse(key, "unknown key '" + label + "'" + did_you_mean(allowed, label));
+    }
+  }
+  record(key, *inner, labels);
+  return *inner;
+}
+
+StudyTable::StudyTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+
+bool StudyTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
+
+std::string StudyTable::text(const std::string& key) const {
+  return node_->scalar<std::string>(key, "a text in quotes");
+}
+
+std::string StudyTable::text_or(const std::string& key, const std::string& fallback) const {
+  return has(key) ? text(key) : fallback;
+}
+
+std::vector<std::string> StudyTable::texts(const std::string& key) const {
+  std::vector<std::string> values;
+  for (const toml::node& node : node_->array(key, 0)) {
+    const auto value = node.value_exact<std::string>();
+    if (!value) refuse(key, "expected a list of texts in quotes");
+    values.push_back(*value);
+  }
+  return values;
+}
+
+int StudyTable::count(const std::string& key, int least) const {
+  const auto value = node_->scalar<std::int64_t>(key, "a whole number");
+  if (value < least || value > std::numeric_limits<int>::max()) {
+    refuse(key, "expected a whole number of at least " + std::to_string(least) + ", found " +
+                    std::to_string(value));
+  }
+  return static_cast<int>(value);
+}
+
+int StudyTable::count_or(const std::string& key, int least, int fallback) const {
+  return has(key) ? count(key, least) : fallback;
+}
+
+double StudyTable::number(const std::string& key) const {
+  return node_->number_of(node_->value(key), key);
+}
+
+double StudyTable::number_or(const std::string& key, double fallback) const {
+  return has(key) ? number(key) : fallback;
+}
+
+std::vector<double> StudyTable::numbers(const std::string& key, std::size_t size) const {
+  std::vector<double> values;
+  for (const toml::node& node : node_->array(key, size)) {
+    values.push_back(node_->number_of(node, key));
+  }
+  return values;
+}
+
+double StudyTable::quantity(const std::string& key, const std::string& si_unit) const {
+  return node_->quantity_of(node_->value(key), key, si_unit);
+}
+
+double StudyTable::quantity_or(const std::string& key, const std::string& si_unit,
+                               double fallback) const {
+  return has(key) ? quantity(key, si_unit) : fallback;
+}
+
+std::vector<double> StudyTable::quantities(const std::string& key, const std::string& si_unit,
+                                           std::size_t size) const {
+  std::vector<double> values;
+  for (const toml::node& node : node_->array(key, size)) {
+    values.push_back(node_->quantity_of(node, key, si_unit));
+  }
+  return values;
+}
+
+StudyTable StudyTable::table(const std::string& key) const {
+  auto child = std::make_shared<Node>();
+  child->parameters = node_->parameters;
+  child->path = node_->dotted(key);
+  if (const toml::node* const node = node_->find(key)) {
+    child->table = node->as_table();
+    if (child->table == nullptr) refuse(key, "expected a table [" + child->path + "]");
+  }
+  return StudyTable(std::move(child));
+}
+
+std::vector<StudyTable> StudyTable::tables(const std::string& key) const {
+  std::vector<StudyTable> result;
+  const toml::node* const node = node_->find(key);
+  if (node == nullptr) return result;
+  if (!node->is_array_of_tables()) refuse(key, "expected tables [[" + node_->dotted(key) + "]]");
+  for (const toml::node& element : *node->as_array()) {
+    auto child = std::make_shared<Node>();
+    child->parameters = node_->parameters;
+    child->table = element.as_table();
+    const std::string name = (*child->table)["name"].value_or(std::to_string(result.size() + 1));
+    child->path = node_->dotted(key) + "." + name;
+    result.emplace_back(std::move(child));
+  }
+  return result;
+}
+
+std::vector<std::string> StudyTable::keys() const {
+  std::vector<std::string> names;
+  if (node_->table == nullptr) return names;
+  for (const auto& [key, ignored] : *node_->table) names.emplace_back(key.str());
+  return names;
+}
+
+std::filesystem::path StudyTable::folder_of(const std::string& key) const {
+  const toml::node& node = node_->value(key);
+  return node.source().path ? std::filesystem::path(*node.source().path).parent_path()
+                            : std::filesystem::current_path();
+}
+
+void StudyTable::finish() const {
+  for (const std::string& key : keys()) {
+    if (std::find(node_->known.begin(), node_->known.end(), key) != node_->known.end()) continue;
+    refuse(key, "unknown key" + did_you_mean(node_->known, key));
+  }
+}
+
+void StudyTable::refuse(const std::string& key, const std::string& problem) const {
+  node_->refuse(key, problem);
+}
+
+StudyDocument::StudyDocument(const std::filesystem::path& path,
+                             const std::vector<std::string>& settings)
+    : impl_(std::make_shared<Impl>()) {
+  impl_->root = parse_with_includes(path, impl_->files);
+  for (const std::string& setting : settings) apply_setting(impl_->root, setting);
+}
+
+StudyTable StudyDocument::root() const {
+  auto node = std::make_shared<StudyTable::Node>();
+  node->table = &impl_->root;
+  // Shares the ownership of the document: a table may outlive it.
+  node->parameters = std::shared_ptr<std::vector<Parameter>>(impl_, &impl_->parameters);
+  return StudyTable(std::move(node));
+}
+
+const std::vector<InputFile>& StudyDocument::files() const { return impl_->files; }
+const std::vector<Parameter>& StudyDocument::parameters() const { return impl_->parameters; }
+
+}  // namespace flexneck::pipeline

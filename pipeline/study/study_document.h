@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/provenance.h"
+
+namespace flexneck::pipeline {
+
+/// One table of a study. Every getter checks kind and unit and remembers that the key is known, so
+/// that finish() can refuse the keys that nobody asked for. A value is written plainly or, with its
+/// origin, as { value = …, origin = "published", note = "…" }. All members throw InputError with
+/// file, line, column, dotted key, what was expected and what was found.
+class StudyTable {
+ public:
+  struct Node;
+  explicit StudyTable(std::shared_ptr<Node> node);
+
+  bool has(const std::string& key) const;
+  std::string text(const std::string& key) const;
+  std::string text_or(const std::string& key, const std::string& fallback) const;
+  std::vector<std::string> texts(const std::string& key) const;
+
+  /// A whole number of at least `least`.
+  int count(const std::string& key, int least) const;
+  int count_or(const std::string& key, int least, int fallback) const;
+
+  /// A pure number, written without a unit.
+  double number(const std::string& key) const;
+  double number_or(const std::string& key, double fallback) const;
+  std::vector<double> numbers(const std::string& key, std::size_t size) const;
+
+  /// A dimensional number such as "0.4 in", returned in `si_unit`.
+  double quantity(const std::string& key, const std::string& si_unit) const;
+  double quantity_or(const std::string& key, const std::string& si_unit, double fallback) const;
+  /// A list of them; `size` 0 means any number.
+  std::vector<double> quantities(const std::string& key, const std::string& si_unit,
+                                 std::size_t size) const;
+
+  /// A sub-table; an absent one is empty.
+  StudyTable table(const std::string& key) const;
+  /// An array of tables; an absent one is empty.
+  std::vector<StudyTable> tables(const std::string& key) const;
+  std::vector<std::string> keys() const;
+  /// Folder of the file that holds the key, for paths given relative to it.
+  std::filesystem::path folder_of(const std::string& key) const;
+
+  /// Refuses keys that no getter has asked for, with the nearest known one.
+  void finish() const;
+  /// "<file>:<line>:<column>: <dotted key>: <problem>"
+  [[noreturn]] void refuse(const std::string& key, const std::string& problem) const;
+
+ private:
+  std::shared_ptr<Node> node_;
+};
+
+/// A study file with everything it includes (`include = ["other.toml"]`, relative to the file; the
+/// keys of the including file win) and the values set on the command line.
+class StudyDocument {
+ public:
+  /// `settings` are "dotted.key=value"; an element of an array of tables is addressed by its name,
+  /// as in "case.flexion-60.duration=0.5 s".
+  /// @throws InputError for a file that is missing or does not parse (line and column).
+  StudyDocument(const std::filesystem::path& path, const std::vector<std::string>& settings);
+
+  StudyTable root() const;
+  /// The files read, in the order of inclusion, with the hash of their contents.
+  const std::vector<InputFile>& files() const;
+  /// Every value read through the tables so far, in the order of reading.
+  const std::vector<Parameter>& parameters() const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace flexneck::pipeline

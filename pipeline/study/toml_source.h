@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "geometry/foundation/provenance.h"
+
+namespace flexneck::pipeline {
+
+/// Parses a file and everything it includes into one table. The files read are appended to `files`.
+toml::table parse_with_includes(const std::filesystem::path& path, std::vector<InputFile>& files);
+
+/// Applies one "dotted.key=value" from the command line.
+void apply_setting(toml::table& root, const std::string& setting);
+
+/// "<file>:<line>:<column>: ", or "command line: " for what no file holds.
+std::string location_of(const toml::node& node);
+
+}  // namespace flexneck::pipeline
