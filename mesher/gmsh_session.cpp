@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/gmsh_session.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <string_view>
+#include <vector>
+
+#include <gmsh.h>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::mesher {
+namespace {
+
+/// gmsh itself is one per process and its API 4.8 cannot say whether it runs.
+std::atomic_flag gmsh_in_use;
+
+void add_unique(std::vector<std::string>& errors, std::string error) {
+  while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
+  if (!error.empty() && std::find(errors.begin(), errors.end(), error) == errors.end()) {
+    errors.push_back(std::move(error));
+  }
+}
+
+std::vector<std::string> logged_errors() {
+  constexpr std::string_view kPrefix = "Error: ";
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  std::vector<std::string> errors;
+  for (const std::string& line : log) {
+    if (line.starts_with(kPrefix)) add_unique(errors, line.substr(kPrefix.size()));
+  }
+  return errors;
+}
+
+}  // namespace
+
+GmshSession::GmshSession() {
+  if (gmsh_in_use.test_and_set()) {
+    throw ComputationError("gmsh is in use already: only one gmsh session can be open at a time");
+  }
+  gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
+  gmsh::option::setNumber("General.Terminal", 0);
+}
+
+GmshSession::~GmshSession() {
+  try {
+    gmsh::finalize();
+  } catch (...) {  // NOLINT(bugprone-empty-catch): nothing is left to save
+  }
+  gmsh_in_use.clear();
+}
+
+std::string GmshSession::errors_of(const std::function<void()>& action) {
+  std::string thrown;
+  gmsh::logger::start();
+  try {
+    action();
+  } catch (const std::exception& error) {
+    thrown = error.what();
+  } catch (const std::string& error) {  // gmsh up to 4.8 throws its messages as strings …
+    thrown = error;
+  } catch (int code) {  // … or as numbers
+    thrown = "gmsh error " + std::to_string(code);
+  }
+  std::vector<std::string> errors = logged_errors();
+  gmsh::logger::stop();
+  if (errors.empty()) add_unique(errors, thrown);
+
+  std::string joined;
+  for (const std::string& error : errors) joined += (joined.empty() ? "" : "; ") + error;
+  return joined;
+}
+
+}  // namespace flexneck::mesher

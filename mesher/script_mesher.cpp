@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/script_mesher.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include <gmsh.h>
+
+#include "geometry/foundation/error.h"
+#include "mesher/gmsh_session.h"
+#include "mesher/gmsh_take_over.h"
+#include "mesher/mesh/mesh_measures.h"
+
+namespace flexneck::mesher {
+namespace {
+
+void report(const Progress& progress, const std::string& line) {
+  if (progress) progress(line);
+}
+
+void open_script(GmshSession& session, const std::filesystem::path& script) {
+  const std::string errors = session.errors_of([&] { gmsh::open(script.string()); });
+  if (!errors.empty()) throw InputError(script.string() + ": gmsh refuses the script: " + errors);
+}
+
+/// ONELAB names of the constants that the script declares, by the constant's own name: the part of
+/// the ONELAB name behind the last '/'.
+std::map<std::string, std::string> declared_constants() {
+  std::vector<std::string> names;
+  gmsh::onelab::getNames(names);
+  std::map<std::string, std::string> declared;
+  for (const std::string& name : names) declared[name.substr(name.rfind('/') + 1)] = name;
+  return declared;
+}
+
+/// Only a script that has run says which constants it declares, so it runs again with their values.
+void run_script(GmshSession& session, const ScriptMeshOptions& options) {
+  if (!std::ifstream(options.script).good()) {
+    throw InputError(options.script.string() + ": the geometry script cannot be read");
+  }
+  open_script(session, options.script);
+  if (options.constants.empty()) return;
+
+  const auto declared = declared_constants();
+  for (const auto& [name, value] : options.constants) {
+    const auto found = declared.find(name);
+    if (found == declared.end()) {
+      std::string known;
+      for (const auto& [constant, unused] : declared) {
+        known += (known.empty() ? "" : ", ") + constant;
+      }
+      throw InputError(options.script.string() + ": the script declares no constant '" + name +
+                       "'; it declares " + (known.empty() ? "none" : known));
+    }
+    gmsh::onelab::setNumber(found->second, {value});
+  }
+  gmsh::clear();
+  open_script(session, options.script);
+}
+
+void generate(GmshSession& session, const std::filesystem::path& script) {
+  const std::string errors = session.errors_of([] {
+    gmsh::option::setNumber("Mesh.ElementOrder", 2);
+    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
+    gmsh::model::mesh::generate(3);
+  });
+  if (!errors.empty()) throw InputError(script.string() + ": gmsh cannot mesh it: " + errors);
+}
+
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+[[noreturn]] void refuse_patch(const NodePatches& patches, const std::array<double, 3>& centre,
+                               double nearest_m) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                "no node of face set '%s' lies within %.4g m of (%.4g, %.4g, %.4g) m, the nearest "
+                "is %.4g m away",
+                patches.face_set.c_str(), patches.radius_m, centre[0], centre[1], centre[2],
+                nearest_m);
+  throw InputError("node set '" + patches.name + "': " + text.data() +
+                   "; raise the radius or the divisions of the mesh");
+}
+
+NodeSet patch_nodes(const Mesh& mesh, const NodePatches& patches) {
+  NodeSet set{.name = patches.name, .nodes = {}};
+  const NodeSet& candidates = mesh.node_set(patches.face_set);
+  for (const auto& centre : patches.centres_m) {
+    const std::size_t before = set.nodes.size();
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const std::int32_t node : candidates.nodes) {
+      const double away_m = distance(mesh.nodes[static_cast<std::size_t>(node)], centre);
+      nearest_m = std::min(nearest_m, away_m);
+      if (away_m <= patches.radius_m) set.nodes.push_back(node);
+    }
+    if (set.nodes.size() == before) refuse_patch(patches, centre, nearest_m);
+  }
+  std::sort(set.nodes.begin(), set.nodes.end());
+  set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+  return set;
+}
+
+}  // namespace
+
+Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress) {
+  Mesh mesh;
+  {
+    GmshSession session;
+    report(progress, "gmsh " GMSH_API_VERSION " runs " + options.script.filename().string());
+    run_script(session, options);
+    generate(session, options.script);
+    mesh = take_over_gmsh_mesh(options.materials, options.material_of_part);
+  }
+  for (const NodePatches& patches : options.patches) {
+    mesh.node_sets.push_back(patch_nodes(mesh, patches));
+  }
+  check(mesh);
+  require_sound_elements(mesh);
+  report(progress, "mesh with " + std::to_string(mesh.nodes.size()) + " nodes in " +
+                       std::to_string(mesh.blocks.size()) + " parts");
+  return mesh;
+}
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/mesh/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::mesher {
+namespace {
+
+template <typename Set>
+const Set& find_set(const std::vector<Set>& sets, const std::string& name, const char* what) {
+  const auto found =
+      std::find_if(sets.begin(), sets.end(), [&](const Set& set) { return set.name == name; });
+  if (found != sets.end()) return *found;
+  std::string known;
+  for (const Set& set : sets) known += (known.empty() ? "" : ", ") + set.name;
+  throw InputError("the mesh has no " + std::string(what) + " '" + name + "', it has " +
+                   (known.empty() ? "none" : known));
+}
+
+[[noreturn]] void refuse(const std::string& problem) { throw InputError("mesh: " + problem); }
+
+/// Names become object names in the mesh file.
+void require_name(std::set<std::string>& seen, const std::string& name, const std::string& what) {
+  if (name.empty() || name == "." || name.find('/') != std::string::npos) {
+    refuse(what + " '" + name + "' needs a name without '/'");
+  }
+  if (!seen.insert(name).second) refuse(what + " '" + name + "' appears twice");
+}
+
+void check_material(const Material& material) {
+  const std::string name = "material '" + material.name + "': ";
+  const auto found = [](double value) { return ", found " + std::to_string(value); };
+  if (!(material.youngs_modulus_Pa > 0 && std::isfinite(material.youngs_modulus_Pa))) {
+    refuse(name + "Young's modulus must be > 0" + found(material.youngs_modulus_Pa) + " Pa");
+  }
+  if (!(material.poissons_ratio > -1 && material.poissons_ratio < 0.5)) {
+    refuse(name + "Poisson's ratio must lie between -1 and 0.5" + found(material.poissons_ratio));
+  }
+  if (!(material.density_kg_m3 > 0 && std::isfinite(material.density_kg_m3))) {
+    refuse(name + "density must be > 0" + found(material.density_kg_m3) + " kg/m^3");
+  }
+}
+
+void check_indices(std::span<const std::int32_t> indices, std::size_t node_count,
+                   const std::string& what) {
+  if (indices.empty()) refuse(what + " is empty");
+  for (const std::int32_t index : indices) {
+    if (index < 0 || static_cast<std::size_t>(index) >= node_count) {
+      refuse(what + " refers to node " + std::to_string(index) + ", but there are " +
+             std::to_string(node_count) + " nodes, counted from 0");
+    }
+  }
+}
+
+/// Indices of elements or faces of one kind, which has `expected_dimension`.
+void check_connectivity(std::span<const std::int32_t> indices, ElementKind kind,
+                        int expected_dimension, std::size_t node_count, const std::string& what) {
+  if (dimension(kind) != expected_dimension) {
+    refuse(what + " has elements of kind " + std::string(name_of(kind)) + ", expected dimension " +
+           std::to_string(expected_dimension));
+  }
+  if (indices.size() % nodes_per_element(kind) != 0) {
+    refuse(what + " has " + std::to_string(indices.size()) + " node indices, no multiple of " +
+           std::to_string(nodes_per_element(kind)));
+  }
+  check_indices(indices, node_count, what);
+}
+
+void check_blocks(const Mesh& mesh) {
+  if (mesh.blocks.empty()) refuse("it has no elements");
+  std::set<std::string> names;
+  std::vector<bool> used(mesh.nodes.size(), false);
+  for (const ElementBlock& block : mesh.blocks) {
+    require_name(names, block.part, "part");
+    const std::string what = "part '" + block.part + "'";
+    if (block.material >= mesh.materials.size()) refuse(what + " has no material");
+    check_connectivity(block.nodes, block.kind, 3, mesh.nodes.size(), what);
+    for (const std::int32_t node : block.nodes) used[static_cast<std::size_t>(node)] = true;
+  }
+  const auto loose = std::count(used.begin(), used.end(), false);
+  if (loose > 0) {
+    const auto first = std::find(used.begin(), used.end(), false) - used.begin();
+    refuse(std::to_string(loose) + " nodes belong to no element, the first is node " +
+           std::to_string(first));
+  }
+}
+
+void check_sets(const Mesh& mesh) {
+  std::set<std::string> node_set_names;
+  for (const NodeSet& set : mesh.node_sets) {
+    require_name(node_set_names, set.name, "node set");
+    check_indices(set.nodes, mesh.nodes.size(), "node set '" + set.name + "'");
+    if (std::adjacent_find(set.nodes.begin(), set.nodes.end(), std::greater_equal<>()) !=
+        set.nodes.end()) {
+      refuse("node set '" + set.name + "' is not in ascending order");
+    }
+  }
+  std::set<std::string> face_set_names;
+  for (const FaceSet& set : mesh.face_sets) {
+    require_name(face_set_names, set.name, "face set");
+    check_connectivity(set.nodes, set.kind, 2, mesh.nodes.size(), "face set '" + set.name + "'");
+  }
+}
+
+}  // namespace
+
+const NodeSet& Mesh::node_set(const std::string& name) const {
+  return find_set(node_sets, name, "node set");
+}
+
+const FaceSet& Mesh::face_set(const std::string& name) const {
+  return find_set(face_sets, name, "face set");
+}
+
+void check(const Mesh& mesh) {
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    for (const double x : mesh.nodes[n]) {
+      if (!std::isfinite(x)) refuse("node " + std::to_string(n) + " has no finite position");
+    }
+  }
+  std::set<std::string> names;
+  for (const Material& material : mesh.materials) {
+    require_name(names, material.name, "material");
+    check_material(material);
+  }
+  check_blocks(mesh);
+  check_sets(mesh);
+}
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/gmsh_take_over.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <gmsh.h>
+
+#include "geometry/foundation/error.h"
+#include "mesher/face_orientation.h"
+
+namespace flexneck::mesher {
+namespace {
+
+/// gmsh's numbers of the element types that a mesh may hold; node orders are the same.
+constexpr std::array<std::pair<int, ElementKind>, 2> kKindOfType = {
+    {{12, ElementKind::hex27}, {10, ElementKind::quad9}}};
+
+std::optional<ElementKind> kind_of(int gmsh_type) {
+  const auto* const found = std::find_if(kKindOfType.begin(), kKindOfType.end(),
+                                         [&](const auto& row) { return row.first == gmsh_type; });
+  return found == kKindOfType.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string name_of_type(int gmsh_type) {
+  std::string name;
+  int dim = 0;
+  int order = 0;
+  int nodes = 0;
+  int corners = 0;
+  std::vector<double> coordinates;
+  gmsh::model::mesh::getElementProperties(gmsh_type, name, dim, order, nodes, coordinates, corners);
+  return name;
+}
+
+struct PhysicalGroup {
+  int dimension = 0;
+  std::string name;
+  std::vector<int> entities;
+
+  std::string label() const {
+    return std::string(dimension == 3 ? "physical volume" : "physical surface") + " '" + name + "'";
+  }
+};
+
+std::vector<PhysicalGroup> physical_groups(int dimension) {
+  gmsh::vectorpair tags;
+  gmsh::model::getPhysicalGroups(tags, dimension);
+  std::sort(tags.begin(), tags.end());
+  std::vector<PhysicalGroup> groups;
+  for (const auto& [dim, tag] : tags) {
+    PhysicalGroup group{.dimension = dim, .name = {}, .entities = {}};
+    gmsh::model::getPhysicalName(dim, tag, group.name);
+    if (group.name.empty()) {
+      throw InputError("the script has a physical group without a name: dimension " +
+                       std::to_string(dim) + ", tag " + std::to_string(tag) +
+                       "; name it, as in Physical Volume(\"part\") = {…}");
+    }
+    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.entities);
+    std::sort(group.entities.begin(), group.entities.end());
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+/// Every volume belongs to one part, or else material would be lost or counted twice.
+void require_one_part_per_volume() {
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  for (const auto& [dim, tag] : volumes) {
+    std::vector<int> groups;
+    gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
+    if (groups.size() != 1) {
+      throw InputError("volume " + std::to_string(tag) + " of the script belongs to " +
+                       std::to_string(groups.size()) + " physical volumes, expected one");
+    }
+  }
+}
+
+/// Elements of a group, all of one kind, with gmsh's node tags.
+struct GroupElements {
+  ElementKind kind{};
+  std::vector<std::size_t> node_tags;  ///< row-major (elements, nodes per element)
+};
+
+GroupElements elements_of(const PhysicalGroup& group) {
+  std::map<int, std::vector<std::size_t>> tags_of_type;
+  std::map<int, std::size_t> count_of_type;
+  for (const int entity : group.entities) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> elements;
+    std::vector<std::vector<std::size_t>> nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, group.dimension, entity);
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      count_of_type[types[t]] += elements[t].size();
+      auto& tags = tags_of_type[types[t]];
+      tags.insert(tags.end(), nodes[t].begin(), nodes[t].end());
+    }
+  }
+  if (count_of_type.empty()) throw InputError(group.label() + " has no elements");
+  const auto& [type, tags] = *tags_of_type.begin();
+  if (const auto kind = kind_of(type); kind && count_of_type.size() == 1) return {*kind, tags};
+
+  std::string found;
+  for (const auto& [found_type, count] : count_of_type) {
+    found += (found.empty() ? "" : " and ") + std::to_string(count) + " of type '" +
+             name_of_type(found_type) + "'";
+  }
+  throw InputError(group.label() + ": expected elements of one kind, " +
+                   (group.dimension == 3 ? "27-node hexahedra" : "9-node quadrilaterals") +
+                   ", found " + found + "; make the blocks transfinite and recombine them");
+}
+
+/// Numbers the nodes of the parts from 0, in the order of gmsh's tags.
+class NodeNumbering {
+ public:
+  void add(const std::vector<std::size_t>& tags) {
+    tags_.insert(tags_.end(), tags.begin(), tags.end());
+    std::sort(tags_.begin(), tags_.end());
+    tags_.erase(std::unique(tags_.begin(), tags_.end()), tags_.end());
+  }
+
+  /// @throws InputError if a tag is none of a part's.
+  std::vector<std::int32_t> indices_of(const std::vector<std::size_t>& tags,
+                                       const std::string& label) const {
+    std::vector<std::int32_t> indices;
+    indices.reserve(tags.size());
+    for (const std::size_t tag : tags) {
+      const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
+      if (found == tags_.end() || *found != tag) throw InputError(label + " bounds no part");
+      indices.push_back(static_cast<std::int32_t>(found - tags_.begin()));
+    }
+    return indices;
+  }
+
+  std::vector<std::array<double, 3>> positions() const {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates;
+    std::vector<double> parameters;
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters, -1, -1, false, false);
+    std::vector<std::array<double, 3>> positions(tags_.size());
+    for (std::size_t n = 0; n < tags.size(); ++n) {
+      const auto found = std::lower_bound(tags_.begin(), tags_.end(), tags[n]);
+      if (found == tags_.end() || *found != tags[n]) continue;
+      positions[static_cast<std::size_t>(found - tags_.begin())] = {
+          coordinates[3 * n], coordinates[3 * n + 1], coordinates[3 * n + 2]};
+    }
+    return positions;
+  }
+
+ private:
+  std::vector<std::size_t> tags_;  ///< ascending, unique
+};
+
+std::size_t material_index(const std::string& part, const std::vector<Material>& materials,
+                           const std::map<std::string, std::string>& material_of_part) {
+  const auto entry = material_of_part.find(part);
+  if (entry == material_of_part.end()) {
+    throw InputError("part '" + part + "' has no material; list it under a material's parts");
+  }
+  const auto found =
+      std::find_if(materials.begin(), materials.end(),
+                   [&](const Material& material) { return material.name == entry->second; });
+  if (found == materials.end()) {
+    throw InputError("part '" + part + "' has the material '" + entry->second +
+                     "', which is not defined");
+  }
+  return static_cast<std::size_t>(found - materials.begin());
+}
+
+NodeSet node_set_of(const FaceSet& faces) {
+  NodeSet set{.name = faces.name, .nodes = faces.nodes};
+  std::sort(set.nodes.begin(), set.nodes.end());
+  set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+  return set;
+}
+
+}  // namespace
+
+Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
+                         const std::map<std::string, std::string>& material_of_part) {
+  const std::vector<PhysicalGroup> volumes = physical_groups(3);
+  if (volumes.empty()) {
+    throw InputError("the script has no physical volume; each part needs one, as in " +
+                     std::string("Physical Volume(\"part\") = {…}"));
+  }
+  require_one_part_per_volume();
+
+  std::vector<GroupElements> parts;
+  NodeNumbering numbering;
+  for (const PhysicalGroup& volume : volumes) {
+    parts.push_back(elements_of(volume));
+    numbering.add(parts.back().node_tags);
+  }
+
+  Mesh mesh;
+  mesh.nodes = numbering.positions();
+  mesh.materials = materials;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const std::string& part = volumes[p].name;
+    mesh.blocks.push_back({.part = part,
+                           .kind = parts[p].kind,
+                           .material = material_index(part, materials, material_of_part),
+                           .nodes = numbering.indices_of(parts[p].node_tags, volumes[p].label())});
+  }
+  for (const PhysicalGroup& surface : physical_groups(2)) {
+    const GroupElements faces = elements_of(surface);
+    FaceSet set{.name = surface.name,
+                .kind = faces.kind,
+                .nodes = numbering.indices_of(faces.node_tags, surface.label())};
+    orient_outwards(mesh, set);
+    mesh.node_sets.push_back(node_set_of(set));
+    mesh.face_sets.push_back(std::move(set));
+  }
+  return mesh;
+}
+
+}  // namespace flexneck::mesher

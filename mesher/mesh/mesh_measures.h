@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::mesher {
+
+/// Positions of an element's nodes, (3, n) in m.
+Eigen::Matrix3Xd positions_of(const Mesh& mesh, std::span<const std::int32_t> nodes);
+
+/// Size and shape of the elements of a block, from the Jacobian dx/dxi at the 3 x 3 x 3 Gauss
+/// points and at the nodes.
+struct BlockMeasure {
+  double volume_m3 = 0;  ///< exact for the second-order shape
+  /// Smallest determinant over the product of the lengths of the Jacobian's columns: 1 for a box,
+  /// 0 or less for an element that is degenerate or inverted.
+  double smallest_scaled_jacobian = 0;
+  std::size_t worst_element = 0;  ///< where it occurs
+};
+
+BlockMeasure measure(const Mesh& mesh, const ElementBlock& block);
+
+/// Area of curved faces in m^2.
+double area_m2(const Mesh& mesh, const FaceSet& faces);
+
+/// @throws ComputationError naming the part, the element and its place if an element is inverted or
+/// degenerate.
+void require_sound_elements(const Mesh& mesh);
+
+}  // namespace flexneck::mesher
