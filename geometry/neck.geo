@@ -47,57 +47,107 @@ DefineConstant[
   rubber_layers = {3, Name "Divisions/rubber_layers"},
   plate_layers = {1, Name "Divisions/plate_layers"},
   end_plate_layers = {1, Name "Divisions/end_plate_layers"},
-  // Both rings: element length over that of the neighbour nearer to the rubber's rim.
+  // Element length over that of the neighbour nearer to the rubber's rim, on either side of it.
   ring_grading = {1, Name "Divisions/ring_grading"},
-  // Rubber: layer thickness at mid-height over that at the bonds.
+  // Rubber: thickness of a layer over that of the neighbour nearer to the bond.
   rubber_grading = {1, Name "Divisions/rubber_grading"}
 ];
 
 rubber_height = (length - base_plate_thickness - 3 * plate_thickness - top_plate_thickness) / 4;
 
-// Layer k = 0 … 8 lies between planes k and k + 1; even layers are plates.
-// Each plane carries three circles, g = 0 … 2: hole, rubber, plate rim; they make two rings,
-// g = 0, 1. Spokes at q * 90 + 45 degrees, seen from the plate axis, cut each ring in four. So the
+// Each plane carries the circles g = 0 … rings: hole (0), rubber (inner_ring), plate rim (rings).
+// The circles between change centre and radius evenly, so that every ring of elements lies between
+// true arcs. Spokes at q * 90 + 45 degrees, seen from the plate axis, cut each ring in four: the
 // bolts at 45, 135, 225 and 315 degrees lie on spokes whatever the offset of the rubber is.
 //
-// Where the circles below and above a plate differ, the surface between the plate's two rings is
-// ruled from one to the other; it is internal, so no volume depends on it.
+// Where the circles below and above a plate differ, the shells between its rings are ruled from one
+// to the other; they are internal, so no volume depends on them.
 
-height[] = {base_plate_thickness, rubber_height, plate_thickness, rubber_height, plate_thickness,
-            rubber_height, plate_thickness, rubber_height, top_plate_thickness};
-layers[] = {end_plate_layers, rubber_layers, plate_layers, rubber_layers, plate_layers,
-            rubber_layers, plate_layers, rubber_layers, end_plate_layers};
+rings = inner_ring + outer_ring;
 
-// Circle of the rubber that is bonded to each plane; the free faces of the end plates repeat it.
+// Level k lies between planes k and k + 1: a whole plate, or one layer of elements of a rubber
+// section. Sections n = 0 … 8 from below: even ones are plates.
+thickness[] = {base_plate_thickness, rubber_height, plate_thickness, rubber_height,
+               plate_thickness, rubber_height, plate_thickness, rubber_height,
+               top_plate_thickness};
+plate_divisions[] = {end_plate_layers, 0, plate_layers, 0, plate_layers, 0, plate_layers, 0,
+                     end_plate_layers};
+// The rubber circle at the lower face of each section. Through a plate it turns into the one at its
+// upper face; the free faces of the end plates have the circle of the bonded ones.
 b = bottom_rubber_diameter / 2;
 c = centre_rubber_diameter / 2;
 t = top_rubber_diameter / 2;
-rubber_radius[] = {b, b, b, c, c, c, c, t, t, t};
+section_radius[] = {b, b, b, c, c, c, c, t, t};
 b = bottom_rubber_offset;
 c = centre_rubber_offset;
 t = top_rubber_offset;
-rubber_offset[] = {b, b, b, c, c, c, c, t, t, t};
+section_offset[] = {b, b, b, c, c, c, c, t, t};
 
-// Tags: 1 + q + 4 g + 12 (plane or layer) within each family, families 200 apart.
-arc = 200; spoke = 400; upright = 600;    // curves
-face = 200; shell = 400; spoke_wall = 600;  // surfaces
+// Layers of a rubber section grow from both bonds to mid-height.
+layer_share[] = {};
+sum = 0;
+For i In {0 : rubber_layers - 1}
+  from_bond = (2 * i < rubber_layers) ? i : rubber_layers - 1 - i;
+  layer_share[i] = rubber_grading ^ from_bond;
+  sum = sum + layer_share[i];
+EndFor
 
-// Points. Centres of the circles have q = 0 of their own family.
-centre = 200;
+levels = 0;
+level_section[] = {};
+level_height[] = {};
+For n In {0 : 8}
+  parts = (n % 2 == 0) ? 1 : rubber_layers;
+  For i In {0 : parts - 1}
+    level_section[levels] = n;
+    level_height[levels] = (n % 2 == 0) ? thickness[n] : thickness[n] * layer_share[i] / sum;
+    levels = levels + 1;
+  EndFor
+EndFor
+
+// Way from the hole's circle (0) to the rubber's (1), and on to the rim's (2), of each circle.
+way[] = {0};
+sum = 0;
+For g In {1 : inner_ring}
+  sum = sum + ring_grading ^ (-g);
+  way[g] = sum;
+EndFor
+For g In {1 : inner_ring}
+  way[g] = way[g] / sum;
+EndFor
+sum = 0;
+For g In {1 : outer_ring}
+  sum = sum + ring_grading ^ g;
+  way[inner_ring + g] = sum;
+EndFor
+For g In {1 : outer_ring}
+  way[inner_ring + g] = 1 + way[inner_ring + g] / sum;
+EndFor
+
+// Tags: 1 + q + 4 g + step * (plane or level) within each family, families one `family` apart.
+step = 4 * (rings + 1);
+family = (levels + 1) * step;
+arc = family; spoke = 2 * family; upright = 3 * family;    // curves
+face = family; shell = 2 * family; wall = 3 * family;      // surfaces
+
+// Points. The centre of a circle has the tag of the circle's first arc. Planes inside a rubber
+// section end at the rubber's circle: plane_rings counts the rings of elements that they cut.
+plane_rings[] = {};
 z = 0;
-For j In {0 : 9}
-  For g In {0 : 2}
-    tag = 1 + 4 * g + 12 * j;
-    offset = 0;
-    radius = hole_diameter / 2;
-    If (g == 1)
-      offset = rubber_offset[j];
-      radius = rubber_radius[j];
+For j In {0 : levels}
+  below = level_section[(j == 0) ? 0 : j - 1];
+  above = level_section[(j == levels) ? levels - 1 : j];
+  plane_rings[j] = (below % 2 == 0 || above % 2 == 0) ? rings : inner_ring;
+  For g In {0 : plane_rings[j]}
+    tag = 1 + 4 * g + step * j;
+    s = way[g];
+    If (s <= 1)
+      offset = s * section_offset[above];
+      radius = (1 - s) * hole_diameter / 2 + s * section_radius[above];
+    Else
+      offset = (2 - s) * section_offset[above];
+      radius = (2 - s) * section_radius[above] + (s - 1) * plate_diameter / 2;
     EndIf
-    If (g == 2)
-      radius = plate_diameter / 2;
-    EndIf
-    Point(centre + tag) = {offset, 0, z};
+    Point(arc + tag) = {offset, 0, z};
     For q In {0 : 3}
       // Distance from the axis, along the spoke, of a circle whose centre is shifted towards +x.
       ux = Cos(Pi / 4 + q * Pi / 2);
@@ -106,72 +156,61 @@ For j In {0 : 9}
       Point(tag + q) = {reach * ux, reach * uy, z};
     EndFor
   EndFor
-  If (j < 9)
-    z = z + height[j];
+  If (j < levels)
+    z = z + level_height[j];
   EndIf
 EndFor
 
 // Curves and faces within the planes.
-For j In {0 : 9}
-  For g In {0 : 2}
-    tag = 1 + 4 * g + 12 * j;
+For j In {0 : levels}
+  For g In {0 : plane_rings[j]}
+    tag = 1 + 4 * g + step * j;
     For q In {0 : 3}
-      next = (q + 1) % 4;
-      Circle(arc + tag + q) = {tag + q, centre + tag, tag + next};
+      Circle(arc + tag + q) = {tag + q, arc + tag, tag + (q + 1) % 4};
       Transfinite Curve {arc + tag + q} = quadrant + 1;
-      If (g < 2)
+      If (g < plane_rings[j])
         Line(spoke + tag + q) = {tag + q, tag + 4 + q};
-        If (g == 0)
-          Transfinite Curve {spoke + tag + q} = inner_ring + 1 Using Progression 1 / ring_grading;
-        Else
-          Transfinite Curve {spoke + tag + q} = outer_ring + 1 Using Progression ring_grading;
-        EndIf
+        Transfinite Curve {spoke + tag + q} = 2;
       EndIf
     EndFor
   EndFor
-  For g In {0 : 1}
-    tag = 1 + 4 * g + 12 * j;
+  For g In {0 : plane_rings[j] - 1}
+    tag = 1 + 4 * g + step * j;
     For q In {0 : 3}
-      next = (q + 1) % 4;
-      Curve Loop(face + tag + q) = {spoke + tag + q, arc + tag + 4 + q, -(spoke + tag + next),
-                                    -(arc + tag + q)};
+      Curve Loop(face + tag + q) = {spoke + tag + q, arc + tag + 4 + q,
+                                    -(spoke + tag + (q + 1) % 4), -(arc + tag + q)};
       Plane Surface(face + tag + q) = {face + tag + q};
     EndFor
   EndFor
 EndFor
 
-// Curves, walls and blocks between the planes. Rubber layers have the inner ring only.
-For k In {0 : 8}
-  is_plate = (k % 2 == 0);
-  rings = is_plate ? 2 : 1;
-  For g In {0 : rings}
-    tag = 1 + 4 * g + 12 * k;
+// Curves, walls and blocks between the planes.
+For k In {0 : levels - 1}
+  n = level_section[k];
+  level_rings = (n % 2 == 0) ? rings : inner_ring;
+  divisions = (n % 2 == 0) ? plate_divisions[n] : 1;
+  For g In {0 : level_rings}
+    tag = 1 + 4 * g + step * k;
     For q In {0 : 3}
-      Line(upright + tag + q) = {tag + q, tag + 12 + q};
-      If (is_plate)
-        Transfinite Curve {upright + tag + q} = layers[k] + 1;
-      Else
-        Transfinite Curve {upright + tag + q} = layers[k] + 1 Using Bump 1 / rubber_grading;
-      EndIf
+      Line(upright + tag + q) = {tag + q, tag + step + q};
+      Transfinite Curve {upright + tag + q} = divisions + 1;
     EndFor
     For q In {0 : 3}
-      next = (q + 1) % 4;
-      Curve Loop(shell + tag + q) = {arc + tag + q, upright + tag + next, -(arc + tag + 12 + q),
-                                     -(upright + tag + q)};
+      Curve Loop(shell + tag + q) = {arc + tag + q, upright + tag + (q + 1) % 4,
+                                     -(arc + tag + step + q), -(upright + tag + q)};
       Surface(shell + tag + q) = {shell + tag + q};
     EndFor
   EndFor
-  For g In {0 : rings - 1}
-    tag = 1 + 4 * g + 12 * k;
+  For g In {0 : level_rings - 1}
+    tag = 1 + 4 * g + step * k;
     For q In {0 : 3}
-      Curve Loop(spoke_wall + tag + q) = {spoke + tag + q, upright + tag + 4 + q,
-                                          -(spoke + tag + 12 + q), -(upright + tag + q)};
-      Plane Surface(spoke_wall + tag + q) = {spoke_wall + tag + q};
+      Curve Loop(wall + tag + q) = {spoke + tag + q, upright + tag + 4 + q,
+                                    -(spoke + tag + step + q), -(upright + tag + q)};
+      Plane Surface(wall + tag + q) = {wall + tag + q};
     EndFor
     For q In {0 : 3}
-      next = (q + 1) % 4;
-      Surface Loop(tag + q) = {face + tag + q, face + tag + 12 + q, shell + tag + q,
-                               shell + tag + 4 + q, spoke_wall + tag + q, spoke_wall + tag + next};
+      Surface Loop(tag + q) = {face + tag + q, face + tag + step + q, shell + tag + q,
+                               shell + tag + 4 + q, wall + tag + q, wall + tag + (q + 1) % 4};
       Volume(tag + q) = {tag + q};
     EndFor
   EndFor
@@ -181,18 +220,27 @@ Transfinite Surface {:};
 Recombine Surface {:};
 Transfinite Volume {:};
 
-// Volume tags of layer k start at 1 + 12 k: four of the inner ring, then four of the outer one.
-Physical Volume("base_plate") = {1 : 8};
-Physical Volume("rubber_1") = {13 : 16};
-Physical Volume("plate_1") = {25 : 32};
-Physical Volume("rubber_2") = {37 : 40};
-Physical Volume("plate_2") = {49 : 56};
-Physical Volume("rubber_3") = {61 : 64};
-Physical Volume("plate_3") = {73 : 80};
-Physical Volume("rubber_4") = {85 : 88};
-Physical Volume("top_plate") = {97 : 104};
-Physical Surface("base") = {face + 1 : face + 8};
-Physical Surface("top") = {face + 12 * 9 + 1 : face + 12 * 9 + 8};
+// The blocks of a level follow one another, ring by ring.
+For n In {0 : 8}
+  blocks[] = {};
+  For k In {0 : levels - 1}
+    If (level_section[k] == n)
+      level_rings = (n % 2 == 0) ? rings : inner_ring;
+      blocks[] += {1 + k * step : 4 * level_rings + k * step};
+    EndIf
+  EndFor
+  If (n == 0)
+    Physical Volume("base_plate") = blocks[];
+  ElseIf (n == 8)
+    Physical Volume("top_plate") = blocks[];
+  ElseIf (n % 2 == 0)
+    Physical Volume(Sprintf("plate_%g", n / 2)) = blocks[];
+  Else
+    Physical Volume(Sprintf("rubber_%g", (n + 1) / 2)) = blocks[];
+  EndIf
+EndFor
+Physical Surface("base") = {face + 1 : face + 4 * rings};
+Physical Surface("top") = {face + 1 + levels * step : face + 4 * rings + levels * step};
 
 // 27-node hexahedra; a reproducible 3-D algorithm, should a block ever not be structured.
 Mesh.ElementOrder = 2;

@@ -10,6 +10,7 @@
 #include <gmsh.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "mesher/face_orientation.h"
 
 namespace flexneck::mesher {
@@ -161,14 +162,23 @@ std::size_t material_index(const std::string& part, const std::vector<Material>&
   if (entry == material_of_part.end()) {
     throw InputError("part '" + part + "' has no material; list it under a material's parts");
   }
-  const auto found =
-      std::find_if(materials.begin(), materials.end(),
-                   [&](const Material& material) { return material.name == entry->second; });
-  if (found == materials.end()) {
-    throw InputError("part '" + part + "' has the material '" + entry->second +
-                     "', which is not defined");
+  try {
+    return find_name(names_of(materials), entry->second, "material");
+  } catch (const InputError& error) {
+    throw InputError("part '" + part + "': " + error.what());
   }
-  return static_cast<std::size_t>(found - materials.begin());
+}
+
+/// A material for a part that does not exist is a slip of the pen.
+void require_known_parts(const std::vector<PhysicalGroup>& volumes,
+                         const std::map<std::string, std::string>& material_of_part) {
+  for (const auto& [part, material] : material_of_part) {
+    try {
+      find_name(names_of(volumes), part, "part");
+    } catch (const InputError& error) {
+      throw InputError("material '" + material + "': " + error.what());
+    }
+  }
 }
 
 NodeSet node_set_of(const FaceSet& faces) {
@@ -188,6 +198,7 @@ Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
                      std::string("Physical Volume(\"part\") = {…}"));
   }
   require_one_part_per_volume();
+  require_known_parts(volumes, material_of_part);
 
   std::vector<GroupElements> parts;
   NodeNumbering numbering;

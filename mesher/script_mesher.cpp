@@ -11,6 +11,7 @@
 #include <gmsh.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "mesher/gmsh_session.h"
 #include "mesher/gmsh_take_over.h"
 #include "mesher/mesh/mesh_measures.h"
@@ -37,6 +38,18 @@ std::map<std::string, std::string> declared_constants() {
   return declared;
 }
 
+/// @throws InputError if the script does not declare the constant.
+std::string onelab_name(const std::map<std::string, std::string>& declared,
+                        const std::string& constant, const std::filesystem::path& script) {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : declared) names.push_back(name);
+  try {
+    return declared.at(names[find_name(names, constant, "declared constant")]);
+  } catch (const InputError& error) {
+    throw InputError(script.string() + ": " + error.what());
+  }
+}
+
 /// Only a script that has run says which constants it declares, so it runs again with their values.
 void run_script(GmshSession& session, const ScriptMeshOptions& options) {
   if (!std::ifstream(options.script).good()) {
@@ -47,16 +60,7 @@ void run_script(GmshSession& session, const ScriptMeshOptions& options) {
 
   const auto declared = declared_constants();
   for (const auto& [name, value] : options.constants) {
-    const auto found = declared.find(name);
-    if (found == declared.end()) {
-      std::string known;
-      for (const auto& [constant, unused] : declared) {
-        known += (known.empty() ? "" : ", ") + constant;
-      }
-      throw InputError(options.script.string() + ": the script declares no constant '" + name +
-                       "'; it declares " + (known.empty() ? "none" : known));
-    }
-    gmsh::onelab::setNumber(found->second, {value});
+    gmsh::onelab::setNumber(onelab_name(declared, name, options.script), {value});
   }
   gmsh::clear();
   open_script(session, options.script);
@@ -69,6 +73,14 @@ void generate(GmshSession& session, const std::filesystem::path& script) {
     gmsh::model::mesh::generate(3);
   });
   if (!errors.empty()) throw InputError(script.string() + ": gmsh cannot mesh it: " + errors);
+}
+
+Mesh take_over(const ScriptMeshOptions& options) {
+  try {
+    return take_over_gmsh_mesh(options.materials, options.material_of_part);
+  } catch (const InputError& error) {
+    throw InputError(options.script.string() + ": " + error.what());
+  }
 }
 
 double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -107,14 +119,16 @@ NodeSet patch_nodes(const Mesh& mesh, const NodePatches& patches) {
 
 }  // namespace
 
+std::string gmsh_version() { return GMSH_API_VERSION; }
+
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress) {
   Mesh mesh;
   {
     GmshSession session;
-    report(progress, "gmsh " GMSH_API_VERSION " runs " + options.script.filename().string());
+    report(progress, "gmsh " + gmsh_version() + " runs " + options.script.filename().string());
     run_script(session, options);
     generate(session, options.script);
-    mesh = take_over_gmsh_mesh(options.materials, options.material_of_part);
+    mesh = take_over(options);
   }
   for (const NodePatches& patches : options.patches) {
     mesh.node_sets.push_back(patch_nodes(mesh, patches));

@@ -24,17 +24,24 @@ struct NodePatches {
 /// physical surface a face set and a node set of the same name.
 struct ScriptMeshOptions {
   std::filesystem::path script;
-  std::map<std::string, double> constants;  ///< override the script's DefineConstant values
+  /// Override the script's DefineConstant values. A constant needs the attribute Name there; it is
+  /// known by what stands behind the last '/' of that name.
+  std::map<std::string, double> constants;
   std::vector<Material> materials;
-  std::map<std::string, std::string> material_of_part;  ///< part to material name
+  std::map<std::string, std::string> material_of_part;  ///< part to material name, every part once
   std::vector<NodePatches> patches;
 };
 
 /// Runs the script in gmsh, meshes it with second-order elements and takes the mesh over.
-/// A script is a program: it may do what gmsh scripts may do.
+/// A script is a program: it may do what gmsh scripts may do. With constants to override it runs
+/// twice, first to tell which it declares.
 /// @throws InputError if the script cannot be read, has an error (gmsh's message), sets a constant
-/// that it does not declare, names a part without material, or leaves a set empty.
+/// that it does not declare, names a part without material, has elements of a kind that a mesh
+/// cannot hold, or leaves a set empty.
 /// @throws ComputationError if an element is inverted or degenerate.
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress);
+
+/// Version of gmsh's interface that the program was built with.
+std::string gmsh_version();
 
 }  // namespace flexneck::mesher

@@ -3,34 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <functional>
 #include <span>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 
 namespace flexneck::mesher {
 namespace {
 
-template <typename Set>
-const Set& find_set(const std::vector<Set>& sets, const std::string& name, const char* what) {
-  const auto found =
-      std::find_if(sets.begin(), sets.end(), [&](const Set& set) { return set.name == name; });
-  if (found != sets.end()) return *found;
-  std::string known;
-  for (const Set& set : sets) known += (known.empty() ? "" : ", ") + set.name;
-  throw InputError("the mesh has no " + std::string(what) + " '" + name + "', it has " +
-                   (known.empty() ? "none" : known));
-}
-
 [[noreturn]] void refuse(const std::string& problem) { throw InputError("mesh: " + problem); }
-
-/// Names become object names in the mesh file.
-void require_name(std::set<std::string>& seen, const std::string& name, const std::string& what) {
-  if (name.empty() || name == "." || name.find('/') != std::string::npos) {
-    refuse(what + " '" + name + "' needs a name without '/'");
-  }
-  if (!seen.insert(name).second) refuse(what + " '" + name + "' appears twice");
-}
 
 void check_material(const Material& material) {
   const std::string name = "material '" + material.name + "': ";
@@ -71,12 +53,17 @@ void check_connectivity(std::span<const std::int32_t> indices, ElementKind kind,
   check_indices(indices, node_count, what);
 }
 
+std::vector<std::string> parts_of(const Mesh& mesh) {
+  std::vector<std::string> parts;
+  for (const ElementBlock& block : mesh.blocks) parts.push_back(block.part);
+  return parts;
+}
+
 void check_blocks(const Mesh& mesh) {
   if (mesh.blocks.empty()) refuse("it has no elements");
-  std::set<std::string> names;
+  check_names(parts_of(mesh), "part");
   std::vector<bool> used(mesh.nodes.size(), false);
   for (const ElementBlock& block : mesh.blocks) {
-    require_name(names, block.part, "part");
     const std::string what = "part '" + block.part + "'";
     if (block.material >= mesh.materials.size()) refuse(what + " has no material");
     check_connectivity(block.nodes, block.kind, 3, mesh.nodes.size(), what);
@@ -91,18 +78,16 @@ void check_blocks(const Mesh& mesh) {
 }
 
 void check_sets(const Mesh& mesh) {
-  std::set<std::string> node_set_names;
+  check_names(names_of(mesh.node_sets), "node set");
   for (const NodeSet& set : mesh.node_sets) {
-    require_name(node_set_names, set.name, "node set");
     check_indices(set.nodes, mesh.nodes.size(), "node set '" + set.name + "'");
     if (std::adjacent_find(set.nodes.begin(), set.nodes.end(), std::greater_equal<>()) !=
         set.nodes.end()) {
       refuse("node set '" + set.name + "' is not in ascending order");
     }
   }
-  std::set<std::string> face_set_names;
+  check_names(names_of(mesh.face_sets), "face set");
   for (const FaceSet& set : mesh.face_sets) {
-    require_name(face_set_names, set.name, "face set");
     check_connectivity(set.nodes, set.kind, 2, mesh.nodes.size(), "face set '" + set.name + "'");
   }
 }
@@ -110,11 +95,11 @@ void check_sets(const Mesh& mesh) {
 }  // namespace
 
 const NodeSet& Mesh::node_set(const std::string& name) const {
-  return find_set(node_sets, name, "node set");
+  return node_sets[find_name(names_of(node_sets), name, "node set")];
 }
 
 const FaceSet& Mesh::face_set(const std::string& name) const {
-  return find_set(face_sets, name, "face set");
+  return face_sets[find_name(names_of(face_sets), name, "face set")];
 }
 
 void check(const Mesh& mesh) {
@@ -123,11 +108,8 @@ void check(const Mesh& mesh) {
       if (!std::isfinite(x)) refuse("node " + std::to_string(n) + " has no finite position");
     }
   }
-  std::set<std::string> names;
-  for (const Material& material : mesh.materials) {
-    require_name(names, material.name, "material");
-    check_material(material);
-  }
+  check_names(names_of(mesh.materials), "material");
+  for (const Material& material : mesh.materials) check_material(material);
   check_blocks(mesh);
   check_sets(mesh);
 }
