@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/simulation.h"
+
+#include <cmath>
+#include <string>
+
+#include "geometry/foundation/error.h"
+#include "multibody/initial_state.h"
+#include "multibody/motion.h"
+#include "multibody/system.h"
+
+namespace flexneck::multibody {
+namespace {
+
+void check_positive(double value, const std::string& what) {
+  if (!(value > 0 && std::isfinite(value)))
+    throw InputError(what + " must be positive, not " + std::to_string(value));
+}
+
+void check_options(const SolverOptions& solver, const OutputOptions& output) {
+  check_positive(solver.relative_tolerance, "the relative tolerance");
+  check_positive(solver.absolute_tolerance, "the absolute tolerance");
+  check_positive(solver.smallest_step_s, "the smallest step");
+  check_positive(solver.largest_step_s, "the largest step");
+  if (solver.largest_step_s < solver.smallest_step_s)
+    throw InputError("the largest step must not be below the smallest");
+  check_positive(output.end_time_s, "the end time");
+  check_positive(output.interval_s, "the output interval");
+  if (output.end_time_s / output.interval_s > 1e8)
+    throw InputError("the output interval gives over 1e8 output times; make it longer");
+}
+
+}  // namespace
+
+History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output) {
+  check(model);
+  check_options(solver, output);
+  const System system(model);
+  EquationsOfMotion equations(system);
+  Eigen::VectorXd state = given_state(model, system);
+  join(model, equations, state);
+  return integrate(model, system, state, solver, output);
+}
+
+}  // namespace flexneck::multibody

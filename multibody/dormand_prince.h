@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+
+#include <Eigen/Core>
+
+namespace flexneck::multibody {
+
+/// Size of a step's error in units of its tolerance, and which component is the worst.
+struct ErrorEstimate {
+  double value = 0;  ///< the step is good below 1; NaN if anything is not a number
+  std::size_t component = 0;
+};
+
+/// What DormandPrince integrates. Vectors keep their size; nothing here should allocate.
+struct InitialValueProblem {
+  using Vector = Eigen::VectorXd;
+
+  std::function<void(double time_s, const Vector& y, Vector& rate)> derivative;
+  /// Takes the end of a step onto the invariants, by less than the step's error, and gives the rate
+  /// there. The rate serves the error estimate and the next step.
+  std::function<void(double time_s, Vector& y, Vector& rate)> finish_step;
+  /// @param error  estimated error of y_end, in the units of y
+  std::function<ErrorEstimate(const Vector& y_begin, const Vector& y_end, const Vector& error)>
+      measure;
+  std::function<std::string(std::size_t component)> name_of_component;
+};
+
+struct StepLimits {
+  double largest_s;
+  double smallest_s;
+};
+
+/// The explicit pair of orders 5(4) by Dormand and Prince (J. Comp. Appl. Math. 6, 1980) with
+/// Shampine's dense output of order 4 and PI step control (Hairer, Norsett and Wanner, Solving
+/// Ordinary Differential Equations I, II.4 to II.6).
+class DormandPrince {
+ public:
+  using Vector = Eigen::VectorXd;
+
+  /// @param y  at `time_s`
+  DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s, const Vector& y);
+
+  /// Forgets the rate at the present time: after a jump of the right-hand side.
+  void restart();
+  /// One accepted step that does not pass `limit_s`.
+  /// @throws ComputationError if the step would have to be smaller than the smallest allowed or the
+  /// rate is not a number: time and component that limited it.
+  void step(double limit_s);
+  /// A step of the given length, whatever its error.
+  void fixed_step(double length_s);
+  /// The state inside the last step.
+  void interpolate(double time_s, Vector& y) const;
+
+  double time_s() const { return time_s_; }
+  const Vector& state() const { return y_; }
+  int accepted() const { return accepted_; }
+  int rejected() const { return rejected_; }
+
+ private:
+  static constexpr int kStages = 7;
+
+  void attempt(double length_s);
+  void accept(double length_s);
+  double choose_first_step() const;
+  double adapted(double length_s, double error);
+  [[noreturn]] void collapse(const ErrorEstimate& error) const;
+
+  InitialValueProblem problem_;
+  StepLimits limits_;
+  double time_s_;
+  double previous_time_s_;
+  Vector y_, y_next_, y_stage_, error_;
+  std::array<Vector, kStages> rates_;
+  std::array<Vector, 5> dense_;
+  double proposed_s_ = 0;  ///< zero: to be chosen
+  double last_error_ = 1e-4;
+  bool fresh_ = false;  ///< rates_[0] belongs to the present state
+  int accepted_ = 0;
+  int rejected_ = 0;
+};
+
+}  // namespace flexneck::multibody

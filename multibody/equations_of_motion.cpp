@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/equations_of_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "multibody/rotation.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr std::size_t kNone = JointPlace::kNoBody;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Index velocity_count_of(const System& system, std::size_t marker) {
+  const std::size_t body = system.markers[marker].free_body;
+  return body == kNone ? 0 : system.bodies[body].constants.velocity_count();
+}
+
+}  // namespace
+
+EquationsOfMotion::EquationsOfMotion(const System& system, Drive drive)
+    : system_(system),
+      drive_(drive),
+      interval_begin_s_(-kInfinity),
+      interval_end_s_(kInfinity),
+      driven_positions_(system.driven.size(), Vector3d::Zero()),
+      driven_velocities_(system.driven.size(), Vector3d::Zero()),
+      driven_accelerations_(system.driven.size(), Vector3d::Zero()),
+      force_values_(system.forces.size(), 0.0),
+      solver_(system.body_sizes(), system.places),
+      right_hand_side_(VectorXd::Zero(system.velocity_count)),
+      gamma_(VectorXd::Zero(system.constraint_count)),
+      position_residual_(VectorXd::Zero(system.constraint_count)),
+      velocity_residual_(VectorXd::Zero(system.constraint_count)),
+      accelerations_(VectorXd::Zero(system.velocity_count)),
+      multipliers_(VectorXd::Zero(system.constraint_count)),
+      scratch_(VectorXd::Zero(system.constraint_count)) {
+  for (const FreeBody& body : system.bodies) bodies_.emplace_back(body.constants);
+  std::vector<bool> active(system.markers.size(), false);
+  for (const Joint& joint : system.joints) {
+    active[joint.marker_i] = active[joint.marker_j] = true;
+    joints_.emplace_back(joint, velocity_count_of(system, joint.marker_i),
+                         velocity_count_of(system, joint.marker_j));
+  }
+  for (const PointForce& force : system.forces) active[force.marker] = true;
+  for (std::size_t k = 0; k < system.markers.size(); ++k) {
+    markers_.emplace_back(velocity_count_of(system, k));
+    (active[k] ? active_markers_ : idle_markers_).push_back(k);
+  }
+}
+
+void EquationsOfMotion::set_interval(double begin_s, double end_s) {
+  interval_begin_s_ = std::nextafter(begin_s, kInfinity);
+  interval_end_s_ = std::nextafter(end_s, -kInfinity);
+}
+
+double EquationsOfMotion::table_time(double time_s) const {
+  return std::max(interval_begin_s_, std::min(interval_end_s_, time_s));
+}
+
+void EquationsOfMotion::update_driven_bodies() {
+  for (std::size_t d = 0; d < system_.driven.size(); ++d) {
+    const DrivenPath& path = system_.driven[d];
+    driven_positions_[d] = path.position_m(time_s_);
+    if (drive_ == Drive::held) continue;
+    driven_velocities_[d] = path.velocity_m_s(time_s_);
+    driven_accelerations_[d] =
+        path.body.acceleration_m_s2.value(table_time(time_s_)) * path.body.direction;
+  }
+}
+
+void EquationsOfMotion::update_marker_configuration(std::size_t index) {
+  const SystemMarker& marker = system_.markers[index];
+  NodeKinematics& motion = markers_[index];
+  if (marker.free_body != kNone) {
+    update_configuration(marker.node, bodies_[marker.free_body], motion);
+    return;
+  }
+  // Section 4, driven base: P and W stay empty.
+  const Eigen::Quaterniond& rotation = system_.driven[marker.driven_body].start.rotation;
+  motion.p = driven_positions_[marker.driven_body] + rotation * marker.node.s0;
+  motion.R = rotation.toRotationMatrix() * marker.node.R0;
+}
+
+void EquationsOfMotion::update_marker_velocities(std::size_t index, const ConstVector& velocities) {
+  const SystemMarker& marker = system_.markers[index];
+  NodeKinematics& motion = markers_[index];
+  if (marker.free_body != kNone) {
+    const FreeBody& body = system_.bodies[marker.free_body];
+    update_velocities(marker.node, bodies_[marker.free_body],
+                      velocities.segment(body.velocity, body.constants.velocity_count()), motion);
+    return;
+  }
+  motion.pd = driven_velocities_[marker.driven_body];
+  motion.gp = driven_accelerations_[marker.driven_body];
+  motion.Om.setZero();
+  motion.gr.setZero();
+}
+
+void EquationsOfMotion::set_positions(double time_s, const ConstVector& positions) {
+  time_s_ = time_s;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const FreeBody& body = system_.bodies[b];
+    BodyTerms& terms = bodies_[b];
+    const auto Q = positions.segment(body.position, 7 + body.constants.mode_count());
+    terms.x = Q.head<3>();
+    terms.A = Eigen::Quaterniond(Q[3], Q[4], Q[5], Q[6]).normalized().toRotationMatrix();
+    terms.a = Q.tail(body.constants.mode_count());
+    update_configuration(body.constants, terms);
+    solver_.set_mass(b, terms.mass);
+  }
+  update_driven_bodies();
+  for (const std::size_t marker : active_markers_) update_marker_configuration(marker);
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    const Joint& joint = system_.joints[k];
+    JointRows& rows = joints_[k];
+    update_configuration(markers_[joint.marker_i], markers_[joint.marker_j], rows);
+    position_residual_.segment(solver_.joint_offset(k), rows.rows) =
+        rows.position_residual.head(rows.rows);
+    solver_.set_rows(k, rows);
+  }
+  solver_.factorise();
+}
+
+void EquationsOfMotion::set_velocities(const ConstVector& velocities) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const FreeBody& body = system_.bodies[b];
+    const Index size = body.constants.velocity_count();
+    update_right_hand_side(body.constants, system_.gravity_m_s2,
+                           velocities.segment(body.velocity, size), bodies_[b]);
+    right_hand_side_.segment(body.velocity, size) = bodies_[b].u;
+  }
+  for (const std::size_t marker : active_markers_) update_marker_velocities(marker, velocities);
+  apply_forces();
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    const Joint& joint = system_.joints[k];
+    JointRows& rows = joints_[k];
+    update_velocities(markers_[joint.marker_i], markers_[joint.marker_j], rows);
+    const Index offset = solver_.joint_offset(k);
+    velocity_residual_.segment(offset, rows.rows) = rows.velocity_residual.head(rows.rows);
+    gamma_.segment(offset, rows.rows) = rows.gamma.head(rows.rows);
+  }
+}
+
+void EquationsOfMotion::apply_forces() {
+  for (std::size_t k = 0; k < system_.forces.size(); ++k) {
+    const PointForce& force = system_.forces[k];
+    force_values_[k] = force.magnitude_N.value(table_time(time_s_));
+    const std::size_t b = system_.markers[force.marker].free_body;
+    if (b == kNone) continue;
+    // P^T F is section 3's F, ~s A^T F, psi^T A^T F.
+    const FreeBody& body = system_.bodies[b];
+    right_hand_side_.segment(body.velocity, body.constants.velocity_count()).noalias() +=
+        markers_[force.marker].P.transpose() * (force_values_[k] * force.direction);
+  }
+}
+
+void EquationsOfMotion::solve() {
+  accelerations_ = right_hand_side_;
+  multipliers_ = gamma_;
+  solver_.solve(accelerations_, multipliers_);
+  ++evaluations_;
+}
+
+void EquationsOfMotion::evaluate(double time_s, const ConstVector& state, Vector rate) {
+  set_positions(time_s, state.head(system_.position_count));
+  set_velocities(state.segment(system_.position_count, system_.velocity_count));
+  evaluate_updated(state, rate);
+}
+
+void EquationsOfMotion::evaluate_updated(const ConstVector& state, Vector rate) {
+  const Index nq = system_.position_count;
+  const Index nv = system_.velocity_count;
+  const auto velocities = state.segment(nq, nv);
+  solve();
+  for (const FreeBody& body : system_.bodies) {
+    const Index m = body.constants.mode_count();
+    const auto V = velocities.segment(body.velocity, 6 + m);
+    auto Q_rate = rate.segment(body.position, 7 + m);
+    Q_rate.head<3>() = V.head<3>();
+    Q_rate.segment<4>(3) = quaternion_rate(state.segment<4>(body.position + 3), V.segment<3>(3));
+    Q_rate.tail(m) = V.tail(m);
+  }
+  rate.segment(nq, nv) = accelerations_;
+  rate[nq + nv] = dissipation_W(velocities);
+  rate[nq + nv + 1] = work_W();
+}
+
+void EquationsOfMotion::remove_residual(const VectorXd& residual, VectorXd& change) {
+  change.setZero();
+  scratch_ = -residual;
+  solver_.solve(change, scratch_);
+}
+
+void EquationsOfMotion::update_idle_markers(const ConstVector& velocities) {
+  for (const std::size_t marker : idle_markers_) {
+    update_marker_configuration(marker);
+    update_marker_velocities(marker, velocities);
+  }
+}
+
+Reaction EquationsOfMotion::joint_reaction(std::size_t joint) const {
+  RowVector padded = RowVector::Zero();
+  const Index rows = joints_[joint].rows;
+  padded.head(rows) = multipliers_.segment(solver_.joint_offset(joint), rows);
+  return reaction(joints_[joint], padded);
+}
+
+double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {
+  double power = 0;
+  for (const FreeBody& body : system_.bodies) {
+    const Index m = body.constants.mode_count();
+    for (Index l = 0; l < m; ++l) {
+      const double rate = velocities[body.velocity + 6 + l];
+      power += body.constants.damping[l] * rate * rate;
+    }
+  }
+  return power;
+}
+
+double EquationsOfMotion::work_W() const {
+  double power = 0;
+  for (std::size_t k = 0; k < system_.forces.size(); ++k) {
+    const PointForce& force = system_.forces[k];
+    if (system_.markers[force.marker].free_body == kNone) continue;
+    power += force_values_[k] * force.direction.dot(markers_[force.marker].pd);
+  }
+  // A driven body only translates: through a joint it does the force's work. Body i bears -f, j +f.
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    const Joint& joint = system_.joints[k];
+    const Eigen::Vector3d f = multipliers_.segment<3>(solver_.joint_offset(k));
+    if (system_.places[k].body_i == kNone) power += f.dot(markers_[joint.marker_i].pd);
+    if (system_.places[k].body_j == kNone) power -= f.dot(markers_[joint.marker_j].pd);
+  }
+  return power;
+}
+
+}  // namespace flexneck::multibody

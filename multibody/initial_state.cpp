@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/initial_state.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "geometry/foundation/error.h"
+#include "multibody/projection.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kTolerance = 1e-6;
+
+/// Text such as "0.3 m and 0.2 rad" of a joint's residual.
+struct Violation {
+  double translation;
+  double rotation;
+};
+
+Violation violation(const RowVector& residual) {
+  return {residual.head<3>().norm(), residual.tail<3>().norm()};
+}
+
+[[noreturn]] void refuse(const Joint& joint, const Model& model, const std::string& problem) {
+  throw InputError("joint '" + joint.name + "' between markers '" +
+                   model.markers[joint.marker_i].name + "' and '" +
+                   model.markers[joint.marker_j].name + "': " + problem);
+}
+
+void check_positions(const Model& model, const EquationsOfMotion& equations) {
+  const double size = std::max(equations.system().size_m, 1e-3);
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    const Violation found = violation(equations.joint(k).position_residual);
+    if (found.translation <= kTolerance * size && found.rotation <= kTolerance) continue;
+    std::ostringstream problem;
+    problem << "at the start the markers are " << found.translation << " m and " << found.rotation
+            << " rad apart; give the bodies poses that fit the joint";
+    refuse(model.joints[k], model, problem.str());
+  }
+}
+
+void check_velocities(const Model& model, const EquationsOfMotion& equations) {
+  const double size = std::max(equations.system().size_m, 1e-3);
+  double speed = 0;
+  for (const Joint& joint : model.joints)
+    for (const std::size_t marker : {joint.marker_i, joint.marker_j}) {
+      const NodeKinematics& motion = equations.marker(marker);
+      speed = std::max({speed, motion.pd.norm(), size * motion.Om.norm()});
+    }
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    const Violation found = violation(equations.joint(k).velocity_residual);
+    if (found.translation <= kTolerance * speed && size * found.rotation <= kTolerance * speed)
+      continue;
+    std::ostringstream problem;
+    problem << "at the start the markers part with " << found.translation << " m/s and "
+            << found.rotation << " rad/s; give the bodies velocities that fit the joint";
+    refuse(model.joints[k], model, problem.str());
+  }
+}
+
+}  // namespace
+
+VectorXd given_state(const Model& model, const System& system) {
+  VectorXd state = VectorXd::Zero(system.state_count());
+  for (const FreeBody& free : system.bodies) {
+    const Body& body = model.bodies[free.index];
+    const Eigen::Quaterniond& q = body.initial_pose.rotation;
+    state.segment<3>(free.position) = body.initial_pose.position_m;
+    state.segment<4>(free.position + 3) << q.w(), q.x(), q.y(), q.z();
+    const Index velocity = system.position_count + free.velocity;
+    state.segment<3>(velocity) = body.initial_velocity_m_s;
+    state.segment<3>(velocity + 3) = body.initial_angular_velocity_rad_s;
+  }
+  system.normalise(state.head(system.position_count));
+  return state;
+}
+
+void check_independent_joints(const EquationsOfMotion& equations) {
+  const auto joint = equations.solver().redundant_joint();
+  if (!joint) return;
+  throw InputError("joint '" + equations.system().joints[*joint].name +
+                   "' holds again what the joints before it hold already (a closed loop of "
+                   "joints?); use a joint with fewer constraints");
+}
+
+void join(const Model& model, EquationsOfMotion& equations, VectorXd& state) {
+  const System& system = equations.system();
+  const auto velocities = state.segment(system.position_count, system.velocity_count);
+  equations.set_positions(0, state.head(system.position_count));
+  check_positions(model, equations);
+  check_independent_joints(equations);
+  equations.set_velocities(velocities);
+  check_velocities(model, equations);
+  Projection(equations).apply(0, state);
+}
+
+}  // namespace flexneck::multibody

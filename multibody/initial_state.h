@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "multibody/equations_of_motion.h"
+#include "multibody/model.h"
+
+namespace flexneck::multibody {
+
+/// The state that the model's bodies are given, undeformed, as System lays it out.
+Eigen::VectorXd given_state(const Model& model, const System& system);
+
+/// Puts the state at time zero onto the joints.
+/// @throws InputError if a joint is violated by more than rounded input explains: its markers apart
+/// by over 1e-6 of the system's size or turned by over 1e-6 rad, or parting faster than 1e-6 of the
+/// system's largest speed; or if a joint repeats what others hold. The message names the joint.
+void join(const Model& model, EquationsOfMotion& equations, Eigen::VectorXd& state);
+
+/// @throws InputError naming the joint, if the equations as updated hold one that repeats others.
+void check_independent_joints(const EquationsOfMotion& equations);
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "multibody/dormand_prince.h"
+#include "multibody/equations_of_motion.h"
+#include "multibody/projection.h"
+#include "multibody/recorder.h"
+#include "multibody/state_error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Multiples of the interval up to the end, and the end.
+VectorXd output_times(const OutputOptions& output) {
+  constexpr double kSlack = 1e-9;  // of an interval: the end may be a multiple but for rounding
+  const auto whole = static_cast<Index>(output.end_time_s / output.interval_s + kSlack);
+  const bool end_is_multiple = output.end_time_s - static_cast<double>(whole) * output.interval_s <=
+                               kSlack * output.interval_s;
+  VectorXd times(whole + (end_is_multiple ? 1 : 2));
+  for (Index k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) * output.interval_s;
+  times[times.size() - 1] = output.end_time_s;
+  return times;
+}
+
+double largest(const VectorXd& residual) {
+  return residual.size() == 0 ? 0 : residual.lpNorm<Eigen::Infinity>();
+}
+
+/// One run: the integrator, and the recorder behind it.
+class Run {
+ public:
+  Run(const Model& model, const System& system, const VectorXd& state, const SolverOptions& solver,
+      const OutputOptions& output)
+      : system_(system),
+        equations_(system),
+        projection_(equations_),
+        error_(system, solver.relative_tolerance, solver.absolute_tolerance),
+        recorder_(model, output_times(output)),
+        integrator_(problem(), {solver.largest_step_s, solver.smallest_step_s}, 0, state),
+        output_state_(state) {}
+
+  /// Steps over an interval in which no table has a kink.
+  void advance(double begin_s, double end_s) {
+    equations_.set_interval(begin_s, end_s);
+    integrator_.restart();
+    while (integrator_.time_s() < end_s) {
+      integrator_.step(end_s);
+      record_until(integrator_.time_s());
+    }
+  }
+
+  History finish() {
+    StepStatistics& statistics = recorder_.statistics();
+    statistics.accepted = integrator_.accepted();
+    statistics.rejected = integrator_.rejected();
+    statistics.evaluations = equations_.evaluations();
+    return recorder_.take();
+  }
+
+ private:
+  InitialValueProblem problem() {
+    return {
+        [this](double t, const VectorXd& y, VectorXd& rate) { equations_.evaluate(t, y, rate); },
+        [this](double t, VectorXd& y, VectorXd& rate) {
+          projection_.apply(t, y);
+          equations_.evaluate_updated(y, rate);
+        },
+        [this](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
+          return error_(begin, end, error);
+        },
+        [this](std::size_t component) { return error_.name_of(component); }};
+  }
+
+  void record_until(double time_s) {
+    while (next_ < recorder_.columns() && recorder_.time_s(next_) <= time_s) {
+      const double at = recorder_.time_s(next_);
+      integrator_.interpolate(at, output_state_);
+      projection_.apply(at, output_state_);
+      equations_.solve();
+      StepStatistics& statistics = recorder_.statistics();
+      statistics.largest_position_residual =
+          std::max(statistics.largest_position_residual, largest(equations_.position_residual()));
+      statistics.largest_velocity_residual =
+          std::max(statistics.largest_velocity_residual, largest(equations_.velocity_residual()));
+      recorder_.record(next_, equations_, output_state_);
+      ++next_;
+    }
+  }
+
+  const System& system_;
+  EquationsOfMotion equations_;
+  Projection projection_;
+  StateError error_;
+  Recorder recorder_;
+  DormandPrince integrator_;
+  VectorXd output_state_;
+  Index next_ = 0;
+};
+
+}  // namespace
+
+History integrate(const Model& model, const System& system, const VectorXd& state,
+                  const SolverOptions& solver, const OutputOptions& output) {
+  Run run(model, system, state, solver, output);
+  std::vector<double> ends = system.breakpoints(output.end_time_s);
+  ends.push_back(output.end_time_s);
+  double begin = 0;
+  for (const double end : ends) {
+    run.advance(begin, end);
+    begin = end;
+  }
+  return run.finish();
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "multibody/equations_of_motion.h"
+
+namespace flexneck::multibody {
+
+/// Brings a state back onto the joints, positions first, by the smallest change in the mass metric
+/// (equations.md section 5).
+class Projection {
+ public:
+  /// @param equations  must outlive this
+  explicit Projection(EquationsOfMotion& equations);
+
+  /// One Newton step for the positions, enough behind an integrator's step, then the velocities.
+  /// Leaves `equations` updated for positions and velocities: solve() gives the accelerations.
+  void apply(double time_s, Eigen::Ref<Eigen::VectorXd> state);
+
+  /// Newton steps for the positions only until the residual no longer falls, at most ten.
+  /// Leaves `equations` updated for the positions. @return the largest residual left, m and rad.
+  double converge_positions(double time_s, Eigen::Ref<Eigen::VectorXd> positions);
+
+ private:
+  void correct_positions(Eigen::Ref<Eigen::VectorXd> positions);
+
+  EquationsOfMotion& equations_;
+  Eigen::VectorXd change_;
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "multibody/dormand_prince.h"
+#include "multibody/system.h"
+
+namespace flexneck::multibody {
+
+/// Measures the error of a state. For each body there are six components, each against its own
+/// tolerance "absolute + relative * reference", and the largest ratio counts:
+///   origin            m      reference: the system's size, so that the world's origin is
+///   immaterial rotation          rad    reference: one radian deformation       m      reference:
+///   the present amplitude of deformation origin's velocity, angular velocity, rate of deformation:
+///   their present magnitude, for the last
+///                            the amplitude
+/// Deformations, of unit kg^(1/2) m, are divided by the root of the body's mass: with
+/// mass-normalised modes that is the root mean square displacement of the body's mass. Their
+/// amplitude is taken over position and velocity (of each mode, a and adot / omega), so that the
+/// tolerance does not collapse where a vibration passes through zero.
+class StateError {
+ public:
+  /// @param system  must outlive this
+  StateError(const System& system, double relative, double absolute);
+
+  ErrorEstimate operator()(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
+                           const Eigen::VectorXd& error) const;
+  /// E.g. "rotation of body 'head'".
+  std::string name_of(std::size_t component) const;
+
+ private:
+  const System& system_;
+  double relative_;
+  double absolute_;
+};
+
+}  // namespace flexneck::multibody
