@@ -87,14 +87,14 @@ void check_independent_joints(const EquationsOfMotion& equations) {
                    "joints?); use a joint with fewer constraints");
 }
 
-void join(const Model& model, EquationsOfMotion& equations, VectorXd& state) {
+void join(const Model& model, EquationsOfMotion& equations, VectorXd& state, Check check) {
   const System& system = equations.system();
   const auto velocities = state.segment(system.position_count, system.velocity_count);
   equations.set_positions(0, state.head(system.position_count));
   check_positions(model, equations);
   check_independent_joints(equations);
   equations.set_velocities(velocities);
-  check_velocities(model, equations);
+  if (check == Check::positions_and_velocities) check_velocities(model, equations);
   Projection(equations).apply(0, state);
 }
 

@@ -5,8 +5,12 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "multibody/equilibrium.h"
 #include "multibody/initial_state.h"
+#include "multibody/linearisation.h"
 #include "multibody/motion.h"
+#include "multibody/projection.h"
+#include "multibody/reduced_dynamics.h"
 #include "multibody/system.h"
 
 namespace flexneck::multibody {
@@ -38,8 +42,30 @@ History simulate(const Model& model, const SolverOptions& solver, const OutputOp
   const System system(model);
   EquationsOfMotion equations(system);
   Eigen::VectorXd state = given_state(model, system);
-  join(model, equations, state);
+  join(model, equations, state, Check::positions_and_velocities);
   return integrate(model, system, state, solver, output);
+}
+
+History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
+                                  const OutputOptions& output) {
+  check(model);
+  check_options(solver, output);
+  const System system(model);
+  EquationsOfMotion held(system, Drive::held);
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(system.state_count());
+  state.head(system.position_count) = equilibrium_positions(model, held);
+  state.segment(system.position_count, system.velocity_count) = carried_velocities(model, system);
+  EquationsOfMotion equations(system);
+  Projection(equations).apply(0, state);
+  return integrate(model, system, state, solver, output);
+}
+
+std::vector<SystemMode> system_modes(const Model& model) {
+  check(model);
+  const System system(model);
+  EquationsOfMotion held(system, Drive::held);
+  ReducedDynamics reduced(held, equilibrium_positions(model, held));
+  return modes_of(reduced.stiffness(), reduced.damping());
 }
 
 }  // namespace flexneck::multibody

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/reduced_dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Extent of the displacements that differences are taken over: their error, of second order in it,
+/// and rounding are then both about 1e-11 of the result.
+constexpr double kDifference = 1e-5;
+
+MatrixXd assembled_mass(const EquationsOfMotion& equations) {
+  const System& system = equations.system();
+  MatrixXd M = MatrixXd::Zero(system.velocity_count, system.velocity_count);
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const FreeBody& body = system.bodies[b];
+    const Index size = body.constants.velocity_count();
+    M.block(body.velocity, body.velocity, size, size) = equations.body(b).mass;
+  }
+  return M;
+}
+
+MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations) {
+  const System& system = equations.system();
+  MatrixXd B_transposed = MatrixXd::Zero(system.velocity_count, system.constraint_count);
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const JointRows& joint = equations.joint(k);
+    const Index column = equations.solver().joint_offset(k);
+    const auto add = [&](std::size_t body, const TransposedRows& rows) {
+      if (body == JointPlace::kNoBody) return;
+      B_transposed.block(system.bodies[body].velocity, column, rows.rows(), joint.rows) +=
+          rows.leftCols(joint.rows);
+    };
+    add(system.places[k].body_i, joint.B_i);
+    add(system.places[k].body_j, joint.B_j);
+  }
+  return B_transposed;
+}
+
+}  // namespace
+
+ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& positions)
+    : equations_(equations), projection_(equations), origin_(positions) {
+  equations_.set_positions(0, origin_);
+  // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
+  const MatrixXd M = assembled_mass(equations_);
+  const Eigen::LLT<MatrixXd> cholesky(M);
+  const MatrixXd rows = cholesky.matrixL().solve(assembled_rows_transposed(equations_));
+  const Index free = M.rows() - rows.cols();
+  MatrixXd rest = MatrixXd::Zero(M.rows(), free);
+  rest.bottomRows(free).setIdentity();
+  if (rows.cols() > 0) rest.applyOnTheLeft(Eigen::HouseholderQR<MatrixXd>(rows).householderQ());
+  N_ = cholesky.matrixU().solve(rest);
+  MN_ = M * N_;
+}
+
+double ReducedDynamics::extent(const VectorXd& xi) const {
+  const System& system = equations_.system();
+  const VectorXd change = N_ * xi;
+  double extent = 0;
+  for (const FreeBody& body : system.bodies) {
+    const auto dQ = change.segment(body.velocity, body.constants.velocity_count());
+    const double deformation =
+        dQ.tail(body.constants.mode_count()).norm() / std::sqrt(body.constants.mass);
+    extent = std::max({extent, dQ.head<3>().norm() / system.size_m, dQ.segment<3>(3).norm(),
+                       deformation / system.size_m});
+  }
+  return extent;
+}
+
+VectorXd ReducedDynamics::positions_at(const VectorXd& xi) {
+  VectorXd positions = origin_;
+  equations_.system().retract(positions, N_ * xi);
+  projection_.converge_positions(0, positions);
+  return positions;
+}
+
+VectorXd ReducedDynamics::solve(const VectorXd& velocities) {
+  equations_.set_velocities(velocities);
+  equations_.solve();
+  return MN_.transpose() * equations_.accelerations();
+}
+
+VectorXd ReducedDynamics::accelerations_at(const VectorXd& xi) {
+  equations_.set_positions(0, positions_at(xi));
+  return solve(VectorXd::Zero(equations_.system().velocity_count));
+}
+
+MatrixXd ReducedDynamics::stiffness() {
+  MatrixXd result(count(), count());
+  for (Index i = 0; i < count(); ++i) {
+    VectorXd xi = VectorXd::Unit(count(), i);
+    const double step = kDifference / extent(xi);
+    xi *= step;
+    result.col(i) = (accelerations_at(-xi) - accelerations_at(xi)) / (2 * step);
+  }
+  return result;
+}
+
+MatrixXd ReducedDynamics::damping() {
+  MatrixXd result(count(), count());
+  equations_.set_positions(0, origin_);
+  for (Index i = 0; i < count(); ++i) {
+    const double step = 1 / extent(VectorXd::Unit(count(), i));
+    const VectorXd velocities = step * N_.col(i);
+    result.col(i) = (solve(-velocities) - solve(velocities)) / (2 * step);
+  }
+  return result;
+}
+
+}  // namespace flexneck::multibody

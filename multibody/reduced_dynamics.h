@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "multibody/equations_of_motion.h"
+#include "multibody/projection.h"
+
+namespace flexneck::multibody {
+
+/// The system seen in k independent coordinates about a configuration that keeps the joints: xi
+/// displaces along the columns of N, a basis of the null space of B that is orthonormal in M
+/// (B N = 0, N^T M N = I), and the joints are closed again behind it. Driven bodies are held. Since
+/// N^T M Vdot = N^T u, the accelerations of xi at rest are minus the gradient of the potential
+/// energy.
+class ReducedDynamics {
+ public:
+  /// @param equations  with Drive::held; must outlive this
+  /// @param positions  of the free bodies, on the joints
+  ReducedDynamics(EquationsOfMotion& equations, const Eigen::VectorXd& positions);
+
+  Eigen::Index count() const { return N_.cols(); }
+  const Eigen::MatrixXd& basis() const { return N_; }
+  /// Largest displacement of a body that xi means: of its origin and its deformation in units of
+  /// the system's size, or its rotation in rad.
+  double extent(const Eigen::VectorXd& xi) const;
+  Eigen::VectorXd positions_at(const Eigen::VectorXd& xi);
+  /// Accelerations of xi, displaced by xi and at rest.
+  Eigen::VectorXd accelerations_at(const Eigen::VectorXd& xi);
+  /// -d accelerations / d xi and -d accelerations / d xidot by central differences, (k, k).
+  Eigen::MatrixXd stiffness();
+  Eigen::MatrixXd damping();
+
+ private:
+  Eigen::VectorXd solve(const Eigen::VectorXd& velocities);
+
+  EquationsOfMotion& equations_;
+  Projection projection_;
+  Eigen::VectorXd origin_;
+  Eigen::MatrixXd N_;
+  Eigen::MatrixXd MN_;
+};
+
+}  // namespace flexneck::multibody
