@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/modal_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fe_modal/assembly.h"
+#include "fe_modal/attached_mass.h"
+#include "fe_modal/cholesky_factor.h"
+#include "fe_modal/eigensolver.h"
+#include "fe_modal/free_nodes.h"
+#include "fe_modal/invariants.h"
+#include "fe_modal/modal_options_check.h"
+#include "fe_modal/mode_conventions.h"
+#include "fe_modal/mode_naming.h"
+#include "fe_modal/rigid_average.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr Eigen::Index kAttachedCount = 6;
+/// Eigenvalues below this share of the shift are rigid-body motions of a free body.
+constexpr double kRigidBody = 1e-6;
+
+/// A held body has a definite stiffness. A free one is shifted below zero by a crude estimate of
+/// its first eigenvalue, (c / L)^2 of the slowest material.
+double shift_for(const mesher::Mesh& mesh, const ModalOptions& options) {
+  if (!options.held_set.empty()) return 0;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL);
+  Eigen::Vector3d high = -low;
+  for (const auto& node : mesh.nodes) {
+    const Eigen::Map<const Eigen::Vector3d> x(node.data());
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  double slowest = HUGE_VAL;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    const mesher::Material& material = mesh.materials.at(block.material);
+    slowest = std::min(slowest, material.youngs_modulus_Pa / material.density_kg_m3);
+  }
+  return -slowest / (high - low).squaredNorm();
+}
+
+Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues) {
+  return eigenvalues.cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
+}
+
+std::vector<Interface> reduce_interfaces(const ModalOptions& options,
+                                         const std::vector<RigidAverage>& averages,
+                                         const std::vector<Eigen::Matrix3Xd>& shapes) {
+  const auto m = static_cast<Eigen::Index>(shapes.size());
+  const Eigen::Matrix3Xd zero = Eigen::Matrix3Xd::Zero(3, m);
+  std::vector<Interface> interfaces;
+  if (!options.held_interface.empty()) {
+    interfaces.push_back({options.held_interface, options.held_position_m, zero, zero});
+  }
+  for (std::size_t k = 0; k < averages.size(); ++k) {
+    Interface interface { options.interfaces[k].name, averages[k].point_m(), zero, zero };
+    for (Eigen::Index l = 0; l < m; ++l) {
+      const Vector6d motion = averages[k].of(shapes[static_cast<std::size_t>(l)]);
+      interface.translation.col(l) = motion.head<3>();
+      interface.rotation.col(l) = motion.tail<3>();
+    }
+    interfaces.push_back(interface);
+  }
+  return interfaces;
+}
+
+std::vector<ModeRecord> describe_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+                                       const std::vector<Eigen::Matrix3Xd>& shapes,
+                                       const Eigen::VectorXd& residuals) {
+  std::vector<RigidAverage> parts;
+  for (const std::string& name : options.rigid_parts) parts.emplace_back(mesh, part(mesh, name));
+  std::vector<Shares> shares;
+  for (const Eigen::Matrix3Xd& shape : shapes) shares.push_back(motion_shares(parts, shape));
+  const std::vector<std::string> names = mode_names(shares);
+  std::vector<ModeRecord> records;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    records.push_back({names[k], "normal", shares[k], residuals[static_cast<Eigen::Index>(k)]});
+  }
+  return records;
+}
+
+/// Position of an interface among options.interfaces; it is known to be there.
+std::size_t interface_index(const ModalOptions& options, const std::string& name) {
+  const auto found = std::find_if(options.interfaces.begin(), options.interfaces.end(),
+                                  [&](const auto& interface) { return interface.name == name; });
+  return static_cast<std::size_t>(found - options.interfaces.begin());
+}
+
+std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
+                                               const FreeNodes& free_nodes,
+                                               const SystemMatrices& system,
+                                               const CholeskyFactor& factor,
+                                               const std::vector<RigidAverage>& averages) {
+  std::vector<AttachedFrequencies> result;
+  for (const RigidAttachment& body : options.attachments) {
+    const RigidAverage& region = averages[interface_index(options, body.interface)];
+    const AttachedMass mass(
+        system.mass.get(), free_nodes, region,
+        rigid_mass_matrix(body.mass_kg, body.center_m - region.point_m(), body.inertia_kg_m2));
+    const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), mass.matrix(), factor,
+                                               std::min(kAttachedCount, free_nodes.dof_count()));
+    result.push_back({body.name, body.interface, frequencies_Hz(pairs.values)});
+  }
+  return result;
+}
+
+}  // namespace
+
+ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+                        const Progress& progress) {
+  const auto report = [&](const std::string& line) {
+    if (progress) progress(line);
+  };
+  check_options(mesh, options);
+  const bool held = !options.held_set.empty();
+  const FreeNodes free_nodes(mesh.nodes.size(), held ? mesh.node_set(options.held_set).nodes
+                                                     : std::vector<std::int32_t>{});
+  report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
+         " degrees of freedom");
+  const SystemMatrices system = assemble(mesh, free_nodes);
+
+  report("factorising the stiffness");
+  const double shift = shift_for(mesh, options);
+  const CholeskyFactor factor(system.stiffness.get(), system.mass.get(), shift);
+  report("solving for " + std::to_string(options.mode_count) + " modes");
+  EigenPairs pairs =
+      lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, options.mode_count);
+  for (double& value : pairs.values) {
+    if (value < kRigidBody * -shift) value = 0;
+  }
+
+  std::vector<RigidAverage> averages;
+  for (const InterfaceDefinition& interface : options.interfaces) {
+    averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
+  }
+  if (options.sign_interface.empty()) {
+    apply_conventions(pairs);
+  } else {
+    apply_conventions(pairs, free_nodes, averages[interface_index(options, options.sign_interface)],
+                      options.length_m);
+  }
+
+  report("reducing to modal coordinates");
+  ModalBody body;
+  body.frequencies_Hz = frequencies_Hz(pairs.values);
+  body.boundary = held ? "fixed: " + options.held_set : "free";
+  body.certificate = "not certified";
+  body.nodes_m.resize(3, free_nodes.node_count());
+  for (Eigen::Index k = 0; k < free_nodes.node_count(); ++k) {
+    body.nodes_m.col(k) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(k)].data());
+  }
+  for (const auto& vector : pairs.vectors.colwise()) {
+    body.shapes.push_back(free_nodes.expand(vector));
+  }
+  body.modes =
+      describe_modes(mesh, options, body.shapes,
+                     relative_residuals(system.stiffness.get(), system.mass.get(), pairs, shift));
+  body.interfaces = reduce_interfaces(options, averages, body.shapes);
+  body.invariants = inertia_invariants(system.nodal_mass, mesh.nodes, body.shapes);
+  const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
+  body.orthogonality =
+      (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
+          .cwiseAbs()
+          .maxCoeff();
+  if (!options.attachments.empty()) report("solving with rigid bodies attached");
+  body.attached = attach_bodies(options, free_nodes, system, factor, averages);
+  return body;
+}
+
+}  // namespace flexneck::fe_modal

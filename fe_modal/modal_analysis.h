@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "fe_modal/body/modal_body.h"
 #include "geometry/foundation/progress.h"
@@ -12,7 +14,8 @@
 
 namespace flexneck::fe_modal {
 
-/// Keeps PETSc and SLEPc (and MPI) initialised while it lives; one at a time. analyse_modes needs it.
+/// Keeps PETSc and SLEPc (and MPI) initialised while it lives; one at a time. analyse_modes needs
+/// it.
 class PetscSession {
  public:
   PetscSession();
@@ -37,14 +40,14 @@ struct RigidAttachment {
   std::string name;
   std::string interface;
   double mass_kg = 0;
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();      ///< mesh frame
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();       ///< mesh frame
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre, mesh axes
 };
 
 struct ModalOptions {
   int mode_count = 10;
-  std::string held_set;            ///< node set held in all directions; empty: a free body
-  std::string held_interface;      ///< name of the interface on the held nodes, modes zero there
+  std::string held_set;        ///< node set held in all directions; empty: a free body
+  std::string held_interface;  ///< name of the interface on the held nodes, modes zero there
   Eigen::Vector3d held_position_m = Eigen::Vector3d::Zero();
   std::vector<InterfaceDefinition> interfaces;
   std::vector<std::string> rigid_parts;  ///< parts whose rigid motions name the modes: the plates

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/body/modal_body.h"
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+InertiaInvariants select(const InertiaInvariants& all, const std::vector<Eigen::Index>& kept) {
+  InertiaInvariants part;
+  part.mass = all.mass;
+  part.S1 = all.S1;
+  part.J0 = all.J0;
+  part.S2 = all.S2(Eigen::all, kept);
+  part.N0 = all.N0(Eigen::all, kept);
+  part.Maa = all.Maa(kept, kept);
+  const auto m = static_cast<std::size_t>(all.Maa.rows());
+  for (const Eigen::Index j : kept) {
+    const auto row = static_cast<std::size_t>(j);
+    part.G0.push_back(all.G0.at(row));
+    for (const Eigen::Index l : kept) {
+      part.G.push_back(all.G.at(row * m + static_cast<std::size_t>(l)));
+      part.N.push_back(all.N.at(row * m + static_cast<std::size_t>(l)));
+    }
+  }
+  return part;
+}
+
+}  // namespace
+
+const Interface& ModalBody::interface(const std::string& name) const {
+  return interfaces[find_name(names_of(interfaces), name, "interface")];
+}
+
+Eigen::Index ModalBody::mode_index(const std::string& name) const {
+  return static_cast<Eigen::Index>(find_name(names_of(modes), name, "mode"));
+}
+
+ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& names) {
+  check_names(names, "mode");
+  std::vector<Eigen::Index> kept;
+  kept.reserve(names.size());
+  for (const std::string& name : names) kept.push_back(body.mode_index(name));
+
+  ModalBody part;
+  part.frequencies_Hz = body.frequencies_Hz(kept);
+  part.boundary = body.boundary;
+  part.certificate = body.certificate;
+  part.orthogonality = body.orthogonality;
+  part.nodes_m = body.nodes_m;
+  part.attached = body.attached;
+  for (const Eigen::Index k : kept) {
+    part.modes.push_back(body.modes.at(static_cast<std::size_t>(k)));
+    part.shapes.push_back(body.shapes.at(static_cast<std::size_t>(k)));
+  }
+  for (const Interface& whole : body.interfaces) {
+    part.interfaces.push_back({whole.name, whole.position_m, whole.translation(Eigen::all, kept),
+                               whole.rotation(Eigen::all, kept)});
+  }
+  part.invariants = select(body.invariants, kept);
+  return part;
+}
+
+}  // namespace flexneck::fe_modal

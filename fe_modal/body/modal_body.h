@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace flexneck::fe_modal {
 
 /// Inertia invariants of a body with m modes: integrals over the undeformed volume (equations.md
-/// section 2, after Yoo and Haug). s0 is the position in the body frame, psi the (3, m) mode shapes,
-/// ~ the skew matrix. SI units; modes are mass-normalised, so a modal coordinate has the unit
-/// kg^(1/2) m and a shape kg^(-1/2).
+/// section 2, after Yoo and Haug). s0 is the position in the body frame, psi the (3, m) mode
+/// shapes, ~ the skew matrix. SI units; modes are mass-normalised, so a modal coordinate has the
+/// unit kg^(1/2) m and a shape kg^(-1/2).
 struct InertiaInvariants {
-  double mass = 0;                     ///< m = int rho, kg
-  Eigen::Vector3d S1;                  ///< int rho s0, kg m
-  Eigen::Matrix3Xd S2;                 ///< int rho psi, (3, m)
-  Eigen::Matrix3d J0;                  ///< -int rho ~s0 ~s0, kg m^2
-  std::vector<Eigen::Matrix3d> G0;     ///< G0[l] = -int rho ~s0 ~psi_l, m of them
-  std::vector<Eigen::Matrix3d> G;      ///< G[j * m + l] = -int rho ~psi_j ~psi_l, m * m of them
-  Eigen::Matrix3Xd N0;                 ///< int rho ~s0 psi, (3, m)
-  std::vector<Eigen::Vector3d> N;      ///< N[j * m + l] = int rho ~psi_j psi_l, m * m of them
-  Eigen::MatrixXd Maa;                 ///< int rho psi^T psi, (m, m): the identity
+  double mass = 0;                  ///< m = int rho, kg
+  Eigen::Vector3d S1;               ///< int rho s0, kg m
+  Eigen::Matrix3Xd S2;              ///< int rho psi, (3, m)
+  Eigen::Matrix3d J0;               ///< -int rho ~s0 ~s0, kg m^2
+  std::vector<Eigen::Matrix3d> G0;  ///< G0[l] = -int rho ~s0 ~psi_l, m of them
+  std::vector<Eigen::Matrix3d> G;   ///< G[j * m + l] = -int rho ~psi_j ~psi_l, m * m of them
+  Eigen::Matrix3Xd N0;              ///< int rho ~s0 psi, (3, m)
+  std::vector<Eigen::Vector3d> N;   ///< N[j * m + l] = int rho ~psi_j psi_l, m * m of them
+  Eigen::MatrixXd Maa;              ///< int rho psi^T psi, (m, m): the identity
 };
 
 /// A place where other bodies attach: a rigid frame that moves with the modes.
@@ -35,8 +37,8 @@ struct Interface {
 struct ModeRecord {
   std::string name;  ///< e.g. "fore-aft bending 1"
   std::string kind;  ///< "normal": an eigenvector with the boundary of ModalBody::boundary
-  /// Per cent of the kinetic energy of the plates' rigid motions: fore-aft (x with theta_y), lateral
-  /// (y with theta_x), twist (theta_z), axial (z).
+  /// Per cent of the kinetic energy of the plates' rigid motions: fore-aft (x with theta_y),
+  /// lateral (y with theta_x), twist (theta_z), axial (z).
   std::array<double, 4> shares_percent{};
   double residual = 0;  ///< ||K x - lambda M x|| / ||K x||
 };

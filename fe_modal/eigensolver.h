@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fe_modal/cholesky_factor.h"
+#include "fe_modal/petsc_handles.h"
+
+namespace flexneck::fe_modal {
+
+/// The lowest eigenpairs of K x = lambda M x.
+struct EigenPairs {
+  Eigen::VectorXd values;   ///< (m), ascending, 1/s^2
+  Eigen::MatrixXd vectors;  ///< (dofs, m), x^T M x = 1
+};
+
+/// Krylov-Schur on the shift-inverted problem (K - shift M)^-1 M. Multiple eigenvalues are found by
+/// a second search, M-orthogonal to what the first has found, until it yields none that belongs
+/// among the lowest.
+/// @param factor of K - shift M, with a shift below all eigenvalues
+/// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
+/// factor if the shift is zero
+/// @param count at most the number of degrees of freedom
+/// @throws ComputationError if the iteration does not converge.
+EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const CholeskyFactor& factor,
+                             Eigen::Index count);
+
+/// ||K x - lambda M x|| / ||K x|| of each pair; of a rigid-body motion, lambda = 0, where that is
+/// not defined, ||K x|| / ||shift M x||.
+Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const EigenPairs& pairs, double shift);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace flexneck::fe_modal {
+
+/// Numbers the nodes that may move; held ones have no degrees of freedom. Degree of freedom
+/// 3 index(k) + a is direction a of node k. Keeps the order of the nodes.
+class FreeNodes {
+ public:
+  /// @param held nodes held in all directions, in range
+  FreeNodes(std::size_t node_count, std::span<const std::int32_t> held);
+
+  Eigen::Index node_count() const { return static_cast<Eigen::Index>(indices_.size()); }
+  Eigen::Index free_count() const { return free_count_; }
+  Eigen::Index dof_count() const { return 3 * free_count_; }
+
+  /// Number of a node among the free ones, -1 if it is held.
+  std::int32_t index(std::int32_t node) const { return indices_[static_cast<std::size_t>(node)]; }
+
+  /// Field on all nodes, (3, n), from its free values (dof_count()); zero on held nodes.
+  Eigen::Matrix3Xd expand(const Eigen::VectorXd& free_values) const;
+  /// Free values of a field on all nodes, (3, n).
+  Eigen::VectorXd restrict(const Eigen::Matrix3Xd& field) const;
+
+ private:
+  std::vector<std::int32_t> indices_;
+  Eigen::Index free_count_ = 0;
+};
+
+}  // namespace flexneck::fe_modal

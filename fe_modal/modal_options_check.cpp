@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/modal_options_check.h"
+
+#include <Eigen/QR>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Three nodes that are not on a line keep a body from turning.
+void check_held(const mesher::Mesh& mesh, const std::string& set) {
+  const std::vector<std::int32_t>& nodes = mesh.node_set(set).nodes;
+  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    positions.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(nodes[k])].data());
+  }
+  positions.colwise() -= positions.rowwise().mean().eval();
+  Eigen::ColPivHouseholderQR<Eigen::Matrix3Xd> decomposition(positions);
+  decomposition.setThreshold(1e-6);
+  if (decomposition.rank() < 2) {
+    throw InputError("held set '" + set + "' has " + std::to_string(nodes.size()) +
+                     " nodes on one line: the body can turn about it; hold an area");
+  }
+}
+
+void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
+  std::vector<std::string> names = names_of(options.interfaces);
+  for (const InterfaceDefinition& interface : options.interfaces) {
+    static_cast<void>(mesh.face_set(interface.set));
+  }
+  if (!options.sign_interface.empty()) {
+    static_cast<void>(find_name(names, options.sign_interface, "interface"));
+    if (!(options.length_m > 0)) {
+      throw InputError("the length that turns rotations into lengths must be positive, found " +
+                       std::to_string(options.length_m) + " m");
+    }
+  }
+  for (const RigidAttachment& attachment : options.attachments) {
+    static_cast<void>(find_name(names, attachment.interface, "interface"));
+    if (options.held_set.empty()) {
+      throw InputError("rigid body '" + attachment.name +
+                       "' is attached to a free body: name a set of nodes to hold");
+    }
+    if (!(attachment.mass_kg >= 0)) {
+      throw InputError("the mass of rigid body '" + attachment.name + "' is negative");
+    }
+  }
+  if (!options.held_interface.empty()) {
+    if (options.held_set.empty()) {
+      throw InputError("interface '" + options.held_interface +
+                       "' is to lie on held nodes, but no set is held");
+    }
+    names.push_back(options.held_interface);
+  }
+  check_names(names, "interface");
+  check_names(names_of(options.attachments), "attachment");
+}
+
+}  // namespace
+
+const mesher::ElementBlock& part(const mesher::Mesh& mesh, const std::string& name) {
+  std::vector<std::string> parts;
+  for (const mesher::ElementBlock& block : mesh.blocks) parts.push_back(block.part);
+  return mesh.blocks[find_name(parts, name, "part")];
+}
+
+void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    if (block.kind != mesher::ElementKind::hex27) {
+      throw InputError("part '" + block.part + "' consists of " +
+                       std::string(mesher::name_of(block.kind)) + ", expected hex27");
+    }
+  }
+  std::size_t held = 0;
+  if (!options.held_set.empty()) {
+    check_held(mesh, options.held_set);
+    held = mesh.node_set(options.held_set).nodes.size();
+  }
+  const std::size_t dofs = 3 * (mesh.nodes.size() - held);
+  if (options.mode_count < 1 || static_cast<std::size_t>(options.mode_count) > dofs) {
+    throw InputError("the number of modes must lie between 1 and the " + std::to_string(dofs) +
+                     " degrees of freedom, found " + std::to_string(options.mode_count));
+  }
+  for (const std::string& name : options.rigid_parts) static_cast<void>(part(mesh, name));
+  check_interfaces(mesh, options);
+}
+
+}  // namespace flexneck::fe_modal

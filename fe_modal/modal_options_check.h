@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fe_modal/modal_analysis.h"
+
+namespace flexneck::fe_modal {
+
+/// @throws InputError for the first option that does not fit the mesh or the other options.
+void check_options(const mesher::Mesh& mesh, const ModalOptions& options);
+
+/// Part of a mesh by name. @throws InputError with the names that there are.
+const mesher::ElementBlock& part(const mesher::Mesh& mesh, const std::string& name);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Which nodes share an element, in compressed rows: the sparsity of every nodal matrix.
+class NodeGraph {
+ public:
+  explicit NodeGraph(const mesher::Mesh& mesh);
+
+  std::int32_t node_count() const { return static_cast<std::int32_t>(offsets_.size()) - 1; }
+  /// Nodes that share an element with this one, itself among them, ascending.
+  std::span<const std::int32_t> neighbours(std::int32_t node) const;
+
+  const std::vector<std::int32_t>& offsets() const { return offsets_; }  ///< (n + 1)
+  const std::vector<std::int32_t>& columns() const { return columns_; }
+
+ private:
+  std::vector<std::int32_t> offsets_;
+  std::vector<std::int32_t> columns_;
+};
+
+}  // namespace flexneck::fe_modal

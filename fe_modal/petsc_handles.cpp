@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/petsc_handles.h"
+
+#include <string>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+
+void require(PetscErrorCode code, std::string_view doing) {
+  if (code == 0) return;
+  const char* text = nullptr;
+  static_cast<void>(PetscErrorMessage(code, &text, nullptr));
+  throw ComputationError("PETSc failed while " + std::string(doing) + ": " +
+                         (text == nullptr ? "unknown error" : text) + " (code " +
+                         std::to_string(static_cast<int>(code)) + ")");
+}
+
+}  // namespace flexneck::fe_modal

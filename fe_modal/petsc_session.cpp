@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <map>
+#include <string>
+
+#include <petscpkg_version.h>
+
+#include "fe_modal/modal_analysis.h"
+#include "fe_modal/petsc_handles.h"
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+
+PetscSession::PetscSession() {
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  PetscBool initialized = PETSC_FALSE;
+  require(PetscInitialized(&initialized), "asking whether PETSc is initialised");
+  if (finalized != 0 || initialized == PETSC_TRUE) {
+    throw ComputationError("PETSc can be initialised once in a process only");
+  }
+  // The process keeps its signal handlers, and neither a user's .petscrc nor the command line
+  // steers the solvers: PETSc sees these arguments only.
+  char name[] = "flexneck";
+  char no_signals[] = "-no_signal_handler";
+  char no_petscrc[] = "-skip_petscrc";
+  char* arguments[] = {name, no_signals, no_petscrc, nullptr};
+  char** argument_list = arguments;
+  int argument_count = 3;
+  require(SlepcInitialize(&argument_count, &argument_list, nullptr, nullptr), "initialising PETSc");
+  // Errors come back as codes, without a trace on the terminal.
+  require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
+}
+
+PetscSession::~PetscSession() { static_cast<void>(SlepcFinalize()); }
+
+std::map<std::string, std::string> library_versions() {
+  const auto join = [](int major, int minor, int patch) {
+    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+  };
+  return {
+      {"PETSc", join(PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
+      {"SLEPc", join(SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
+      {"SuiteSparse", join(PETSC_PKG_SUITESPARSE_VERSION_MAJOR, PETSC_PKG_SUITESPARSE_VERSION_MINOR,
+                           PETSC_PKG_SUITESPARSE_VERSION_SUBMINOR)},
+  };
+}
+
+}  // namespace flexneck::fe_modal

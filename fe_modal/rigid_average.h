@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;  ///< translation (3), then rotation (3)
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// The rigid motion that is nearest to a displacement field on a region in the least-squares sense:
+/// [t; theta] minimises int |u - t - theta x (x - point)|^2 dw, with dw the area of faces or the
+/// mass of elements.
+class RigidAverage {
+ public:
+  /// Area-weighted, over the faces, about the given point.
+  RigidAverage(const mesher::Mesh& mesh, const mesher::FaceSet& faces,
+               const Eigen::Vector3d& point_m);
+  /// Mass-weighted, over the elements, about their centre of mass.
+  RigidAverage(const mesher::Mesh& mesh, const mesher::ElementBlock& block);
+
+  /// @param field displacements of all nodes, (3, n)
+  Vector6d of(const Eigen::Matrix3Xd& field) const;
+
+  /// The six weight vectors as nodal fields, (3, n) each: of(u)[i] is the sum over all entries of
+  /// weights(n)[i] times u.
+  std::array<Eigen::Matrix3Xd, 6> weights(Eigen::Index node_count) const;
+
+  const Eigen::Vector3d& point_m() const { return point_; }
+  /// int R^T R dw with R = [I, -~(x - point)]: of elements the rigid mass matrix about the centre
+  /// of mass, kg, kg m, kg m^2.
+  const Matrix6d& gram() const { return gram_; }
+
+ private:
+  void average(const mesher::Mesh& mesh, mesher::ElementKind kind,
+               const std::vector<std::int32_t>& connectivity, double density);
+
+  Eigen::Vector3d point_;
+  Matrix6d gram_ = Matrix6d::Zero();
+  std::vector<std::int32_t> nodes_;               ///< of the region, ascending
+  Eigen::Matrix<double, 6, Eigen::Dynamic> map_;  ///< (6, 3 nodes_.size())
+};
+
+}  // namespace flexneck::fe_modal
