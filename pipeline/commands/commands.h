@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/console.h"
+#include "pipeline/results_folder.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// What every command gets.
+struct CommandInput {
+  const Study& study;
+  const ResultsFolder& folder;
+  const Console& console;
+};
+
+/// A command returns true unless a verification failed; everything else is an exception.
+struct Command {
+  std::string name;
+  std::string help;
+  bool (*run)(const CommandInput&);
+};
+
+/// All commands, in the order of --help.
+const std::vector<Command>& commands();
+
+bool run_command(const CommandInput& input);
+bool mesh_command(const CommandInput& input);
+bool modes_command(const CommandInput& input);
+bool static_command(const CommandInput& input);
+bool pendulum_command(const CommandInput& input);
+bool verify_command(const CommandInput& input);
+bool study_command(const CommandInput& input);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
+#include "geometry/foundation/error.h"
+#include "mesher/mesh/mesh_file.h"
+#include "mesher/script_mesher.h"
+#include "pipeline/commands/commands.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+mesher::ScriptMeshOptions mesh_options(const GeometrySection& geometry) {
+  mesher::ScriptMeshOptions options;
+  options.script = geometry.script;
+  options.constants = geometry::script_constants(geometry.neck, geometry.divisions);
+  options.materials = geometry.materials;
+  options.material_of_part = geometry.material_of_part;
+  const auto centres = geometry::bolt_centres(geometry.neck);
+  options.patches = {
+      {"bolts", "base", {centres.begin(), centres.end()}, geometry.neck.bolt_patch_radius}};
+  return options;
+}
+
+}  // namespace
+
+bool mesh_command(const CommandInput& input) {
+  if (!input.study.geometry) {
+    throw InputError(input.study.file.string() + ": there is no [geometry], so nothing to mesh");
+  }
+  const GeometrySection& geometry = *input.study.geometry;
+  input.folder.make();
+  input.console.step("Meshing " + geometry.script.filename().string());
+  mesher::MeshFile file;
+  file.mesh = mesher::mesh_script(mesh_options(geometry), input.console.detail());
+  file.provenance = provenance_of(input.study, {"geometry.", "mesh."});
+  file.provenance.inputs.push_back(
+      {geometry.script.filename().string(), hash_of_file(geometry.script.string())});
+  file.provenance.libraries["gmsh"] = mesher::gmsh_version();
+  mesher::write_mesh(input.folder.mesh(), file);
+
+  std::size_t elements = 0;
+  for (const mesher::ElementBlock& block : file.mesh.blocks) elements += block.size();
+  input.console.result(fmt::format("\nMesh: {} elements, {} nodes  ({})", elements,
+                                   file.mesh.nodes.size(), input.folder.mesh().string()));
+  return true;
+}
+
+}  // namespace flexneck::pipeline

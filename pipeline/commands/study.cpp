@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/commands.h"
+#include "pipeline/text_table.h"
+
+namespace flexneck::pipeline {
+
+bool study_command(const CommandInput& input) {
+  std::vector<std::vector<std::string>> rows = {{"input", "value", "origin", "note"}};
+  for (const Parameter& parameter : input.study.parameters) {
+    rows.push_back(
+        {parameter.key, parameter.value, std::string(name_of(parameter.origin)), parameter.note});
+  }
+  input.console.result(text_table(rows, {0, 1, 2, 3}));
+  return true;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/error.h"
+#include "multibody/history_file.h"
+#include "pipeline/commands/commands.h"
+#include "pipeline/verification/verification.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// Linearised motions are computed here; a run is read if it is there.
+PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& experiment,
+                             const fe_modal::ModalBody& body) {
+  PendulumEvidence evidence;
+  evidence.case_name = experiment.name;
+  evidence.with_gravity = first_system_mode(input.study, experiment, body, true);
+  evidence.without_gravity = first_system_mode(input.study, experiment, body, false);
+  const std::filesystem::path path = input.folder.history(experiment);
+  if (!std::filesystem::exists(path)) return evidence;
+  const multibody::HistoryFile file = multibody::read_history(path);
+  require_same_inputs(path, file.provenance, input.study, "flexneck pendulum");
+  evidence.run = pendulum_result(input.study, experiment, file.history);
+  return evidence;
+}
+
+}  // namespace
+
+bool verify_command(const CommandInput& input) {
+  if (input.study.verification.empty()) {
+    throw InputError(input.study.file.string() +
+                     ": output.verification names no table of published figures");
+  }
+  const Reference reference = read_reference(input.study.verification);
+  const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(input.folder.modes());
+  require_same_inputs(input.folder.modes(), modes.provenance, input.study, "flexneck modes");
+  std::vector<PendulumEvidence> pendulum;
+  for (const CaseSection& experiment : input.study.cases) {
+    if (experiment.kind != CaseSection::Kind::pendulum) continue;
+    pendulum.push_back(evidence_of(input, experiment, modes.body));
+  }
+  const VerificationTable table = verify(input.study, modes.body, pendulum, reference);
+
+  Provenance provenance = provenance_of(input.study);
+  for (const std::filesystem::path& path : {input.study.verification, input.folder.modes()}) {
+    provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
+  }
+  write_verification(input.folder.verification(), table, provenance);
+  input.console.result("\nVerification against published figures  (" +
+                       input.folder.verification().string() + ")\n" + printed(table));
+  if (!table.passed()) input.console.error("a verification failed, see the table");
+  return table.passed();
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "geometry/foundation/progress.h"
+
+namespace flexneck::pipeline {
+
+/// How much the command says.
+enum class Verbosity { quiet, normal, verbose };
+
+/// Progress and errors go to standard error, results to standard output.
+class Console {
+ public:
+  explicit Console(Verbosity verbosity);
+
+  void result(const std::string& text) const;  ///< tables; silent when quiet
+  void step(const std::string& line) const;    ///< what is done now; silent when quiet
+  void error(const std::string& line) const;   ///< always
+  Progress detail() const;                     ///< for the stages: shown when verbose
+
+ private:
+  Verbosity verbosity_;
+};
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/bending_plane.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "multibody/load_cell.h"
+
+namespace flexneck::pipeline {
+
+BendingPlane bending_plane(CaseSection::Direction direction) {
+  using Eigen::Vector3d;
+  const bool lateral = direction == CaseSection::Direction::lateral;
+  const Vector3d tip = lateral ? Vector3d::UnitY() : Vector3d::UnitX();
+  const double sense = direction == CaseSection::Direction::extension ? -1 : 1;
+  return {sense * tip, tip, Vector3d::UnitZ().cross(tip), lateral ? 3 : 4};
+}
+
+Eigen::Quaterniond rotation_at(const multibody::MarkerHistory& marker, Eigen::Index k) {
+  const auto q = marker.rotation.col(k);
+  return {q[0], q[1], q[2], q[3]};
+}
+
+Eigen::VectorXd relative_rotation(const multibody::MarkerHistory& marker,
+                                  const multibody::MarkerHistory& reference,
+                                  const BendingPlane& plane) {
+  Eigen::VectorXd angles(marker.rotation.cols());
+  for (Eigen::Index k = 0; k < angles.size(); ++k) {
+    const Eigen::AngleAxisd turn(rotation_at(reference, k).conjugate() * rotation_at(marker, k));
+    angles[k] = std::remainder(turn.angle() * turn.axis().dot(plane.axis), 2 * std::numbers::pi);
+  }
+  return angles;
+}
+
+Eigen::VectorXd bending_moment(const multibody::JointHistory& joint, const BendingPlane& plane) {
+  return multibody::sae_j211(joint).row(plane.moment_channel).transpose();
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "multibody/history.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// The plane in which a case bends the neck, in neck axes (x forward, y left, z to the head).
+struct BendingPlane {
+  Eigen::Vector3d motion;  ///< way the arm moves or the load pushes
+  Eigen::Vector3d tip;     ///< way the head tips when the rotation is positive: +x or +y
+  Eigen::Vector3d axis;    ///< of that rotation, z cross tip
+  int moment_channel;      ///< row of the SAE J211 channels: 3 = Mx, 4 = My
+};
+
+BendingPlane bending_plane(CaseSection::Direction direction);
+
+/// Rotation of a marker at output time k, marker to world.
+Eigen::Quaterniond rotation_at(const multibody::MarkerHistory& marker, Eigen::Index k);
+
+/// Rotation of one marker against another about the plane's axis (the component of the rotation
+/// vector), rad, at every output time.
+Eigen::VectorXd relative_rotation(const multibody::MarkerHistory& marker,
+                                  const multibody::MarkerHistory& reference,
+                                  const BendingPlane& plane);
+
+/// A reaction's moment about the plane's axis with the sign of SAE J211, N m.
+Eigen::VectorXd bending_moment(const multibody::JointHistory& joint, const BendingPlane& plane);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/case_model.h"
+
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
+namespace flexneck::pipeline {
+
+using multibody::Marker;
+using multibody::Model;
+using multibody::Pose;
+using multibody::TimeTable;
+
+namespace {
+
+multibody::DeformableBody deformable(const BodySection& section, const fe_modal::ModalBody& body) {
+  multibody::DeformableBody result;
+  result.modes = fe_modal::select_modes(body, section.modes);
+  result.damping_ratio =
+      Eigen::VectorXd::Constant(result.modes.mode_count(), section.damping_ratio);
+  return result;
+}
+
+void add_body(Model& model, const BodySection& section, const fe_modal::ModalBody& body) {
+  multibody::Body added;
+  added.name = section.name;
+  switch (section.kind) {
+    case BodySection::Kind::ground:
+    case BodySection::Kind::driven:
+      added.kind = multibody::DrivenBody();
+      break;
+    case BodySection::Kind::rigid:
+      added.kind = section.rigid;
+      break;
+    case BodySection::Kind::deformable:
+      added.kind = deformable(section, body);
+      for (const fe_modal::Interface& interface : body.interfaces) {
+        Marker marker;
+        marker.name = section.name + "." + interface.name;
+        marker.body = model.bodies.size();
+        marker.interface = interface.name;
+        model.markers.push_back(marker);
+      }
+      break;
+  }
+  model.bodies.push_back(std::move(added));
+}
+
+/// Frame of a marker in its body's frame, undeformed.
+Pose marker_pose(const Model& model, const Marker& marker) {
+  const auto* const deformable =
+      std::get_if<multibody::DeformableBody>(&model.bodies[marker.body].kind);
+  if (deformable == nullptr) return {marker.position_m, marker.rotation};
+  return {deformable->modes.interface(marker.interface).position_m, marker.rotation};
+}
+
+Pose operator*(const Pose& a, const Pose& b) {
+  return {a.position_m + a.rotation * b.position_m, a.rotation * b.rotation};
+}
+
+Pose inverse(const Pose& a) {
+  const Eigen::Quaterniond back = a.rotation.conjugate();
+  return {-(back * a.position_m), back};
+}
+
+/// Walks from the bodies that stand to all that the joints reach.
+void place_bodies(Model& model, const Eigen::Quaterniond& rotation, const std::string& case_name) {
+  std::vector<bool> placed(model.bodies.size(), false);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    placed[i] = std::holds_alternative<multibody::DrivenBody>(model.bodies[i].kind);
+    if (placed[i]) model.bodies[i].initial_pose.rotation = rotation;
+  }
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (const multibody::Joint& joint : model.joints) {
+      Marker from = model.markers[joint.marker_i];
+      Marker to = model.markers[joint.marker_j];
+      if (placed[to.body]) std::swap(from, to);
+      if (!placed[from.body] || placed[to.body]) continue;
+      model.bodies[to.body].initial_pose = model.bodies[from.body].initial_pose *
+                                           marker_pose(model, from) *
+                                           inverse(marker_pose(model, to));
+      placed[to.body] = progress = true;
+    }
+  }
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (placed[i]) continue;
+    throw InputError("case." + case_name + ": no joint connects the body '" + model.bodies[i].name +
+                     "' with a ground or driven body of the case");
+  }
+}
+
+/// The part of a marker's name before the dot.
+std::string body_of(const std::string& marker) { return marker.substr(0, marker.find('.')); }
+
+}  // namespace
+
+Model case_model(const Study& study, const CaseSection& experiment, const fe_modal::ModalBody& body,
+                 const Eigen::Quaterniond& rotation) {
+  Model model;
+  const auto in_case = [&](const std::string& name) {
+    return std::find(experiment.bodies.begin(), experiment.bodies.end(), name) !=
+           experiment.bodies.end();
+  };
+  for (const std::string& name : experiment.bodies) add_body(model, study.body(name), body);
+  for (const MarkerSection& section : study.markers) {
+    if (!in_case(section.body)) continue;
+    Marker marker;
+    marker.name = section.name;
+    marker.body = model.body_index(section.body);
+    marker.position_m = section.position_m;
+    model.markers.push_back(marker);
+  }
+  for (const JointSection& section : study.joints) {
+    if (!in_case(body_of(section.marker_i)) || !in_case(body_of(section.marker_j))) continue;
+    multibody::Joint joint;
+    joint.name = section.name;
+    joint.kind = section.kind;
+    joint.marker_i = model.marker_index(section.marker_i);
+    joint.marker_j = model.marker_index(section.marker_j);
+    joint.axis = section.axis;
+    model.joints.push_back(joint);
+  }
+  for (const std::string& name : experiment.forces) {
+    const ForceSection& section = study.forces[find_name(names_of(study.forces), name, "force")];
+    multibody::PointForce force;
+    force.name = section.name;
+    force.marker = model.marker_index(section.marker);
+    force.direction = section.direction;
+    force.magnitude_N =
+        TimeTable(section.times_s, section.magnitudes_N, TimeTable::Outside::constant);
+    model.forces.push_back(std::move(force));
+  }
+  place_bodies(model, rotation, experiment.name);
+  return model;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/static_test.h"
+
+#include "pipeline/experiments/bending_plane.h"
+#include "pipeline/experiments/case_model.h"
+
+namespace flexneck::pipeline {
+
+multibody::Model static_test_model(const Study& study, const CaseSection& experiment,
+                                   const fe_modal::ModalBody& body) {
+  return case_model(study, experiment, body, Eigen::Quaterniond::Identity());
+}
+
+StaticTestSignals static_test_signals(const multibody::History& history,
+                                      const CaseSection& experiment) {
+  const multibody::MarkerHistory& top = history.marker("neck.top");
+  const BendingPlane plane = bending_plane(experiment.direction);
+  StaticTestSignals signals;
+  signals.rotation = relative_rotation(top, history.marker("neck.base"), plane);
+  signals.base_moment = bending_moment(history.joint("clamp"), plane);
+  signals.deflection =
+      (plane.tip.transpose() * (top.position_m.colwise() - top.position_m.col(0))).transpose();
+  return signals;
+}
+
+namespace {
+
+/// Slope of the moment over the rotation between two samples.
+double stiffness(const StaticTestSignals& signals, Eigen::Index from, Eigen::Index to) {
+  return (signals.base_moment[to] - signals.base_moment[from]) /
+         (signals.rotation[to] - signals.rotation[from]);
+}
+
+}  // namespace
+
+StaticTestResult static_test_result(const multibody::History& history,
+                                    const CaseSection& experiment) {
+  const StaticTestSignals signals = static_test_signals(history, experiment);
+  const Eigen::Index last = history.time_s.size() - 1;
+  const Eigen::Index tenth = last / 10;
+  StaticTestResult result;
+  result.rotation = signals.rotation[last];
+  result.base_moment = signals.base_moment[last];
+  result.deflection = signals.deflection[last];
+  result.initial_stiffness = stiffness(signals, 0, tenth);
+  result.final_stiffness = stiffness(signals, last - tenth, last);
+  return result;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "multibody/history.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// The static neck tester: base clamped, no gravity, a force at the joint point that keeps its
+/// direction in space. The study's joint is named clamp.
+multibody::Model static_test_model(const Study& study, const CaseSection& experiment,
+                                   const fe_modal::ModalBody& body);
+
+/// Curves over time.
+struct StaticTestSignals {
+  Eigen::VectorXd rotation;     ///< of the top against the base, rad, forward (or +y) positive
+  Eigen::VectorXd base_moment;  ///< N m, SAE J211 sign of the channel (My or Mx)
+  Eigen::VectorXd deflection;   ///< of the joint point, m
+};
+
+StaticTestSignals static_test_signals(const multibody::History& history,
+                                      const CaseSection& experiment);
+
+/// End of the ramp and slopes of the moment over the rotation.
+struct StaticTestResult {
+  double rotation = 0;           ///< rad
+  double base_moment = 0;        ///< N m
+  double deflection = 0;         ///< m
+  double initial_stiffness = 0;  ///< N m/rad, over the first tenth of the ramp
+  double final_stiffness = 0;    ///< N m/rad, over the last tenth
+};
+
+StaticTestResult static_test_result(const multibody::History& history,
+                                    const CaseSection& experiment);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/commands/commands.h"
+#include "pipeline/version.h"
+
+namespace {
+
+using namespace flexneck::pipeline;
+
+constexpr int kVerificationFailed = 1;
+constexpr int kUnusableInput = 2;
+constexpr int kComputationFailed = 3;
+
+struct Arguments {
+  std::string command = "run";
+  std::string study;
+  std::string folder = "out";
+  std::vector<std::string> settings;
+  bool quiet = false;
+  bool verbose = false;
+
+  Verbosity verbosity() const {
+    return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+  }
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.set_version_flag("--version", std::string("flexneck ") + kVersion + " (" + kGitHash + ")");
+  app.add_option("command", arguments.command, "What to do; see below")->option_text("COMMAND");
+  app.add_option("study", arguments.study, "Study file; default: the built-in Hybrid III study")
+      ->option_text("STUDY.toml");
+  app.add_option("-o,--output", arguments.folder, "Folder for results")->option_text("DIR [out]");
+  app.add_option("--set", arguments.settings, "Use another value, e.g. modes.count=12")
+      ->option_text("KEY=VALUE ...")
+      ->allow_extra_args(false);
+  CLI::Option* const quiet = app.add_flag("-q,--quiet", arguments.quiet, "Print errors only");
+  app.add_flag("-v,--verbose", arguments.verbose, "Print what each stage does")->excludes(quiet);
+  std::string footer = "Commands:\n";
+  for (const Command& command : commands()) {
+    footer +=
+        "  " + command.name + std::string(12 - command.name.size(), ' ') + command.help + "\n";
+  }
+  app.footer(footer +
+             "\nExit codes: 0 done, 1 a verification failed, 2 unusable input, "
+             "3 a computation failed.");
+}
+
+bool execute(const Arguments& arguments, const Console& console) {
+  const std::vector<Command>& list = commands();
+  const std::size_t which =
+      flexneck::find_name(flexneck::names_of(list), arguments.command, "command");
+  const Study study = read_study(
+      arguments.study.empty() ? built_in_study() : std::filesystem::path(arguments.study),
+      arguments.settings);
+  const ResultsFolder folder(arguments.folder);
+  return list[which].run({study, folder, console});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("From the geometry of a manikin's neck to its motion.", "flexneck");
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUnusableInput;
+  }
+  const Console console(arguments.verbosity());
+  try {
+    return execute(arguments, console) ? 0 : kVerificationFailed;
+  } catch (const flexneck::InputError& error) {
+    console.error(error.what());
+    return kUnusableInput;
+  } catch (const std::exception& error) {
+    console.error(error.what());
+    return kComputationFailed;
+  }
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/results_folder.h"
+
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/version.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+void ResultsFolder::make() const {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error || !fs::is_directory(path_)) {
+    throw InputError(path_.string() + ": cannot be made a folder for results (" +
+                     (error ? error.message() : "it is a file") + "); choose another with -o");
+  }
+}
+
+fs::path ResultsFolder::history(const CaseSection& experiment) const {
+  const bool pendulum = experiment.kind == CaseSection::Kind::pendulum;
+  return path_ / ((pendulum ? "pendulum-" : "static-") + experiment.name + ".h5");
+}
+
+Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes) {
+  Provenance provenance;
+  provenance.program = std::string("flexneck ") + kVersion;
+  provenance.git_hash = kGitHash;
+  provenance.inputs = study.files;
+  const auto wanted = [&](const Parameter& parameter) {
+    return prefixes.empty() ||
+           std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
+             return parameter.key.starts_with(prefix);
+           });
+  };
+  std::copy_if(study.parameters.begin(), study.parameters.end(),
+               std::back_inserter(provenance.parameters), wanted);
+  return provenance;
+}
+
+void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,
+                         const std::string& made_by) {
+  for (const Parameter& then : made_from.parameters) {
+    const auto now =
+        std::find_if(study.parameters.begin(), study.parameters.end(),
+                     [&](const Parameter& parameter) { return parameter.key == then.key; });
+    if (now == study.parameters.end() || now->value == then.value) continue;
+    throw InputError(file.string() + ": was made with " + then.key + " = " + then.value +
+                     ", the study has " + now->value + "; make it again with '" + made_by + "'");
+  }
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/provenance.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// Where a study's files are.
+class ResultsFolder {
+ public:
+  explicit ResultsFolder(std::filesystem::path path) : path_(std::move(path)) {}
+
+  /// @throws InputError if the folder cannot be made.
+  void make() const;
+  std::filesystem::path mesh() const { return path_ / "mesh.h5"; }
+  std::filesystem::path modes() const { return path_ / "modes.h5"; }
+  std::filesystem::path history(const CaseSection& experiment) const;
+  std::filesystem::path verification() const { return path_ / "verification.json"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What a result of this study was made from: the program, the study's files, and those of its
+/// values whose key begins with one of the prefixes, such as "geometry." (all if there is none).
+Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes = {});
+
+/// Refuses a file that was made with other values than the study has now.
+/// @throws InputError naming the first value that differs, and the command that makes the file.
+void require_same_inputs(const std::filesystem::path& file, const Provenance& made_from,
+                         const Study& study, const std::string& made_by);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace flexneck::pipeline {
+
+/// Published figures of the neck, SI units.
+struct Reference {
+  double tolerance_percent = 0;
+  std::vector<double> bending_Hz, torsion_Hz;  ///< ascending
+  std::vector<std::string> mode_order;         ///< kinds in the published order
+  double weight_kg = 0;
+  double system_frequency_Hz = 0;
+  double frequency_ratio = 0;  ///< first bending frequency over the system's
+  double effective_damping = 0;
+};
+
+/// @throws InputError if the file does not say what it must.
+Reference read_reference(const std::filesystem::path& path);
+
+}  // namespace flexneck::pipeline

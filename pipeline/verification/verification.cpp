@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/verification/verification.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/units.h"
+#include "pipeline/text_table.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+using Status = VerificationRow::Status;
+
+bool is_fitted(const Study& study, const std::string& what) {
+  if (!study.geometry) return false;
+  const auto& fitted = study.geometry->fitted_to;
+  return std::find(fitted.begin(), fitted.end(), what) != fitted.end();
+}
+
+/// Kind of motion that a mode is named after: "bending", "torsion" or "axial".
+std::string kind_of(const fe_modal::ModeRecord& mode) {
+  for (const char* kind : {"bending", "torsion", "axial"}) {
+    if (mode.name.find(kind) != std::string::npos) return kind;
+  }
+  return "other";
+}
+
+/// Modes of a kind in ascending order of frequency, as positions in the body's list.
+std::vector<std::size_t> modes_of_kind(const fe_modal::ModalBody& body, const std::string& kind) {
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < body.modes.size(); ++k) {
+    if (kind_of(body.modes[k]) == kind) found.push_back(k);
+  }
+  return found;
+}
+
+double percent_off(double value, double reference) { return 100 * (value / reference - 1); }
+
+void add_frequencies(VerificationTable& table, const fe_modal::ModalBody& body,
+                     const std::string& kind, const std::vector<double>& references_Hz,
+                     double tolerance_percent, bool fitted) {
+  const std::vector<std::size_t> modes = modes_of_kind(body, kind);
+  for (std::size_t rank = 0; rank < references_Hz.size(); ++rank) {
+    VerificationRow row;
+    row.quantity = kind + " " + std::to_string(rank + 1);
+    row.unit = "Hz";
+    row.reference = fmt::format("{:.1f}", references_Hz[rank]);
+    row.fitted = fitted;
+    if (rank < modes.size()) {
+      const double value = body.frequencies_Hz[static_cast<Eigen::Index>(modes[rank])];
+      row.detail = body.modes[modes[rank]].name;
+      row.value = fmt::format("{:.3f}", value);
+      row.error_percent = percent_off(value, references_Hz[rank]);
+      row.status =
+          std::abs(*row.error_percent) <= tolerance_percent ? Status::passed : Status::failed;
+    } else {
+      row.detail = "not among the modes computed; raise modes.count";
+      row.status = Status::failed;
+    }
+    table.rows.push_back(std::move(row));
+  }
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// Order of the modes, and the twist that the paper sees in the second.
+void add_mode_character(VerificationTable& table, const fe_modal::ModalBody& body,
+                        const Reference& reference) {
+  std::vector<std::string> order;
+  for (std::size_t k = 0; k < std::min(body.modes.size(), reference.mode_order.size()); ++k) {
+    order.push_back(kind_of(body.modes[k]));
+  }
+  VerificationRow row;
+  row.quantity = "mode order";
+  row.detail = order == reference.mode_order ? "the same" : "differs";
+  row.value = joined(order);
+  row.reference = joined(reference.mode_order);
+  table.rows.push_back(row);
+  const std::vector<std::size_t> bending = modes_of_kind(body, "bending");
+  for (std::size_t rank = 0; rank < std::min<std::size_t>(2, bending.size()); ++rank) {
+    const fe_modal::ModeRecord& mode = body.modes[bending[rank]];
+    VerificationRow twist;
+    twist.quantity = "twist of bending " + std::to_string(rank + 1);
+    twist.detail = mode.name;
+    twist.unit = "%";
+    twist.value = fmt::format("{:.2f}", mode.shares_percent[2]);
+    twist.reference = rank == 1 ? "some" : "none told";
+    table.rows.push_back(twist);
+  }
+}
+
+VerificationRow compared(const std::string& quantity, const std::string& detail,
+                         const std::string& unit, double value, double reference, bool fitted) {
+  VerificationRow row;
+  row.quantity = quantity;
+  row.detail = detail;
+  row.unit = unit;
+  row.value = fmt::format("{:.3f}", value);
+  row.reference = fmt::format("{:g}", reference);
+  row.error_percent = percent_off(value, reference);
+  row.fitted = fitted;
+  return row;
+}
+
+void add_system(VerificationTable& table, const Study& study, const fe_modal::ModalBody& body,
+                const std::vector<PendulumEvidence>& pendulum, const Reference& reference) {
+  const bool fitted = is_fitted(study, "system frequency");
+  const auto frequency = [&](const std::string& detail, double value) {
+    table.rows.push_back(
+        compared("system frequency", detail, "Hz", value, reference.system_frequency_Hz, fitted));
+  };
+  for (const fe_modal::AttachedFrequencies& attached : body.attached) {
+    frequency("finite elements, " + attached.body + " on " + attached.interface + ", no gravity",
+              attached.frequencies_Hz[0]);
+  }
+  for (const PendulumEvidence& evidence : pendulum) {
+    frequency(evidence.case_name + ", eigenvalue, no gravity",
+              evidence.without_gravity.frequency_Hz);
+    frequency(evidence.case_name + ", eigenvalue, gravity", evidence.with_gravity.frequency_Hz);
+    if (evidence.run && evidence.run->run_frequency_Hz) {
+      frequency(evidence.case_name + ", run (damped)", *evidence.run->run_frequency_Hz);
+    }
+    table.rows.push_back(compared("frequency ratio", evidence.case_name + ", eigenvalue, gravity",
+                                  "1", body.frequencies_Hz[0] / evidence.with_gravity.frequency_Hz,
+                                  reference.frequency_ratio, fitted));
+    table.rows.push_back(compared("effective damping", evidence.case_name + ", eigenvalue, gravity",
+                                  "1", evidence.with_gravity.damping_ratio,
+                                  reference.effective_damping, false));
+    if (evidence.run && evidence.run->run_damping_ratio) {
+      table.rows.push_back(compared("effective damping", evidence.case_name + ", run, peak to peak",
+                                    "1", *evidence.run->run_damping_ratio,
+                                    reference.effective_damping, false));
+    }
+  }
+}
+
+}  // namespace
+
+bool VerificationTable::passed() const {
+  return std::none_of(rows.begin(), rows.end(),
+                      [](const VerificationRow& row) { return row.status == Status::failed; });
+}
+
+VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
+                         const std::vector<PendulumEvidence>& pendulum,
+                         const Reference& reference) {
+  VerificationTable table;
+  const bool fitted = is_fitted(study, "frequencies");
+  const double tolerance = reference.tolerance_percent;
+  add_frequencies(table, body, "bending", reference.bending_Hz, tolerance, fitted);
+  add_frequencies(table, body, "torsion", reference.torsion_Hz, tolerance, fitted);
+  add_mode_character(table, body, reference);
+  const double pound = factor_from_si("kg", "lb");
+  table.rows.push_back(compared("weight", "of the mesh", "lb", body.invariants.mass * pound,
+                                reference.weight_kg * pound, is_fitted(study, "weight")));
+  add_system(table, study, body, pendulum, reference);
+  return table;
+}
+
+std::string printed(const VerificationTable& table) {
+  std::vector<std::vector<std::string>> rows = {
+      {"quantity", "how", "computed", "published", "unit", "error %", "", ""}};
+  for (const VerificationRow& row : table.rows) {
+    const char* const verdict = row.status == Status::passed   ? "pass"
+                                : row.status == Status::failed ? "FAIL"
+                                                               : "";
+    rows.push_back({row.quantity, row.detail, row.value, row.reference, row.unit,
+                    row.error_percent ? fmt::format("{:+.2f}", *row.error_percent) : "", verdict,
+                    row.fitted ? "fitted" : ""});
+  }
+  return text_table(rows, {0, 1, 6, 7});
+}
+
+}  // namespace flexneck::pipeline

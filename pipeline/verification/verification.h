@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fe_modal/body/modal_body.h"
+#include "geometry/foundation/provenance.h"
+#include "pipeline/experiments/pendulum.h"
+#include "pipeline/study/study.h"
+#include "pipeline/verification/reference.h"
+
+namespace flexneck::pipeline {
+
+/// One figure beside its published counterpart.
+struct VerificationRow {
+  enum class Status { passed, failed, compared };
+  std::string quantity;  ///< "bending 1", "weight", …
+  std::string detail;    ///< which mode, which method
+  std::string unit;      ///< of value and reference: "Hz", "lb", "1", or empty for texts
+  std::string value;     ///< as printed
+  std::string reference;
+  std::optional<double> error_percent;
+  Status status = Status::compared;
+  bool fitted = false;  ///< the geometry was fitted to this figure
+};
+
+struct VerificationTable {
+  std::vector<VerificationRow> rows;
+  bool passed() const;
+};
+
+/// What the pendulum says of one case, as far as it was run.
+struct PendulumEvidence {
+  std::string case_name;
+  multibody::SystemMode with_gravity, without_gravity;
+  std::optional<PendulumResult> run;
+};
+
+/// The six frequencies, paired by kind and rank, pass or fail; the rest is shown beside.
+VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
+                         const std::vector<PendulumEvidence>& pendulum, const Reference& reference);
+
+std::string printed(const VerificationTable& table);
+
+/// JSON, under a temporary name that is renamed.
+void write_verification(const std::filesystem::path& path, const VerificationTable& table,
+                        const Provenance& provenance);
+
+}  // namespace flexneck::pipeline
