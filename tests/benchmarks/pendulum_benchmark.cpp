@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Times the first 0.25 s of a pendulum run. README.md says what is compared.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "multibody/simulation.h"
+#include "tests/support/test_models.h"
+
+namespace {
+
+using namespace flexneck::multibody;
+using namespace flexneck::testing;
+using Eigen::Vector3d;
+
+constexpr int kDefaultRuns = 51;
+const SolverOptions kSolver{.relative_tolerance = 1e-6, .absolute_tolerance = 1e-9};
+const OutputOptions kOutput{.end_time_s = 0.25, .interval_s = 1e-3};
+
+/// An arm that comes at 7.01 m/s and is stopped by a pulse like a certification test's.
+DrivenBody make_arm() {
+  constexpr double g = 9.80665;
+  const TimeTable pulse({0, 0.004, 0.010, 0.020, 0.030, 0.0365, 0.042},
+                        {0, -24.15 * g, -24.15 * g, -19.45 * g, -14.95 * g, -13.85 * g, 0},
+                        TimeTable::Outside::zero);
+  return {Vector3d::UnitX(), 7.01, pulse};
+}
+
+Model flexible_neck() {
+  ModelBuilder build = head_on_neck(make_arm(), hanging_pose(), Beam{}, 0.9, make_head());
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  return build.model;
+}
+
+/// The same neck as one stiff piece that swings on a ball joint.
+Model rigid_neck() {
+  Model model = flexible_neck();
+  const flexneck::fe_modal::ModalBody beam = std::get<DeformableBody>(model.bodies[1].kind).modes;
+  RigidBody neck;
+  neck.mass_kg = beam.invariants.mass;
+  neck.center_m = beam.invariants.S1 / neck.mass_kg;
+  neck.inertia_kg_m2 = beam.invariants.J0 -
+                       neck.mass_kg * (neck.center_m.squaredNorm() * Eigen::Matrix3d::Identity() -
+                                       neck.center_m * neck.center_m.transpose());
+  model.bodies[1].kind = neck;
+  for (Marker& marker : model.markers) {
+    if (!marker.interface.empty()) marker.position_m = beam.interface(marker.interface).position_m;
+    marker.interface.clear();
+  }
+  model.joints[0].kind = JointKind::ball;
+  return model;
+}
+
+struct Timing {
+  double median_ms;
+  double fastest_ms;
+  StepStatistics steps;
+};
+
+Timing measure(const Model& model, int runs) {
+  Timing timing{};
+  std::vector<double> times_ms;
+  for (int run = 0; run < runs; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    timing.steps = simulate_from_equilibrium(model, kSolver, kOutput).statistics;
+    const std::chrono::duration<double, std::milli> spent =
+        std::chrono::steady_clock::now() - start;
+    times_ms.push_back(spent.count());
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  timing.median_ms = times_ms[times_ms.size() / 2];
+  timing.fastest_ms = times_ms.front();
+  return timing;
+}
+
+void print(const char* name, const Timing& timing) {
+  std::printf("%-14s %8.3f ms %8.3f ms %7d steps %3d rejected %7d right-hand sides\n", name,
+              timing.median_ms, timing.fastest_ms, timing.steps.accepted, timing.steps.rejected,
+              timing.steps.evaluations);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int runs = argc > 1 ? std::atoi(argv[1]) : kDefaultRuns;
+  if (runs < 1) {
+    std::fprintf(stderr, "usage: %s [RUNS]\n", argv[0]);
+    return 2;
+  }
+  const Timing flexible = measure(flexible_neck(), runs);
+  const Timing rigid = measure(rigid_neck(), runs);
+  std::printf("pendulum, 0.25 s, relative tolerance 1e-6, %d runs: median, fastest\n", runs);
+  print("4 modes", flexible);
+  print("rigid neck", rigid);
+  std::printf("ratio of the medians %.2f\n", flexible.median_ms / rigid.median_ms);
+  return 0;
+}

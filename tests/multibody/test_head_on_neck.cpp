@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Driven base - neck - head: against the form without multipliers (equations.md section 6).
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "multibody/simulation.h"
+#include "tests/support/test_models.h"
+
+using namespace flexneck::multibody;
+using namespace flexneck::testing;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const SolverOptions kTight{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-13};
+
+Matrix3d skew(const Vector3d& v) {
+  Matrix3d result;
+  result << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return result;
+}
+
+Matrix3d turn_by(const Vector3d& theta) {
+  return theta.norm() > 0 ? Eigen::AngleAxisd(theta.norm(), theta.normalized()).toRotationMatrix()
+                          : Matrix3d::Identity();
+}
+
+/// Left Jacobian of the rotation vector as the mean of the rotations on the way,
+/// J_l = int_0^1 exp(u ~theta) du, by five Gauss points on eight pieces.
+Matrix3d left_jacobian(const Vector3d& theta) {
+  constexpr double kNodes[] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
+                               0.953089922969332};
+  constexpr double kWeights[] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
+                                 0.239314335249683, 0.118463442528095};
+  Matrix3d sum = Matrix3d::Zero();
+  for (int piece = 0; piece < 8; ++piece) {
+    for (int k = 0; k < 5; ++k) sum += kWeights[k] / 8 * turn_by((piece + kNodes[k]) / 8 * theta);
+  }
+  return sum;
+}
+
+/// d/dt of left_jacobian along `rate`, by differences of fourth order.
+Matrix3d left_jacobian_rate(const Vector3d& theta, const Vector3d& rate) {
+  if (rate.norm() == 0) return Matrix3d::Zero();
+  const double h = 1e-3 / rate.norm();
+  const auto at = [&](double t) { return left_jacobian(theta + t * rate); };
+  return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+}
+
+/// The neck's root moves with the base, the head with the neck's top: only the modes are unknown.
+struct MinimalModel {
+  flexneck::fe_modal::ModalBody neck;
+  double zeta;
+  RigidBody head;
+  Vector3d gravity_N;    ///< in neck axes, which the base keeps
+  Vector3d direction_N;  ///< of the base's acceleration, neck axes
+  TimeTable acceleration;
+
+  VectorXd accelerations(double t, const VectorXd& a, const VectorXd& rate) const {
+    const Eigen::Matrix3Xd& psi = neck.interface("top").translation;
+    const Eigen::Matrix3Xd& mu = neck.interface("top").rotation;
+    const Vector3d theta = mu * a;
+    const Matrix3d R = turn_by(theta);
+    const Eigen::Matrix3Xd J_mu = left_jacobian(theta) * mu;
+    // In the head's axes: angular velocity, and the part of its rate that a'' does not make.
+    const Eigen::Matrix3Xd Jw = R.transpose() * J_mu;
+    const Vector3d w = Jw * rate;
+    const Vector3d w_rate = R.transpose() * left_jacobian_rate(theta, mu * rate) * (mu * rate);
+    const Vector3d moment = head.mass_kg * head.center_m;
+    const Matrix3d inertia =
+        head.inertia_kg_m2 - head.mass_kg * skew(head.center_m) * skew(head.center_m);
+    const Vector3d base = acceleration.value(t) * direction_N - gravity_N;
+    const Eigen::MatrixXd mass =
+        neck.invariants.Maa + psi.transpose() * (head.mass_kg * psi - R * skew(moment) * Jw) +
+        Jw.transpose() * (skew(moment) * R.transpose() * psi + inertia * Jw);
+    const Vector3d force =
+        head.mass_kg * base - R * skew(moment) * w_rate + R * w.cross(w.cross(moment));
+    const Vector3d torque =
+        moment.cross(R.transpose() * base) + inertia * w_rate + w.cross(inertia * w);
+    const Eigen::ArrayXd omega = 2 * kPi * neck.frequencies_Hz.array();
+    const VectorXd load = -(omega.square() * a.array() + 2 * zeta * omega * rate.array()).matrix() -
+                          neck.invariants.S2.transpose() * base - psi.transpose() * force -
+                          Jw.transpose() * torque;
+    return mass.ldlt().solve(load);
+  }
+};
+
+/// Modal coordinates at each whole interval by the classical Runge-Kutta rule from rest.
+std::vector<VectorXd> integrate(const MinimalModel& model, double interval_s, int intervals,
+                                int steps) {
+  const Eigen::Index m = model.neck.mode_count();
+  VectorXd a = VectorXd::Zero(m);
+  VectorXd v = VectorXd::Zero(m);
+  std::vector<VectorXd> found = {a};
+  const double h = interval_s / steps;
+  for (int k = 0; k < intervals; ++k) {
+    for (int step = 0; step < steps; ++step) {
+      const double t = k * interval_s + step * h;
+      const VectorXd f1 = model.accelerations(t, a, v);
+      const VectorXd v2 = v + h / 2 * f1;
+      const VectorXd f2 = model.accelerations(t + h / 2, a + h / 2 * v, v2);
+      const VectorXd v3 = v + h / 2 * f2;
+      const VectorXd f3 = model.accelerations(t + h / 2, a + h / 2 * v2, v3);
+      const VectorXd v4 = v + h * f3;
+      const VectorXd f4 = model.accelerations(t + h, a + h * v3, v4);
+      a += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
+      v += h / 6 * (f1 + 2 * f2 + 2 * f3 + f4);
+    }
+    found.push_back(a);
+  }
+  return found;
+}
+
+/// A stop from 7 m/s that bends the neck by about a right angle; its kinks lie on the grid below.
+TimeTable strong_pulse() {
+  return {{0.0, 0.01, 0.03, 0.04}, {0.0, -260.0, -200.0, 0.0}, TimeTable::Outside::zero};
+}
+
+}  // namespace
+
+TEST_CASE("Driven base, neck and head move as the modal coordinates alone do") {
+  const Vector3d direction_N = Vector3d(0.9, 0.5, 0.1).normalized();
+  Beam beam;
+  beam.twist_modes = 1;
+  const Pose pose = hanging_pose();
+  const RigidBody head = make_head();
+  const DrivenBody base{pose.rotation * direction_N, 7, strong_pulse()};
+  ModelBuilder build = head_on_neck(base, pose, beam, 0.9, head);
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  const History history = simulate(build.model, kTight, {.end_time_s = 0.1, .interval_s = 0.01});
+
+  const MinimalModel minimal{make_beam_body(beam),
+                             0.9,
+                             head,
+                             pose.rotation.conjugate() * build.model.gravity_m_s2,
+                             direction_N,
+                             strong_pulse()};
+  const std::vector<VectorXd> coarse = integrate(minimal, 0.01, 10, 400);
+  const std::vector<VectorXd> fine = integrate(minimal, 0.01, 10, 800);
+  const double largest = history.modal[0].coordinates.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    // The reference is converged, and the run agrees with it.
+    CHECK((coarse[at] - fine[at]).norm() < 1e-8 * largest);
+    CHECK((history.modal[0].coordinates.col(k) - fine[at]).norm() < 1e-8 * largest);
+  }
+  // It is a large motion in space, so that every term matters.
+  const Eigen::AngleAxisd turned(pose.rotation.conjugate() *
+                                 rotation_at(history.marker("head cg").rotation, 6));
+  CHECK(turned.angle() > 0.8);
+}
+
+TEST_CASE("A pulse at 45 degrees on equal bending modes and a centred head makes no yaw") {
+  Beam beam;
+  beam.lateral_Hz = beam.fore_aft_Hz;
+  RigidBody head;
+  head.mass_kg = 4.5;
+  head.center_m = {0, 0, 0.0508};
+  head.inertia_kg_m2 = Vector3d(0.02, 0.02, 0.015).asDiagonal();
+  const Pose pose = hanging_pose();
+  const Vector3d diagonal_N = Vector3d(1, 1, 0).normalized();
+  ModelBuilder build =
+      head_on_neck({pose.rotation * diagonal_N, 7, strong_pulse()}, pose, beam, 0.9, head);
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  const History history = simulate(build.model, kTight, {.end_time_s = 0.25, .interval_s = 0.005});
+  double largest_turn = 0;
+  for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
+    const Eigen::AngleAxisd turned(pose.rotation.conjugate() *
+                                   rotation_at(history.marker("head cg").rotation, k));
+    largest_turn = std::max(largest_turn, turned.angle());
+    CHECK(std::abs(turned.angle() * turned.axis().z()) < 1e-8);
+    const Vector3d way = pose.rotation.conjugate() * (history.marker("head cg").position_m.col(k) -
+                                                      history.marker("base").position_m.col(k));
+    CHECK(std::abs(way.x() - way.y()) < 1e-8);
+  }
+  CHECK(largest_turn > 0.8);
+}
