@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh_measures.h"

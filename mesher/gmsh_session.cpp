@@ -43,6 +43,8 @@ GmshSession::GmshSession() {
   }
   gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
   gmsh::option::setNumber("General.Terminal", 0);
+  // The constants of earlier scripts outlive gmsh::finalize() and would override new ones.
+  gmsh::onelab::clear();
 }
 
 GmshSession::~GmshSession() {

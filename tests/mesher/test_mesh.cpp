@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <functional>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "mesher/mesh/mesh.h"
+#include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/mesh_summary.h"
+#include "tests/mesher/small_mesh.h"
+
+namespace flexneck::mesher {
+namespace {
+
+using Catch::Matchers::Contains;
+
+constexpr double kRounding = 1e-14;
+
+std::string refusal(const std::function<void(Mesh&)>& change) {
+  Mesh mesh = test::small_mesh();
+  change(mesh);
+  try {
+    check(mesh);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a sound mesh passes the check") { CHECK_NOTHROW(check(test::small_mesh())); }
+
+TEST_CASE("node indices out of range are refused") {
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[1].nodes[5] = 45; }),
+             Contains("part 'lower' refers to node 45") && Contains("45 nodes"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].nodes[0] = -1; }),
+             Contains("face set 'floor' refers to node -1"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.node_sets[0].nodes[8] = 99; }),
+             Contains("node set 'floor' refers to node 99"));
+}
+
+TEST_CASE("loose nodes and nodes without position are refused") {
+  CHECK_THAT(refusal([](Mesh& mesh) {
+               mesh.nodes.push_back({9, 9, 9});
+             }),
+             Contains("1 nodes belong to no element") && Contains("node 45"));
+  CHECK_THAT(
+      refusal([](Mesh& mesh) { mesh.nodes[7][1] = std::numeric_limits<double>::quiet_NaN(); }),
+      Contains("node 7 has no finite position"));
+}
+
+TEST_CASE("empty parts and sets are refused") {
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks.clear(); }), Contains("no elements"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[0].nodes.clear(); }),
+             Contains("part 'upper' is empty"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.node_sets[0].nodes.clear(); }),
+             Contains("node set 'floor' is empty"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].nodes.clear(); }),
+             Contains("face set 'floor' is empty"));
+}
+
+TEST_CASE("names that are missing, doubled or no names of a file's objects are refused") {
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[0].part = "lower"; }), Contains("'lower'"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.materials[0].name = "hard"; }), Contains("'hard'"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.node_sets[0].name = "a/b"; }), Contains("'a/b'"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets.push_back(mesh.face_sets[0]); }),
+             Contains("'floor'"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[0].part = ""; }), Contains("no name"));
+}
+
+TEST_CASE("half elements, wrong dimensions and disorder are refused") {
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[0].nodes.pop_back(); }),
+             Contains("26 node indices, no multiple of 27"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].kind = ElementKind::hex27; }),
+             Contains("kind hex27, expected dimension 2"));
+  CHECK_THAT(refusal([](Mesh& mesh) {
+               std::swap(mesh.node_sets[0].nodes[0], mesh.node_sets[0].nodes[1]);
+             }),
+             Contains("ascending"));
+}
+
+TEST_CASE("materials that no solid can have are refused") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double modulus : {0.0, -1.0, kNan}) {
+    CHECK_THAT(refusal([&](Mesh& mesh) { mesh.materials[0].youngs_modulus_Pa = modulus; }),
+               Contains("material 'soft': Young's modulus must be > 0"));
+  }
+  for (const double ratio : {0.5, -1.0, kNan}) {
+    CHECK_THAT(refusal([&](Mesh& mesh) { mesh.materials[1].poissons_ratio = ratio; }),
+               Contains("material 'hard': Poisson's ratio must lie between -1 and 0.5"));
+  }
+  for (const double density : {0.0, kNan}) {
+    CHECK_THAT(refusal([&](Mesh& mesh) { mesh.materials[1].density_kg_m3 = density; }),
+               Contains("material 'hard': density must be > 0"));
+  }
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[0].material = 2; }),
+             Contains("part 'upper' has no material"));
+}
+
+TEST_CASE("sets are found by name; a missing one is reported with those there are") {
+  const Mesh mesh = test::small_mesh();
+  CHECK(mesh.node_set("floor").nodes.size() == 9);
+  CHECK_THROWS_AS(mesh.face_set("flor"), InputError);
+  CHECK_THROWS_WITH(mesh.face_set("flor"), Contains("face set 'flor'") && Contains("'floor'"));
+}
+
+TEST_CASE("the summary adds up volumes and masses") {
+  const MeshSummary summary = summarise(test::small_mesh());
+  CHECK(summary.elements == 2);
+  CHECK(summary.degrees_of_freedom == 135);
+  CHECK(summary.parts[0].mass_kg == Approx(950).epsilon(kRounding));
+  CHECK(summary.parts[1].mass_kg == Approx(2700).epsilon(kRounding));
+  CHECK(summary.mass_kg == Approx(3650).epsilon(kRounding));
+  CHECK(summary.smallest_scaled_jacobian == Approx(1).epsilon(kRounding));
+}
+
+TEST_CASE("the scaled Jacobian of a sheared box is the cosine of the shear") {
+  Mesh mesh = test::small_mesh();
+  const double shear = std::tan(30 * M_PI / 180);
+  for (auto& node : mesh.nodes) node[0] += shear * node[2];
+  const BlockMeasure measured = measure(mesh, mesh.blocks[0]);
+  CHECK(measured.volume_m3 == Approx(1).epsilon(kRounding));
+  CHECK(measured.smallest_scaled_jacobian == Approx(std::cos(30 * M_PI / 180)).epsilon(kRounding));
+}
+
+TEST_CASE("elements that are inverted, folded in a corner or flat are refused") {
+  CHECK_NOTHROW(require_sound_elements(test::small_mesh()));
+  Mesh inverted = test::small_mesh();
+  for (auto& node : inverted.nodes) node[0] = -node[0];
+  CHECK_THROWS_AS(require_sound_elements(inverted), ComputationError);
+
+  // A corner pushed along its edge, past the sixth of its length that a midside node allows: the
+  // determinant is negative there and positive at every Gauss point.
+  Mesh folded = test::small_mesh();
+  folded.nodes[44] = {0.65, 1, 2};
+  CHECK_THROWS_WITH(require_sound_elements(folded),
+                    Contains("part 'upper'") && Contains("inverted or degenerate"));
+
+  Mesh flat = test::small_mesh();
+  for (auto& node : flat.nodes) node[2] = 0;
+  CHECK_THROWS_AS(require_sound_elements(flat), ComputationError);
+}
+
+}  // namespace flexneck::mesher
