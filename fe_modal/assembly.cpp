@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "fe_modal/element_matrices.h"
 #include "fe_modal/node_graph.h"
 
 namespace flexneck::fe_modal {
@@ -76,10 +75,9 @@ MatHandle expand_mass(const NodalMass& nodal_mass, const NodeGraph& graph,
 }
 
 void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
-               const FreeNodes& free_nodes, const Hex27Kernel& kernel, ElementMatrices& element,
-               SystemMatrices& system) {
+               const FreeNodes& free_nodes, const Hex27Kernel& kernel, Formulation formulation,
+               ElementMatrices& element, SystemMatrices& system) {
   const mesher::Material& material = mesh.materials.at(block.material);
-  const Formulation formulation = formulation_for(material);
   Hex27Coordinates coordinates;
   std::array<PetscInt, 81> dofs{};
   for (std::size_t e = 0; e < block.size(); ++e) {
@@ -107,7 +105,8 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
 
 }  // namespace
 
-SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
+SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                        Formulation formulation) {
   const NodeGraph graph(mesh);
   SystemMatrices system;
   system.stiffness = make_matrix(graph, free_nodes, false);
@@ -115,7 +114,7 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
   const Hex27Kernel kernel;
   const auto element = std::make_unique<ElementMatrices>();  // 58 kB: too much for the stack
   for (const mesher::ElementBlock& block : mesh.blocks) {
-    add_block(mesh, block, free_nodes, kernel, *element, system);
+    add_block(mesh, block, free_nodes, kernel, formulation, *element, system);
   }
   finish(system.stiffness);
   system.mass = expand_mass(system.nodal_mass, graph, free_nodes);

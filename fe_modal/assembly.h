@@ -3,6 +3,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "fe_modal/element_matrices.h"
 #include "fe_modal/free_nodes.h"
 #include "fe_modal/petsc_handles.h"
 #include "mesher/mesh/mesh.h"
@@ -20,6 +21,7 @@ struct SystemMatrices {
 };
 
 /// @throws ComputationError if PETSc fails, e.g. for want of memory.
-SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                        Formulation formulation = Formulation::mixed_pressure);
 
 }  // namespace flexneck::fe_modal

@@ -35,8 +35,8 @@ Eigen::Matrix<double, 81, 4> projected_divergence(const Gradients& gradients,
   return result;
 }
 
-/// mu (delta_ab sum_c H_ic,jc + H_ib,ja), from the lower half of H.
-void add_shear_part(const Matrix81& products, double mu, Matrix81& stiffness) {
+/// Adds mu (delta_ab sum_c H_ic,jc + H_ib,ja), the part 2 mu eps:eps; lower halves.
+void add_strain_part(const Matrix81& products, double mu, Matrix81& stiffness) {
   for (int j = 0; j < 27; ++j) {
     for (int i = j; i < 27; ++i) {
       Eigen::Matrix3d h = products.block<3, 3>(3 * i, 3 * j);
@@ -49,10 +49,6 @@ void add_shear_part(const Matrix81& products, double mu, Matrix81& stiffness) {
 }
 
 }  // namespace
-
-Formulation formulation_for(const mesher::Material& material) {
-  return material.poissons_ratio > 0.45 ? Formulation::mixed_pressure : Formulation::displacement;
-}
 
 Hex27Kernel::Hex27Kernel() {
   const mesher::Quadrature rule = mesher::gauss_rule(mesher::ElementKind::hex27, 3);
@@ -71,7 +67,7 @@ void Hex27Kernel::compute(const Hex27Coordinates& nodes_m, const mesher::Materia
                           Formulation formulation, ElementMatrices& result) const {
   const double nu = material.poissons_ratio;
   const double mu = material.youngs_modulus_Pa / (2 * (1 + nu));
-  const double lambda = 2 * mu * nu / (1 - 2 * nu);
+  const double kappa = material.youngs_modulus_Pa / (3 * (1 - 2 * nu));
 
   Gradients gradients;
   Eigen::Matrix<double, 27, 1> roots;
@@ -83,18 +79,19 @@ void Hex27Kernel::compute(const Hex27Coordinates& nodes_m, const mesher::Materia
         derivatives * (roots[q] * jacobian.inverse());
   }
 
+  // H_ia,jb = int N_i,a N_j,b holds all that the displacements contribute.
   Matrix81 products = Matrix81::Zero();
   products.selfadjointView<Eigen::Lower>().rankUpdate(gradients);
   Matrix81& stiffness = result.stiffness;
+  // 2 mu dev:dev = 2 mu eps:eps - 2/3 mu div^2
   if (formulation == Formulation::displacement) {
-    stiffness = lambda * products;
+    stiffness = (kappa - 2 * mu / 3) * products;
   } else {
-    const Eigen::Matrix<double, 81, 4> divergence =
-        projected_divergence(gradients, nodes_m * values_, roots);
-    stiffness.setZero();
-    stiffness.selfadjointView<Eigen::Lower>().rankUpdate(divergence, lambda);
+    stiffness = -2 * mu / 3 * products;
+    stiffness.selfadjointView<Eigen::Lower>().rankUpdate(
+        projected_divergence(gradients, nodes_m * values_, roots), kappa);
   }
-  add_shear_part(products, mu, stiffness);
+  add_strain_part(products, mu, stiffness);
   stiffness.triangularView<Eigen::StrictlyUpper>() = stiffness.transpose();
 
   const Eigen::Matrix<double, 27, 27> weighted = values_ * roots.asDiagonal();
