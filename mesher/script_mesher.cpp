@@ -42,6 +42,7 @@ std::map<std::string, std::string> declared_constants() {
 std::string onelab_name(const std::map<std::string, std::string>& declared,
                         const std::string& constant, const std::filesystem::path& script) {
   std::vector<std::string> names;
+  names.reserve(declared.size());
   for (const auto& [name, unused] : declared) names.push_back(name);
   try {
     return declared.at(names[find_name(names, constant, "declared constant")]);

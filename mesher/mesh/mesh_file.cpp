@@ -63,13 +63,14 @@ void write_sets(Hdf5Writer& file, const Mesh& mesh) {
 std::vector<std::string> ordered_members(const Hdf5Reader& file, const std::string& group) {
   std::map<std::int64_t, std::string> by_index;
   for (const std::string& name : file.members(group)) {
-    const std::string object = group + "/" + name;
+    const std::string object = std::string(group).append("/").append(name);
     const std::int64_t index = file.integer_attribute(object, kIndex);
     if (!by_index.emplace(index, name).second) {
       file.refuse(object, "index " + std::to_string(index) + " is taken");
     }
   }
   std::vector<std::string> names;
+  names.reserve(by_index.size());
   for (auto& [index, name] : by_index) names.push_back(std::move(name));
   return names;
 }

@@ -38,7 +38,7 @@ class ScriptFixture {
   mesher::ScriptMeshOptions options;
 
  private:
-  TemporaryFolder folder_;
+  testing::TemporaryFolder folder_;
 };
 
 }  // namespace flexneck::test

@@ -29,7 +29,7 @@ Provenance some_provenance() {
 }  // namespace
 
 TEST_CASE("a mesh comes back from its file as it was") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const MeshFile out{.mesh = test::small_mesh(), .provenance = some_provenance()};
   write_mesh(folder / "mesh.h5", out);
   const MeshFile in = read_mesh(folder / "mesh.h5");
@@ -57,7 +57,7 @@ TEST_CASE("a mesh comes back from its file as it was") {
 }
 
 TEST_CASE("an unsound mesh is not written") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   Mesh mesh = test::small_mesh();
   mesh.nodes.push_back({0, 0, 9});
   CHECK_THROWS_AS(write_mesh(folder / "mesh.h5", {.mesh = mesh, .provenance = {}}), InputError);
@@ -65,7 +65,7 @@ TEST_CASE("an unsound mesh is not written") {
 }
 
 TEST_CASE("a missing, truncated or foreign file is refused by name") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   CHECK_THROWS_AS(read_mesh(folder / "none.h5"), InputError);
   CHECK_THROWS_WITH(read_mesh(folder / "none.h5"), Contains("none.h5"));
 
@@ -87,7 +87,7 @@ TEST_CASE("a missing, truncated or foreign file is refused by name") {
 }
 
 TEST_CASE("a file whose parts do not fit together is refused with dataset and remedy") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const auto write_part = [&](const std::string& material, std::int32_t first_node) {
     const Mesh mesh = test::small_mesh();
     std::vector<double> nodes;

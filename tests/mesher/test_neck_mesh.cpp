@@ -2,14 +2,17 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <span>
 #include <sstream>
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/mesh_summary.h"
+#include "mesher/mesh/shape_functions.h"
 #include "tests/support/neck_mesh.h"
 #include "tests/support/temporary_folder.h"
 
@@ -49,6 +52,27 @@ std::vector<double> closed_form_volumes(const NeckParameters& neck) {
           plate(neck.top_plate_thickness)};
 }
 
+/// Centroid by the Gauss rule that is exact for triquadratic positions times their Jacobian.
+Eigen::Vector3d centroid(const Mesh& mesh, const ElementBlock& block) {
+  const Quadrature rule = gauss_rule(block.kind, 4);
+  const ShapeTable table = tabulate(block.kind, rule.points);
+  double volume = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (std::size_t e = 0; e < block.size(); ++e) {
+    const Eigen::Matrix3Xd x = positions_of(mesh, std::span(block.nodes).subspan(27 * e, 27));
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      Eigen::Matrix3d jacobian;
+      for (std::size_t d = 0; d < 3; ++d) {
+        jacobian.col(static_cast<Eigen::Index>(d)) = x * table.derivatives[d].col(q);
+      }
+      const double weight = rule.weights[q] * jacobian.determinant();
+      volume += weight;
+      moment += weight * (x * table.values.col(q));
+    }
+  }
+  return moment / volume;
+}
+
 double volume_error(const NeckDivisions& divisions) {
   const auto exact = closed_form_volumes(neck_parameters("C"));
   double sum = 0;
@@ -84,6 +108,32 @@ TEST_CASE("each part of the neck has the volume and mass of its cylinder less th
     mass_kg += density * exact[p];
   }
   CHECK(summary.mass_kg == Approx(mass_kg).epsilon(kParabola));
+}
+
+TEST_CASE("rubber sections are shifted forward by their offsets, plates and hole are centred") {
+  const NeckParameters neck = neck_parameters("C");
+  const Mesh mesh = neck_mesh("C");
+  // A shifted disc less a centred hole: x = offset D^2 / (D^2 - d^2).
+  const auto rubber_x = [&](double diameter, double offset) {
+    return offset * annulus_m2(diameter, 0) / annulus_m2(diameter, neck.hole_diameter);
+  };
+  const double centre_x = rubber_x(neck.centre_rubber_diameter, neck.centre_rubber_offset);
+  const std::vector<double> exact_x = {
+      0, rubber_x(neck.bottom_rubber_diameter, neck.bottom_rubber_offset), 0, centre_x, 0, centre_x,
+      0, rubber_x(neck.top_rubber_diameter, neck.top_rubber_offset),       0};
+  const std::vector<double> heights = {
+      neck.base_plate_thickness,     geometry::rubber_height(neck), neck.plate_thickness,
+      geometry::rubber_height(neck), neck.plate_thickness,          geometry::rubber_height(neck),
+      neck.plate_thickness,          geometry::rubber_height(neck), neck.top_plate_thickness};
+  double z = 0;
+  for (std::size_t p = 0; p < kParts.size(); ++p) {
+    INFO(kParts[p]);
+    const Eigen::Vector3d found = centroid(mesh, mesh.blocks[p]);
+    CHECK(found.x() == Approx(exact_x[p]).margin(kParabola * neck.plate_diameter / 2));
+    CHECK(std::abs(found.y()) < 1e-12);
+    CHECK(found.z() == Approx(z + heights[p] / 2).epsilon(1e-9));
+    z += heights[p];
+  }
 }
 
 TEST_CASE("the necks weigh what their fits say") {
@@ -234,7 +284,7 @@ TEST_CASE("the script's own values are those of neck C") {
 }
 
 TEST_CASE("meshing twice gives the same bytes in the file") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   for (const char* name : {"one.h5", "two.h5"}) {
     write_mesh(folder / name, {.mesh = neck_mesh("C"), .provenance = {}});
   }
