@@ -14,6 +14,8 @@ PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& exper
                              const fe_modal::ModalBody& body) {
   PendulumEvidence evidence;
   evidence.case_name = experiment.name;
+  const bool lateral = experiment.direction == CaseSection::Direction::lateral;
+  evidence.plane = lateral ? "lateral" : "fore-aft";
   evidence.with_gravity = first_system_mode(input.study, experiment, body, true);
   evidence.without_gravity = first_system_mode(input.study, experiment, body, false);
   const std::filesystem::path path = input.folder.history(experiment);

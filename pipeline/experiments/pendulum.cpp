@@ -101,4 +101,39 @@ PendulumResult pendulum_result(const Study& study, const CaseSection& experiment
   return result;
 }
 
+namespace {
+
+/// True for fore-aft and axial modes, false for lateral and twisting ones.
+bool is_fore_aft(const fe_modal::ModeRecord& mode) {
+  const auto& [fore_aft, lateral, twist, axial] = mode.shares_percent;
+  return fore_aft + axial > lateral + twist;
+}
+
+/// The study with only those modes of its deformable bodies that move in the plane of the case. The
+/// neck is symmetric about its x-z plane, so the others take no part.
+Study in_plane(Study study, const CaseSection& experiment, const fe_modal::ModalBody& body) {
+  const bool fore_aft = experiment.direction != CaseSection::Direction::lateral;
+  for (BodySection& section : study.bodies) {
+    std::erase_if(section.modes, [&](const std::string& name) {
+      const auto k = static_cast<std::size_t>(body.mode_index(name));
+      return is_fore_aft(body.modes[k]) != fore_aft;
+    });
+  }
+  return study;
+}
+
+}  // namespace
+
+multibody::SystemMode first_system_mode(const Study& study, const CaseSection& experiment,
+                                        const fe_modal::ModalBody& body, bool with_gravity) {
+  Model model = pendulum_model(in_plane(study, experiment, body), experiment, body);
+  if (!with_gravity) model.gravity_m_s2.setZero();
+  const std::vector<multibody::SystemMode> modes = multibody::system_modes(model);
+  if (modes.empty()) {
+    throw InputError("case." + experiment.name +
+                     ": none of the modes chosen moves in the plane of the case");
+  }
+  return modes.front();
+}
+
 }  // namespace flexneck::pipeline

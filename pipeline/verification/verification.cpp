@@ -2,7 +2,7 @@
 #include "pipeline/verification/verification.h"
 
 #include <algorithm>
-#include <numeric>
+#include <set>
 
 #include <fmt/core.h>
 
@@ -65,9 +65,10 @@ void add_frequencies(VerificationTable& table, const fe_modal::ModalBody& body,
   }
 }
 
-std::string joined(const std::vector<std::string>& words) {
+/// "b b t" for bending, bending, torsion.
+std::string initials(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word.substr(0, 1);
   return text;
 }
 
@@ -80,9 +81,10 @@ void add_mode_character(VerificationTable& table, const fe_modal::ModalBody& bod
   }
   VerificationRow row;
   row.quantity = "mode order";
-  row.detail = order == reference.mode_order ? "the same" : "differs";
-  row.value = joined(order);
-  row.reference = joined(reference.mode_order);
+  row.detail = std::string("bending, torsion, axial: ") +
+               (order == reference.mode_order ? "the same" : "differs");
+  row.value = initials(order);
+  row.reference = initials(reference.mode_order);
   table.rows.push_back(row);
   const std::vector<std::size_t> bending = modes_of_kind(body, "bending");
   for (std::size_t rank = 0; rank < std::min<std::size_t>(2, bending.size()); ++rank) {
@@ -110,36 +112,55 @@ VerificationRow compared(const std::string& quantity, const std::string& detail,
   return row;
 }
 
+/// Small motions in a plane: system frequency, its ratio to the neck's, damping.
+void add_small_motions(VerificationTable& table, const PendulumEvidence& evidence,
+                       const fe_modal::ModalBody& body, const Reference& reference, bool fitted) {
+  const std::string how = evidence.plane + ", eigenvalue";
+  const multibody::SystemMode& mode = evidence.with_gravity;
+  table.rows.push_back(compared("system frequency", how + ", no gravity", "Hz",
+                                evidence.without_gravity.frequency_Hz,
+                                reference.system_frequency_Hz, fitted));
+  table.rows.push_back(compared("system frequency", how + ", gravity", "Hz", mode.frequency_Hz,
+                                reference.system_frequency_Hz, fitted));
+  table.rows.push_back(compared("frequency ratio", how + ", gravity", "1",
+                                body.frequencies_Hz[0] / mode.frequency_Hz,
+                                reference.frequency_ratio, fitted));
+  table.rows.push_back(compared("effective damping", how + ", gravity", "1", mode.damping_ratio,
+                                reference.effective_damping, false));
+}
+
+/// The free motion of a run after its pulse.
+void add_run(VerificationTable& table, const PendulumEvidence& evidence,
+             const Reference& reference) {
+  if (!evidence.run) return;
+  const PendulumResult& run = *evidence.run;
+  if (run.run_frequency_Hz) {
+    table.rows.push_back(compared("system frequency", evidence.case_name + ", run", "Hz",
+                                  *run.run_frequency_Hz, reference.system_frequency_Hz, false));
+  }
+  if (run.run_damping_ratio) {
+    table.rows.push_back(compared("effective damping", evidence.case_name + ", run, peak to peak",
+                                  "1", *run.run_damping_ratio, reference.effective_damping, false));
+  }
+}
+
 void add_system(VerificationTable& table, const Study& study, const fe_modal::ModalBody& body,
                 const std::vector<PendulumEvidence>& pendulum, const Reference& reference) {
   const bool fitted = is_fitted(study, "system frequency");
-  const auto frequency = [&](const std::string& detail, double value) {
-    table.rows.push_back(
-        compared("system frequency", detail, "Hz", value, reference.system_frequency_Hz, fitted));
-  };
   for (const fe_modal::AttachedFrequencies& attached : body.attached) {
-    frequency("finite elements, " + attached.body + " on " + attached.interface + ", no gravity",
-              attached.frequencies_Hz[0]);
+    table.rows.push_back(
+        compared("system frequency",
+                 "finite elements, " + attached.body + " on " + attached.interface + ", no gravity",
+                 "Hz", attached.frequencies_Hz[0], reference.system_frequency_Hz, fitted));
   }
+  std::set<std::string> planes;
   for (const PendulumEvidence& evidence : pendulum) {
-    frequency(evidence.case_name + ", eigenvalue, no gravity",
-              evidence.without_gravity.frequency_Hz);
-    frequency(evidence.case_name + ", eigenvalue, gravity", evidence.with_gravity.frequency_Hz);
-    if (evidence.run && evidence.run->run_frequency_Hz) {
-      frequency(evidence.case_name + ", run (damped)", *evidence.run->run_frequency_Hz);
-    }
-    table.rows.push_back(compared("frequency ratio", evidence.case_name + ", eigenvalue, gravity",
-                                  "1", body.frequencies_Hz[0] / evidence.with_gravity.frequency_Hz,
-                                  reference.frequency_ratio, fitted));
-    table.rows.push_back(compared("effective damping", evidence.case_name + ", eigenvalue, gravity",
-                                  "1", evidence.with_gravity.damping_ratio,
-                                  reference.effective_damping, false));
-    if (evidence.run && evidence.run->run_damping_ratio) {
-      table.rows.push_back(compared("effective damping", evidence.case_name + ", run, peak to peak",
-                                    "1", *evidence.run->run_damping_ratio,
-                                    reference.effective_damping, false));
+    // The fit was to the fore-aft motion.
+    if (planes.insert(evidence.plane).second) {
+      add_small_motions(table, evidence, body, reference, fitted && evidence.plane == "fore-aft");
     }
   }
+  for (const PendulumEvidence& evidence : pendulum) add_run(table, evidence, reference);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ struct VerificationTable {
 /// What the pendulum says of one case, as far as it was run.
 struct PendulumEvidence {
   std::string case_name;
+  std::string plane;  ///< "fore-aft" or "lateral"; small motions are the same for all cases of it
   multibody::SystemMode with_gravity, without_gravity;
   std::optional<PendulumResult> run;
 };

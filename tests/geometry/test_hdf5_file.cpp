@@ -12,7 +12,7 @@
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
-using flexneck::test::TemporaryFolder;
+using flexneck::testing::TemporaryFolder;
 
 namespace {
 

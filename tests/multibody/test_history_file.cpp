@@ -62,7 +62,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("A history comes back from its file to the last bit and in its order") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const HistoryFile file = random_history();
   write_history(folder / "h.h5", file);
   const History read = read_history(folder / "h.h5").history;
@@ -101,7 +101,7 @@ TEST_CASE("A history comes back from its file to the last bit and in its order")
 }
 
 TEST_CASE("The layout is the one the README tells: time first, then components") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const HistoryFile file = random_history();
   write_history(folder / "h.h5", file);
   const Hdf5Reader reader(folder / "h.h5", kHistoryFormat);
@@ -115,14 +115,14 @@ TEST_CASE("The layout is the one the README tells: time first, then components")
 }
 
 TEST_CASE("The same history gives the same bytes") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   write_history(folder / "a.h5", random_history());
   write_history(folder / "b.h5", random_history());
   CHECK(bytes_of(folder / "a.h5") == bytes_of(folder / "b.h5"));
 }
 
 TEST_CASE("A history with names that cannot be groups leaves no file") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   HistoryFile file = random_history();
   file.history.joints[0].name = "neck/base";
   CHECK_THROWS_WITH(write_history(folder / "h.h5", file),
@@ -131,7 +131,7 @@ TEST_CASE("A history with names that cannot be groups leaves no file") {
 }
 
 TEST_CASE("A history whose arrays do not fit its times is refused") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   HistoryFile file = random_history();
   file.history.joints[1].moment_Nm.conservativeResize(3, kTimes - 1);
   write_history(folder / "h.h5", file);
@@ -144,7 +144,7 @@ TEST_CASE("A history whose arrays do not fit its times is refused") {
 }
 
 TEST_CASE("A truncated history is refused with one line") {
-  const test::TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   write_history(folder / "h.h5", random_history());
   std::filesystem::resize_file(folder / "h.h5", std::filesystem::file_size(folder / "h.h5") / 2);
   CHECK_THROWS_AS(read_history(folder / "h.h5"), InputError);

@@ -152,7 +152,7 @@ TEST_CASE("A driven base excites the modes by their first moments") {
 }
 
 TEST_CASE("A body made elsewhere moves the same when it comes from a file") {
-  const flexneck::test::TemporaryFolder folder;
+  const flexneck::testing::TemporaryFolder folder;
   const auto made = make_beam_body(twisting_beam());
   flexneck::Provenance provenance;
   provenance.program = "another program";

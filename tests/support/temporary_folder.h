@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace flexneck::test {
+namespace flexneck::testing {
 
 /// A fresh folder that goes with all it holds at the end of the scope.
 class TemporaryFolder {
@@ -31,4 +31,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace flexneck::test
+}  // namespace flexneck::testing

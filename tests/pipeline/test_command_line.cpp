@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using testing::CommandOutcome;
+using testing::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The coarsest neck and short runs: seconds instead of a minute.
+constexpr const char* kCoarse =
+    " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
+    " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.5 in'"
+    " --set case.flexion-60.duration='0.2 s' --set case.flexion-120.duration='0.2 s'";
+
+CommandOutcome run_flexneck(const std::string& arguments) {
+  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// One clear line: nothing else is printed when the input is at fault.
+void check_refused(const CommandOutcome& outcome, const std::string& reason) {
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.text, Contains(reason));
+  CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
+}
+
+}  // namespace
+
+TEST_CASE("a run twice gives the same bytes, and knows the paper only in its verification") {
+  const TemporaryFolder folder;
+  const std::string first = (folder / "first").string();
+  const std::string second = (folder / "second").string();
+  const CommandOutcome outcome = run_flexneck("run -o " + first + kCoarse);
+  INFO(outcome.text);
+  REQUIRE((outcome.exit_code == 0 || outcome.exit_code == 1));  // coarse: may miss a frequency
+  CHECK_THAT(outcome.text, Contains("bending 1") && Contains("torsion 2") && Contains("fitted"));
+  const std::vector<std::string> expected = {"mesh.h5",
+                                             "modes.h5",
+                                             "pendulum-flexion-120.h5",
+                                             "pendulum-flexion-20.h5",
+                                             "pendulum-flexion-60.h5",
+                                             "pendulum-lateral-65.h5",
+                                             "static-flexion.h5",
+                                             "verification.json"};
+  CHECK(names_in(folder / "first") == expected);
+
+  // Another table of published figures must change the verification and nothing else.
+  std::ofstream(folder / "other.toml") << R"(
+tolerance_percent = 1.0
+bending = ["1 Hz", "2 Hz", "3 Hz", "4 Hz"]
+torsion = ["5 Hz", "6 Hz"]
+mode_order = ["axial"]
+weight = "1 kg"
+system_frequency = "1 Hz"
+frequency_ratio = 1
+effective_damping = 1
+)";
+  std::ofstream(folder / "other_study.toml")
+      << "include = [\"" << FLEXNECK_SOURCE_DIR << "/pipeline/studies/hybrid3.toml\"]\n"
+      << "[output]\nverification = \"other.toml\"\n";
+  const CommandOutcome again =
+      run_flexneck("run " + (folder / "other_study.toml").string() + " -o " + second + kCoarse);
+  CHECK(again.exit_code == 1);
+  const auto json_of = [&](const std::string& name) {
+    return nlohmann::json::parse(bytes_of(folder / (name + "/verification.json")));
+  };
+  CHECK_FALSE(json_of("second")["passed"].get<bool>());
+  CHECK(json_of("first")["rows"][0]["value"] == json_of("second")["rows"][0]["value"]);
+
+  // The provenance names the study file, so compare what was computed.
+  const CommandOutcome third = run_flexneck("run -o " + second + kCoarse);
+  CHECK(third.text.substr(0, third.text.find(second)) ==
+        outcome.text.substr(0, outcome.text.find(first)));
+  for (const std::string& name : expected) {
+    INFO(name);
+    CHECK(bytes_of(folder / ("first/" + name)) == bytes_of(folder / ("second/" + name)));
+  }
+}
+
+TEST_CASE("figures of another study leave the numbers alone") {
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+  REQUIRE(run_flexneck("mesh -q -o " + out + kCoarse).exit_code == 0);
+  REQUIRE(run_flexneck("modes -q -o " + out + kCoarse).exit_code == 0);
+  const auto modes = fe_modal::read_modal_body(folder / "modes.h5");
+  CHECK(modes.body.mode_count() == 10);
+  CHECK(modes.provenance.parameters.size() > 20);
+
+  SECTION("a stage refuses what was made with other values") {
+    check_refused(run_flexneck("modes -o " + out + kCoarse + " --set geometry.length='5.7 in'"),
+                  "was made with geometry.length = 5.66 in, the study has 5.7 in");
+    check_refused(run_flexneck("pendulum -o " + out + kCoarse + " --set modes.count=11"),
+                  "make it again with 'flexneck modes'");
+  }
+  SECTION("a truncated file is refused") {
+    fs::resize_file(folder / "modes.h5", fs::file_size(folder / "modes.h5") / 2);
+    check_refused(run_flexneck("static -o " + out + kCoarse),
+                  "modes.h5: the HDF5 file is truncated");
+  }
+  SECTION("a file of another stage is refused") {
+    fs::copy_file(folder / "mesh.h5", folder / "modes.h5", fs::copy_options::overwrite_existing);
+    check_refused(run_flexneck("static -o " + out + kCoarse),
+                  "expected the format 'flexneck modal body', found 'flexneck mesh'");
+  }
+  SECTION("a missing file is refused") {
+    fs::remove(folder / "modes.h5");
+    check_refused(run_flexneck("verify -o " + out + kCoarse),
+                  "modes.h5: no such file; make it with 'flexneck modes'");
+  }
+}
+
+TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no file") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  std::ofstream(folder / "broken.toml") << "[geometry\nlength = 1\n";
+  check_refused(run_flexneck("pendulm" + out),
+                "there is no command 'pendulm' (did you mean 'pendulum'?)");
+  check_refused(run_flexneck("run " + (folder / "none.toml").string() + out),
+                "none.toml: expected");
+  check_refused(run_flexneck("run " + (folder / "broken.toml").string() + out),
+                "broken.toml:1:10:");
+  check_refused(run_flexneck("run --set geometry.plate_thickness='-0.1 in'" + out),
+                "plate_thickness");
+  check_refused(run_flexneck("run --set geometry.plate_thickness=0.3" + out), "with its unit");
+  check_refused(run_flexneck("run --set geometry.plate_thickness='0.3 inn'" + out), "unknown unit");
+  check_refused(run_flexneck("run --set mesh.quadrants=4" + out), "did you mean 'quadrant'?");
+  CHECK_FALSE(fs::exists(folder / "out"));
+  CHECK(run_flexneck("run --no-such-option" + out).exit_code == 2);
+  CHECK(run_flexneck("--help").exit_code == 0);
+  CHECK(run_flexneck("--version").exit_code == 0);
+}
+
+TEST_CASE("a folder that cannot be made or written is refused") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "in the way";
+  check_refused(run_flexneck("mesh -o " + (folder / "file").string() + kCoarse + " -q"),
+                "cannot be made a folder for results");
+  if (geteuid() == 0) return;  // root may write anywhere
+  fs::create_directory(folder / "locked");
+  chmod((folder / "locked").c_str(), 0500);
+  check_refused(run_flexneck("mesh -q -o " + (folder / "locked").string() + kCoarse),
+                "cannot be written");
+}
+
+TEST_CASE("a geometry script with an error is told in gmsh's words, without a file") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "bad.geo") << "length = ;\n";
+  const CommandOutcome outcome =
+      run_flexneck("mesh -q -o " + (folder / "out").string() +
+                   " --set geometry.script=" + (folder / "bad.geo").string());
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.text, Contains("bad.geo"));
+  CHECK_FALSE(fs::exists(folder / "out/mesh.h5"));
+}

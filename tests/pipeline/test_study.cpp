@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/study/study.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using namespace flexneck::pipeline;
+
+namespace {
+
+Study built_in(const std::vector<std::string>& settings = {}) {
+  return read_study(built_in_study(), settings);
+}
+
+/// Everything a physical result depends on; names, directions and numerical settings do not count.
+bool is_physical(const Parameter& parameter) {
+  const std::vector<std::string> plain = {"name",      "kind",   "body",  "lower",
+                                          "upper",     "parts",  "modes", "marker",
+                                          "direction", "bodies", "forces"};
+  const std::string key = parameter.key.substr(parameter.key.rfind('.') + 1);
+  return std::find(plain.begin(), plain.end(), key) == plain.end();
+}
+
+}  // namespace
+
+TEST_CASE("every shipped study reads, and its dimensions say where they come from") {
+  for (const std::string name : {"hybrid3", "hybrid3_a", "hybrid3_b", "hybrid3_c_prime"}) {
+    INFO(name);
+    const Study study = read_study(built_in_study().parent_path() / (name + ".toml"), {});
+    REQUIRE(study.geometry);
+    CHECK(study.cases.size() == 5);
+    for (const Parameter& parameter : study.parameters) {
+      if (!parameter.key.starts_with("geometry.") || !is_physical(parameter)) continue;
+      const bool is_file =
+          parameter.key == "geometry.script" || parameter.key == "geometry.fitted_to";
+      INFO(parameter.key);
+      CHECK((is_file || parameter.origin != Origin::synthetic));
+    }
+  }
+}
+
+TEST_CASE("the head's inertia is the published principal one, turned") {
+  const Study study = built_in();
+  const Eigen::Matrix3d inertia = study.body("head").rigid.inertia_kg_m2;
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  // GEBOD: 0.1408, 0.1956, 0.2128 lbf s^2 in; the tensor in the study has four digits.
+  const double unit = 0.45359237 * 9.80665 * 0.0254;
+  CHECK(principal[0] / unit == Approx(0.1408).epsilon(5e-4));
+  CHECK(principal[1] / unit == Approx(0.1956).epsilon(5e-4));
+  CHECK(principal[2] / unit == Approx(0.2128).epsilon(5e-4));
+}
+
+TEST_CASE("what cannot be is refused before anything is computed") {
+  CHECK_THROWS_WITH(built_in({"geometry.plate_thickness=-0.1 in"}), Contains("plate_thickness"));
+  CHECK_THROWS_WITH(built_in({"geometry.plate_diametre=3 in"}),
+                    Contains("unknown key (did you mean 'plate_diameter'?)"));
+  CHECK_THROWS_WITH(built_in({"geometri.length=3 in"}), Contains("geometri: unknown key"));
+  CHECK_THROWS_WITH(built_in({"case.flexion-20.kind=pendulm"}),
+                    Contains("did you mean 'pendulum'?"));
+  CHECK_THROWS_WITH(built_in({"case.flexion-20.bodies=[\"arm\", \"nek\"]"}),
+                    Contains("there is no body 'nek' (did you mean 'neck'?)"));
+  CHECK_THROWS_WITH(built_in({"case.flexion-20.impact_velocity=-1 m/s"}), Contains("positive"));
+  CHECK_THROWS_WITH(built_in({"modes.attached_body=neck"}), Contains("expected a rigid body"));
+  CHECK_THROWS_WITH(built_in({"solver.relative_tolerance=0"}), Contains("positive"));
+}
+
+TEST_CASE("a study without geometry is a model and needs no geometry keys") {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder / "model.toml") << "[[body]]\nname = \"ground\"\nkind = \"ground\"\n";
+  const Study study = read_study(folder / "model.toml", {});
+  CHECK_FALSE(study.geometry);
+  CHECK(study.bodies.size() == 1);
+}

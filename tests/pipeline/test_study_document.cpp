@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/study/study_document.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using flexneck::InputError;
+using flexneck::Origin;
+using flexneck::pipeline::StudyDocument;
+using flexneck::pipeline::StudyTable;
+using flexneck::testing::TemporaryFolder;
+
+namespace {
+
+StudyDocument document_of(const TemporaryFolder& folder, const std::string& text,
+                          const std::vector<std::string>& settings = {}) {
+  std::ofstream(folder / "study.toml") << text;
+  return {folder / "study.toml", settings};
+}
+
+}  // namespace
+
+TEST_CASE("values come with unit, origin and note, plainly or in a table") {
+  const TemporaryFolder folder;
+  const StudyDocument document = document_of(folder, R"(
+[part]
+width = "2 in"
+height = { value = "3 in", origin = "published", note = "a source" }
+position = { value = ["0 m", "1 mm", "-1 in"], origin = "inferred" }
+ratio = 0.49
+count = 7
+)");
+  const StudyTable part = document.root().table("part");
+  CHECK(part.quantity("width", "m") == Approx(0.0508));
+  CHECK(part.quantity("height", "m") == Approx(0.0762));
+  CHECK(part.quantities("position", "m", 3) == std::vector<double>{0, 0.001, -0.0254});
+  CHECK(part.number("ratio") == 0.49);
+  CHECK(part.count("count", 1) == 7);
+  part.finish();
+  const auto& parameters = document.parameters();
+  REQUIRE(parameters.size() == 5);
+  CHECK(parameters[0].origin == Origin::synthetic);
+  CHECK(parameters[1].key == "part.height");
+  CHECK(parameters[1].value == "3 in");
+  CHECK(parameters[1].origin == Origin::published);
+  CHECK(parameters[1].note == "a source");
+}
+
+TEST_CASE("what a study gets wrong is told with file, line, column, key and remedy") {
+  const TemporaryFolder folder;
+  const auto table = [&](const std::string& line) {
+    return document_of(folder, "[part]\n" + line + "\n").root().table("part");
+  };
+  CHECK_THROWS_WITH(table("width = 2").quantity("width", "m"),
+                    Contains("study.toml:2:9: part.width: expected a number with its unit"));
+  CHECK_THROWS_WITH(table("width = \"2 s\"").quantity("width", "m"), Contains("something else"));
+  CHECK_THROWS_WITH(table("width = \"2 inn\"").quantity("width", "m"), Contains("unknown unit"));
+  CHECK_THROWS_WITH(table("ratio = \"0.4 in\"").number("ratio"), Contains("pure number"));
+  CHECK_THROWS_WITH(table("ratio = nan").number("ratio"), Contains("finite"));
+  CHECK_THROWS_WITH(table("count = 0").count("count", 1), Contains("at least 1, found 0"));
+  CHECK_THROWS_WITH(table("count = 1.5").count("count", 1), Contains("whole number"));
+  CHECK_THROWS_WITH(table("").number("ratio"), Contains("part.ratio: expected this key"));
+  CHECK_THROWS_WITH(table("p = [\"1 m\"]").quantities("p", "m", 3), Contains("list of 3"));
+  CHECK_THROWS_WITH(table("w = { value = 1, origin = \"guessed\" }").number("w"),
+                    Contains("part.w: expected the origin published, inferred"));
+  CHECK_THROWS_WITH(table("w = { value = 1, orign = \"inferred\" }").number("w"),
+                    Contains("unknown key 'orign' (did you mean 'origin'?)"));
+
+  const StudyTable misspelt = table("plate_diametre = \"3 in\"");
+  CHECK_FALSE(misspelt.has("plate_diameter"));
+  CHECK_THROWS_WITH(misspelt.finish(),
+                    Contains("part.plate_diametre: unknown key (did you mean 'plate_diameter'?)"));
+  CHECK_THROWS_WITH(document_of(folder, "[part\nwidth = 1"), Contains("study.toml:1:"));
+  CHECK_THROWS_WITH(StudyDocument(folder / "none.toml", {}), Contains("none.toml: expected"));
+}
+
+TEST_CASE("an including file wins over what it includes, key by key") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "base.toml") << "[part]\nwidth = \"1 m\"\nheight = \"2 m\"\n";
+  const StudyDocument document =
+      document_of(folder, "include = [\"base.toml\"]\n[part]\nheight = \"3 m\"\n");
+  const StudyTable part = document.root().table("part");
+  CHECK(part.quantity("width", "m") == 1);
+  CHECK(part.quantity("height", "m") == 3);
+  REQUIRE(document.files().size() == 2);
+  CHECK(document.files()[0].name == "base.toml");
+  CHECK_THROWS_WITH(document_of(folder, "include = [\"study.toml\"]"), Contains("includes itself"));
+}
+
+TEST_CASE("a value set on the command line replaces one, and loses its origin") {
+  const TemporaryFolder folder;
+  const std::string text = R"(
+[part]
+width = { value = "1 m", origin = "published" }
+[[case]]
+name = "first"
+count = 1
+[[case]]
+name = "second"
+count = 2
+)";
+  const StudyDocument document =
+      document_of(folder, text, {"part.width=4 in", "case.second.count=5", "fresh.key=1.5"});
+  const StudyTable root = document.root();
+  CHECK(root.table("part").quantity("width", "m") == Approx(0.1016));
+  CHECK(document.parameters().back().origin == Origin::synthetic);
+  CHECK(root.tables("case").at(0).count("count", 0) == 1);
+  CHECK(root.tables("case").at(1).count("count", 0) == 5);
+  CHECK(root.table("fresh").number("key") == 1.5);
+  CHECK_THROWS_WITH(document_of(folder, text, {"part.width"}), Contains("expected key=value"));
+  CHECK_THROWS_WITH(document_of(folder, text, {"case.third.count=1"}),
+                    Contains("there is no case named 'third'"));
+  CHECK_THROWS_WITH(
+      document_of(folder, text, {"part.width=4"}).root().table("part").quantity("width", "m"),
+      Contains("command line: part.width: expected a number with its unit"));
+}

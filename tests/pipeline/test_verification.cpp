@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "pipeline/verification/verification.h"
+
+using namespace flexneck;
+using namespace flexneck::pipeline;
+using Status = VerificationRow::Status;
+
+namespace {
+
+fe_modal::ModalBody body_with(const std::vector<std::pair<std::string, double>>& modes) {
+  fe_modal::ModalBody body;
+  body.frequencies_Hz.resize(static_cast<Eigen::Index>(modes.size()));
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    fe_modal::ModeRecord record;
+    record.name = modes[k].first;
+    body.modes.push_back(record);
+    body.frequencies_Hz[static_cast<Eigen::Index>(k)] = modes[k].second;
+  }
+  body.invariants.mass = 1;
+  return body;
+}
+
+Reference example() {
+  Reference reference;
+  reference.tolerance_percent = 1;
+  reference.bending_Hz = {10, 11};
+  reference.torsion_Hz = {20};
+  reference.mode_order = {"bending", "bending", "torsion"};
+  reference.weight_kg = 1;
+  return reference;
+}
+
+const VerificationRow& row(const VerificationTable& table, const std::string& quantity) {
+  for (const VerificationRow& each : table.rows) {
+    if (each.quantity == quantity) return each;
+  }
+  throw std::runtime_error("no row " + quantity);
+}
+
+}  // namespace
+
+TEST_CASE("frequencies are paired by kind and rank, whatever lies between them") {
+  const VerificationTable table = verify(Study(),
+                                         body_with({{"lateral bending 1", 10.05},
+                                                    {"axial 1", 10.5},
+                                                    {"fore-aft bending 1", 11.05},
+                                                    {"torsion 1", 20.15}}),
+                                         {}, example());
+  CHECK(table.passed());
+  CHECK(row(table, "bending 1").detail == "lateral bending 1");
+  CHECK(row(table, "bending 2").detail == "fore-aft bending 1");
+  CHECK(*row(table, "bending 1").error_percent == Approx(0.5));
+  CHECK(*row(table, "torsion 1").error_percent == Approx(0.75));
+  CHECK(row(table, "mode order").detail == "bending, torsion, axial: differs");
+}
+
+TEST_CASE("a frequency beyond the tolerance, or missing, fails the verification") {
+  const VerificationTable off = verify(
+      Study(),
+      body_with({{"lateral bending 1", 10.0}, {"fore-aft bending 1", 11.12}, {"torsion 1", 20.0}}),
+      {}, example());
+  CHECK_FALSE(off.passed());
+  CHECK(row(off, "bending 1").status == Status::passed);
+  CHECK(row(off, "bending 2").status == Status::failed);
+  CHECK(row(off, "mode order").detail == "bending, torsion, axial: the same");
+
+  const VerificationTable missing = verify(
+      Study(), body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}}), {}, example());
+  CHECK(row(missing, "torsion 1").status == Status::failed);
+}
+
+TEST_CASE("fitted is said beside what the geometry was fitted to, and only there") {
+  Study study;
+  study.geometry.emplace().fitted_to = {"frequencies"};
+  const VerificationTable table = verify(
+      study, body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}, {"torsion 1", 20}}),
+      {}, example());
+  CHECK(row(table, "bending 1").fitted);
+  CHECK(row(table, "torsion 1").fitted);
+  CHECK_FALSE(row(table, "weight").fitted);
+  CHECK_FALSE(row(table, "mode order").fitted);
+}
