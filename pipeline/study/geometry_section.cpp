@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/foundation/error.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
@@ -71,8 +70,6 @@ GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh
   geometry.finish();
   section.divisions = read_divisions(mesh);
   mesh.finish();
-  geometry::check(section.neck);
-  geometry::check(section.divisions);
   return section;
 }
 

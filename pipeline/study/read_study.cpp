@@ -57,6 +57,16 @@ void read_output(const StudyTable& table, Study& study) {
   table.finish();
 }
 
+void check_geometry(const Study& study) {
+  if (!study.geometry) return;
+  try {
+    geometry::check(study.geometry->neck);
+    geometry::check(study.geometry->divisions);
+  } catch (const InputError& error) {
+    throw InputError(study.file.string() + ": " + error.what());
+  }
+}
+
 /// Names that one part of the study uses and another must define.
 void check_references(const Study& study) {
   const auto require = [&](const std::string& who, const std::vector<std::string>& names,
@@ -110,6 +120,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   root.finish();
+  check_geometry(study);
   check_references(study);
   study.files = document.files();
   study.parameters = document.parameters();

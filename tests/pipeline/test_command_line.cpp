@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// The coarsest neck and short runs: seconds instead of a minute.
 constexpr const char* kCoarse =
     " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
-    " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.5 in'"
+    " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in'"
     " --set case.flexion-60.duration='0.2 s' --set case.flexion-120.duration='0.2 s'";
 
 CommandOutcome run_flexneck(const std::string& arguments) {

@@ -37,7 +37,10 @@ count = 7
   const StudyTable part = document.root().table("part");
   CHECK(part.quantity("width", "m") == Approx(0.0508));
   CHECK(part.quantity("height", "m") == Approx(0.0762));
-  CHECK(part.quantities("position", "m", 3) == std::vector<double>{0, 0.001, -0.0254});
+  const std::vector<double> position = part.quantities("position", "m", 3);
+  CHECK(position[0] == 0);
+  CHECK(position[1] == Approx(0.001));
+  CHECK(position[2] == Approx(-0.0254));
   CHECK(part.number("ratio") == 0.49);
   CHECK(part.count("count", 1) == 7);
   part.finish();
