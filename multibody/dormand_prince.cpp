@@ -134,11 +134,13 @@ void DormandPrince::step(double limit_s) {
   const double left = limit_s - time_s_;
   bool rejected_before = false;
   while (true) {
+    if (proposed_s_ < limits_.smallest_s) collapse(last_estimate_);
     double length = std::min(proposed_s_, limits_.largest_s);
     const bool truncated = length >= left * (1 - 1e-9);
     if (truncated) length = left;
     attempt(length);
     const ErrorEstimate error = problem_.measure(y_, y_next_, error_);
+    last_estimate_ = error;
     if (error.value <= 1) {
       double next = adapted(length, error.value);
       if (rejected_before) next = std::min(next, length);
@@ -153,7 +155,6 @@ void DormandPrince::step(double limit_s) {
     rejected_before = true;
     const double cut = std::pow(error.value, -kAlpha) * kSafety;
     proposed_s_ = length * (std::isfinite(error.value) ? std::max(cut, kLargestCut) : kLargestCut);
-    if (proposed_s_ < limits_.smallest_s) collapse(error);
   }
 }
 

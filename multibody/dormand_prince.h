@@ -78,6 +78,7 @@ class DormandPrince {
   std::array<Vector, 5> dense_;
   double proposed_s_ = 0;  ///< zero: to be chosen
   double last_error_ = 1e-4;
+  ErrorEstimate last_estimate_;
   bool fresh_ = false;  ///< rates_[0] belongs to the present state
   int accepted_ = 0;
   int rejected_ = 0;

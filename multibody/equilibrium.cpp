@@ -48,7 +48,8 @@ double potential_energy(const EquationsOfMotion& equations) {
 VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen((stiffness + stiffness.transpose()) / 2);
   const VectorXd magnitude = eigen.eigenvalues().cwiseAbs();
-  const double floor = kNeutral * magnitude.maxCoeff();
+  // Not zero even where all stiffness vanishes: the caller shortens a long step.
+  const double floor = std::max(kNeutral * magnitude.maxCoeff(), 1e-9);
   VectorXd along = eigen.eigenvectors().transpose() * force;
   // In a neutral direction only a force that is more than rounding counts.
   const double noise = 1e-12 * force.norm();

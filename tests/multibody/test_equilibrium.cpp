@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "multibody/equilibrium.h"
+#include "multibody/simulation.h"
+#include "tests/support/point_mass_body.h"
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using flexneck::testing::make_point_mass_body;
+using namespace flexneck::multibody;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double kLength = 0.4;
+
+Quaterniond about_y(double angle) {
+  return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
+}
+
+/// A rod on a pin at the origin, its centre of mass below by half its length when the angle is
+/// zero.
+Model pendulum(double angle) {
+  Model model;
+  model.gravity_m_s2 = {0, 0, -9.81};
+  RigidBody rod;
+  rod.mass_kg = 2;
+  rod.center_m = {0, 0, -kLength / 2};
+  rod.inertia_kg_m2 = Vector3d(0.03, 0.02, 0.015).asDiagonal();
+  model.bodies.push_back({"ground", DrivenBody{}, {}});
+  model.bodies.push_back({"rod", rod, {Vector3d::Zero(), about_y(angle)}});
+  model.markers = {{"pivot", 0, ""}, {"top", 1, ""}};
+  Marker bottom{"bottom", 1, ""};
+  bottom.position_m = {0, 0, -kLength};
+  model.markers.push_back(bottom);
+  model.joints.push_back({"pin", JointKind::pin, 0, 1});
+  return model;
+}
+
+VectorXd equilibrium_of(const Model& model) {
+  const System system(model);
+  EquationsOfMotion held(system, Drive::held);
+  return equilibrium_positions(model, held);
+}
+
+}  // namespace
+
+TEST_CASE("a pendulum comes to hang from wherever it starts") {
+  // 1.5708 is almost where the stiffness vanishes, 3.1 almost the upper, unstable equilibrium.
+  for (const double angle : {0.0, 0.3, -1.2, std::numbers::pi / 2, 2.0, 3.1}) {
+    CAPTURE(angle);
+    const VectorXd Q = equilibrium_of(pendulum(angle));
+    const Quaterniond q(Q[3], Q[4], Q[5], Q[6]);
+    CHECK((q * -Vector3d::UnitZ() + Vector3d::UnitZ()).norm() < 1e-10);
+  }
+}
+
+TEST_CASE("a side force holds a pendulum where the moments balance") {
+  Model model = pendulum(0);
+  model.forces.push_back(
+      {"pull", 2, Vector3d::UnitX(), TimeTable({0, 1}, {5, 50}, TimeTable::Outside::constant)});
+  const VectorXd Q = equilibrium_of(model);
+  const Quaterniond q(Q[3], Q[4], Q[5], Q[6]);
+  const Vector3d down = q * -Vector3d::UnitZ();
+  // m g (L / 2) sin(angle) = F L cos(angle), with the force at time zero.
+  CHECK(down.x() / -down.z() == Approx(5 * kLength / (2 * 9.81 * kLength / 2)).epsilon(1e-10));
+}
+
+TEST_CASE("a modal body sags until elastic and gravity forces balance") {
+  Model model;
+  model.gravity_m_s2 = {2, 3, -9.81};
+  const auto body = make_point_mass_body(51, 3).body;
+  model.bodies.push_back({"ground", DrivenBody{}, {}});
+  model.bodies.push_back({"flexible", DeformableBody{body, VectorXd::Constant(3, 0.1)}, {}});
+  model.markers = {{"wall", 0, ""}, {"root", 1, "root"}};
+  model.joints.push_back({"clamp", JointKind::fixed, 0, 1});
+  const VectorXd Q = equilibrium_of(model);
+  // The clamp holds the body frame: omega^2 a = S2^T g, without approximation.
+  for (int l = 0; l < 3; ++l) {
+    const double omega = 2 * std::numbers::pi * body.frequencies_Hz[l];
+    CHECK(
+        Q[7 + l] ==
+        Approx(body.invariants.S2.col(l).dot(model.gravity_m_s2) / (omega * omega)).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("a run from equilibrium stays there while nothing is driven") {
+  Model model;
+  model.gravity_m_s2 = {1, 2, -9.81};
+  DrivenBody sled;
+  sled.initial_velocity_m_s = 3;
+  model.bodies.push_back({"sled", sled, {}});
+  const auto body = make_point_mass_body(52, 3).body;
+  model.bodies.push_back({"flexible", DeformableBody{body, VectorXd::Constant(3, 0.1)}, {}});
+  RigidBody head;
+  head.mass_kg = 3;
+  head.center_m = {0.02, 0.01, 0.05};
+  head.inertia_kg_m2 = Vector3d(0.016, 0.024, 0.022).asDiagonal();
+  model.bodies.push_back({"head", head, {body.interface("tip").position_m}});
+  model.markers = {{"sled", 0, ""}, {"root", 1, "root"}, {"tip", 1, "tip"}, {"head", 2, ""}};
+  model.joints = {{"base", JointKind::fixed, 0, 1}, {"top", JointKind::fixed, 2, 3}};
+  OutputOptions output;
+  output.end_time_s = 0.3;
+  output.interval_s = 0.1;
+  const History history = simulate_from_equilibrium(model, SolverOptions{}, output);
+  const auto& modal = history.modal[0].coordinates;
+  // The head's weight bends this soft body visibly.
+  REQUIRE(modal.col(0).norm() > 1e-3);
+  CHECK((modal.col(3) - modal.col(0)).norm() < 1e-9);
+  const MarkerHistory& tip = history.marker("tip");
+  CHECK((tip.velocity_m_s.col(3) - Vector3d(3, 0, 0)).norm() < 1e-8);
+  CHECK((tip.position_m.col(3) - tip.position_m.col(0) - Vector3d(0.9, 0, 0)).norm() < 1e-9);
+  // Both joints carry what hangs on them.
+  const double mass = 3 + body.invariants.mass;
+  CHECK((history.joint("base").force_N.col(3) + mass * model.gravity_m_s2).norm() < 1e-6);
+}
+
+TEST_CASE("what has no equilibrium is refused") {
+  Model loose = pendulum(0);
+  loose.joints.clear();
+  CHECK_THROWS_WITH(equilibrium_of(loose), Contains("rod") && Contains("no equilibrium"));
+
+  Model torn = pendulum(0);
+  DrivenBody sled;
+  sled.initial_velocity_m_s = 1;
+  torn.bodies.push_back({"sled", sled, {{0, 0, -kLength}}});
+  torn.markers.push_back({"on sled", 2, ""});
+  torn.joints.push_back({"hook", JointKind::ball, 3, 2});
+  CHECK_THROWS_AS(equilibrium_of(torn), flexneck::InputError);
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vector>
+
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+
+#include "multibody/kkt_solver.h"
+#include "tests/support/point_mass_body.h"
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using flexneck::testing::RandomNumbers;
+using namespace flexneck::multibody;
+
+namespace {
+
+constexpr std::size_t kDriven = JointPlace::kNoBody;
+
+/// The same system as a dense matrix.
+struct Dense {
+  MatrixXd matrix;
+
+  Dense(KktSolver& solver, const std::vector<Index>& sizes, const std::vector<JointPlace>& places,
+        RandomNumbers& random) {
+    const Index nv = solver.velocity_count();
+    matrix.setZero(nv + solver.constraint_count(), nv + solver.constraint_count());
+    for (std::size_t b = 0; b < sizes.size(); ++b) {
+      MatrixXd factor(sizes[b], sizes[b]);
+      random.fill(factor);
+      const RowMatrix mass =
+          factor * factor.transpose() + 0.1 * MatrixXd::Identity(sizes[b], sizes[b]);
+      solver.set_mass(b, mass);
+      matrix.block(solver.body_offset(b), solver.body_offset(b), sizes[b], sizes[b]) = mass;
+    }
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto size = [&](std::size_t body) { return body == kDriven ? 0 : sizes[body]; };
+      Joint joint;
+      joint.kind = places[k].rows == 3 ? JointKind::ball : JointKind::fixed;
+      JointRows rows(joint, size(places[k].body_i), size(places[k].body_j));
+      for (TransposedRows* B : {&rows.B_i, &rows.B_j})
+        for (Index c = 0; c < places[k].rows; ++c)
+          for (Index r = 0; r < B->rows(); ++r) (*B)(r, c) = random.next();
+      solver.set_rows(k, rows);
+      place(solver, k, places[k].body_i, rows.B_i.leftCols(places[k].rows));
+      place(solver, k, places[k].body_j, rows.B_j.leftCols(places[k].rows));
+    }
+  }
+
+  void place(const KktSolver& solver, std::size_t joint, std::size_t body, const MatrixXd& B) {
+    if (body == kDriven) return;
+    const Index row = solver.velocity_count() + solver.joint_offset(joint);
+    const Index column = solver.body_offset(body);
+    matrix.block(row, column, B.cols(), B.rows()) += B.transpose();
+    matrix.block(column, row, B.rows(), B.cols()) += B;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("elimination body by body solves the whole system") {
+  RandomNumbers random(41);
+  // A chain on a driven body, a branch, and a loop closed between its ends; envelopes of all kinds.
+  const std::vector<Index> sizes = {6, 10, 6, 8};
+  const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {1, 2, 3},
+                                          {3, 0, 6},       {2, 3, 3}, {2, kDriven, 3}};
+  KktSolver solver(sizes, places);
+  const Dense dense(solver, sizes, places, random);
+  solver.factorise();
+  CHECK_FALSE(solver.redundant_joint().has_value());
+  VectorXd r = random.vector(solver.velocity_count());
+  VectorXd s = random.vector(solver.constraint_count());
+  VectorXd right(r.size() + s.size());
+  right << r, s;
+  const VectorXd expected = dense.matrix.fullPivLu().solve(right);
+  solver.solve(r, s);
+  VectorXd found(right.size());
+  found << r, s;
+  // Condition numbers of such random matrices are about 1e4.
+  CHECK((found - expected).norm() < 1e-11 * expected.norm());
+}
+
+TEST_CASE("a joint that repeats another is found") {
+  const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {0, 1, 3}};
+  KktSolver solver({6, 6}, places);
+  for (std::size_t b = 0; b < 2; ++b) solver.set_mass(b, RowMatrix::Identity(6, 6));
+  Joint fixed;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    fixed.kind = places[k].rows == 6 ? JointKind::fixed : JointKind::ball;
+    JointRows rows(fixed, places[k].body_i == kDriven ? 0 : 6, 6);
+    for (Index r = 0; r < places[k].rows; ++r) {
+      rows.B_j(r, r) = -1;
+      if (rows.B_i.rows() > 0) rows.B_i(r, r) = 1;
+    }
+    solver.set_rows(k, rows);
+  }
+  solver.factorise();
+  REQUIRE(solver.redundant_joint().has_value());
+  CHECK(*solver.redundant_joint() == 2);
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "multibody/linearisation.h"
+#include "multibody/rotation.h"
+#include "tests/support/point_mass_body.h"
+
+using Eigen::Index;
+using Eigen::Matrix2d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using flexneck::testing::make_point_mass_body;
+using namespace flexneck::multibody;
+
+namespace {
+
+constexpr double kGravity = 9.81;
+/// Central differences over 1e-5 of a radian leave about 1e-10.
+constexpr double kTolerance = 1e-8;
+
+double hertz(double omega) { return omega / (2 * std::numbers::pi); }
+
+RigidBody rod(double mass, double length) {
+  RigidBody body;
+  body.mass_kg = mass;
+  body.center_m = {0, 0, -length / 2};
+  const double inertia = mass * length * length / 12;
+  body.inertia_kg_m2 = Vector3d(inertia, inertia, inertia / 10).asDiagonal();
+  return body;
+}
+
+/// A modal body clamped by its root to a driven body, with a head on its tip.
+Model clamped(double zeta, double head_kg, int modes) {
+  Model model;
+  const auto body = make_point_mass_body(61, modes).body;
+  model.bodies.push_back({"ground", DrivenBody{}, {}});
+  model.bodies.push_back({"flexible", DeformableBody{body, VectorXd::Constant(modes, zeta)}, {}});
+  model.markers = {{"wall", 0, ""}, {"root", 1, "root"}};
+  model.joints.push_back({"clamp", JointKind::fixed, 0, 1});
+  if (head_kg > 0) {
+    RigidBody head;
+    head.mass_kg = head_kg;
+    head.center_m = {0.02, 0.01, 0.05};
+    head.inertia_kg_m2 = head_kg * Vector3d(0.004, 0.006, 0.005).asDiagonal();
+    model.bodies.push_back({"head", head, {body.interface("tip").position_m}});
+    model.markers.push_back({"tip", 1, "tip"});
+    model.markers.push_back({"head", 2, ""});
+    model.joints.push_back({"top", JointKind::fixed, 2, 3});
+  }
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("a double pendulum swings with its closed-form frequencies in both planes") {
+  const double m1 = 2, l1 = 0.5, m2 = 1, l2 = 0.3;
+  Model model;
+  model.gravity_m_s2 = {0, 0, -kGravity};
+  model.bodies = {{"ground", DrivenBody{}, {}},
+                  {"upper", rod(m1, l1), {}},
+                  {"lower", rod(m2, l2), {{0, 0, -l1}}}};
+  model.markers = {
+      {"pivot", 0, ""}, {"upper top", 1, ""}, {"upper end", 1, ""}, {"lower top", 2, ""}};
+  model.markers[2].position_m = {0, 0, -l1};
+  model.joints = {{"first", JointKind::pin, 0, 1}, {"second", JointKind::pin, 2, 3}};
+  // M = [m1 l1^2/3 + m2 l1^2, m2 l1 l2/2; ., m2 l2^2/3], K = g diag(m1 l1/2 + m2 l1, m2 l2/2).
+  Matrix2d M, K;
+  M << m1 * l1 * l1 / 3 + m2 * l1 * l1, m2 * l1 * l2 / 2, m2 * l1 * l2 / 2, m2 * l2 * l2 / 3;
+  K << kGravity * (m1 * l1 / 2 + m2 * l1), 0, 0, kGravity * m2 * l2 / 2;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix2d> eigen(K, M);
+  const auto modes = system_modes(model);
+  REQUIRE(modes.size() == 2);
+  for (Index k = 0; k < 2; ++k) {
+    const SystemMode& mode = modes[static_cast<std::size_t>(k)];
+    CHECK(mode.frequency_Hz ==
+          Approx(hertz(std::sqrt(eigen.eigenvalues()[k]))).epsilon(kTolerance));
+    CHECK(mode.damped_frequency_Hz == Approx(mode.frequency_Hz).epsilon(kTolerance));
+    CHECK(std::abs(mode.damping_ratio) < kTolerance);
+  }
+  // On balls each swings in two planes, and the turns about the vertical have no restoring force.
+  for (Joint& joint : model.joints) joint.kind = JointKind::ball;
+  const auto free_modes = system_modes(model);
+  REQUIRE(free_modes.size() == 6);
+  CHECK(free_modes[1].frequency_Hz == 0);
+  for (std::size_t k = 2; k < 6; ++k)
+    CHECK(free_modes[k].frequency_Hz == Approx(modes[k < 4 ? 0 : 1].frequency_Hz).epsilon(1e-7));
+}
+
+TEST_CASE("a clamped modal body alone has its own frequencies and damping") {
+  const double zeta = GENERATE(0.0, 0.2, 0.9, 1.5);
+  CAPTURE(zeta);
+  const Model model = clamped(zeta, 0, 3);
+  const auto modes = system_modes(model);
+  REQUIRE(modes.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double f = 4.0 + 3.0 * static_cast<double>(k);
+    CHECK(modes[k].frequency_Hz == Approx(f).epsilon(kTolerance));
+    CHECK(modes[k].damping_ratio == Approx(zeta).margin(kTolerance));
+    const double damped = zeta < 1 ? f * std::sqrt(1 - zeta * zeta) : 0;
+    CHECK(modes[k].damped_frequency_Hz == Approx(damped).margin(kTolerance * f));
+  }
+}
+
+TEST_CASE("a head on a modal body swings as the minimal-coordinate form says") {
+  const double zeta = 0.3;
+  const Model model = clamped(zeta, 3, 4);
+  const auto& body = std::get<DeformableBody>(model.bodies[1].kind).modes;
+  const auto& tip = body.interface("tip");
+  const auto& head = std::get<RigidBody>(model.bodies[2].kind);
+  // equations.md section 6 at a = 0 and rest; all head quantities about its joint.
+  const Eigen::Matrix3d hS = skew(head.mass_kg * head.center_m);
+  const Eigen::Matrix3d hJ =
+      head.inertia_kg_m2 - head.mass_kg * skew(head.center_m) * skew(head.center_m);
+  const MatrixXd psi = tip.translation;
+  const MatrixXd mu = tip.rotation;
+  const MatrixXd M = MatrixXd::Identity(4, 4) + psi.transpose() * (head.mass_kg * psi - hS * mu) +
+                     mu.transpose() * (hS * psi + hJ * mu);
+  const VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
+  MatrixXd A = MatrixXd::Zero(8, 8);
+  A.topRightCorner(4, 4).setIdentity();
+  A.bottomLeftCorner(4, 4) = -M.inverse() * MatrixXd(omega.cwiseAbs2().asDiagonal());
+  A.bottomRightCorner(4, 4) = -M.inverse() * MatrixXd((2 * zeta * omega).asDiagonal());
+  std::vector<std::complex<double>> expected;
+  const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues();
+  for (const auto& lambda : eigenvalues)
+    if (lambda.imag() > 0) expected.push_back(lambda);
+  std::sort(expected.begin(), expected.end(),
+            [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
+  const auto modes = system_modes(model);
+  REQUIRE(expected.size() == 4);
+  REQUIRE(modes.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(modes[k].frequency_Hz == Approx(hertz(std::abs(expected[k]))).epsilon(kTolerance));
+    CHECK(modes[k].damped_frequency_Hz == Approx(hertz(expected[k].imag())).epsilon(kTolerance));
+    CHECK(modes[k].damping_ratio ==
+          Approx(-expected[k].real() / std::abs(expected[k])).epsilon(kTolerance));
+  }
+}
+
+TEST_CASE("overdamped modes pair their real eigenvalues by shape") {
+  // Two uncoupled oscillators, turned so that the matrices are full; their eigenvalues interlace:
+  // w = 10, zeta = 2 gives -2.68 and -37.3; w = 12, zeta = 1.2 gives -6.44 and -22.4.
+  const Eigen::Rotation2Dd turn(0.7);
+  const Matrix2d R = turn.toRotationMatrix();
+  const Matrix2d K = R * Eigen::Vector2d(100, 144).asDiagonal() * R.transpose();
+  const Matrix2d C = R * Eigen::Vector2d(40, 28.8).asDiagonal() * R.transpose();
+  const auto modes = modes_of(K, C);
+  REQUIRE(modes.size() == 2);
+  CHECK(modes[0].frequency_Hz == Approx(hertz(10)).epsilon(1e-12));
+  CHECK(modes[0].damping_ratio == Approx(2).epsilon(1e-12));
+  CHECK(modes[1].frequency_Hz == Approx(hertz(12)).epsilon(1e-12));
+  CHECK(modes[1].damping_ratio == Approx(1.2).epsilon(1e-12));
+}
+
+TEST_CASE("an unstable equilibrium is reported") {
+  const MatrixXd K = MatrixXd::Constant(1, 1, -4.0);
+  CHECK_THROWS_AS(modes_of(K, MatrixXd::Zero(1, 1)), flexneck::ComputationError);
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "multibody/simulation.h"
+#include "tests/support/point_mass_body.h"
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using flexneck::ComputationError;
+using flexneck::InputError;
+using flexneck::testing::make_point_mass_body;
+using namespace flexneck::multibody;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A sled that brakes between 10 and 30 ms, jumping at both ends, with a modal neck and a head.
+Model sled() {
+  Model model;
+  model.gravity_m_s2 = {0, 0, -9.81};
+  DrivenBody base;
+  base.initial_velocity_m_s = 4;
+  base.acceleration_m_s2 = TimeTable({0.01, 0.03}, {-200, -150}, TimeTable::Outside::zero);
+  model.bodies.push_back({"sled", base, {}});
+  auto body = make_point_mass_body(81, 4).body;
+  for (auto& interface : body.interfaces) interface.rotation *= 0.3;
+  body.frequencies_Hz *= 5;
+  model.bodies.push_back({"neck", DeformableBody{body, VectorXd::Constant(4, 0.4)}, {}, {4, 0, 0}});
+  RigidBody head;
+  head.mass_kg = 3;
+  head.center_m = {0.02, 0.01, 0.05};
+  head.inertia_kg_m2 = Vector3d(0.016, 0.024, 0.022).asDiagonal();
+  model.bodies.push_back({"head", head, {body.interface("tip").position_m}, {4, 0, 0}});
+  model.markers = {{"sled", 0, ""}, {"root", 1, "root"}, {"tip", 1, "tip"}, {"head", 2, ""}};
+  Marker center{"head center", 2, ""};
+  center.position_m = head.center_m;
+  model.markers.push_back(center);
+  model.joints = {{"base", JointKind::fixed, 0, 1}, {"top", JointKind::fixed, 2, 3}};
+  return model;
+}
+
+SolverOptions tolerance(double relative) {
+  SolverOptions options;
+  options.relative_tolerance = relative;
+  options.absolute_tolerance = 1e-3 * relative;
+  return options;
+}
+
+constexpr OutputOptions kShort{0.1, 2e-3};
+
+}  // namespace
+
+TEST_CASE("the energies of a braked sled balance to the tolerance") {
+  for (const double relative : {1e-6, 1e-9}) {
+    const History history = simulate(sled(), tolerance(relative), kShort);
+    const EnergyHistory& e = history.energy;
+    const VectorXd balance =
+        e.kinetic_J + e.gravitational_J + e.strain_J + e.dissipated_J - e.work_J;
+    const double drift = (balance.array() - balance[0]).abs().maxCoeff();
+    // Some hundred steps, each with an error of the tolerance's size.
+    CHECK(drift < 10 * relative * e.kinetic_J.maxCoeff());
+    CHECK(e.dissipated_J.tail(1)[0] > 1);
+    CHECK(e.work_J.tail(1)[0] < -10);
+    CHECK(history.statistics.largest_position_residual < 1e-12);
+    CHECK(history.statistics.largest_velocity_residual < 1e-12);
+  }
+}
+
+TEST_CASE("a run converges with its tolerance, jumps of the drive included") {
+  const History fine = simulate(sled(), tolerance(1e-11), kShort);
+  const auto& reference = fine.marker("head center");
+  for (const double relative : {1e-5, 1e-7, 1e-9}) {
+    const History coarse = simulate(sled(), tolerance(relative), kShort);
+    const auto& head = coarse.marker("head center");
+    CHECK((head.position_m - reference.position_m).cwiseAbs().maxCoeff() < 10 * relative * 0.2);
+    CHECK((head.velocity_m_s - reference.velocity_m_s).cwiseAbs().maxCoeff() < 20 * relative * 4);
+  }
+}
+
+TEST_CASE("accelerations and reactions in a history obey Newton's law for the head") {
+  const History history = simulate(sled(), tolerance(1e-8), kShort);
+  const auto& head = history.marker("head center");
+  const auto& tip = history.marker("tip");
+  const auto& top = history.joint("top");
+  for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
+    const Eigen::Quaterniond R(tip.rotation(0, k), tip.rotation(1, k), tip.rotation(2, k),
+                               tip.rotation(3, k));
+    const Vector3d force = R * top.force_N.col(k) + 3 * Vector3d(0, 0, -9.81);
+    CHECK((force - 3 * head.acceleration_m_s2.col(k)).norm() < 1e-9 * (1 + force.norm()));
+  }
+}
+
+TEST_CASE("a run does not depend on where the world has its origin") {
+  Model moved = sled();
+  const Vector3d shift(1000, -2000, 500);
+  for (Body& body : moved.bodies) body.initial_pose.position_m += shift;
+  const History here = simulate(sled(), tolerance(1e-6), kShort);
+  const History there = simulate(moved, tolerance(1e-6), kShort);
+  CHECK(here.statistics.accepted == there.statistics.accepted);
+  const auto difference =
+      (there.marker("head").position_m.colwise() - shift) - here.marker("head").position_m;
+  CHECK(difference.cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("outputs are the multiples of the interval and the end") {
+  const History even = simulate(sled(), tolerance(1e-6), {0.03, 0.01});
+  REQUIRE(even.time_s.size() == 4);
+  CHECK(even.time_s[3] == 0.03);
+  const History odd = simulate(sled(), tolerance(1e-6), {0.025, 0.01});
+  REQUIRE(odd.time_s.size() == 4);
+  CHECK(odd.time_s[2] == 0.02);
+  CHECK(odd.time_s[3] == 0.025);
+}
+
+TEST_CASE("the same run gives the same bits") {
+  const History one = simulate(sled(), tolerance(1e-6), kShort);
+  const History two = simulate(sled(), tolerance(1e-6), kShort);
+  CHECK(one.marker("head").position_m == two.marker("head").position_m);
+  CHECK(one.joint("base").moment_Nm == two.joint("base").moment_Nm);
+  CHECK(one.energy.dissipated_J == two.energy.dissipated_J);
+}
+
+TEST_CASE("a joint violated at the start is refused by name") {
+  Model apart = sled();
+  apart.bodies[2].initial_pose.position_m.x() += 1e-3;
+  CHECK_THROWS_AS(simulate(apart, {}, kShort), InputError);
+  CHECK_THROWS_WITH(simulate(apart, {}, kShort), Contains("'top'") && Contains("0.001 m"));
+
+  Model turned = sled();
+  turned.bodies[1].initial_pose.rotation = Eigen::AngleAxisd(0.01, Vector3d::UnitX());
+  CHECK_THROWS_WITH(simulate(turned, {}, kShort), Contains("'base'") && Contains("0.01 rad"));
+
+  Model parting = sled();
+  parting.bodies[2].initial_velocity_m_s.setZero();
+  CHECK_THROWS_WITH(simulate(parting, {}, kShort), Contains("'top'") && Contains("4 m/s"));
+}
+
+TEST_CASE("poses that fit a joint but for rounded digits are brought onto it") {
+  Model rounded = sled();
+  rounded.bodies[2].initial_pose.position_m.x() += 5e-8;
+  const History history = simulate(rounded, {}, kShort);
+  const Vector3d gap =
+      history.marker("tip").position_m.col(0) - history.marker("head").position_m.col(0);
+  CHECK(gap.norm() < 1e-14);
+}
+
+TEST_CASE("joints that repeat each other are refused by name") {
+  Model twice = sled();
+  twice.joints.push_back({"again", JointKind::ball, 2, 3});
+  CHECK_THROWS_WITH(simulate(twice, {}, kShort), Contains("'again'"));
+}
+
+TEST_CASE("a run that cannot go on says when and why") {
+  // A force beyond every bound.
+  Model wild = sled();
+  wild.forces.push_back({"huge", 3, Vector3d::UnitX(),
+                         TimeTable({0, 0.05}, {0, 1e300}, TimeTable::Outside::constant)});
+  CHECK_THROWS_AS(simulate(wild, {}, kShort), ComputationError);
+  CHECK_THROWS_WITH(simulate(wild, {}, kShort), Contains(" s;") && Contains("of body '"));
+}
+
+TEST_CASE("options that make no sense are refused") {
+  SolverOptions negative;
+  negative.relative_tolerance = -1;
+  CHECK_THROWS_AS(simulate(sled(), negative, kShort), InputError);
+  CHECK_THROWS_AS(simulate(sled(), {}, {0, 1e-3}), InputError);
+  CHECK_THROWS_AS(simulate(sled(), {}, {1, std::numeric_limits<double>::quiet_NaN()}), InputError);
+}
