@@ -55,7 +55,7 @@ BodyTerms::BodyTerms(const BodyConstants& body)
     : a(VectorXd::Zero(body.mode_count())),
       G(9 * body.mode_count()),
       N(3, body.mode_count()),
-      mass(RowMatrix::Zero(body.velocity_count(), body.velocity_count())),
+      mass(Eigen::MatrixXd::Zero(body.velocity_count(), body.velocity_count())),
       u(body.velocity_count()),
       work_modes(3 * body.mode_count()) {
   mass.diagonal().head<3>().setConstant(body.mass);
@@ -78,7 +78,7 @@ void update_configuration(const BodyConstants& body, BodyTerms& terms) {
       terms.J += terms.a[l] * (ConstMatrix3Map(body.G0.data() + 9 * l).transpose() +
                                ConstMatrix3Map(terms.G.data() + 9 * l));
   }
-  RowMatrix& M = terms.mass;
+  Eigen::MatrixXd& M = terms.mass;
   const Matrix3d M_tr = -terms.A * skew(terms.S);
   M.block<3, 3>(0, 3) = M_tr;
   M.block<3, 3>(3, 0) = M_tr.transpose();

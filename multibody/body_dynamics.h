@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 
-#include "multibody/cholesky.h"
 #include "multibody/model.h"
 
 namespace flexneck::multibody {
@@ -42,9 +41,9 @@ struct BodyTerms {
   Eigen::VectorXd a;                                ///< modal coordinates
   Eigen::Vector3d S;
   Eigen::Matrix3d J;
-  Eigen::VectorXd G;   ///< (9m): G_l(a)
-  Eigen::Matrix3Xd N;  ///< (3, m): N(a)
-  RowMatrix mass;      ///< (6+m, 6+m), both triangles
+  Eigen::VectorXd G;     ///< (9m): G_l(a)
+  Eigen::Matrix3Xd N;    ///< (3, m): N(a)
+  Eigen::MatrixXd mass;  ///< (6+m, 6+m), both triangles
 
   // Of the velocities besides:
   Eigen::VectorXd u;           ///< (6+m): right-hand side of eq. (8)

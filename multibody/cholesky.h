@@ -7,44 +7,44 @@
 
 namespace flexneck::multibody {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Replaces the lower triangle of a symmetric positive definite matrix by its Cholesky factor L,
-/// with 1 / L_ii on the diagonal. For the 6 to 40 rows of a body plain loops beat a blocked
-/// library. A matrix that is not positive definite leaves NaN behind: the caller sees it in the
-/// result.
-inline void factorise_cholesky(RowMatrix& matrix) {
+/// Replaces the lower triangle of a symmetric positive definite matrix, of fixed or free size, by
+/// its Cholesky factor L, with 1 / L_ii on the diagonal. For the 6 to 40 rows of a body plain loops
+/// along columns beat a blocked library. A matrix that is not positive definite leaves NaN behind:
+/// the caller sees it in the result.
+template <typename Matrix>
+void factorise_cholesky(Matrix& matrix) {
   const Eigen::Index n = matrix.rows();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double* const row_i = &matrix(i, 0);
-    for (Eigen::Index j = 0; j < i; ++j) {
-      const double* const row_j = &matrix(j, 0);
-      double sum = row_i[j];
-      for (Eigen::Index k = 0; k < j; ++k) sum -= row_i[k] * row_j[k];
-      row_i[j] = sum * row_j[j];
+  for (Eigen::Index k = 0; k < n; ++k) {
+    double* const column_k = &matrix(0, k);
+    const double scale = 1 / std::sqrt(column_k[k]);
+    column_k[k] = scale;
+    for (Eigen::Index i = k + 1; i < n; ++i) column_k[i] *= scale;
+    for (Eigen::Index j = k + 1; j < n; ++j) {
+      double* const column_j = &matrix(0, j);
+      const double factor = column_k[j];
+      for (Eigen::Index i = j; i < n; ++i) column_j[i] -= factor * column_k[i];
     }
-    double pivot = row_i[i];
-    for (Eigen::Index k = 0; k < i; ++k) pivot -= row_i[k] * row_i[k];
-    row_i[i] = 1 / std::sqrt(pivot);
   }
 }
 
-/// Rows of `values` <- L^-1 values; a row of `values` may hold several right-hand sides.
-template <typename Values>
-void solve_lower(const RowMatrix& factor, Values&& values) {
-  for (Eigen::Index i = 0; i < factor.rows(); ++i) {
-    for (Eigen::Index k = 0; k < i; ++k) values.row(i) -= factor(i, k) * values.row(k);
-    values.row(i) *= factor(i, i);
+/// values <- L^-1 values; a row of `values` may hold several right-hand sides.
+template <typename Matrix, typename Values>
+void solve_lower(const Matrix& factor, Values&& values) {
+  const Eigen::Index n = factor.rows();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    values.row(k) *= factor(k, k);
+    for (Eigen::Index i = k + 1; i < n; ++i) values.row(i) -= factor(i, k) * values.row(k);
   }
 }
 
 /// values <- L^-T values, for one right-hand side.
-template <typename Values>
-void solve_upper(const RowMatrix& factor, Values&& values) {
-  for (Eigen::Index i = factor.rows(); i-- > 0;) {
-    const double value = values[i] * factor(i, i);
-    values[i] = value;
-    for (Eigen::Index k = 0; k < i; ++k) values[k] -= factor(i, k) * value;
+template <typename Matrix, typename Values>
+void solve_upper(const Matrix& factor, Values&& values) {
+  const Eigen::Index n = factor.rows();
+  for (Eigen::Index k = n; k-- > 0;) {
+    double sum = values[k];
+    for (Eigen::Index i = k + 1; i < n; ++i) sum -= factor(i, k) * values[i];
+    values[k] = sum * factor(k, k);
   }
 }
 

@@ -2,7 +2,8 @@
 #include "multibody/kkt_solver.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "multibody/cholesky.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -17,30 +18,35 @@ constexpr double kRedundant = 1e-11;
 
 KktSolver::KktSolver(const std::vector<Index>& body_sizes, const std::vector<JointPlace>& joints) {
   for (const Index size : body_sizes) {
-    bodies_.push_back({velocity_count_, RowMatrix(size, size)});
+    bodies_.push_back({velocity_count_, Eigen::MatrixXd(size, size)});
     velocity_count_ += size;
   }
   const auto rows_on = [&](std::size_t body) {
     const Index size = body == JointPlace::kNoBody ? 0 : body_sizes[body];
     return TransposedRows(size, kMaxRows);
   };
-  for (const JointPlace& place : joints) {
-    joints_.push_back({place, constraint_count_, rows_on(place.body_i), rows_on(place.body_j)});
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const JointPlace& place = joints[k];
+    joints_.push_back({place, constraint_count_, rows_on(place.body_i), rows_on(place.body_j), k, 0,
+                       RowVector::Zero(), RowVector::Ones()});
     constraint_count_ += place.rows;
-    add_meetings(joints_.size() - 1);
+    add_meetings(k);
   }
-  schur_.setZero(constraint_count_, constraint_count_);
-  pivot_ratio_.setOnes(constraint_count_);
-  first_.resize(static_cast<std::size_t>(constraint_count_));
-  for (const JointBlock& joint : joints_)
-    std::fill_n(first_.begin() + joint.offset, joint.place.rows, joint.offset);
+  std::size_t blocks = 0;
   for (const Meeting& meeting : meetings_) {
-    const JointBlock& row_joint = joints_[meeting.row_joint];
-    for (Index r = row_joint.offset; r < row_joint.offset + row_joint.place.rows; ++r) {
-      Index& first = first_[static_cast<std::size_t>(r)];
-      first = std::min(first, joints_[meeting.column_joint].offset);
-    }
+    std::size_t& first = joints_[meeting.row_joint].first;
+    first = std::min(first, meeting.column_joint);
   }
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    joints_[k].blocks = blocks;
+    blocks += k - joints_[k].first + 1;
+  }
+  schur_.resize(blocks);
+}
+
+KktSolver::Block& KktSolver::block(std::size_t row_joint, std::size_t column_joint) {
+  const JointBlock& row = joints_[row_joint];
+  return schur_[row.blocks + column_joint - row.first];
 }
 
 void KktSolver::add_meetings(std::size_t row_joint) {
@@ -57,7 +63,9 @@ void KktSolver::add_meetings(std::size_t row_joint) {
   }
 }
 
-void KktSolver::set_mass(std::size_t body, const RowMatrix& mass) { bodies_[body].factor = mass; }
+void KktSolver::set_mass(std::size_t body, const Eigen::MatrixXd& mass) {
+  bodies_[body].factor = mass;
+}
 
 void KktSolver::set_rows(std::size_t joint, const JointRows& rows) {
   joints_[joint].Y_i = rows.B_i;
@@ -77,76 +85,85 @@ void KktSolver::factorise() {
 }
 
 void KktSolver::assemble_schur_complement() {
-  schur_.setZero();
+  for (Block& part : schur_) part.setZero();
   for (const Meeting& meeting : meetings_) {
     const JointBlock& row = joints_[meeting.row_joint];
     const JointBlock& column = joints_[meeting.column_joint];
     const TransposedRows& Y_row = meeting.row_is_i ? row.Y_i : row.Y_j;
     const TransposedRows& Y_column = meeting.column_is_i ? column.Y_i : column.Y_j;
-    Eigen::Matrix<double, kMaxRows, kMaxRows, Eigen::RowMajor> block;
-    block.setZero();
+    Block& sum = block(meeting.row_joint, meeting.column_joint);
     for (Index k = 0; k < Y_row.rows(); ++k)
-      block.noalias() += Y_row.row(k).transpose() * Y_column.row(k);
-    schur_.block(row.offset, column.offset, row.place.rows, column.place.rows) +=
-        block.topLeftCorner(row.place.rows, column.place.rows);
+      sum.noalias() += Y_row.row(k).transpose() * Y_column.row(k);
   }
 }
 
 void KktSolver::factorise_schur_complement() {
-  for (Index i = 0; i < constraint_count_; ++i) {
-    double* const row_i = &schur_(i, 0);
-    const Index first_i = first_[static_cast<std::size_t>(i)];
-    for (Index j = first_i; j < i; ++j) {
-      const double* const row_j = &schur_(j, 0);
-      double sum = row_i[j];
-      for (Index k = std::max(first_i, first_[static_cast<std::size_t>(j)]); k < j; ++k)
-        sum -= row_i[k] * row_j[k];
-      row_i[j] = sum * row_j[j];
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    Block& diagonal = block(i, i);
+    for (Index r = 0; r < kMaxRows; ++r) joints_[i].pivot_ratio[r] = diagonal(r, r);
+    for (std::size_t j = joints_[i].first; j < i; ++j) {
+      // L_ij = (S_ij - sum_k L_ik L_jk^T) L_jj^-T.
+      Block& L_ij = block(i, j);
+      for (std::size_t k = std::max(joints_[i].first, joints_[j].first); k < j; ++k)
+        L_ij.noalias() -= block(i, k).lazyProduct(block(j, k).transpose());
+      const Block& L_jj = block(j, j);
+      for (Index c = 0; c < kMaxRows; ++c) {
+        L_ij.col(c) *= L_jj(c, c);
+        for (Index later = c + 1; later < kMaxRows; ++later)
+          L_ij.col(later) -= L_jj(later, c) * L_ij.col(c);
+      }
+      diagonal.noalias() -= L_ij.lazyProduct(L_ij.transpose());
     }
-    const double diagonal = row_i[i];
-    double pivot = diagonal;
-    for (Index k = first_i; k < i; ++k) pivot -= row_i[k] * row_i[k];
-    pivot_ratio_[i] = pivot / diagonal;
-    row_i[i] = 1 / std::sqrt(pivot);
+    // Padding: rows that the joint lacks are zero.
+    for (Index r = joints_[i].place.rows; r < kMaxRows; ++r) diagonal(r, r) = 1;
+    factorise_cholesky(diagonal);
+    for (Index r = 0; r < joints_[i].place.rows; ++r)
+      joints_[i].pivot_ratio[r] = 1 / (diagonal(r, r) * diagonal(r, r) * joints_[i].pivot_ratio[r]);
   }
 }
 
-void KktSolver::solve(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) const {
+void KktSolver::solve_schur_complement() {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    RowVector& lambda = joints_[i].lambda;
+    for (std::size_t k = joints_[i].first; k < i; ++k)
+      lambda.noalias() -= block(i, k).lazyProduct(joints_[k].lambda);
+    solve_lower(block(i, i), lambda);
+  }
+  for (std::size_t i = joints_.size(); i-- > 0;) {
+    RowVector& lambda = joints_[i].lambda;
+    solve_upper(block(i, i), lambda);
+    for (std::size_t k = joints_[i].first; k < i; ++k)
+      joints_[k].lambda.noalias() -= block(i, k).transpose().lazyProduct(lambda);
+  }
+}
+
+void KktSolver::solve(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) {
   const auto segment = [&](std::size_t body) {
     return r.segment(bodies_[body].offset, bodies_[body].factor.rows());
   };
   for (std::size_t b = 0; b < bodies_.size(); ++b) solve_lower(bodies_[b].factor, segment(b));
 
   // S lambda = B M^-1 r - s.
-  s = -s;
-  for (const JointBlock& joint : joints_) {
-    RowVector sum = RowVector::Zero();
+  for (JointBlock& joint : joints_) {
+    joint.lambda.setZero();
+    joint.lambda.head(joint.place.rows) = -s.segment(joint.offset, joint.place.rows);
     const auto add = [&](std::size_t body, const TransposedRows& Y) {
       if (body == JointPlace::kNoBody) return;
       const auto z = segment(body);
-      for (Index k = 0; k < Y.rows(); ++k) sum += z[k] * Y.row(k).transpose();
+      for (Index k = 0; k < Y.rows(); ++k) joint.lambda += z[k] * Y.row(k).transpose();
     };
     add(joint.place.body_i, joint.Y_i);
     add(joint.place.body_j, joint.Y_j);
-    s.segment(joint.offset, joint.place.rows) += sum.head(joint.place.rows);
   }
-  for (Index i = 0; i < constraint_count_; ++i) {
-    for (Index k = first_[static_cast<std::size_t>(i)]; k < i; ++k) s[i] -= schur_(i, k) * s[k];
-    s[i] *= schur_(i, i);
-  }
-  for (Index i = constraint_count_; i-- > 0;) {
-    s[i] *= schur_(i, i);
-    for (Index k = first_[static_cast<std::size_t>(i)]; k < i; ++k) s[k] -= schur_(i, k) * s[i];
-  }
+  solve_schur_complement();
 
   // x = L^-T (z - Y lambda).
   for (const JointBlock& joint : joints_) {
-    RowVector lambda = RowVector::Zero();
-    lambda.head(joint.place.rows) = s.segment(joint.offset, joint.place.rows);
+    s.segment(joint.offset, joint.place.rows) = joint.lambda.head(joint.place.rows);
     const auto subtract = [&](std::size_t body, const TransposedRows& Y) {
       if (body == JointPlace::kNoBody) return;
       auto z = segment(body);
-      for (Index k = 0; k < Y.rows(); ++k) z[k] -= Y.row(k).dot(lambda);
+      for (Index k = 0; k < Y.rows(); ++k) z[k] -= Y.row(k).dot(joint.lambda);
     };
     subtract(joint.place.body_i, joint.Y_i);
     subtract(joint.place.body_j, joint.Y_j);
@@ -157,7 +174,7 @@ void KktSolver::solve(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) const {
 std::optional<std::size_t> KktSolver::redundant_joint() const {
   for (std::size_t joint = 0; joint < joints_.size(); ++joint)
     for (Index r = 0; r < joints_[joint].place.rows; ++r)
-      if (!(pivot_ratio_[joints_[joint].offset + r] > kRedundant)) return joint;
+      if (!(joints_[joint].pivot_ratio[r] > kRedundant)) return joint;
   return std::nullopt;
 }
 

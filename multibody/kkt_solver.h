@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "multibody/cholesky.h"
 #include "multibody/joints.h"
 
 namespace flexneck::multibody {
@@ -22,7 +21,8 @@ struct JointPlace {
 /// Solves [M B^T; B 0] [x; lambda] = [r; s] (equations.md section 5) for a mass matrix of one block
 /// a body and rows of one or two blocks a joint. Elimination in the order bodies, then joints: with
 /// M = L L^T the joints are left with S = Y^T Y, Y = L^-1 B^T, which is factorised inside its
-/// envelope. This is LDL^T without pivoting, safe because the matrix is quasi-definite.
+/// envelope in blocks of a joint by a joint, padded to full size. This is LDL^T without pivoting,
+/// safe because the matrix is quasi-definite.
 class KktSolver {
  public:
   KktSolver(const std::vector<Eigen::Index>& body_sizes, const std::vector<JointPlace>& joints);
@@ -32,46 +32,52 @@ class KktSolver {
   Eigen::Index body_offset(std::size_t body) const { return bodies_[body].offset; }
   Eigen::Index joint_offset(std::size_t joint) const { return joints_[joint].offset; }
 
-  void set_mass(std::size_t body, const RowMatrix& mass);
+  void set_mass(std::size_t body, const Eigen::MatrixXd& mass);
   void set_rows(std::size_t joint, const JointRows& rows);
   /// Once all masses and rows are set.
   void factorise();
   /// @param r  (velocity_count), becomes x
   /// @param s  (constraint_count), becomes lambda
-  void solve(Eigen::Ref<Eigen::VectorXd> r, Eigen::Ref<Eigen::VectorXd> s) const;
+  void solve(Eigen::Ref<Eigen::VectorXd> r, Eigen::Ref<Eigen::VectorXd> s);
 
   /// The first joint whose rows repeat what those before it hold already, by the pivots of the last
   /// factorisation.
   std::optional<std::size_t> redundant_joint() const;
 
  private:
+  using Block = Eigen::Matrix<double, kMaxRows, kMaxRows>;
+
   struct BodyBlock {
     Eigen::Index offset;
-    RowMatrix factor;
+    Eigen::MatrixXd factor;
   };
   struct JointBlock {
     JointPlace place;
     Eigen::Index offset;
     TransposedRows Y_i, Y_j;
+    std::size_t first;   ///< first joint in this one's row of S's envelope
+    std::size_t blocks;  ///< where that row's blocks start
+    RowVector lambda;    ///< padded with zeros
+    RowVector pivot_ratio;
   };
-  /// Two joints' rows that meet on a body: a block of S.
+  /// Two joints' rows that meet on a body: a contribution to a block of S.
   struct Meeting {
     std::size_t row_joint, column_joint;
     bool row_is_i, column_is_i;
   };
 
   void add_meetings(std::size_t row_joint);
+  Block& block(std::size_t row_joint, std::size_t column_joint);
   void assemble_schur_complement();
   void factorise_schur_complement();
+  void solve_schur_complement();
 
   std::vector<BodyBlock> bodies_;
   std::vector<JointBlock> joints_;
   std::vector<Meeting> meetings_;
   Eigen::Index velocity_count_ = 0;
   Eigen::Index constraint_count_ = 0;
-  RowMatrix schur_;                  ///< lower triangle; its factor after factorise()
-  std::vector<Eigen::Index> first_;  ///< first column of each row's envelope
-  Eigen::VectorXd pivot_ratio_;      ///< squared pivot over the diagonal it came from
+  std::vector<Block> schur_;  ///< row by row of the lower triangle; its factor after factorise()
 };
 
 }  // namespace flexneck::multibody

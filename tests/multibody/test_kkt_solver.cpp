@@ -28,7 +28,7 @@ struct Dense {
     for (std::size_t b = 0; b < sizes.size(); ++b) {
       MatrixXd factor(sizes[b], sizes[b]);
       random.fill(factor);
-      const RowMatrix mass =
+      const MatrixXd mass =
           factor * factor.transpose() + 0.1 * MatrixXd::Identity(sizes[b], sizes[b]);
       solver.set_mass(b, mass);
       matrix.block(solver.body_offset(b), solver.body_offset(b), sizes[b], sizes[b]) = mass;
@@ -83,7 +83,7 @@ TEST_CASE("elimination body by body solves the whole system") {
 TEST_CASE("a joint that repeats another is found") {
   const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {0, 1, 3}};
   KktSolver solver({6, 6}, places);
-  for (std::size_t b = 0; b < 2; ++b) solver.set_mass(b, RowMatrix::Identity(6, 6));
+  for (std::size_t b = 0; b < 2; ++b) solver.set_mass(b, MatrixXd::Identity(6, 6));
   Joint fixed;
   for (std::size_t k = 0; k < places.size(); ++k) {
     fixed.kind = places[k].rows == 6 ? JointKind::fixed : JointKind::ball;
