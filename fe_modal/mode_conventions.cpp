@@ -36,9 +36,9 @@ Eigen::Index end_of_group(const Eigen::VectorXd& values, Eigen::Index first) {
 
 /// Orthogonal matrix whose first column has the most fore-aft and least lateral motion.
 Eigen::MatrixXd rotation_to_axes(const Motions& motions) {
-  const auto fore_aft = motions({0, 4}, Eigen::all);
-  const auto lateral = motions({1, 3}, Eigen::all);
-  const Eigen::MatrixXd contest = lateral.transpose() * lateral - fore_aft.transpose() * fore_aft;
+  // x and y translation, x and y rotation: lateral motion counts for, fore-aft against.
+  const Vector6d weights{{-1, 1, 0, 1, -1, 0}};
+  const Eigen::MatrixXd contest = motions.transpose() * weights.asDiagonal() * motions;
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(contest).eigenvectors();
 }
 

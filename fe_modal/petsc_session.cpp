@@ -29,6 +29,7 @@ PetscSession::PetscSession() {
   require(SlepcInitialize(&argument_count, &argument_list, nullptr, nullptr), "initialising PETSc");
   // Errors come back as codes, without a trace on the terminal.
   require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
+  require(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"), "silencing CHOLMOD");
 }
 
 PetscSession::~PetscSession() { static_cast<void>(SlepcFinalize()); }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/petsc_handles.h"
+
+namespace flexneck::fe_modal {
+
+/// All entries of a matrix of PETSc's, column by column through its product, so that it serves
+/// shell matrices too.
+inline Eigen::MatrixXd dense(Mat matrix) {
+  PetscInt rows = 0;
+  PetscInt columns = 0;
+  require(MatGetSize(matrix, &rows, &columns), "asking for the size");
+  Eigen::MatrixXd result(rows, columns);
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(columns);
+  for (PetscInt k = 0; k < columns; ++k) {
+    unit[k] = 1;
+    VecHandle in;
+    VecHandle out;
+    require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, columns, unit.data(), in.out()), "wrapping");
+    require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, rows, result.col(k).data(), out.out()),
+            "wrapping");
+    require(MatMult(matrix, in.get(), out.get()), "multiplying");
+    unit[k] = 0;
+  }
+  return result;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "fe_modal/assembly.h"
+#include "fe_modal/eigensolver.h"
+#include "geometry/foundation/error.h"
+#include "tests/fe_modal/dense.h"
+#include "tests/support/block_mesh.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
+
+MatHandle diagonal_matrix(const Eigen::VectorXd& diagonal) {
+  MatHandle matrix;
+  const auto size = static_cast<PetscInt>(diagonal.size());
+  require(MatCreateSeqAIJ(PETSC_COMM_SELF, size, size, 1, nullptr, matrix.out()), "making");
+  for (PetscInt k = 0; k < size; ++k) {
+    require(MatSetValue(matrix.get(), k, k, diagonal[k], INSERT_VALUES), "filling");
+  }
+  require(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY), "assembling");
+  require(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY), "assembling");
+  require(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE), "labelling");
+  return matrix;
+}
+
+Eigen::VectorXd dense_eigenvalues(const SystemMatrices& system) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
+             dense(system.stiffness.get()), dense(system.mass.get()), Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+}  // namespace
+
+TEST_CASE("modes of a held body agree with a dense solution, exactly double ones included") {
+  // A square bar of 2 x 2 x 3 elements: bending comes in pairs.
+  constexpr double kTolerance = 1e-9;
+  const mesher::Mesh mesh = testing::box({2, 2, 3}, {0.1, 0.1, 0.4}, kSteel).make();
+  const FreeNodes free_nodes(mesh.nodes.size(), mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, free_nodes);
+  const CholeskyFactor factor(system.stiffness.get(), system.mass.get(), 0);
+  const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 12);
+  const Eigen::VectorXd expected = dense_eigenvalues(system).head(12);
+  REQUIRE(std::abs(expected[1] / expected[0] - 1) < 1e-8);
+  CHECK(((pairs.values - expected).array() / expected.array()).abs().maxCoeff() < kTolerance);
+
+  const Eigen::MatrixXd mass = dense(system.mass.get());
+  const Eigen::MatrixXd modal_mass = pairs.vectors.transpose() * mass * pairs.vectors;
+  CHECK((modal_mass - Eigen::MatrixXd::Identity(12, 12)).cwiseAbs().maxCoeff() < 1e-12);
+  const Eigen::VectorXd residuals =
+      relative_residuals(system.stiffness.get(), system.mass.get(), pairs, 0);
+  CHECK(residuals.maxCoeff() < 1e-8);
+}
+
+TEST_CASE("a free body has six eigenvalues of zero and the elastic ones of a dense solution") {
+  const mesher::Mesh mesh = testing::box({2, 1, 3}, {0.15, 0.1, 0.4}, kSteel).make();
+  const FreeNodes free_nodes(mesh.nodes.size(), {});
+  const SystemMatrices system = assemble(mesh, free_nodes);
+  const double shift = -1e7;
+  const CholeskyFactor factor(system.stiffness.get(), system.mass.get(), shift);
+  const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 9);
+  const Eigen::VectorXd expected = dense_eigenvalues(system);
+  CHECK(pairs.values.head(6).cwiseAbs().maxCoeff() < 1e-9 * expected[6]);
+  CHECK(((pairs.values.tail(3) - expected.segment<3>(6)).array() / expected.segment<3>(6).array())
+            .abs()
+            .maxCoeff() < 1e-9);
+}
+
+TEST_CASE("all copies of manifold eigenvalues are found") {
+  // A Krylov space holds one vector of each eigenspace; the copies are a matter of completeness.
+  Eigen::VectorXd diagonal(60);
+  for (Eigen::Index k = 0; k < diagonal.size(); ++k) diagonal[k] = 100.0 + 7.0 * double(k);
+  diagonal.head(9) << 1, 1, 1, 1, 1, 2, 2, 2, 3;
+  const MatHandle stiffness = diagonal_matrix(diagonal);
+  const MatHandle mass = diagonal_matrix(Eigen::VectorXd::Ones(60));
+  const CholeskyFactor factor(stiffness.get(), mass.get(), 0);
+  for (const Eigen::Index count : {3, 5, 7, 8, 9}) {
+    const EigenPairs pairs = lowest_eigenpairs(stiffness.get(), mass.get(), factor, count);
+    CHECK((pairs.values - diagonal.head(count)).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK((pairs.vectors.transpose() * pairs.vectors - Eigen::MatrixXd::Identity(count, count))
+              .cwiseAbs()
+              .maxCoeff() < 1e-9);
+  }
+}
+
+TEST_CASE("every mode of a small system can be asked for") {
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::LinSpaced(9, 1, 9);
+  const MatHandle stiffness = diagonal_matrix(diagonal);
+  const MatHandle mass = diagonal_matrix(Eigen::VectorXd::Constant(9, 4));
+  const CholeskyFactor factor(stiffness.get(), mass.get(), 0);
+  const EigenPairs pairs = lowest_eigenpairs(stiffness.get(), mass.get(), factor, 9);
+  CHECK((pairs.values - diagonal / 4).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("a stiffness that is not positive definite is refused") {
+  const mesher::Mesh mesh = testing::box({1, 1, 2}, {0.1, 0.1, 0.4}, kSteel).make();
+  const FreeNodes free_nodes(mesh.nodes.size(), mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, free_nodes);
+  const double above_the_first = 2 * dense_eigenvalues(system)[0];
+  CHECK_THROWS_AS(CholeskyFactor(system.stiffness.get(), system.mass.get(), above_the_first),
+                  ComputationError);
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "fe_modal/modal_analysis.h"
+#include "geometry/foundation/error.h"
+#include "tests/support/block_mesh.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+mesher::Mesh bar() {
+  return testing::box({1, 1, 2}, {0.1, 0.1, 0.4}, {"steel", 2.1e11, 0.3, 7850}).make();
+}
+
+ModalOptions sound_options() {
+  ModalOptions options;
+  options.mode_count = 2;
+  options.held_set = "bottom";
+  options.held_interface = "root";
+  options.interfaces = {{"tip", "top", {0, 0, 0.4}}};
+  options.rigid_parts = {"block"};
+  options.sign_interface = "tip";
+  options.length_m = 0.4;
+  options.attachments = {{"mass", "tip", 1.0, {0, 0, 0.4}, Eigen::Matrix3d::Zero()}};
+  return options;
+}
+
+/// Expects that the options, spoilt, are refused with a message that holds the text.
+void check_refused(const std::function<void(ModalOptions&)>& spoil, const std::string& text) {
+  ModalOptions options = sound_options();
+  spoil(options);
+  CHECK_THROWS_AS(analyse_modes(bar(), options, {}), InputError);
+  CHECK_THROWS_WITH(analyse_modes(bar(), options, {}), Catch::Contains(text));
+}
+
+}  // namespace
+
+TEST_CASE("sound options are accepted and progress is told") {
+  std::vector<std::string> lines;
+  analyse_modes(bar(), sound_options(), [&](const std::string& line) { lines.push_back(line); });
+  REQUIRE_FALSE(lines.empty());
+  CHECK_THAT(lines[0], Catch::Contains("108 degrees of freedom"));
+  for (const std::string& line : lines) CHECK(line.find('\n') == std::string::npos);
+}
+
+TEST_CASE("unknown names are refused with what there is") {
+  check_refused([](ModalOptions& o) { o.held_set = "bolts"; }, "bottom");
+  check_refused([](ModalOptions& o) { o.interfaces[0].set = "tap"; }, "top");
+  check_refused([](ModalOptions& o) { o.rigid_parts = {"blok"}; }, "block");
+  check_refused([](ModalOptions& o) { o.sign_interface = "tap"; }, "tip");
+  check_refused([](ModalOptions& o) { o.attachments[0].interface = "head"; }, "tip");
+}
+
+TEST_CASE("impossible options are refused") {
+  check_refused([](ModalOptions& o) { o.mode_count = 0; }, "number of modes");
+  check_refused([](ModalOptions& o) { o.mode_count = 109; }, "108 degrees of freedom");
+  check_refused([](ModalOptions& o) { o.length_m = 0; }, "length");
+  check_refused([](ModalOptions& o) { o.attachments[0].mass_kg = -1; }, "negative");
+  check_refused([](ModalOptions& o) { o.held_interface = "tip"; }, "tip");
+  check_refused([](ModalOptions& o) { o.held_set.clear(); }, "free body");
+}
+
+TEST_CASE("a held set that lets the body turn is refused") {
+  mesher::Mesh mesh = bar();
+  mesh.node_sets.push_back({"edge", {0, 1, 2}});
+  ModalOptions options = sound_options();
+  options.held_set = "edge";
+  CHECK_THROWS_AS(analyse_modes(mesh, options, {}), InputError);
+  CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Catch::Contains("on one line"));
+}
+
+}  // namespace flexneck::fe_modal
