@@ -61,17 +61,7 @@ bool execute(const Arguments& arguments, const Console& console) {
   return list[which].run({study, folder, console});
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("From the geometry of a manikin's neck to its motion.", "flexneck");
-  Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUnusableInput;
-  }
+int exit_code_of(const Arguments& arguments) {
   const Console console(arguments.verbosity());
   try {
     return execute(arguments, console) ? 0 : kVerificationFailed;
@@ -80,6 +70,24 @@ int main(int argc, char** argv) {
     return kUnusableInput;
   } catch (const std::exception& error) {
     console.error(error.what());
+    return kComputationFailed;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    CLI::App app("From the geometry of a manikin's neck to its motion.", "flexneck");
+    Arguments arguments;
+    describe(app, arguments);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : kUnusableInput;
+    }
+    return exit_code_of(arguments);
+  } catch (...) {
     return kComputationFailed;
   }
 }

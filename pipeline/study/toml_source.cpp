@@ -16,12 +16,13 @@ namespace {
 /// Moves what `over` holds into `base`; tables are merged key by key, everything else replaced.
 /// Nodes are moved because a copy would lose its line and column.
 void merge(toml::table& base, toml::table&& over) {
-  for (auto&& [key, node] : over) {
-    toml::table* const below = base[key.str()].as_table();
+  for (auto&& [name, node] : over) {
+    const std::string key(name.str());
+    toml::table* const below = base[key].as_table();
     if (below != nullptr && node.is_table() && !node.as_table()->is_inline()) {
       merge(*below, std::move(*node.as_table()));
     } else {
-      node.visit([&](auto& value) { base.insert_or_assign(key.str(), std::move(value)); });
+      node.visit([&](auto& value) { base.insert_or_assign(key, std::move(value)); });
     }
   }
 }
