@@ -48,9 +48,9 @@ DefineConstant[
   plate_layers = {1, Name "Divisions/plate_layers"},
   end_plate_layers = {1, Name "Divisions/end_plate_layers"},
   // Element length over that of the neighbour nearer to the rubber's rim, on either side of it.
-  ring_grading = {1, Name "Divisions/ring_grading"},
+  ring_grading = {1.15, Name "Divisions/ring_grading"},
   // Rubber: thickness of a layer over that of the neighbour nearer to the bond.
-  rubber_grading = {1, Name "Divisions/rubber_grading"}
+  rubber_grading = {1.5, Name "Divisions/rubber_grading"}
 ];
 
 rubber_height = (length - base_plate_thickness - 3 * plate_thickness - top_plate_thickness) / 4;

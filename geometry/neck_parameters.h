@@ -37,8 +37,9 @@ struct NeckDivisions {
   int rubber_layers = 3;  ///< through one rubber section
   int plate_layers = 1;   ///< through an intermediate plate
   int end_plate_layers = 1;
-  double ring_grading = 1;    ///< ratio of neighbouring elements towards the rim, 1 = even
-  double rubber_grading = 1;  ///< ratio of neighbouring layers towards the bonds, 1 = even
+  double ring_grading =
+      1.15;  ///< ratio of neighbouring elements away from the rubber's rim, 1 = even
+  double rubber_grading = 1.5;  ///< ratio of neighbouring layers away from the bonds, 1 = even
 };
 
 /// Height of one rubber section: (length - plates) / 4.

@@ -8,7 +8,6 @@
 #include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
-using flexneck::InputError;
 using flexneck::Origin;
 using flexneck::pipeline::StudyDocument;
 using flexneck::pipeline::StudyTable;
