@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/commands.h"
 
+#include <algorithm>
+
+#include "pipeline/text_table.h"
+
 namespace flexneck::pipeline {
 
 const std::vector<Command>& commands() {
@@ -16,7 +20,36 @@ const std::vector<Command>& commands() {
   return list;
 }
 
+namespace {
+
+/// "published 12, inferred 5, …"
+std::string origin_counts(const Study& study) {
+  std::string text;
+  for (std::size_t i = 0; i < kOriginNames.size(); ++i) {
+    const auto count = std::count_if(
+        study.parameters.begin(), study.parameters.end(),
+        [&](const Parameter& parameter) { return parameter.origin == static_cast<Origin>(i); });
+    text += (i > 0 ? ", " : "") + std::string(kOriginNames[i]) + " " + std::to_string(count);
+  }
+  return text;
+}
+
+/// The dimensions of the neck and the figures of its bodies, each with its origin.
+std::string origin_table(const Study& study) {
+  std::vector<std::vector<std::string>> rows = {{"input", "value", "origin"}};
+  for (const Parameter& parameter : study.parameters) {
+    if (parameter.origin == Origin::synthetic) continue;
+    rows.push_back({parameter.key, parameter.value, std::string(name_of(parameter.origin))});
+  }
+  return text_table(rows, {0, 1, 2});
+}
+
+}  // namespace
+
 bool run_command(const CommandInput& input) {
+  input.console.result("Inputs by origin: " + origin_counts(input.study) +
+                       "; 'flexneck study' lists them with their sources.\n" +
+                       origin_table(input.study));
   mesh_command(input);
   modes_command(input);
   static_command(input);

@@ -2,6 +2,8 @@
 #include "pipeline/study/study_document.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -85,8 +87,19 @@ struct StudyTable::Node {
 
 namespace {
 
+/// As the user would write it, without quotes and brackets.
 std::string text_of(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto number = node.value_exact<double>()) {
+    std::array<char, 32> digits{};
+    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), *number);
+    return {digits.data(), end};
+  }
+  if (const toml::array* const list = node.as_array()) {
+    std::string text;
+    for (const toml::node& each : *list) text += (text.empty() ? "" : ", ") + text_of(each);
+    return text;
+  }
   std::ostringstream stream;
   node.visit([&](const auto& value) { stream << value; });
   return stream.str();
