@@ -13,23 +13,29 @@ namespace {
 
 constexpr const char* kAssembling = "assembling the system matrices";
 
-/// Zero matrix with room for exactly the 3 x 3 blocks of the graph between free nodes.
-MatHandle make_matrix(const NodeGraph& graph, const FreeNodes& free_nodes, bool diagonal_blocks) {
+/// Zero symmetric matrix with room for exactly the upper half of what couples free nodes.
+/// @param each_direction_alone directions do not couple, as in the mass
+MatHandle make_matrix(const NodeGraph& graph, const FreeNodes& free_nodes,
+                      bool each_direction_alone) {
   std::vector<PetscInt> row_counts;
   row_counts.reserve(static_cast<std::size_t>(free_nodes.dof_count()));
   for (std::int32_t node = 0; node < graph.node_count(); ++node) {
-    if (free_nodes.index(node) < 0) continue;
+    const std::int32_t index = free_nodes.index(node);
+    if (index < 0) continue;
     const auto neighbours = graph.neighbours(node);
-    const auto count = std::count_if(neighbours.begin(), neighbours.end(),
-                                     [&](std::int32_t k) { return free_nodes.index(k) >= 0; });
-    row_counts.insert(row_counts.end(), 3,
-                      static_cast<PetscInt>(diagonal_blocks ? count : 3 * count));
+    const auto later = static_cast<PetscInt>(
+        std::count_if(neighbours.begin(), neighbours.end(),
+                      [&](std::int32_t other) { return free_nodes.index(other) > index; }));
+    for (PetscInt a = 0; a < 3; ++a) {
+      row_counts.push_back(each_direction_alone ? later + 1 : 3 * later + 3 - a);
+    }
   }
   const auto size = static_cast<PetscInt>(free_nodes.dof_count());
   MatHandle matrix;
-  require(MatCreateSeqAIJ(PETSC_COMM_SELF, size, size, 0, row_counts.data(), matrix.out()),
+  require(MatCreateSeqSBAIJ(PETSC_COMM_SELF, 1, size, size, 0, row_counts.data(), matrix.out()),
           kAssembling);
   require(MatSetOption(matrix.get(), MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE), kAssembling);
+  require(MatSetOption(matrix.get(), MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE), kAssembling);
   require(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE), kAssembling);
   return matrix;
 }

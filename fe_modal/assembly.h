@@ -15,8 +15,8 @@ using NodalMass = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 
 /// Matrices of the whole body.
 struct SystemMatrices {
-  MatHandle stiffness;   ///< of the free degrees of freedom, N/m, symmetric
-  MatHandle mass;        ///< of the free degrees of freedom, kg, symmetric
+  MatHandle stiffness;   ///< of the free degrees of freedom, N/m; the upper half is stored
+  MatHandle mass;        ///< of the free degrees of freedom, kg; the upper half is stored
   NodalMass nodal_mass;  ///< of all nodes
 };
 

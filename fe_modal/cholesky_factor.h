@@ -5,12 +5,12 @@
 
 namespace flexneck::fe_modal {
 
-/// Sparse Cholesky factor of K - shift M, made once and used by every solve. By CHOLMOD with a
-/// METIS ordering: on the default neck it takes two thirds of MUMPS's time, for want of METIS
-/// there.
+/// Sparse Cholesky factor of K - shift M, made once and used by every solve. By CHOLMOD, which
+/// orders with AMD or METIS, whichever fills less: on the 26k-DOF neck it factorises in 1.0 s and
+/// solves in 23 ms, where MUMPS, without METIS in Debian, takes 1.0 to 1.4 s and 28 to 38 ms.
 class CholeskyFactor {
  public:
-  /// @param stiffness symmetric, both halves stored
+  /// @param stiffness symmetric, with the upper half stored
   /// @param mass its entries lie where the stiffness has some
   /// @throws ComputationError if K - shift M is not positive definite or memory runs out.
   CholeskyFactor(Mat stiffness, Mat mass, double shift);

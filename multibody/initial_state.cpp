@@ -15,7 +15,8 @@ using Eigen::VectorXd;
 
 constexpr double kTolerance = 1e-6;
 
-/// Text such as "0.3 m and 0.2 rad" of a joint's residual.
+/// Size of a joint's residual: m and rad, or m/s and rad/s. For a pin the rotation is that of its
+/// axis.
 struct Violation {
   double translation;
   double rotation;

@@ -29,7 +29,7 @@ ModalBody neck(const std::string& set) {
   options.length_m = 5.66 * kInch;
   options.attachments = {
       {"head", "top", 9.921 * kPound, {0.55 * kInch, 0, 7.66 * kInch}, kInertiaUnit * inertia}};
-  return analyse_modes(test::neck_mesh(set), options, {});
+  return analyse_modes(testing::neck_mesh(set), options, {});
 }
 
 /// Compares by name with converged frequencies (two independent solvers, other elements and

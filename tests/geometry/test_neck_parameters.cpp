@@ -13,8 +13,8 @@ namespace flexneck::geometry {
 namespace {
 
 using Catch::Matchers::Contains;
-using test::kInch;
-using test::neck_parameters;
+using testing::kInch;
+using testing::neck_parameters;
 
 /// Text of the refusal of set C after a change.
 std::string refusal(const std::function<void(NeckParameters&)>& change) {

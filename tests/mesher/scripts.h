@@ -7,7 +7,7 @@
 #include "mesher/script_mesher.h"
 #include "tests/support/temporary_folder.h"
 
-namespace flexneck::test {
+namespace flexneck::testing {
 
 /// A gmsh script of one or two hexahedral blocks, made to size by its constants.
 inline const char* const kBrick = R"(
@@ -41,4 +41,4 @@ class ScriptFixture {
   testing::TemporaryFolder folder_;
 };
 
-}  // namespace flexneck::test
+}  // namespace flexneck::testing

@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/mesh.h"
 
-namespace flexneck::test {
+namespace flexneck::testing {
 
 /// Two hexahedra of 1 x 1 x 1 m on top of each other as the parts "upper" and "lower", in that
 /// order, of the materials "soft" and "hard"; the node and face set "floor".
@@ -39,4 +39,4 @@ inline mesher::Mesh small_mesh() {
   return mesh;
 }
 
-}  // namespace flexneck::test
+}  // namespace flexneck::testing

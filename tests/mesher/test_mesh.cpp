@@ -18,7 +18,7 @@ using Catch::Matchers::Contains;
 constexpr double kRounding = 1e-14;
 
 std::string refusal(const std::function<void(Mesh&)>& change) {
-  Mesh mesh = test::small_mesh();
+  Mesh mesh = testing::small_mesh();
   change(mesh);
   try {
     check(mesh);
@@ -30,7 +30,7 @@ std::string refusal(const std::function<void(Mesh&)>& change) {
 
 }  // namespace
 
-TEST_CASE("a sound mesh passes the check") { CHECK_NOTHROW(check(test::small_mesh())); }
+TEST_CASE("a sound mesh passes the check") { CHECK_NOTHROW(check(testing::small_mesh())); }
 
 TEST_CASE("node indices out of range are refused") {
   CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[1].nodes[5] = 45; }),
@@ -100,14 +100,14 @@ TEST_CASE("materials that no solid can have are refused") {
 }
 
 TEST_CASE("sets are found by name; a missing one is reported with those there are") {
-  const Mesh mesh = test::small_mesh();
+  const Mesh mesh = testing::small_mesh();
   CHECK(mesh.node_set("floor").nodes.size() == 9);
   CHECK_THROWS_AS(mesh.face_set("flor"), InputError);
   CHECK_THROWS_WITH(mesh.face_set("flor"), Contains("face set 'flor'") && Contains("'floor'"));
 }
 
 TEST_CASE("the summary adds up volumes and masses") {
-  const MeshSummary summary = summarise(test::small_mesh());
+  const MeshSummary summary = summarise(testing::small_mesh());
   CHECK(summary.elements == 2);
   CHECK(summary.degrees_of_freedom == 135);
   CHECK(summary.parts[0].mass_kg == Approx(950).epsilon(kRounding));
@@ -117,7 +117,7 @@ TEST_CASE("the summary adds up volumes and masses") {
 }
 
 TEST_CASE("the scaled Jacobian of a sheared box is the cosine of the shear") {
-  Mesh mesh = test::small_mesh();
+  Mesh mesh = testing::small_mesh();
   const double shear = std::tan(30 * M_PI / 180);
   for (auto& node : mesh.nodes) node[0] += shear * node[2];
   const BlockMeasure measured = measure(mesh, mesh.blocks[0]);
@@ -126,19 +126,19 @@ TEST_CASE("the scaled Jacobian of a sheared box is the cosine of the shear") {
 }
 
 TEST_CASE("elements that are inverted, folded in a corner or flat are refused") {
-  CHECK_NOTHROW(require_sound_elements(test::small_mesh()));
-  Mesh inverted = test::small_mesh();
+  CHECK_NOTHROW(require_sound_elements(testing::small_mesh()));
+  Mesh inverted = testing::small_mesh();
   for (auto& node : inverted.nodes) node[0] = -node[0];
   CHECK_THROWS_AS(require_sound_elements(inverted), ComputationError);
 
   // A corner pushed along its edge, past the sixth of its length that a midside node allows: the
   // determinant is negative there and positive at every Gauss point.
-  Mesh folded = test::small_mesh();
+  Mesh folded = testing::small_mesh();
   folded.nodes[44] = {0.65, 1, 2};
   CHECK_THROWS_WITH(require_sound_elements(folded),
                     Contains("part 'upper'") && Contains("inverted or degenerate"));
 
-  Mesh flat = test::small_mesh();
+  Mesh flat = testing::small_mesh();
   for (auto& node : flat.nodes) node[2] = 0;
   CHECK_THROWS_AS(require_sound_elements(flat), ComputationError);
 }

@@ -30,7 +30,7 @@ Provenance some_provenance() {
 
 TEST_CASE("a mesh comes back from its file as it was") {
   const testing::TemporaryFolder folder;
-  const MeshFile out{.mesh = test::small_mesh(), .provenance = some_provenance()};
+  const MeshFile out{.mesh = testing::small_mesh(), .provenance = some_provenance()};
   write_mesh(folder / "mesh.h5", out);
   const MeshFile in = read_mesh(folder / "mesh.h5");
 
@@ -58,7 +58,7 @@ TEST_CASE("a mesh comes back from its file as it was") {
 
 TEST_CASE("an unsound mesh is not written") {
   const testing::TemporaryFolder folder;
-  Mesh mesh = test::small_mesh();
+  Mesh mesh = testing::small_mesh();
   mesh.nodes.push_back({0, 0, 9});
   CHECK_THROWS_AS(write_mesh(folder / "mesh.h5", {.mesh = mesh, .provenance = {}}), InputError);
   CHECK(fs::is_empty(folder.path()));
@@ -69,7 +69,7 @@ TEST_CASE("a missing, truncated or foreign file is refused by name") {
   CHECK_THROWS_AS(read_mesh(folder / "none.h5"), InputError);
   CHECK_THROWS_WITH(read_mesh(folder / "none.h5"), Contains("none.h5"));
 
-  write_mesh(folder / "cut.h5", {.mesh = test::small_mesh(), .provenance = {}});
+  write_mesh(folder / "cut.h5", {.mesh = testing::small_mesh(), .provenance = {}});
   fs::resize_file(folder / "cut.h5", fs::file_size(folder / "cut.h5") / 2);
   CHECK_THROWS_AS(read_mesh(folder / "cut.h5"), InputError);
   CHECK_THROWS_WITH(read_mesh(folder / "cut.h5"), Contains("cut.h5") && Contains("flexneck mesh"));
@@ -89,7 +89,7 @@ TEST_CASE("a missing, truncated or foreign file is refused by name") {
 TEST_CASE("a file whose parts do not fit together is refused with dataset and remedy") {
   const testing::TemporaryFolder folder;
   const auto write_part = [&](const std::string& material, std::int32_t first_node) {
-    const Mesh mesh = test::small_mesh();
+    const Mesh mesh = testing::small_mesh();
     std::vector<double> nodes;
     for (const auto& node : mesh.nodes) nodes.insert(nodes.end(), node.begin(), node.end());
     Hdf5Writer file(folder / "mesh.h5", kMeshFormat);

@@ -22,9 +22,9 @@ namespace {
 using Catch::Matchers::Contains;
 using geometry::NeckDivisions;
 using geometry::NeckParameters;
-using test::kInch;
-using test::neck_mesh;
-using test::neck_parameters;
+using testing::kInch;
+using testing::neck_mesh;
+using testing::neck_parameters;
 
 const std::vector<std::string> kParts = {"base_plate", "rubber_1", "plate_1",
                                          "rubber_2",   "plate_2",  "rubber_3",
@@ -216,8 +216,8 @@ TEST_CASE("at default divisions each bolt of each neck holds nodes of the base f
 TEST_CASE("bolts too small for the mesh are refused") {
   NeckParameters neck = neck_parameters("C");
   neck.bolt_patch_radius = 0.001 * kInch;
-  CHECK_THROWS_AS(mesh_script(test::neck_mesh_options(neck), {}), InputError);
-  CHECK_THROWS_WITH(mesh_script(test::neck_mesh_options(neck), {}),
+  CHECK_THROWS_AS(mesh_script(testing::neck_mesh_options(neck), {}), InputError);
+  CHECK_THROWS_WITH(mesh_script(testing::neck_mesh_options(neck), {}),
                     Contains("node set 'bolts'") && Contains("face set 'base'"));
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("gradings shrink the elements by their ratio towards rims and bonds") 
   divisions.rubber_grading = 2;
   NeckParameters neck = neck_parameters("A");
   neck.bottom_rubber_offset = 0;  // on a centred base face radii are the circles' own
-  const Mesh mesh = mesh_script(test::neck_mesh_options(neck, divisions), {});
+  const Mesh mesh = mesh_script(testing::neck_mesh_options(neck, divisions), {});
 
   std::set<long> radii_nm;
   for (const std::int32_t node : mesh.node_set("base").nodes) {
@@ -265,13 +265,13 @@ TEST_CASE("thin rings and coarse divisions do not fold elements over") {
   CHECK_NOTHROW(neck_mesh("A", {.quadrant = 2, .inner_ring = 4, .outer_ring = 3}));
   NeckParameters neck = neck_parameters("C");
   neck.bottom_rubber_offset = 0.65 * kInch;  // 0.031 in to the rim, 0.057 in to the hole
-  ScriptMeshOptions options = test::neck_mesh_options(neck);
+  ScriptMeshOptions options = testing::neck_mesh_options(neck);
   options.patches.clear();  // the bolts behind the rubber would need more divisions
   CHECK_NOTHROW(mesh_script(options, {}));
 }
 
 TEST_CASE("the script's own values are those of neck C") {
-  ScriptMeshOptions options = test::neck_mesh_options(neck_parameters("C"));
+  ScriptMeshOptions options = testing::neck_mesh_options(neck_parameters("C"));
   const Mesh with_constants = mesh_script(options, {});
   options.constants.clear();
   const Mesh plain = mesh_script(options, {});

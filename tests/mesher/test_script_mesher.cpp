@@ -13,8 +13,8 @@ namespace flexneck::mesher {
 namespace {
 
 using Catch::Matchers::Contains;
-using test::kBrick;
-using test::ScriptFixture;
+using testing::kBrick;
+using testing::ScriptFixture;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);

@@ -10,7 +10,7 @@
 
 /// Meshes of the four fitted necks. Users of this header link flexneck::geometry and
 /// flexneck::mesher.
-namespace flexneck::test {
+namespace flexneck::testing {
 
 inline std::vector<mesher::Material> neck_materials() {
   return {{.name = "aluminium",
@@ -50,4 +50,4 @@ inline mesher::Mesh neck_mesh(const std::string& set,
   return mesher::mesh_script(neck_mesh_options(neck_parameters(set), divisions), {});
 }
 
-}  // namespace flexneck::test
+}  // namespace flexneck::testing

@@ -8,7 +8,7 @@
 
 /// The four sets of neck dimensions that were fitted to the published frequencies, as fixtures:
 /// written out here a second time, so that tests do not depend on the parameter files.
-namespace flexneck::test {
+namespace flexneck::testing {
 
 inline constexpr double kInch = 0.0254;
 
@@ -45,4 +45,4 @@ inline geometry::NeckParameters neck_parameters(const std::string& set) {
           .bolt_patch_radius = 0.13 * kInch};
 }
 
-}  // namespace flexneck::test
+}  // namespace flexneck::testing
