@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "multibody/history.h"
 #include "multibody/model.h"
@@ -28,18 +29,24 @@ struct SystemMode {
   double damping_ratio = 0;
 };
 
-
 /// Runs a model from the state its bodies are given; constraints are projected first.
-/// @throws InputError if the model is not sound or a joint is violated at the start.
+/// @throws InputError if the model is not sound, an option makes no sense, a joint is violated at
+/// the start in position or velocity by more than rounding (1e-6 of the system's size or speed,
+/// 1e-6 rad), or a joint repeats what others hold.
 /// @throws ComputationError if the step collapses: time and what limited it.
 History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output);
 
 /// Runs a model from the static equilibrium of its free bodies relative to the driven ones under
 /// gravity and the forces at time zero, all moving with the driven bodies' initial velocity.
+/// @throws InputError besides if a body hangs on no driven body.
+/// @throws ComputationError besides if no equilibrium is found.
 History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
                                   const OutputOptions& output);
 
-/// Small motions about that equilibrium, ascending in frequency.
+/// Small motions about that equilibrium, ascending in frequency. An overdamped mode has a damping
+/// ratio of one or more and the damped frequency zero; a motion without restoring force has
+/// frequency zero.
+/// @throws as simulate_from_equilibrium(); ComputationError also if the equilibrium is not stable.
 std::vector<SystemMode> system_modes(const Model& model);
 
 }  // namespace flexneck::multibody
