@@ -57,6 +57,18 @@ void read_output(const StudyTable& table, Study& study) {
   table.finish();
 }
 
+/// A dimension that the user has set is no longer the one that was fitted.
+void forget_fit_of_changed_neck(Study& study) {
+  const auto is_changed = [](const Parameter& parameter) {
+    return parameter.key.starts_with("geometry.") && parameter.origin == Origin::synthetic &&
+           !parameter.key.ends_with(".script") && !parameter.key.ends_with(".fitted_to") &&
+           !parameter.key.ends_with(".parts");
+  };
+  if (study.geometry && std::any_of(study.parameters.begin(), study.parameters.end(), is_changed)) {
+    study.geometry->fitted_to.clear();
+  }
+}
+
 void check_geometry(const Study& study) {
   if (!study.geometry) return;
   try {
@@ -124,6 +136,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   check_references(study);
   study.files = document.files();
   study.parameters = document.parameters();
+  forget_fit_of_changed_neck(study);
   return study;
 }
 

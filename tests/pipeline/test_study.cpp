@@ -45,6 +45,12 @@ TEST_CASE("every shipped study reads, and its dimensions say where they come fro
   }
 }
 
+TEST_CASE("a neck with a dimension of the user's own no longer counts as fitted") {
+  CHECK(built_in().geometry->fitted_to.size() == 3);
+  CHECK(built_in({"geometry.plate_thickness=0.33 in"}).geometry->fitted_to.empty());
+  CHECK(built_in({"mesh.quadrant=6"}).geometry->fitted_to.size() == 3);
+}
+
 TEST_CASE("the head's inertia is the published principal one, turned") {
   const Study study = built_in();
   const Eigen::Matrix3d inertia = study.body("head").rigid.inertia_kg_m2;
