@@ -168,13 +168,13 @@ void EquationsOfMotion::solve() {
   ++evaluations_;
 }
 
-void EquationsOfMotion::evaluate(double time_s, const ConstVector& state, Vector rate) {
+void EquationsOfMotion::evaluate(double time_s, const ConstVector& state, VectorXd& rate) {
   set_positions(time_s, state.head(system_.position_count));
   set_velocities(state.segment(system_.position_count, system_.velocity_count));
   evaluate_updated(state, rate);
 }
 
-void EquationsOfMotion::evaluate_updated(const ConstVector& state, Vector rate) {
+void EquationsOfMotion::evaluate_updated(const ConstVector& state, VectorXd& rate) {
   const Index nq = system_.position_count;
   const Index nv = system_.velocity_count;
   const auto velocities = state.segment(nq, nv);

@@ -23,7 +23,6 @@ enum class Drive {
 /// set_velocities, then solve.
 class EquationsOfMotion {
  public:
-  using Vector = Eigen::Ref<Eigen::VectorXd>;
   using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
 
   /// @param system  must outlive this
@@ -39,9 +38,9 @@ class EquationsOfMotion {
   /// Accelerations and multipliers.
   void solve();
   /// Rate of the whole state (System::state_count()): all three steps.
-  void evaluate(double time_s, const ConstVector& state, Vector rate);
+  void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
   /// The same once positions and velocities are updated.
-  void evaluate_updated(const ConstVector& state, Vector rate);
+  void evaluate_updated(const ConstVector& state, Eigen::VectorXd& rate);
 
   /// Solves [M B^T; B 0] [change; .] = [0; -residual]: the smallest change in the mass metric.
   void remove_residual(const Eigen::VectorXd& residual, Eigen::VectorXd& change);

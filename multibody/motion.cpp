@@ -37,8 +37,7 @@ class Run {
  public:
   Run(const Model& model, const System& system, const VectorXd& state, const SolverOptions& solver,
       const OutputOptions& output)
-      : system_(system),
-        equations_(system),
+      : equations_(system),
         projection_(equations_),
         error_(system, solver.relative_tolerance, solver.absolute_tolerance),
         recorder_(model, output_times(output)),
@@ -93,7 +92,6 @@ class Run {
     }
   }
 
-  const System& system_;
   EquationsOfMotion equations_;
   Projection projection_;
   StateError error_;

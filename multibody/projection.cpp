@@ -10,14 +10,14 @@ using Eigen::VectorXd;
 Projection::Projection(EquationsOfMotion& equations)
     : equations_(equations), change_(VectorXd::Zero(equations.system().velocity_count)) {}
 
-void Projection::correct_positions(Eigen::Ref<VectorXd> positions) {
+void Projection::correct_positions(Eigen::Ref<VectorXd>& positions) {
   equations_.remove_residual(equations_.position_residual(), change_);
   equations_.system().retract(positions, change_);
 }
 
 void Projection::apply(double time_s, Eigen::Ref<VectorXd> state) {
   const System& system = equations_.system();
-  auto positions = state.head(system.position_count);
+  Eigen::Ref<VectorXd> positions = state.head(system.position_count);
   auto velocities = state.segment(system.position_count, system.velocity_count);
   system.normalise(positions);
   equations_.set_positions(time_s, positions);

@@ -23,7 +23,7 @@ class Projection {
   double converge_positions(double time_s, Eigen::Ref<Eigen::VectorXd> positions);
 
  private:
-  void correct_positions(Eigen::Ref<Eigen::VectorXd> positions);
+  void correct_positions(Eigen::Ref<Eigen::VectorXd>& positions);
 
   EquationsOfMotion& equations_;
   Eigen::VectorXd change_;
