@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace flexneck::multibody {
 
 /// Motion of a marker, one column per output time.
 struct MarkerHistory {
   std::string name;
-  Eigen::Matrix3Xd position_m;             ///< world
-  Eigen::Matrix3Xd velocity_m_s;           ///< world
-  Eigen::Matrix3Xd acceleration_m_s2;      ///< world, kinematic: gravity is not subtracted
-  Eigen::Matrix4Xd rotation;               ///< unit quaternion marker to world: w, x, y, z
+  Eigen::Matrix3Xd position_m;              ///< world
+  Eigen::Matrix3Xd velocity_m_s;            ///< world
+  Eigen::Matrix3Xd acceleration_m_s2;       ///< world, kinematic: gravity is not subtracted
+  Eigen::Matrix4Xd rotation;                ///< unit quaternion marker to world: w, x, y, z
   Eigen::Matrix3Xd angular_velocity_rad_s;  ///< world
 };
 
-/// What body i exerts on body j through a joint, in the axes of marker i (the moving node frame on a
-/// deformable body), about the joint point.
+/// What body i exerts on body j through a joint, in the axes of marker i (the moving node frame on
+/// a deformable body), about the joint point.
 struct JointHistory {
   std::string name;
   Eigen::Matrix3Xd force_N;
@@ -41,7 +42,7 @@ struct EnergyHistory {
 struct StepStatistics {
   int accepted = 0;
   int rejected = 0;
-  int evaluations = 0;  ///< of the equations of motion
+  int evaluations = 0;                   ///< of the equations of motion
   double largest_position_residual = 0;  ///< of the constraints, m and rad
   double largest_velocity_residual = 0;
 };

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "fe_modal/body/modal_body.h"
 #include "multibody/time_table.h"
@@ -20,7 +21,7 @@ struct Pose {
 
 struct RigidBody {
   double mass_kg = 0;
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();      ///< body frame
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();       ///< body frame
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre, body axes
 };
 
@@ -41,12 +42,12 @@ struct Body {
   std::string name;
   std::variant<RigidBody, DeformableBody, DrivenBody> kind;
   Pose initial_pose;
-  Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();          ///< of the origin, world
+  Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();  ///< of the origin, world
   Eigen::Vector3d initial_angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< body axes
 };
 
-/// A frame on a body: on a rigid or driven body anywhere, on a deformable one at an interface, whose
-/// motion it follows (finite rotation).
+/// A frame on a body: on a rigid or driven body anywhere, on a deformable one at an interface,
+/// whose motion it follows (finite rotation).
 struct Marker {
   std::string name;
   std::size_t body = 0;
