@@ -6,7 +6,7 @@ set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 sh "$root/cmake/setup.sh" build
-if [ ! -f "$root/build/CMakeCache.txt" ]; then
+if [ ! -f "$root/build/build.ninja" ]; then
   (cd "$root" && cmake --preset release -DFLEXNECK_TESTS=OFF) >/dev/null
 fi
 cmake --build "$root/build" --target flexneck
