@@ -3,103 +3,74 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <span>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "geometry/foundation/error.h"
-#include "mesher/mesh/mesh_measures.h"
-#include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::mesher {
 namespace {
 
 using NodeList = std::vector<std::int32_t>;
 
-/// For each side of the reference element, such as xi = -1, the local nodes that lie on it.
-std::vector<std::vector<std::size_t>> sides_of(ElementKind kind) {
-  const auto nodes = reference_nodes(kind);
-  std::vector<std::vector<std::size_t>> sides;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const double end : {-1.0, 1.0}) {
-      std::vector<std::size_t> side;
-      for (std::size_t n = 0; n < nodes.size(); ++n) {
-        if (nodes[n][axis] == end) side.push_back(n);
-      }
-      sides.push_back(std::move(side));
-    }
-  }
-  return sides;
+NodeList sorted(NodeList nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
 }
 
-/// Order of the nodes of a surface element seen from the other side: xi and eta change places.
-std::vector<std::size_t> turned_order(ElementKind kind) {
-  const auto nodes = reference_nodes(kind);
-  std::vector<std::size_t> order;
-  for (const auto& node : nodes) {
-    const std::array<double, 3> swapped = {node[1], node[0], node[2]};
-    order.push_back(
-        static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), swapped) - nodes.begin()));
-  }
-  return order;
+NodeList face_at(const FaceBlock& faces, std::size_t first) {
+  const auto begin = faces.nodes.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(nodes_per_element(faces.kind))};
 }
 
-/// Centre of the volume element that each face bounds, by the face's sorted nodes.
-std::map<NodeList, Eigen::Vector3d> centres_behind(const Mesh& mesh,
-                                                   const std::set<NodeList>& faces) {
-  std::map<NodeList, Eigen::Vector3d> found;
+/// Nodes of the sides that are wanted as the first volume element with such a side sees them, in
+/// the order that makes the normal point out of it; by the sorted nodes.
+std::map<NodeList, NodeList> outward_sides(const Mesh& mesh, std::map<NodeList, NodeList> wanted) {
   for (const ElementBlock& block : mesh.blocks) {
-    const auto sides = sides_of(block.kind);
     const std::size_t n = nodes_per_element(block.kind);
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      const std::span<const std::int32_t> element = std::span(block.nodes).subspan(e * n, n);
-      for (const auto& side : sides) {
-        NodeList key;
-        for (const std::size_t local : side) key.push_back(element[local]);
-        std::sort(key.begin(), key.end());
-        if (faces.contains(key)) {
-          found.emplace(std::move(key), positions_of(mesh, element).rowwise().mean());
-        }
+    for (std::size_t first = 0; first < block.nodes.size(); first += n) {
+      for (const Side& side : sides_of(block.kind)) {
+        NodeList nodes;
+        nodes.reserve(side.nodes.size());
+        for (const std::size_t local : side.nodes) nodes.push_back(block.nodes[first + local]);
+        const auto found = wanted.find(sorted(nodes));
+        if (found != wanted.end() && found->second.empty()) found->second = std::move(nodes);
       }
     }
   }
-  return found;
+  return wanted;
 }
 
-NodeList sorted(std::span<const std::int32_t> nodes) {
-  NodeList key(nodes.begin(), nodes.end());
-  std::sort(key.begin(), key.end());
-  return key;
+/// The same face from another of its corners on: corners and edges turn by `steps`, a centre stays.
+NodeList turned(const NodeList& face, std::size_t corners, std::size_t steps) {
+  NodeList result = face;
+  for (std::size_t i = 0; i < 2 * corners && i < face.size(); ++i) {
+    const std::size_t ring = i / corners * corners;
+    result[i] = face[ring + (i - ring + steps) % corners];
+  }
+  return result;
 }
 
 }  // namespace
 
-void orient_outwards(const Mesh& mesh, FaceSet& faces) {
+void orient_outwards(const Mesh& mesh, const std::string& name, FaceBlock& faces) {
   const std::size_t n = nodes_per_element(faces.kind);
-  const ShapeTable at_centre = tabulate(faces.kind, Eigen::Vector3d::Zero());
-  const std::vector<std::size_t> turned = turned_order(faces.kind);
-
-  std::set<NodeList> wanted;
+  const std::size_t corners = corners_per_element(faces.kind);
+  std::map<NodeList, NodeList> wanted;
   for (std::size_t first = 0; first < faces.nodes.size(); first += n) {
-    wanted.insert(sorted(std::span(faces.nodes).subspan(first, n)));
+    wanted.emplace(sorted(face_at(faces, first)), NodeList());
   }
-  const auto behind = centres_behind(mesh, wanted);
+  const auto outward = outward_sides(mesh, std::move(wanted));
 
   for (std::size_t first = 0; first < faces.nodes.size(); first += n) {
-    const std::span<std::int32_t> face = std::span(faces.nodes).subspan(first, n);
-    const auto owner = behind.find(sorted(face));
-    if (owner == behind.end()) {
-      throw InputError("physical surface '" + faces.name + "' has a face that bounds no part");
+    const NodeList& side = outward.at(sorted(face_at(faces, first)));
+    if (side.empty()) {
+      throw InputError("physical surface '" + name + "' has a face that bounds no part");
     }
-    const Eigen::Matrix3Xd x = positions_of(mesh, face);
-    const Eigen::Vector3d along_xi = x * at_centre.derivatives[0];
-    const Eigen::Vector3d along_eta = x * at_centre.derivatives[1];
-    const Eigen::Vector3d outwards = x * at_centre.values - owner->second;
-    if (along_xi.cross(along_eta).dot(outwards) > 0) continue;
-    const NodeList before(face.begin(), face.end());
-    for (std::size_t i = 0; i < n; ++i) face[i] = before[turned[i]];
+    const auto start = std::find(side.begin(), side.end(), faces.nodes[first]) - side.begin();
+    const NodeList from_start = turned(side, corners, static_cast<std::size_t>(start));
+    std::copy(from_start.begin(), from_start.end(),
+              faces.nodes.begin() + static_cast<std::ptrdiff_t>(first));
   }
 }
 

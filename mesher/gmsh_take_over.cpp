@@ -18,8 +18,16 @@ namespace flexneck::mesher {
 namespace {
 
 /// gmsh's numbers of the element types that a mesh may hold; node orders are the same.
-constexpr std::array<std::pair<int, ElementKind>, 2> kKindOfType = {
-    {{12, ElementKind::hex27}, {10, ElementKind::quad9}}};
+constexpr std::array<std::pair<int, ElementKind>, 10> kKindOfType = {{{5, ElementKind::hex8},
+                                                                      {17, ElementKind::hex20},
+                                                                      {12, ElementKind::hex27},
+                                                                      {18, ElementKind::prism15},
+                                                                      {13, ElementKind::prism18},
+                                                                      {11, ElementKind::tet10},
+                                                                      {3, ElementKind::quad4},
+                                                                      {16, ElementKind::quad8},
+                                                                      {10, ElementKind::quad9},
+                                                                      {9, ElementKind::tri6}}};
 
 std::optional<ElementKind> kind_of(int gmsh_type) {
   const auto* const found = std::find_if(kKindOfType.begin(), kKindOfType.end(),
@@ -82,38 +90,45 @@ void require_one_part_per_volume() {
   }
 }
 
-/// Elements of a group, all of one kind, with gmsh's node tags.
-struct GroupElements {
-  ElementKind kind{};
-  std::vector<std::size_t> node_tags;  ///< row-major (elements, nodes per element)
-};
+/// Node tags of a group's elements, row-major (elements, nodes per element), by kind.
+using GroupElements = std::map<ElementKind, std::vector<std::size_t>>;
+
+[[noreturn]] void refuse_kinds(const PhysicalGroup& group,
+                               const std::map<int, std::size_t>& unknown) {
+  std::string found;
+  for (const auto& [type, count] : unknown) {
+    found += (found.empty() ? "" : " and ") + std::to_string(count) + " of type '" +
+             name_of_type(type) + "'";
+  }
+  std::string known;
+  for (const ElementKind kind : element_kinds()) {
+    if (dimension(kind) != group.dimension) continue;
+    known += (known.empty() ? "" : ", ") + std::string(name_of(kind));
+  }
+  throw InputError(group.label() + ": expected elements of the kinds " + known + ", found " +
+                   found);
+}
 
 GroupElements elements_of(const PhysicalGroup& group) {
-  std::map<int, std::vector<std::size_t>> tags_of_type;
-  std::map<int, std::size_t> count_of_type;
+  GroupElements elements;
+  std::map<int, std::size_t> unknown;
   for (const int entity : group.entities) {
     std::vector<int> types;
-    std::vector<std::vector<std::size_t>> elements;
+    std::vector<std::vector<std::size_t>> tags;
     std::vector<std::vector<std::size_t>> nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, group.dimension, entity);
+    gmsh::model::mesh::getElements(types, tags, nodes, group.dimension, entity);
     for (std::size_t t = 0; t < types.size(); ++t) {
-      count_of_type[types[t]] += elements[t].size();
-      auto& tags = tags_of_type[types[t]];
-      tags.insert(tags.end(), nodes[t].begin(), nodes[t].end());
+      if (const auto kind = kind_of(types[t])) {
+        auto& all = elements[*kind];
+        all.insert(all.end(), nodes[t].begin(), nodes[t].end());
+      } else {
+        unknown[types[t]] += tags[t].size();
+      }
     }
   }
-  if (count_of_type.empty()) throw InputError(group.label() + " has no elements");
-  const auto& [type, tags] = *tags_of_type.begin();
-  if (const auto kind = kind_of(type); kind && count_of_type.size() == 1) return {*kind, tags};
-
-  std::string found;
-  for (const auto& [found_type, count] : count_of_type) {
-    found += (found.empty() ? "" : " and ") + std::to_string(count) + " of type '" +
-             name_of_type(found_type) + "'";
-  }
-  throw InputError(group.label() + ": expected elements of one kind, " +
-                   (group.dimension == 3 ? "27-node hexahedra" : "9-node quadrilaterals") +
-                   ", found " + found + "; make the blocks transfinite and recombine them");
+  if (!unknown.empty()) refuse_kinds(group, unknown);
+  if (elements.empty()) throw InputError(group.label() + " has no elements");
+  return elements;
 }
 
 /// gmsh follows an edge in the order of its end points' addresses, so the last bit of a midside
@@ -201,7 +216,10 @@ void require_known_parts(const std::vector<PhysicalGroup>& volumes,
 }
 
 NodeSet node_set_of(const FaceSet& faces) {
-  NodeSet set{.name = faces.name, .nodes = faces.nodes};
+  NodeSet set{.name = faces.name, .nodes = {}};
+  for (const FaceBlock& block : faces.blocks) {
+    set.nodes.insert(set.nodes.end(), block.nodes.begin(), block.nodes.end());
+  }
   std::sort(set.nodes.begin(), set.nodes.end());
   set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
   return set;
@@ -223,7 +241,7 @@ Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
   NodeNumbering numbering;
   for (const PhysicalGroup& volume : volumes) {
     parts.push_back(elements_of(volume));
-    numbering.add(parts.back().node_tags);
+    for (const auto& [kind, tags] : parts.back()) numbering.add(tags);
   }
 
   Mesh mesh;
@@ -231,17 +249,20 @@ Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
   mesh.materials = materials;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::string& part = volumes[p].name;
-    mesh.blocks.push_back({.part = part,
-                           .kind = parts[p].kind,
-                           .material = material_index(part, materials, material_of_part),
-                           .nodes = numbering.indices_of(parts[p].node_tags, volumes[p].label())});
+    for (const auto& [kind, tags] : parts[p]) {
+      mesh.blocks.push_back({.part = part,
+                             .kind = kind,
+                             .material = material_index(part, materials, material_of_part),
+                             .nodes = numbering.indices_of(tags, volumes[p].label())});
+    }
   }
   for (const PhysicalGroup& surface : physical_groups(2)) {
-    const GroupElements faces = elements_of(surface);
-    FaceSet set{.name = surface.name,
-                .kind = faces.kind,
-                .nodes = numbering.indices_of(faces.node_tags, surface.label())};
-    orient_outwards(mesh, set);
+    FaceSet set{.name = surface.name, .blocks = {}};
+    for (const auto& [kind, tags] : elements_of(surface)) {
+      FaceBlock faces{.kind = kind, .nodes = numbering.indices_of(tags, surface.label())};
+      orient_outwards(mesh, surface.name, faces);
+      set.blocks.push_back(std::move(faces));
+    }
     mesh.node_sets.push_back(node_set_of(set));
     mesh.face_sets.push_back(std::move(set));
   }

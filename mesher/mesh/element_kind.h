@@ -4,25 +4,54 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace flexneck::mesher {
 
 /// Kinds of volume and surface elements that a mesh may hold. Node orders are those of
 /// reference_nodes().
 enum class ElementKind {
-  hex27,  ///< triquadratic hexahedron
-  quad9,  ///< biquadratic quadrilateral, face of hex27
+  hex8,     ///< trilinear hexahedron
+  hex20,    ///< serendipity hexahedron
+  hex27,    ///< triquadratic hexahedron
+  prism15,  ///< serendipity prism
+  prism18,  ///< quadratic prism
+  tet10,    ///< quadratic tetrahedron
+  quad4,    ///< bilinear quadrilateral, face of hex8
+  quad8,    ///< serendipity quadrilateral, face of hex20 and prism15
+  quad9,    ///< biquadratic quadrilateral, face of hex27 and prism18
+  tri6,     ///< quadratic triangle, face of prism15, prism18 and tet10
 };
+
+/// All kinds, in the order of the enumeration.
+std::span<const ElementKind> element_kinds();
 
 std::string_view name_of(ElementKind kind);
 /// @throws InputError if no kind has this name.
 ElementKind element_kind_from(std::string_view name);
 
-/// Coordinates of the nodes in the reference element [-1, 1]^d, unused ones zero. Nodes follow
-/// gmsh's order: corners, edges, faces, centre.
+/// Reference elements: [-1, 1]^d, or the simplex xi, eta, zeta >= 0 with sum <= 1; the prism is the
+/// triangle times zeta in [-1, 1].
+enum class ReferenceShape { hexahedron, prism, tetrahedron, quadrilateral, triangle };
+ReferenceShape shape_of(ElementKind kind);
+
+/// Coordinates of the nodes in the reference element, unused ones zero. Nodes follow gmsh's order:
+/// corners, edges, faces, centre.
 std::span<const std::array<double, 3>> reference_nodes(ElementKind kind);
 inline std::size_t nodes_per_element(ElementKind kind) { return reference_nodes(kind).size(); }
+std::size_t corners_per_element(ElementKind kind);
 /// 3 for volumes, 2 for surfaces.
 int dimension(ElementKind kind);
+/// 1 or 2: the degree of the complete polynomials among the shape functions.
+int order_of(ElementKind kind);
+
+/// A side of a volume element: its kind and its local nodes in the order of that kind, so that
+/// dx/dxi x dx/deta points outwards.
+struct Side {
+  ElementKind kind;
+  std::vector<std::size_t> nodes;
+};
+/// The sides of a volume element; none of a surface element.
+std::span<const Side> sides_of(ElementKind kind);
 
 }  // namespace flexneck::mesher

@@ -53,15 +53,31 @@ void check_connectivity(std::span<const std::int32_t> indices, ElementKind kind,
   check_indices(indices, node_count, what);
 }
 
-std::vector<std::string> parts_of(const Mesh& mesh) {
+/// Blocks of one part have one material and differ in kind.
+void check_parts(const Mesh& mesh) {
   std::vector<std::string> parts;
-  for (const ElementBlock& block : mesh.blocks) parts.push_back(block.part);
-  return parts;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const ElementBlock& block = mesh.blocks[b];
+    bool is_new = true;
+    for (const ElementBlock& other : std::span(mesh.blocks).first(b)) {
+      if (other.part != block.part) continue;
+      is_new = false;
+      if (other.material != block.material) {
+        refuse("part '" + block.part + "' has blocks of different materials");
+      }
+      if (other.kind == block.kind) {
+        refuse("part '" + block.part + "' has two blocks of kind " +
+               std::string(name_of(block.kind)));
+      }
+    }
+    if (is_new) parts.push_back(block.part);
+  }
+  check_names(parts, "part");
 }
 
 void check_blocks(const Mesh& mesh) {
   if (mesh.blocks.empty()) refuse("it has no elements");
-  check_names(parts_of(mesh), "part");
+  check_parts(mesh);
   std::vector<bool> used(mesh.nodes.size(), false);
   for (const ElementBlock& block : mesh.blocks) {
     const std::string what = "part '" + block.part + "'";
@@ -88,7 +104,30 @@ void check_sets(const Mesh& mesh) {
   }
   check_names(names_of(mesh.face_sets), "face set");
   for (const FaceSet& set : mesh.face_sets) {
-    check_connectivity(set.nodes, set.kind, 2, mesh.nodes.size(), "face set '" + set.name + "'");
+    if (set.blocks.empty()) refuse("face set '" + set.name + "' is empty");
+    for (const FaceBlock& block : set.blocks) {
+      check_connectivity(block.nodes, block.kind, 2, mesh.nodes.size(),
+                         "face set '" + set.name + "'");
+    }
+  }
+}
+
+void check_slit(const Mesh& mesh, const Slit& slit) {
+  const std::string what = "slit '" + slit.name + "'";
+  check_indices(slit.lower, mesh.nodes.size(), what);
+  check_indices(slit.upper, mesh.nodes.size(), what);
+  const std::size_t pairs = slit.lower.size();
+  if (slit.upper.size() != pairs || slit.normals.size() != pairs || slit.areas_m2.size() != pairs) {
+    refuse(what + " has lists of different lengths");
+  }
+  for (std::size_t p = 0; p < pairs; ++p) {
+    const std::int32_t lower = slit.lower[p];
+    const std::int32_t upper = slit.upper[p];
+    if (lower == upper || mesh.nodes[static_cast<std::size_t>(lower)] !=
+                              mesh.nodes[static_cast<std::size_t>(upper)]) {
+      refuse(what + " pairs nodes " + std::to_string(lower) + " and " + std::to_string(upper) +
+             ", expected two nodes in one place");
+    }
   }
 }
 
@@ -112,6 +151,8 @@ void check(const Mesh& mesh) {
   for (const Material& material : mesh.materials) check_material(material);
   check_blocks(mesh);
   check_sets(mesh);
+  check_names(names_of(mesh.slits), "slit");
+  for (const Slit& slit : mesh.slits) check_slit(mesh, slit);
 }
 
 }  // namespace flexneck::mesher

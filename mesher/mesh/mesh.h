@@ -18,9 +18,10 @@ struct Material {
   double density_kg_m3 = 0;
 };
 
-/// The elements of one part, all of one kind and one material.
+/// Elements of one part and of one kind, all of one material. A part with elements of several kinds
+/// has a block for each.
 struct ElementBlock {
-  std::string part;  ///< e.g. "plate_2", unique within the mesh
+  std::string part;  ///< e.g. "plate_2"
   ElementKind kind = ElementKind::hex27;
   std::size_t material = 0;         ///< index into Mesh::materials
   std::vector<std::int32_t> nodes;  ///< row-major (elements, nodes per element)
@@ -34,11 +35,29 @@ struct NodeSet {
   std::vector<std::int32_t> nodes;
 };
 
-/// Faces of volume elements by name.
-struct FaceSet {
-  std::string name;
+/// Faces of one kind.
+struct FaceBlock {
   ElementKind kind = ElementKind::quad9;
   std::vector<std::int32_t> nodes;  ///< row-major (faces, nodes per face)
+
+  std::size_t size() const { return nodes.size() / nodes_per_element(kind); }
+};
+
+/// Faces of volume elements by name, a block for each kind that occurs.
+struct FaceSet {
+  std::string name;
+  std::vector<FaceBlock> blocks;
+};
+
+/// A cut of zero width through a part: its two faces have nodes of their own, which lie on one
+/// another in pairs.
+struct Slit {
+  std::string name;
+  bool tied = false;                           ///< the nodes of a pair move as one: a closed cut
+  std::vector<std::int32_t> lower;             ///< (p) nodes of the face that the normals leave
+  std::vector<std::int32_t> upper;             ///< (p) their partners on the other face
+  std::vector<std::array<double, 3>> normals;  ///< (p) unit, from the lower side to the upper
+  std::vector<double> areas_m2;                ///< (p) int N dA of each node; their sum is the cut
 };
 
 /// A conforming mesh with its materials and sets. Lengths in m, in the frame of the geometry.
@@ -48,6 +67,7 @@ struct Mesh {
   std::vector<ElementBlock> blocks;
   std::vector<NodeSet> node_sets;
   std::vector<FaceSet> face_sets;
+  std::vector<Slit> slits;
 
   /// @throws InputError if there is none of that name; the message lists those there are.
   const NodeSet& node_set(const std::string& name) const;
@@ -55,7 +75,8 @@ struct Mesh {
 };
 
 /// Checks what every consumer relies on: indices in range, no loose node, no empty block or set,
-/// unique names, materials physical (E > 0, -1 < nu < 0.5, density > 0).
+/// unique names, one material a part, paired nodes in the same place, materials physical (E > 0,
+/// -1 < nu < 0.5, density > 0).
 /// @throws InputError naming the first violation.
 void check(const Mesh& mesh);
 

@@ -13,11 +13,21 @@ namespace {
 /// Members of a group come back in alphabetical order; this attribute keeps the mesh's own.
 const std::string kIndex = "index";
 
-void write_nodes(Hdf5Writer& file, const Mesh& mesh) {
+using Vectors = std::vector<std::array<double, 3>>;
+
+std::vector<double> flattened(const Vectors& vectors) {
   std::vector<double> values;
-  values.reserve(3 * mesh.nodes.size());
-  for (const auto& node : mesh.nodes) values.insert(values.end(), node.begin(), node.end());
-  file.write("/nodes", values, {mesh.nodes.size(), 3}, "m");
+  values.reserve(3 * vectors.size());
+  for (const auto& vector : vectors) values.insert(values.end(), vector.begin(), vector.end());
+  return values;
+}
+
+Vectors vectors_from(const std::vector<double>& values) {
+  Vectors vectors(values.size() / 3);
+  for (std::size_t n = 0; n < vectors.size(); ++n) {
+    vectors[n] = {values[3 * n], values[3 * n + 1], values[3 * n + 2]};
+  }
+  return vectors;
 }
 
 void write_materials(Hdf5Writer& file, const Mesh& mesh) {
@@ -34,11 +44,10 @@ void write_materials(Hdf5Writer& file, const Mesh& mesh) {
 void write_blocks(Hdf5Writer& file, const Mesh& mesh) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const ElementBlock& block = mesh.blocks[b];
-    const std::string group = "/blocks/" + block.part;
-    file.write(group + "/connectivity", block.nodes, {block.size(), nodes_per_element(block.kind)});
-    file.write_attribute(group, kIndex, static_cast<std::int64_t>(b));
-    file.write_attribute(group, "kind", name_of(block.kind));
-    file.write_attribute(group, "material", mesh.materials[block.material].name);
+    const std::string dataset = "/blocks/" + block.part + "/" + std::string(name_of(block.kind));
+    file.write(dataset, block.nodes, {block.size(), nodes_per_element(block.kind)});
+    file.write_attribute(dataset, kIndex, static_cast<std::int64_t>(b));
+    file.write_attribute(dataset, "material", mesh.materials[block.material].name);
   }
 }
 
@@ -51,87 +60,121 @@ void write_sets(Hdf5Writer& file, const Mesh& mesh) {
   }
   for (std::size_t s = 0; s < mesh.face_sets.size(); ++s) {
     const FaceSet& set = mesh.face_sets[s];
-    const std::size_t n = nodes_per_element(set.kind);
-    const std::string dataset = "/face_sets/" + set.name;
-    file.write(dataset, set.nodes, {set.nodes.size() / n, n});
-    file.write_attribute(dataset, kIndex, static_cast<std::int64_t>(s));
-    file.write_attribute(dataset, "kind", name_of(set.kind));
+    const std::string group = "/face_sets/" + set.name;
+    for (std::size_t b = 0; b < set.blocks.size(); ++b) {
+      const FaceBlock& block = set.blocks[b];
+      const std::string dataset = group + "/" + std::string(name_of(block.kind));
+      file.write(dataset, block.nodes, {block.size(), nodes_per_element(block.kind)});
+      file.write_attribute(dataset, kIndex, static_cast<std::int64_t>(b));
+    }
+    file.write_attribute(group, kIndex, static_cast<std::int64_t>(s));
   }
 }
 
-/// Paths of a group's members, ordered by their attribute `index`, which counts from 0.
-std::vector<std::string> ordered_members(const Hdf5Reader& file, const std::string& group) {
+void write_slits(Hdf5Writer& file, const Mesh& mesh) {
+  for (std::size_t s = 0; s < mesh.slits.size(); ++s) {
+    const Slit& slit = mesh.slits[s];
+    const std::string group = "/slits/" + slit.name;
+    const std::size_t pairs = slit.lower.size();
+    file.write(group + "/lower", slit.lower, {pairs});
+    file.write(group + "/upper", slit.upper, {pairs});
+    file.write(group + "/normals", flattened(slit.normals), {pairs, 3}, "1");
+    file.write(group + "/areas", slit.areas_m2, {pairs}, "m^2");
+    file.write_attribute(group, kIndex, static_cast<std::int64_t>(s));
+    file.write_attribute(group, "tied", static_cast<std::int64_t>(slit.tied));
+  }
+}
+
+/// Groups and datasets below `groups` that hold data, ordered by their attribute `index`, which
+/// counts from 0. A name in `groups` is that of a group.
+std::vector<std::string> ordered_members(const Hdf5Reader& file,
+                                         const std::vector<std::string>& groups) {
   std::map<std::int64_t, std::string> by_index;
-  for (const std::string& name : file.members(group)) {
-    const std::string object = std::string(group).append("/").append(name);
-    const std::int64_t index = file.integer_attribute(object, kIndex);
-    if (!by_index.emplace(index, name).second) {
-      file.refuse(object, "index " + std::to_string(index) + " is taken");
+  for (const std::string& group : groups) {
+    for (const std::string& name : file.members(group)) {
+      const std::string object = std::string(group).append("/").append(name);
+      const std::int64_t index = file.integer_attribute(object, kIndex);
+      if (!by_index.emplace(index, object).second) {
+        file.refuse(object, "index " + std::to_string(index) + " is taken");
+      }
     }
   }
-  std::vector<std::string> names;
-  names.reserve(by_index.size());
-  for (auto& [index, name] : by_index) names.push_back(std::move(name));
-  return names;
+  std::vector<std::string> objects;
+  objects.reserve(by_index.size());
+  for (auto& [index, object] : by_index) objects.push_back(std::move(object));
+  return objects;
 }
 
-ElementKind read_kind(const Hdf5Reader& file, const std::string& object) {
+/// What stands behind the last '/'.
+std::string last_name(const std::string& object) { return object.substr(object.rfind('/') + 1); }
+
+ElementKind kind_of(const Hdf5Reader& file, const std::string& dataset) {
   try {
-    return element_kind_from(file.string_attribute(object, "kind"));
+    return element_kind_from(last_name(dataset));
   } catch (const InputError& error) {
-    file.refuse(object, error.what());
-  }
-}
-
-void read_nodes(const Hdf5Reader& file, Mesh& mesh) {
-  const std::vector<double> values = file.read_doubles("/nodes", {kAnyExtent, 3}, "m");
-  mesh.nodes.resize(values.size() / 3);
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    mesh.nodes[n] = {values[3 * n], values[3 * n + 1], values[3 * n + 2]};
+    file.refuse(dataset, error.what());
   }
 }
 
 void read_materials(const Hdf5Reader& file, Mesh& mesh) {
-  for (const std::string& name : ordered_members(file, "/materials")) {
-    const std::string group = "/materials/" + name;
+  for (const std::string& group : ordered_members(file, {"/materials"})) {
     mesh.materials.push_back(
-        {.name = name,
+        {.name = last_name(group),
          .youngs_modulus_Pa = file.double_attribute(group, "youngs_modulus_Pa"),
          .poissons_ratio = file.double_attribute(group, "poissons_ratio"),
          .density_kg_m3 = file.double_attribute(group, "density_kg_m3")});
   }
 }
 
+std::size_t read_material(const Hdf5Reader& file, const std::string& dataset, const Mesh& mesh) {
+  const std::string material = file.string_attribute(dataset, "material");
+  const auto found = std::find_if(mesh.materials.begin(), mesh.materials.end(),
+                                  [&](const Material& m) { return m.name == material; });
+  if (found == mesh.materials.end()) {
+    file.refuse(dataset, "its material '" + material + "' is not under /materials");
+  }
+  return static_cast<std::size_t>(found - mesh.materials.begin());
+}
+
 void read_blocks(const Hdf5Reader& file, Mesh& mesh) {
-  for (const std::string& part : ordered_members(file, "/blocks")) {
-    const std::string group = "/blocks/" + part;
-    const ElementKind kind = read_kind(file, group);
-    const std::string material = file.string_attribute(group, "material");
-    const auto found = std::find_if(mesh.materials.begin(), mesh.materials.end(),
-                                    [&](const Material& m) { return m.name == material; });
-    if (found == mesh.materials.end()) {
-      file.refuse(group, "its material '" + material + "' is not under /materials");
-    }
-    mesh.blocks.push_back({.part = part,
-                           .kind = kind,
-                           .material = static_cast<std::size_t>(found - mesh.materials.begin()),
-                           .nodes = file.read_integers(group + "/connectivity",
-                                                       {kAnyExtent, nodes_per_element(kind)})});
+  std::vector<std::string> parts;
+  for (const std::string& part : file.members("/blocks")) parts.push_back("/blocks/" + part);
+  for (const std::string& dataset : ordered_members(file, parts)) {
+    const ElementKind kind = kind_of(file, dataset);
+    mesh.blocks.push_back(
+        {.part = last_name(dataset.substr(0, dataset.rfind('/'))),
+         .kind = kind,
+         .material = read_material(file, dataset, mesh),
+         .nodes = file.read_integers(dataset, {kAnyExtent, nodes_per_element(kind)})});
   }
 }
 
 void read_sets(const Hdf5Reader& file, Mesh& mesh) {
-  for (const std::string& name : ordered_members(file, "/node_sets")) {
+  for (const std::string& dataset : ordered_members(file, {"/node_sets"})) {
     mesh.node_sets.push_back(
-        {.name = name, .nodes = file.read_integers("/node_sets/" + name, {kAnyExtent})});
+        {.name = last_name(dataset), .nodes = file.read_integers(dataset, {kAnyExtent})});
   }
-  for (const std::string& name : ordered_members(file, "/face_sets")) {
-    const std::string dataset = "/face_sets/" + name;
-    const ElementKind kind = read_kind(file, dataset);
-    mesh.face_sets.push_back(
-        {.name = name,
-         .kind = kind,
-         .nodes = file.read_integers(dataset, {kAnyExtent, nodes_per_element(kind)})});
+  for (const std::string& group : ordered_members(file, {"/face_sets"})) {
+    FaceSet set{.name = last_name(group), .blocks = {}};
+    for (const std::string& dataset : ordered_members(file, {group})) {
+      const ElementKind kind = kind_of(file, dataset);
+      set.blocks.push_back(
+          {kind, file.read_integers(dataset, {kAnyExtent, nodes_per_element(kind)})});
+    }
+    mesh.face_sets.push_back(std::move(set));
+  }
+}
+
+void read_slits(const Hdf5Reader& file, Mesh& mesh) {
+  for (const std::string& group : ordered_members(file, {"/slits"})) {
+    Slit slit;
+    slit.name = last_name(group);
+    slit.tied = file.integer_attribute(group, "tied") != 0;
+    slit.lower = file.read_integers(group + "/lower", {kAnyExtent});
+    slit.upper = file.read_integers(group + "/upper", {slit.lower.size()});
+    slit.normals = vectors_from(file.read_doubles(group + "/normals", {slit.lower.size(), 3}, "1"));
+    slit.areas_m2 = file.read_doubles(group + "/areas", {slit.lower.size()}, "m^2");
+    mesh.slits.push_back(std::move(slit));
   }
 }
 
@@ -140,10 +183,11 @@ void read_sets(const Hdf5Reader& file, Mesh& mesh) {
 void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
   check(file.mesh);
   Hdf5Writer writer(path, kMeshFormat);
-  write_nodes(writer, file.mesh);
+  writer.write("/nodes", flattened(file.mesh.nodes), {file.mesh.nodes.size(), 3}, "m");
   write_materials(writer, file.mesh);
   write_blocks(writer, file.mesh);
   write_sets(writer, file.mesh);
+  write_slits(writer, file.mesh);
   write_provenance(writer, file.provenance);
   writer.commit();
 }
@@ -151,10 +195,11 @@ void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
 MeshFile read_mesh(const std::filesystem::path& path) {
   const Hdf5Reader reader(path, kMeshFormat);
   MeshFile file;
-  read_nodes(reader, file.mesh);
+  file.mesh.nodes = vectors_from(reader.read_doubles("/nodes", {kAnyExtent, 3}, "m"));
   read_materials(reader, file.mesh);
   read_blocks(reader, file.mesh);
   read_sets(reader, file.mesh);
+  read_slits(reader, file.mesh);
   try {
     check(file.mesh);
   } catch (const InputError& error) {

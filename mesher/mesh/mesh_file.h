@@ -10,7 +10,7 @@
 namespace flexneck::mesher {
 
 /// The layout is described in mesher/mesh/README.md.
-inline constexpr FileFormat kMeshFormat{"flexneck mesh", 1, "flexneck mesh"};
+inline constexpr FileFormat kMeshFormat{"flexneck mesh", 2, "flexneck mesh"};
 
 struct MeshFile {
   Mesh mesh;

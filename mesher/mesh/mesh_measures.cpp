@@ -35,16 +35,50 @@ Eigen::Matrix3d jacobian_at(const Eigen::Matrix3Xd& x, const ShapeTable& table, 
   return jacobian;
 }
 
-/// NaN positions give NaN, which every comparison with a bound refuses.
-double scaled_determinant(const Eigen::Matrix3d& jacobian) {
-  const double lengths = jacobian.colwise().norm().prod();
-  return lengths > 0 ? jacobian.determinant() / lengths : 0;
+/// Directions of the edges that meet in the corners of a reference element, and the factor that
+/// makes the scaled Jacobian of the ideal element one. The corners of a hexahedron differ in signs
+/// only.
+struct CornerEdges {
+  std::vector<Eigen::Matrix3d> triads;
+  double ideal;
+};
+
+CornerEdges corner_edges(ElementKind kind) {
+  const auto triad = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                        const Eigen::Vector3d& c) -> Eigen::Matrix3d {
+    return (Eigen::Matrix3d() << a, b, c).finished();
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  switch (shape_of(kind)) {
+    case ReferenceShape::prism:
+      return {{triad(x, y, z), triad(y - x, -x, z), triad(-y, x - y, z)}, 2 / std::sqrt(3.0)};
+    case ReferenceShape::tetrahedron:
+      return {{triad(x, y, z), triad(y - x, -x, z - x), triad(-y, x - y, z - y),
+               triad(x - z, -z, y - z)},
+              std::sqrt(2.0)};
+    default:
+      return {{Eigen::Matrix3d::Identity()}, 1};
+  }
 }
 
-double smallest_scaled(const Eigen::Matrix3Xd& x, const ShapeTable& table) {
+/// NaN positions give NaN, which every comparison with a bound refuses.
+double scaled_determinant(const Eigen::Matrix3d& jacobian, const CornerEdges& edges) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Matrix3d& triad : edges.triads) {
+    const Eigen::Matrix3d directions = jacobian * triad;
+    const double lengths = directions.colwise().norm().prod();
+    smallest = std::min(smallest, lengths > 0 ? directions.determinant() / lengths : 0);
+  }
+  return edges.ideal * smallest;
+}
+
+double smallest_scaled(const Eigen::Matrix3Xd& x, const ShapeTable& table,
+                       const CornerEdges& edges) {
   double smallest = std::numeric_limits<double>::infinity();
   for (Eigen::Index q = 0; q < table.values.cols(); ++q) {
-    smallest = std::min(smallest, scaled_determinant(jacobian_at(x, table, q)));
+    smallest = std::min(smallest, scaled_determinant(jacobian_at(x, table, q), edges));
   }
   return smallest;
 }
@@ -67,10 +101,12 @@ Eigen::Matrix3Xd positions_of(const Mesh& mesh, std::span<const std::int32_t> no
 }
 
 BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
-  // The determinant of a triquadratic map has degree 5 in each direction: three points are exact.
+  // The determinant of a triquadratic map has degree 5 in each direction, that of a quadratic one
+  // on the simplex the total degree 3: strength three is exact.
   const Quadrature rule = gauss_rule(block.kind, 3);
   const ShapeTable at_rule = tabulate(block.kind, rule.points);
   const ShapeTable at_nodes = tabulate(block.kind, node_points(block.kind));
+  const CornerEdges edges = corner_edges(block.kind);
 
   BlockMeasure result;
   result.smallest_scaled_jacobian = std::numeric_limits<double>::infinity();
@@ -79,7 +115,8 @@ BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       result.volume_m3 += rule.weights[q] * jacobian_at(x, at_rule, q).determinant();
     }
-    const double scaled = std::min(smallest_scaled(x, at_rule), smallest_scaled(x, at_nodes));
+    const double scaled =
+        std::min(smallest_scaled(x, at_rule, edges), smallest_scaled(x, at_nodes, edges));
     if (scaled < result.smallest_scaled_jacobian) {
       result.smallest_scaled_jacobian = scaled;
       result.worst_element = e;
@@ -88,13 +125,12 @@ BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
   return result;
 }
 
-double area_m2(const Mesh& mesh, const FaceSet& faces) {
+double area_m2(const Mesh& mesh, const FaceBlock& faces) {
   // The length of the normal is no polynomial on a curved face: use the finest rule there is.
   const Quadrature rule = gauss_rule(faces.kind, 4);
   const ShapeTable table = tabulate(faces.kind, rule.points);
-  const std::size_t count = faces.nodes.size() / nodes_per_element(faces.kind);
   double area = 0;
-  for (std::size_t f = 0; f < count; ++f) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
     const Eigen::Matrix3Xd x = positions_of(mesh, nodes_of(faces.nodes, faces.kind, f));
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Vector3d along_xi = x * table.derivatives[0].col(q);
@@ -102,6 +138,12 @@ double area_m2(const Mesh& mesh, const FaceSet& faces) {
       area += rule.weights[q] * along_xi.cross(along_eta).norm();
     }
   }
+  return area;
+}
+
+double area_m2(const Mesh& mesh, const FaceSet& faces) {
+  double area = 0;
+  for (const FaceBlock& block : faces.blocks) area += area_m2(mesh, block);
   return area;
 }
 

@@ -12,12 +12,13 @@ namespace flexneck::mesher {
 /// Positions of an element's nodes, (3, n) in m.
 Eigen::Matrix3Xd positions_of(const Mesh& mesh, std::span<const std::int32_t> nodes);
 
-/// Size and shape of the elements of a block, from the Jacobian dx/dxi at the 3 x 3 x 3 Gauss
-/// points and at the nodes.
+/// Size and shape of the elements of a block, from the Jacobian dx/dxi at the points of the rule of
+/// strength three and at the nodes.
 struct BlockMeasure {
   double volume_m3 = 0;  ///< exact for the second-order shape
-  /// Smallest determinant over the product of the lengths of the Jacobian's columns: 1 for a box,
-  /// 0 or less for an element that is degenerate or inverted.
+  /// Smallest triple product of the unit directions along the edges that meet in a corner, over
+  /// that of the ideal element: 1 for a box, a regular tetrahedron and an upright equilateral
+  /// prism, 0 or less for an element that is degenerate or inverted.
   double smallest_scaled_jacobian = 0;
   std::size_t worst_element = 0;  ///< where it occurs
 };
@@ -25,6 +26,7 @@ struct BlockMeasure {
 BlockMeasure measure(const Mesh& mesh, const ElementBlock& block);
 
 /// Area of curved faces in m^2.
+double area_m2(const Mesh& mesh, const FaceBlock& faces);
 double area_m2(const Mesh& mesh, const FaceSet& faces);
 
 /// @throws ComputationError naming the part, the element and its place if an element is inverted or

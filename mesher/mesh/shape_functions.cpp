@@ -2,94 +2,108 @@
 #include "mesher/mesh/shape_functions.h"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "geometry/foundation/error.h"
+#include <Eigen/LU>
 
 namespace flexneck::mesher {
 namespace {
 
-struct LinePoint {
-  double position;
-  double weight;
-};
+using Exponents = std::array<int, 3>;
 
-/// Gauss-Legendre rule on [-1, 1] in closed form.
-std::vector<LinePoint> gauss_line(int n) {
-  switch (n) {
-    case 1:
-      return {{0, 2}};
-    case 2: {
-      const double x = std::sqrt(1.0 / 3);
-      return {{-x, 1}, {x, 1}};
-    }
-    case 3: {
-      const double x = std::sqrt(3.0 / 5);
-      return {{-x, 5.0 / 9}, {0, 8.0 / 9}, {x, 5.0 / 9}};
-    }
-    case 4: {
-      const double inner = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(6.0 / 5));
-      const double outer = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(6.0 / 5));
-      const double heavy = (18 + std::sqrt(30.0)) / 36;
-      const double light = (18 - std::sqrt(30.0)) / 36;
-      return {{-outer, light}, {-inner, heavy}, {inner, heavy}, {outer, light}};
-    }
-    default:
-      throw InputError("Gauss rule with " + std::to_string(n) +
-                       " points in a direction: expected 1 to 4");
+/// Serendipity elements have the monomials whose superlinear degree, the sum of the exponents above
+/// one, is at most two (Arnold and Awanou, Found. Comput. Math. 11 (2011) 337).
+int superlinear_degree(const Exponents& e, int dimension) {
+  int degree = 0;
+  for (int d = 0; d < dimension; ++d) {
+    const int exponent = e[static_cast<std::size_t>(d)];
+    degree += exponent > 1 ? exponent : 0;
   }
+  return degree;
 }
 
-struct LineFunction {
-  double value;
-  double derivative;
-};
+bool spans(ElementKind kind, const Exponents& e) {
+  const int planar = e[0] + e[1];
+  switch (kind) {
+    case ElementKind::hex8:
+    case ElementKind::quad4:
+      return e[0] <= 1 && e[1] <= 1 && e[2] <= 1;
+    case ElementKind::hex20:
+    case ElementKind::quad8:
+      return superlinear_degree(e, dimension(kind)) <= 2;
+    case ElementKind::hex27:
+    case ElementKind::quad9:
+      return true;
+    case ElementKind::prism15:
+      return planar <= 2 && (e[2] <= 1 || planar <= 1);
+    case ElementKind::prism18:
+      return planar <= 2;
+    case ElementKind::tet10:
+    case ElementKind::tri6:
+      return planar + e[2] <= 2;
+  }
+  return false;
+}
 
-/// Quadratic Lagrange function at x that is 1 at `node` (one of -1, 0, 1) and 0 at the two others.
-LineFunction lagrange(double node, double x) {
-  if (node == 0) return {1 - x * x, -2 * x};
-  return {x * (x + node) / 2, x + node / 2};
+/// Monomials with exponents up to two that an element's shape functions span.
+std::vector<Exponents> monomials_of(ElementKind kind) {
+  std::vector<Exponents> monomials;
+  const int highest_z = dimension(kind) == 3 ? 2 : 0;
+  for (int a = 0; a <= 2; ++a) {
+    for (int b = 0; b <= 2; ++b) {
+      for (int c = 0; c <= highest_z; ++c) {
+        if (spans(kind, {a, b, c})) monomials.push_back({a, b, c});
+      }
+    }
+  }
+  return monomials;
+}
+
+double power(double x, int exponent) { return exponent == 0 ? 1 : exponent == 1 ? x : x * x; }
+
+/// d/dx x^exponent
+double power_slope(double x, int exponent) { return exponent == 0 ? 0 : exponent == 1 ? 1 : 2 * x; }
+
+/// Column n: coefficients of the shape function of node n. They are multiples of 1/8, so rounding
+/// makes them exact: a shape function is exactly one at its node and zero at the others.
+Eigen::MatrixXd coefficients_of(ElementKind kind, const std::vector<Exponents>& monomials) {
+  const auto nodes = reference_nodes(kind);
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  Eigen::MatrixXd at_nodes(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::array<double, 3>& x = nodes[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Exponents& e = monomials[static_cast<std::size_t>(j)];
+      at_nodes(i, j) = power(x[0], e[0]) * power(x[1], e[1]) * power(x[2], e[2]);
+    }
+  }
+  return (8 * at_nodes.inverse()).array().round() / 8;
 }
 
 }  // namespace
 
-Quadrature gauss_rule(ElementKind kind, int n) {
-  const std::vector<LinePoint> line = gauss_line(n);
-  const std::vector<LinePoint> none = {{0, 1}};
-  const std::vector<LinePoint>& third = dimension(kind) == 3 ? line : none;
-  const auto count = static_cast<Eigen::Index>(line.size() * line.size() * third.size());
-  Quadrature rule{Eigen::Matrix3Xd(3, count), Eigen::VectorXd(count)};
-  Eigen::Index q = 0;
-  for (const LinePoint& a : line) {
-    for (const LinePoint& b : line) {
-      for (const LinePoint& c : third) {
-        rule.points.col(q) << a.position, b.position, c.position;
-        rule.weights[q++] = a.weight * b.weight * c.weight;
-      }
+ShapeTable tabulate(ElementKind kind, const Eigen::Matrix3Xd& points) {
+  const std::vector<Exponents> monomials = monomials_of(kind);
+  const Eigen::MatrixXd coefficients = coefficients_of(kind, monomials);
+  const auto n = static_cast<Eigen::Index>(monomials.size());
+  ShapeTable at_monomials{Eigen::MatrixXd(n, points.cols()), {}};
+  for (Eigen::MatrixXd& derivative : at_monomials.derivatives) {
+    derivative.resize(n, points.cols());
+  }
+  for (Eigen::Index q = 0; q < points.cols(); ++q) {
+    const Eigen::Vector3d x = points.col(q);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Exponents& e = monomials[static_cast<std::size_t>(j)];
+      const Eigen::Vector3d value(power(x[0], e[0]), power(x[1], e[1]), power(x[2], e[2]));
+      at_monomials.values(j, q) = value.prod();
+      at_monomials.derivatives[0](j, q) = power_slope(x[0], e[0]) * value[1] * value[2];
+      at_monomials.derivatives[1](j, q) = value[0] * power_slope(x[1], e[1]) * value[2];
+      at_monomials.derivatives[2](j, q) = value[0] * value[1] * power_slope(x[2], e[2]);
     }
   }
-  return rule;
-}
-
-ShapeTable tabulate(ElementKind kind, const Eigen::Matrix3Xd& points) {
-  const std::span<const std::array<double, 3>> nodes = reference_nodes(kind);
-  const auto n = static_cast<Eigen::Index>(nodes.size());
-  const bool volume = dimension(kind) == 3;
-  ShapeTable table;
-  table.values.resize(n, points.cols());
-  for (Eigen::MatrixXd& derivative : table.derivatives) derivative.resize(n, points.cols());
-  for (Eigen::Index q = 0; q < points.cols(); ++q) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const std::array<double, 3>& node = nodes[static_cast<std::size_t>(i)];
-      const LineFunction a = lagrange(node[0], points(0, q));
-      const LineFunction b = lagrange(node[1], points(1, q));
-      const LineFunction c = volume ? lagrange(node[2], points(2, q)) : LineFunction{1, 0};
-      table.values(i, q) = a.value * b.value * c.value;
-      table.derivatives[0](i, q) = a.derivative * b.value * c.value;
-      table.derivatives[1](i, q) = a.value * b.derivative * c.value;
-      table.derivatives[2](i, q) = a.value * b.value * c.derivative;
-    }
+  ShapeTable table{coefficients.transpose() * at_monomials.values, {}};
+  for (std::size_t d = 0; d < 3; ++d) {
+    table.derivatives[d] = coefficients.transpose() * at_monomials.derivatives[d];
   }
   return table;
 }

@@ -35,7 +35,8 @@ inline mesher::Mesh small_mesh() {
   std::iota(mesh.node_sets[0].nodes.begin(), mesh.node_sets[0].nodes.end(), 0);
   // Seen from below: xi runs along y, eta along x.
   mesh.face_sets = {
-      {.name = "floor", .kind = ElementKind::quad9, .nodes = {0, 6, 8, 2, 3, 7, 5, 1, 4}}};
+      {.name = "floor",
+       .blocks = {{.kind = ElementKind::quad9, .nodes = {0, 6, 8, 2, 3, 7, 5, 1, 4}}}}};
   return mesh;
 }
 

@@ -89,7 +89,7 @@ inline mesher::Mesh BlockMesh::make() const {
     mesh.blocks.push_back(std::move(block));
   }
   for (const auto& [name, level] : {std::pair{"bottom", 0}, std::pair{"top", 2 * layers}}) {
-    mesh.face_sets.push_back({name, mesher::ElementKind::quad9, faces_at(level)});
+    mesh.face_sets.push_back({name, {{mesher::ElementKind::quad9, faces_at(level)}}});
     mesher::NodeSet nodes{name, {}};
     for (std::int32_t k = node(0, 0, level); k < node(0, 0, level + 1); ++k) {
       nodes.nodes.push_back(k);
