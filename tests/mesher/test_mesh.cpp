@@ -35,7 +35,7 @@ TEST_CASE("a sound mesh passes the check") { CHECK_NOTHROW(check(testing::small_
 TEST_CASE("node indices out of range are refused") {
   CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[1].nodes[5] = 45; }),
              Contains("part 'lower' refers to node 45") && Contains("45 nodes"));
-  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].nodes[0] = -1; }),
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].blocks[0].nodes[0] = -1; }),
              Contains("face set 'floor' refers to node -1"));
   CHECK_THAT(refusal([](Mesh& mesh) { mesh.node_sets[0].nodes[8] = 99; }),
              Contains("node set 'floor' refers to node 99"));
@@ -57,7 +57,7 @@ TEST_CASE("empty parts and sets are refused") {
              Contains("part 'upper' is empty"));
   CHECK_THAT(refusal([](Mesh& mesh) { mesh.node_sets[0].nodes.clear(); }),
              Contains("node set 'floor' is empty"));
-  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].nodes.clear(); }),
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].blocks[0].nodes.clear(); }),
              Contains("face set 'floor' is empty"));
 }
 
@@ -73,12 +73,40 @@ TEST_CASE("names that are missing, doubled or no names of a file's objects are r
 TEST_CASE("half elements, wrong dimensions and disorder are refused") {
   CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[0].nodes.pop_back(); }),
              Contains("26 node indices, no multiple of 27"));
-  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].kind = ElementKind::hex27; }),
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.face_sets[0].blocks[0].kind = ElementKind::hex27; }),
              Contains("kind hex27, expected dimension 2"));
   CHECK_THAT(refusal([](Mesh& mesh) {
                std::swap(mesh.node_sets[0].nodes[0], mesh.node_sets[0].nodes[1]);
              }),
              Contains("ascending"));
+}
+
+TEST_CASE("blocks of one part must differ in kind and agree in material") {
+  const auto same_part = [](Mesh& mesh) { mesh.blocks[0].part = "lower"; };
+  CHECK_THAT(refusal(same_part), Contains("part 'lower' has blocks of different materials"));
+  CHECK_THAT(refusal([&](Mesh& mesh) {
+               same_part(mesh);
+               mesh.blocks[0].material = 1;
+             }),
+             Contains("part 'lower' has two blocks of kind hex27"));
+}
+
+TEST_CASE("pairs of a slit must lie on one another") {
+  const auto slit = [](std::int32_t upper) {
+    return [upper](Mesh& mesh) {
+      mesh.nodes.push_back(mesh.nodes[44]);
+      mesh.blocks[0].nodes[6] = 45;  // the corner at node 44
+      mesh.slits = {{"cut", false, {44}, {upper}, {{0, 0, 1}}, {1}}};
+      mesh.node_sets.push_back({"corner", {44}});
+      mesh.blocks.push_back(mesh.blocks[0]);
+      mesh.blocks.back().part = "twin";
+      mesh.blocks.back().nodes[6] = 44;
+    };
+  };
+  CHECK(refusal(slit(45)) == "accepted");
+  CHECK_THAT(refusal(slit(43)), Contains("slit 'cut' pairs nodes 44 and 43"));
+  CHECK_THAT(refusal(slit(44)), Contains("expected two nodes in one place"));
+  CHECK_THAT(refusal(slit(46)), Contains("slit 'cut' refers to node 46"));
 }
 
 TEST_CASE("materials that no solid can have are refused") {

@@ -8,6 +8,7 @@
 #include "multibody/body_dynamics.h"
 #include "multibody/rotation.h"
 #include "tests/support/finite_differences.h"
+#include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"
 
 // The truth here is a Lagrangian that knows only where the points of a body are. Coordinates are
@@ -25,6 +26,7 @@ using flexneck::testing::first_derivative;
 using flexneck::testing::make_point_mass_body;
 using flexneck::testing::PointMassBody;
 using flexneck::testing::RandomNumbers;
+using flexneck::testing::turned;
 using namespace flexneck::multibody;
 
 namespace {
@@ -39,11 +41,7 @@ class Points {
   Points(const PointMassBody& body, const Matrix3d& A0) : body_(body), A0_(A0) {}
 
   Vector3d position(Index k, const VectorXd& z) const {
-    const Vector3d phi = z.segment<3>(3);
-    const double angle = phi.norm();
-    const Matrix3d turn = angle == 0 ? Matrix3d(Matrix3d::Identity())
-                                     : Eigen::AngleAxisd(angle, phi / angle).toRotationMatrix();
-    return z.head<3>() + A0_ * turn * body_.point(k, z.tail(z.size() - 6));
+    return z.head<3>() + A0_ * turned(z.segment<3>(3)) * body_.point(k, z.tail(z.size() - 6));
   }
 
   double kinetic_energy(const VectorXd& z, const VectorXd& zdot) const {

@@ -9,10 +9,12 @@
 #include "multibody/projection.h"
 #include "multibody/rotation.h"
 #include "tests/support/finite_differences.h"
+#include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"
 
-// Every joint between two random deformable bodies, large deformations and velocities. The truth is
-// where the two markers are along a motion with given accelerations.
+// Every joint between two random deformable bodies, or a driven and a deformable one on either
+// side, large deformations and velocities. The truth is where the two markers are along a motion
+// with given accelerations.
 
 using Eigen::Index;
 using Eigen::Matrix3d;
@@ -20,9 +22,12 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using flexneck::testing::first_derivative;
+using flexneck::testing::Frame;
 using flexneck::testing::make_point_mass_body;
+using flexneck::testing::MarkerMotion;
 using flexneck::testing::RandomNumbers;
 using flexneck::testing::second_derivative;
+using flexneck::testing::turned;
 using namespace flexneck::multibody;
 
 namespace {
@@ -30,42 +35,44 @@ namespace {
 constexpr double kStep = 4e-3;
 /// Differences of order 6 against accelerations of the order of 10 m/s^2 and rad/s^2.
 constexpr double kTolerance = 1e-7;
-const Vector3d kAxis = Vector3d(0.6, 0.0, 0.8);
+const Vector3d kAxis(0.6, 0.0, 0.8);
+const Vector3d kSecondAxis(0.8, 0.0, -0.6);
+/// How far a joint that turns or slides has done so.
+constexpr double kTurn = 0.7;
+constexpr double kSlide_m = 0.3;
 
-Matrix3d turned(const Vector3d& theta) {
-  const double angle = theta.norm();
-  if (angle == 0) return Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, theta / angle).toRotationMatrix();
+enum class Driven { none, body_i, body_j };
+
+bool is_sliding(JointKind kind) {
+  return kind == JointKind::cylindrical || kind == JointKind::slider;
 }
 
-struct Frame {
-  Vector3d p;
-  Matrix3d R;
-};
-
-Model two_bodies(JointKind kind, bool driven) {
+/// Two bodies of which one may be driven. The driven one has a marker off its origin.
+Model two_bodies(JointKind kind, Driven which) {
   RandomNumbers random(31);
   Model model;
-  if (driven) {
+  const auto add_body = [&](const char* name, unsigned seed, int modes, bool driven) {
+    if (!driven) {
+      model.bodies.push_back(
+          {name, DeformableBody{make_point_mass_body(seed, modes).body, VectorXd::Zero(modes)}});
+      return;
+    }
     DrivenBody arm;
     arm.direction = random.vector().normalized();
     arm.initial_velocity_m_s = 1.5;
     arm.acceleration_m_s2 = TimeTable({-1, 1}, {8, 8}, TimeTable::Outside::constant);
-    model.bodies.push_back({"i", arm, {random.vector(), random.rotation()}});
-  } else {
-    model.bodies.push_back(
-        {"i", DeformableBody{make_point_mass_body(32, 3).body, VectorXd::Zero(3)}, {}});
-  }
-  model.bodies.push_back(
-      {"j", DeformableBody{make_point_mass_body(33, 2).body, VectorXd::Zero(2)}, {}});
-  Marker i{"on i", 0, driven ? "" : "tip", 0.1 * random.vector(), random.rotation()};
-  Marker j{"on j", 1, "side", Vector3d::Zero(), random.rotation()};
-  model.markers = {i, j};
-  model.joints.push_back({"joint", kind, 0, 1, kAxis});
+    model.bodies.push_back({name, arm, {random.vector(), random.rotation()}});
+  };
+  add_body("i", 32, 3, which == Driven::body_i);
+  add_body("j", 33, 2, which == Driven::body_j);
+  const Vector3d offset = 0.1 * random.vector();
+  model.markers = {{"on i", 0, which == Driven::body_i ? "" : "tip", offset, random.rotation()},
+                   {"on j", 1, which == Driven::body_j ? "" : "side", offset, random.rotation()}};
+  model.joints.push_back({"joint", kind, 0, 1, kAxis, kSecondAxis});
   return model;
 }
 
-/// The markers along Q (+) (t V + t^2 / 2 Vdot), by nothing but their definition.
+/// The markers along Q (+) (t V + t^2 / 2 Vdot), and what a joint of each kind holds of them.
 class Path {
  public:
   Path(const Model& model, const System& system, const VectorXd& state, const VectorXd& Vdot)
@@ -83,24 +90,50 @@ class Path {
     }
     const FreeBody& free = system_.bodies[system_.markers[index].free_body];
     const Index m = free.constants.mode_count();
-    const VectorXd V = state_.segment(system_.position_count + free.velocity, 6 + m);
-    const VectorXd d = t * V + t * t / 2 * Vdot_.segment(free.velocity, 6 + m);
     const VectorXd Q = state_.segment(free.position, 7 + m);
-    const Matrix3d A =
-        Quaterniond(Q[3], Q[4], Q[5], Q[6]).toRotationMatrix() * turned(d.segment<3>(3));
-    const VectorXd a = Q.tail(m) + d.tail(m);
-    const auto& place = std::get<DeformableBody>(body.kind).modes.interface(marker.interface);
-    return {Q.head<3>() + d.head<3>() + A * (place.position_m + place.translation * a),
-            A * turned(place.rotation * a) * R0};
+    const MarkerMotion motion{std::get<DeformableBody>(body.kind).modes.interface(marker.interface),
+                              R0,
+                              Q.head<3>(),
+                              Quaterniond(Q[3], Q[4], Q[5], Q[6]).toRotationMatrix(),
+                              Q.tail(m),
+                              state_.segment(system_.position_count + free.velocity, 6 + m),
+                              Vdot_.segment(free.velocity, 6 + m)};
+    return motion.frame(t);
   }
 
-  Vector3d gap(double t) const { return frame(0, t).p - frame(1, t).p; }
-  /// h_j x h_i of a pin.
-  Vector3d misalignment(double t) const {
-    return (frame(1, t).R * kAxis).cross(frame(0, t).R * kAxis);
+  /// @param D  directions that hold the positions at t = 0; a slider's turn with marker i
+  /// @param T  directions that hold the orientations of a pin or a cylindrical joint at t = 0
+  VectorXd residual(JointKind kind, double t, const Matrix3d& D, const Matrix3d& T) const {
+    const Frame i = frame(0, t);
+    const Frame j = frame(1, t);
+    const Vector3d gap = i.p - j.p;
+    const Vector3d across = T * (j.R * kAxis).cross(i.R * kAxis);
+    const Vector3d twist = rotation_log(i.R * j.R.transpose());
+    const Vector3d sliding = D * frame(0, 0).R * i.R.transpose() * gap;
+    VectorXd all(6);
+    switch (kind) {
+      case JointKind::ball:
+        return gap;
+      case JointKind::pin:
+        all << gap, across;
+        return all.head<5>();
+      case JointKind::fixed:
+        all << gap, twist;
+        return all;
+      case JointKind::universal:
+        all << gap, (i.R * kAxis).dot(j.R * kSecondAxis), 0, 0;
+        return all.head<4>();
+      case JointKind::cylindrical:
+        all << sliding.head<2>(), across.head<2>(), 0, 0;
+        return all.head<4>();
+      case JointKind::slider:
+        all << sliding.head<2>(), twist, 0;
+        return all.head<5>();
+      case JointKind::free:
+        break;
+    }
+    return {};
   }
-  /// log(R_i R_j^T) of a fixed joint.
-  Vector3d twist(double t) const { return rotation_log(frame(0, t).R * frame(1, t).R.transpose()); }
 
  private:
   const Model& model_;
@@ -108,6 +141,21 @@ class Path {
   const VectorXd& state_;
   const VectorXd& Vdot_;
 };
+
+/// Orientation that marker j may have when i has the given one.
+Matrix3d joined_orientation(JointKind kind, const Matrix3d& R_i) {
+  switch (kind) {
+    case JointKind::ball:
+      return RandomNumbers(38).rotation().toRotationMatrix();
+    case JointKind::pin:
+    case JointKind::cylindrical:
+      return R_i * turned(kTurn * kAxis);
+    case JointKind::universal:
+      return R_i * turned(kTurn * kAxis) * turned(0.5 * kTurn * kSecondAxis);
+    default:
+      return R_i;
+  }
+}
 
 /// A random state in which i and j coincide as the joint wants, brought onto it in velocity too.
 VectorXd joined_state(const Model& model, const System& system, EquationsOfMotion& equations) {
@@ -121,49 +169,51 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
     state.segment(body.position + 7, m) = 0.08 * random.vector(m);
     state.segment(system.position_count + body.velocity, 6 + m) = 1.5 * random.vector(6 + m);
   }
-  // Turn and shift body j so that the markers meet; a ball leaves the rotation free, a pin a turn
-  // about its axis.
+  // Turn and shift the last free body so that the markers meet.
   const VectorXd none = VectorXd::Zero(system.velocity_count);
   const Path path(model, system, state, none);
+  const JointKind kind = model.joints[0].kind;
   const Frame i = path.frame(0, 0);
   const Frame j = path.frame(1, 0);
-  Matrix3d freedom = Matrix3d::Identity();
-  if (model.joints[0].kind == JointKind::pin) freedom = turned(0.7 * (i.R * kAxis));
-  if (model.joints[0].kind == JointKind::ball) freedom = random.rotation().toRotationMatrix();
-  const Matrix3d turn = freedom * i.R * j.R.transpose();
   const FreeBody& body = system.bodies.back();
+  const bool moves_j = body.index == 1;
+  // R_j = R_i F must hold.
+  const Matrix3d F = i.R.transpose() * joined_orientation(kind, i.R);
+  const Matrix3d turn =
+      moves_j ? i.R * F * j.R.transpose() : Matrix3d(j.R * F.transpose() * i.R.transpose());
   const Quaterniond q =
       Quaterniond(turn) * Quaterniond(state[body.position + 3], state[body.position + 4],
                                       state[body.position + 5], state[body.position + 6]);
   state.segment<4>(body.position + 3) << q.w(), q.x(), q.y(), q.z();
-  const Vector3d gap = path.gap(0);
-  state.segment<3>(body.position) += gap;
+  const Vector3d slide = is_sliding(kind) ? Vector3d(kSlide_m * (path.frame(0, 0).R * kAxis))
+                                          : Vector3d(Vector3d::Zero());
+  const Vector3d gap = path.frame(0, 0).p + slide - path.frame(1, 0).p;
+  state.segment<3>(body.position) += moves_j ? gap : Vector3d(-gap);
   Projection(equations).apply(0, state);
   return state;
+}
+
+JointKind any_joint() {
+  return GENERATE(JointKind::ball, JointKind::pin, JointKind::fixed, JointKind::universal,
+                  JointKind::cylindrical, JointKind::slider);
 }
 
 }  // namespace
 
 TEST_CASE("rows of every joint are derivatives of its position residual along a motion") {
-  const auto kind = GENERATE(JointKind::ball, JointKind::pin, JointKind::fixed);
-  const bool driven = GENERATE(false, true);
-  CAPTURE(static_cast<int>(kind), driven);
+  const JointKind kind = any_joint();
+  const Driven driven = GENERATE(Driven::none, Driven::body_i, Driven::body_j);
+  CAPTURE(static_cast<int>(kind), static_cast<int>(driven));
   const Model model = two_bodies(kind, driven);
   const System system(model);
   EquationsOfMotion equations(system);
   const VectorXd state = joined_state(model, system, equations);
-  const VectorXd V = state.segment(system.position_count, system.velocity_count);
   const VectorXd Vdot = 5 * RandomNumbers(35).vector(system.velocity_count);
   const Path path(model, system, state, Vdot);
 
   const JointRows& joint = equations.joint(0);
-  const auto residual = [&](double t) {
-    VectorXd result(joint.rows);
-    result.head<3>() = path.gap(t);
-    if (kind == JointKind::pin) result.tail<2>() = joint.T.topRows<2>() * path.misalignment(t);
-    if (kind == JointKind::fixed) result.tail<3>() = path.twist(t);
-    return result;
-  };
+  const auto residual = [&](double t) { return path.residual(kind, t, joint.D, joint.T); };
+  REQUIRE(residual(0).size() == joint.rows);
   // The state keeps the joint, in velocity too: the truth says so, not only the code.
   CHECK(residual(0).norm() < 1e-13);
   CHECK(VectorXd(first_derivative(residual, kStep)).norm() < kTolerance);
@@ -184,46 +234,70 @@ TEST_CASE("rows of every joint are derivatives of its position residual along a 
 }
 
 TEST_CASE("velocity rows of every joint are derivatives of its residual off the joint too") {
-  const auto kind = GENERATE(JointKind::ball, JointKind::fixed);
-  const Model model = two_bodies(kind, false);
+  // Those with a common axis hold only on the joint: T is chosen there anew.
+  const JointKind kind = GENERATE(JointKind::ball, JointKind::fixed, JointKind::universal);
+  const Model model = two_bodies(kind, Driven::none);
   const System system(model);
   EquationsOfMotion equations(system);
   VectorXd state = joined_state(model, system, equations);
-  RandomNumbers random(36);
-  VectorXd V = random.vector(system.velocity_count);
+  const VectorXd V = RandomNumbers(36).vector(system.velocity_count);
   state.segment(system.position_count, system.velocity_count) = V;
   equations.set_positions(0, state.head(system.position_count));
   equations.set_velocities(V);
   const VectorXd none = VectorXd::Zero(system.velocity_count);
   const Path path(model, system, state, none);
   const JointRows& joint = equations.joint(0);
-  CHECK((joint.velocity_residual.head<3>() -
-         first_derivative([&](double t) { return path.gap(t); }, kStep))
-            .norm() < kTolerance);
-  if (kind == JointKind::fixed)
-    CHECK((joint.velocity_residual.tail<3>() -
-           first_derivative([&](double t) { return path.twist(t); }, kStep))
-              .norm() < kTolerance);
+  const auto residual = [&](double t) { return path.residual(kind, t, joint.D, joint.T); };
+  const VectorXd expected = first_derivative(residual, kStep);
+  CHECK((joint.velocity_residual.head(joint.rows) - expected).norm() < kTolerance);
+  REQUIRE(expected.norm() > 0.1);
 }
 
 TEST_CASE("reactions do no work on motions that keep the joint") {
-  const auto kind = GENERATE(JointKind::ball, JointKind::pin, JointKind::fixed);
-  const Model model = two_bodies(kind, false);
+  const JointKind kind = any_joint();
+  CAPTURE(static_cast<int>(kind));
+  const Model model = two_bodies(kind, Driven::none);
   const System system(model);
   EquationsOfMotion equations(system);
   const VectorXd state = joined_state(model, system, equations);
-  const RowVector multipliers = RandomNumbers(37).vector(6);
   const JointRows& joint = equations.joint(0);
+  RowVector multipliers = RowVector::Zero();
+  multipliers.head(joint.rows) = RandomNumbers(37).vector(joint.rows);
   const Reaction on_j = reaction(joint, multipliers);
   const NodeKinematics& i = equations.marker(0);
   const NodeKinematics& j = equations.marker(1);
-  const double power = on_j.force_N.dot(j.pd - i.pd) + on_j.moment_Nm.dot(j.Om - i.Om);
+  // The force acts where marker j is; there body i moves with its marker's rotation.
+  const Vector3d arm = j.p - i.p;
+  const double power =
+      on_j.force_N.dot(j.pd - i.pd - i.Om.cross(arm)) + on_j.moment_Nm.dot(j.Om - i.Om);
   CHECK(std::abs(power) < 1e-12);
-  // A ball carries no moment, a pin none about its axis.
+  // What the joint leaves free carries nothing.
+  const Vector3d h = i.R * kAxis;
   if (kind == JointKind::ball) CHECK(on_j.moment_Nm.norm() == 0);
-  if (kind == JointKind::pin) CHECK(std::abs(on_j.moment_Nm.dot(j.R * kAxis)) < 1e-15);
-  // Section 4.1: the generalised force on body j is -B_j^T lambda.
-  const VectorXd on_body = -(joint.B_j * multipliers);
-  const VectorXd expected = j.P.transpose() * on_j.force_N + j.W.transpose() * on_j.moment_Nm;
-  CHECK((on_body - expected).norm() < 1e-13);
+  if (kind == JointKind::pin || kind == JointKind::cylindrical)
+    CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
+  if (is_sliding(kind)) CHECK(std::abs(on_j.force_N.dot(h)) < 1e-14);
+  if (kind == JointKind::universal) {
+    CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
+    CHECK(std::abs(on_j.moment_Nm.dot(j.R * kSecondAxis)) < 1e-14);
+  }
+  // Section 4.1: the generalised forces are -B^T lambda.
+  const VectorXd force_on_j = j.P.transpose() * on_j.force_N + j.W.transpose() * on_j.moment_Nm;
+  CHECK((-(joint.B_j * multipliers) - force_on_j).norm() < 1e-13);
+  const VectorXd force_on_i = -i.P.transpose() * on_j.force_N -
+                              i.W.transpose() * (on_j.moment_Nm + arm.cross(on_j.force_N));
+  CHECK((-(joint.B_i * multipliers) - force_on_i).norm() < 1e-13);
+}
+
+TEST_CASE("a free joint holds nothing") {
+  const Model model = two_bodies(JointKind::free, Driven::none);
+  const System system(model);
+  EquationsOfMotion equations(system);
+  VectorXd state = given_state(model, system);
+  VectorXd rate = VectorXd::Zero(state.size());
+  equations.evaluate(0, state, rate);
+  CHECK(system.constraint_count == 0);
+  CHECK(rate.allFinite());
+  CHECK(equations.joint_reaction(0).force_N.norm() == 0);
+  CHECK(equations.joint_reaction(0).moment_Nm.norm() == 0);
 }

@@ -4,6 +4,7 @@
 #include "multibody/node_kinematics.h"
 #include "multibody/rotation.h"
 #include "tests/support/finite_differences.h"
+#include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Index;
@@ -12,6 +13,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using flexneck::testing::first_derivative;
 using flexneck::testing::make_point_mass_body;
+using flexneck::testing::MarkerMotion;
 using flexneck::testing::PointMassBody;
 using flexneck::testing::RandomNumbers;
 using flexneck::testing::second_derivative;
@@ -23,35 +25,11 @@ namespace {
 constexpr double kStep = 4e-3;
 constexpr double kTolerance = 1e-7;
 
-Matrix3d turned(const Vector3d& theta) {
-  const double angle = theta.norm();
-  if (angle == 0) return Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, theta / angle).toRotationMatrix();
+/// Rotation vector of a moving marker since t = 0, world: its first and second derivatives there
+/// are Om and Omd.
+Vector3d turn_since_start(const MarkerMotion& motion, double t) {
+  return rotation_log(motion.frame(t).R * motion.frame(0).R.transpose());
 }
-
-/// A deformable body on a given motion through t = 0 with velocities V and accelerations Vdot:
-/// rotation A exp(~(w t + wdot t^2 / 2)), everything else a parabola.
-struct Motion {
-  const flexneck::fe_modal::Interface& place;
-  Matrix3d R0;
-  Vector3d x;
-  Matrix3d A;
-  VectorXd a, V, Vdot;
-
-  VectorXd displacement(double t) const { return t * V + t * t / 2 * Vdot; }
-  Vector3d position(double t) const {
-    const VectorXd d = displacement(t);
-    return x + d.head<3>() +
-           A * turned(d.segment<3>(3)) *
-               (place.position_m + place.translation * (a + d.tail(a.size())));
-  }
-  Matrix3d rotation(double t) const {
-    const VectorXd d = displacement(t);
-    return A * turned(d.segment<3>(3)) * turned(place.rotation * (a + d.tail(a.size()))) * R0;
-  }
-  /// Rotation vector since t = 0, world: its first and second derivatives there are Om and Omd.
-  Vector3d turn(double t) const { return rotation_log(rotation(t) * rotation(0).transpose()); }
-};
 
 }  // namespace
 
@@ -76,18 +54,18 @@ TEST_CASE("velocity and acceleration of an interface are derivatives of its posi
   update_configuration(node, terms, motion);
   update_velocities(node, terms, V, motion);
 
-  const Motion truth{points.body.interface("tip"),
-                     marker.rotation.toRotationMatrix(),
-                     terms.x,
-                     terms.A,
-                     terms.a,
-                     V,
-                     Vdot};
-  const auto position = [&](double t) { return truth.position(t); };
-  const auto turn = [&](double t) { return truth.turn(t); };
+  const MarkerMotion truth{points.body.interface("tip"),
+                           marker.rotation.toRotationMatrix(),
+                           terms.x,
+                           terms.A,
+                           terms.a,
+                           V,
+                           Vdot};
+  const auto position = [&](double t) { return truth.frame(t).p; };
+  const auto turn = [&](double t) { return turn_since_start(truth, t); };
   REQUIRE(motion.theta.norm() > 0.2);
-  CHECK((motion.p - truth.position(0)).norm() < 1e-14);
-  CHECK((motion.R - truth.rotation(0)).norm() < 1e-14);
+  CHECK((motion.p - truth.frame(0).p).norm() < 1e-14);
+  CHECK((motion.R - truth.frame(0).R).norm() < 1e-14);
   CHECK((motion.P * V - first_derivative(position, kStep)).norm() < kTolerance);
   CHECK((motion.W * V - first_derivative(turn, kStep)).norm() < kTolerance);
   CHECK((motion.pd - motion.P * V).norm() < 1e-13);
@@ -115,11 +93,11 @@ TEST_CASE("the generalised force of a point force does its virtual work") {
   const VectorXd generalised = motion.P.transpose() * force;
   for (Index i = 0; i < 9; ++i) {
     // dW / d(variation i) = F . dp / d(variation i).
-    const Motion varied{
+    const MarkerMotion varied{
         points.body.interface("side"), Matrix3d::Identity(), terms.x, terms.A, terms.a,
         VectorXd::Unit(9, i),          VectorXd::Zero(9)};
     const double work =
-        first_derivative([&](double t) { return force.dot(varied.position(t)); }, kStep);
+        first_derivative([&](double t) { return force.dot(varied.frame(t).p); }, kStep);
     CHECK(generalised[i] == Approx(work).margin(1e-8 * force.norm()));
   }
 }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "fe_modal/body/modal_body.h"
+
+namespace flexneck::testing {
+
+/// exp(~theta) by Eigen, not by the code under test.
+inline Eigen::Matrix3d turned(const Eigen::Vector3d& theta) {
+  const double angle = theta.norm();
+  if (angle == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, theta / angle).toRotationMatrix();
+}
+
+/// Where a marker is in the world.
+struct Frame {
+  Eigen::Vector3d p;
+  Eigen::Matrix3d R;
+};
+
+/// A marker at an interface of a deformable body on a given motion through t = 0 with velocities
+/// V = (xdot, w, adot) and accelerations Vdot: rotation A exp(~(w t + wdot t^2 / 2)), everything
+/// else a parabola. Nothing but the definition of a marker's place.
+struct MarkerMotion {
+  const fe_modal::Interface& place;
+  Eigen::Matrix3d R0;  ///< marker axes to node axes
+  Eigen::Vector3d x;
+  Eigen::Matrix3d A;
+  Eigen::VectorXd a, V, Vdot;
+
+  Frame frame(double t) const {
+    const Eigen::VectorXd d = t * V + t * t / 2 * Vdot;
+    const Eigen::Matrix3d body = A * turned(d.segment<3>(3));
+    const Eigen::VectorXd deformed = a + d.tail(a.size());
+    return {x + d.head<3>() + body * (place.position_m + place.translation * deformed),
+            body * turned(place.rotation * deformed) * R0};
+  }
+};
+
+}  // namespace flexneck::testing
