@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::mesher {
+
+/// How the elements of a mesh are shared out to processes.
+struct ElementPartition {
+  int count = 1;                        ///< of processes, k
+  std::vector<std::int32_t> processes;  ///< (elements) 0 … k - 1, blocks in the mesh's order
+};
+
+struct PartitionQuality {
+  std::int64_t edge_cut = 0;  ///< pairs of elements with a common side that belong to two processes
+  double balance = 1;         ///< most elements of a process over the average
+};
+
+/// k-way partition of the dual graph, in which elements with a common side are neighbours, by METIS
+/// (Karypis and Kumar, J. Parallel Distrib. Comput. 48 (1998) 96). Equal input gives the same
+/// partition; a process may stay without elements if there are hardly more elements than processes.
+/// @throws InputError unless 1 <= count <= number of elements.
+/// @throws ComputationError if METIS fails.
+ElementPartition partition_elements(const Mesh& mesh, int count);
+
+/// Counted on the mesh, not taken from METIS's report.
+/// @pre the partition is one of this mesh.
+PartitionQuality quality_of(const Mesh& mesh, const ElementPartition& partition);
+
+}  // namespace flexneck::mesher
