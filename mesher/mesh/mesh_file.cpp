@@ -2,6 +2,7 @@
 #include "mesher/mesh/mesh_file.h"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <utility>
 
@@ -178,16 +179,79 @@ void read_slits(const Hdf5Reader& file, Mesh& mesh) {
   }
 }
 
+void check_partition(const Mesh& mesh, int count, const std::vector<std::int32_t>& processes) {
+  const std::string what = "partition " + std::to_string(count);
+  std::size_t elements = 0;
+  for (const ElementBlock& block : mesh.blocks) elements += block.size();
+  if (processes.size() != elements) {
+    throw InputError(what + " has " + std::to_string(processes.size()) + " entries, expected " +
+                     std::to_string(elements) + ", the number of elements");
+  }
+  for (const std::int32_t process : processes) {
+    if (process < 0 || process >= count) {
+      throw InputError(what + " names process " + std::to_string(process) + ", expected 0 to " +
+                       std::to_string(count - 1));
+    }
+  }
+}
+
+void check_node_order(const Mesh& mesh, const std::vector<std::int32_t>& order) {
+  if (order.empty()) return;
+  std::vector<bool> seen(mesh.nodes.size(), false);
+  bool sound = order.size() == mesh.nodes.size();
+  for (const std::int32_t node : order) {
+    const auto n = static_cast<std::size_t>(node);
+    sound = sound && node >= 0 && n < seen.size() && !seen[n];
+    if (!sound) break;
+    seen[n] = true;
+  }
+  if (!sound) throw InputError("the node order is no permutation of the nodes");
+}
+
+void check(const MeshFile& file) {
+  check(file.mesh);
+  for (const auto& [count, processes] : file.partitions) {
+    check_partition(file.mesh, count, processes);
+  }
+  check_node_order(file.mesh, file.node_order);
+}
+
+void write_orders(Hdf5Writer& writer, const MeshFile& file) {
+  for (const auto& [count, processes] : file.partitions) {
+    writer.write("/partition/" + std::to_string(count), processes, {processes.size()});
+  }
+  if (!file.node_order.empty()) {
+    writer.write("/node_order", file.node_order, {file.node_order.size()});
+  }
+}
+
+void read_orders(const Hdf5Reader& reader, MeshFile& file) {
+  for (const std::string& name : reader.members("/partition")) {
+    const std::string dataset = "/partition/" + name;
+    int count = 0;
+    const auto* const end = name.data() + name.size();
+    const auto [stop, error] = std::from_chars(name.data(), end, count);
+    if (error != std::errc() || stop != end || count < 1) {
+      reader.refuse(dataset, "expected the number of processes as its name");
+    }
+    file.partitions[count] = reader.read_integers(dataset, {kAnyExtent});
+  }
+  if (reader.has("/node_order")) {
+    file.node_order = reader.read_integers("/node_order", {kAnyExtent});
+  }
+}
+
 }  // namespace
 
 void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
-  check(file.mesh);
+  check(file);
   Hdf5Writer writer(path, kMeshFormat);
   writer.write("/nodes", flattened(file.mesh.nodes), {file.mesh.nodes.size(), 3}, "m");
   write_materials(writer, file.mesh);
   write_blocks(writer, file.mesh);
   write_sets(writer, file.mesh);
   write_slits(writer, file.mesh);
+  write_orders(writer, file);
   write_provenance(writer, file.provenance);
   writer.commit();
 }
@@ -200,8 +264,9 @@ MeshFile read_mesh(const std::filesystem::path& path) {
   read_blocks(reader, file.mesh);
   read_sets(reader, file.mesh);
   read_slits(reader, file.mesh);
+  read_orders(reader, file);
   try {
-    check(file.mesh);
+    check(file);
   } catch (const InputError& error) {
     reader.refuse("/", error.what());
   }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <vector>
 
 #include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/provenance.h"
@@ -15,10 +17,16 @@ inline constexpr FileFormat kMeshFormat{"flexneck mesh", 2, "flexneck mesh"};
 struct MeshFile {
   Mesh mesh;
   Provenance provenance;
+  /// By their number of processes: the process of each element, blocks in the mesh's order.
+  std::map<int, std::vector<std::int32_t>> partitions = {};
+  std::vector<std::int32_t> node_order = {};  ///< entry k: the node eliminated k-th; may be empty
 };
 
+/// @throws InputError if the mesh fails check(), a partition does not fit its elements or the order
+/// is no permutation of its nodes.
 void write_mesh(const std::filesystem::path& path, const MeshFile& file);
-/// @throws InputError if the file is missing, truncated, foreign or fails check().
+/// @throws InputError if the file is missing, truncated, foreign, or its content fails the checks
+/// of write_mesh().
 MeshFile read_mesh(const std::filesystem::path& path);
 
 }  // namespace flexneck::mesher

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include <catch2/catch.hpp>
 
@@ -61,8 +62,44 @@ TEST_CASE("an unsound mesh is not written") {
   const testing::TemporaryFolder folder;
   Mesh mesh = testing::small_mesh();
   mesh.nodes.push_back({0, 0, 9});
-  CHECK_THROWS_AS(write_mesh(folder / "mesh.h5", {.mesh = mesh, .provenance = {}}), InputError);
+  CHECK_THROWS_AS(write_mesh(folder / "mesh.h5", {mesh, {}}), InputError);
   CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("slits, partitions and the node order return from the file") {
+  const testing::TemporaryFolder folder;
+  MeshFile out{testing::small_mesh(), {}};
+  // The upper block gets a copy of the corner node 18, which lies between the two.
+  out.mesh.nodes.push_back(out.mesh.nodes[18]);
+  out.mesh.blocks[0].nodes[0] = 45;
+  out.mesh.slits = {{"cut", true, {18}, {45}, {{0, 0, 1}}, {0.125}}};
+  out.partitions[2] = {1, 0};
+  out.node_order.resize(46);
+  std::iota(out.node_order.rbegin(), out.node_order.rend(), 0);
+  write_mesh(folder / "mesh.h5", out);
+
+  const MeshFile in = read_mesh(folder / "mesh.h5");
+  REQUIRE(in.mesh.slits.size() == 1);
+  CHECK(in.mesh.slits[0].name == "cut");
+  CHECK(in.mesh.slits[0].tied);
+  CHECK(in.mesh.slits[0].lower == out.mesh.slits[0].lower);
+  CHECK(in.mesh.slits[0].upper == out.mesh.slits[0].upper);
+  CHECK(in.mesh.slits[0].normals == out.mesh.slits[0].normals);
+  CHECK(in.mesh.slits[0].areas_m2 == out.mesh.slits[0].areas_m2);
+  CHECK(in.partitions == out.partitions);
+  CHECK(in.node_order == out.node_order);
+}
+
+TEST_CASE("a partition or an order that does not fit the mesh is refused") {
+  const testing::TemporaryFolder folder;
+  const auto writing = [&](std::map<int, std::vector<std::int32_t>> partitions,
+                           std::vector<std::int32_t> order) {
+    write_mesh(folder / "mesh.h5", {testing::small_mesh(), {}, partitions, order});
+  };
+  CHECK_THROWS_WITH(writing({{2, {0}}}, {}), Contains("partition 2 has 1 entries, expected 2"));
+  CHECK_THROWS_WITH(writing({{2, {0, 2}}}, {}), Contains("names process 2, expected 0 to 1"));
+  CHECK_THROWS_WITH(writing({}, {0, 1}), Contains("no permutation"));
+  CHECK_THROWS_WITH(writing({}, std::vector<std::int32_t>(45, 0)), Contains("no permutation"));
 }
 
 TEST_CASE("a missing, truncated or foreign file is refused by name") {
@@ -70,7 +107,7 @@ TEST_CASE("a missing, truncated or foreign file is refused by name") {
   CHECK_THROWS_AS(read_mesh(folder / "none.h5"), InputError);
   CHECK_THROWS_WITH(read_mesh(folder / "none.h5"), Contains("none.h5"));
 
-  write_mesh(folder / "cut.h5", {.mesh = testing::small_mesh(), .provenance = {}});
+  write_mesh(folder / "cut.h5", {testing::small_mesh(), {}});
   fs::resize_file(folder / "cut.h5", fs::file_size(folder / "cut.h5") / 2);
   CHECK_THROWS_AS(read_mesh(folder / "cut.h5"), InputError);
   CHECK_THROWS_WITH(read_mesh(folder / "cut.h5"), Contains("cut.h5") && Contains("flexneck mesh"));
