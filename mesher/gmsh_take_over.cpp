@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include <gmsh.h>
@@ -16,120 +15,6 @@
 
 namespace flexneck::mesher {
 namespace {
-
-/// gmsh's numbers of the element types that a mesh may hold; node orders are the same.
-constexpr std::array<std::pair<int, ElementKind>, 10> kKindOfType = {{{5, ElementKind::hex8},
-                                                                      {17, ElementKind::hex20},
-                                                                      {12, ElementKind::hex27},
-                                                                      {18, ElementKind::prism15},
-                                                                      {13, ElementKind::prism18},
-                                                                      {11, ElementKind::tet10},
-                                                                      {3, ElementKind::quad4},
-                                                                      {16, ElementKind::quad8},
-                                                                      {10, ElementKind::quad9},
-                                                                      {9, ElementKind::tri6}}};
-
-std::optional<ElementKind> kind_of(int gmsh_type) {
-  const auto* const found = std::find_if(kKindOfType.begin(), kKindOfType.end(),
-                                         [&](const auto& row) { return row.first == gmsh_type; });
-  return found == kKindOfType.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::string name_of_type(int gmsh_type) {
-  std::string name;
-  int dim = 0;
-  int order = 0;
-  int nodes = 0;
-  int corners = 0;
-  std::vector<double> coordinates;
-  gmsh::model::mesh::getElementProperties(gmsh_type, name, dim, order, nodes, coordinates, corners);
-  return name;
-}
-
-struct PhysicalGroup {
-  int dimension = 0;
-  std::string name;
-  std::vector<int> entities;
-
-  std::string label() const {
-    return std::string(dimension == 3 ? "physical volume" : "physical surface") + " '" + name + "'";
-  }
-};
-
-std::vector<PhysicalGroup> physical_groups(int dimension) {
-  gmsh::vectorpair tags;
-  gmsh::model::getPhysicalGroups(tags, dimension);
-  std::sort(tags.begin(), tags.end());
-  std::vector<PhysicalGroup> groups;
-  for (const auto& [dim, tag] : tags) {
-    PhysicalGroup group{.dimension = dim, .name = {}, .entities = {}};
-    gmsh::model::getPhysicalName(dim, tag, group.name);
-    if (group.name.empty()) {
-      throw InputError("the script has a physical group without a name: dimension " +
-                       std::to_string(dim) + ", tag " + std::to_string(tag) +
-                       "; name it, as in Physical Volume(\"part\") = {…}");
-    }
-    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.entities);
-    std::sort(group.entities.begin(), group.entities.end());
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
-/// Every volume belongs to one part, or else material would be lost or counted twice.
-void require_one_part_per_volume() {
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
-  for (const auto& [dim, tag] : volumes) {
-    std::vector<int> groups;
-    gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
-    if (groups.size() != 1) {
-      throw InputError("volume " + std::to_string(tag) + " of the script belongs to " +
-                       std::to_string(groups.size()) + " physical volumes, expected one");
-    }
-  }
-}
-
-/// Node tags of a group's elements, row-major (elements, nodes per element), by kind.
-using GroupElements = std::map<ElementKind, std::vector<std::size_t>>;
-
-[[noreturn]] void refuse_kinds(const PhysicalGroup& group,
-                               const std::map<int, std::size_t>& unknown) {
-  std::string found;
-  for (const auto& [type, count] : unknown) {
-    found += (found.empty() ? "" : " and ") + std::to_string(count) + " of type '" +
-             name_of_type(type) + "'";
-  }
-  std::string known;
-  for (const ElementKind kind : element_kinds()) {
-    if (dimension(kind) != group.dimension) continue;
-    known += (known.empty() ? "" : ", ") + std::string(name_of(kind));
-  }
-  throw InputError(group.label() + ": expected elements of the kinds " + known + ", found " +
-                   found);
-}
-
-GroupElements elements_of(const PhysicalGroup& group) {
-  GroupElements elements;
-  std::map<int, std::size_t> unknown;
-  for (const int entity : group.entities) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags;
-    std::vector<std::vector<std::size_t>> nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, group.dimension, entity);
-    for (std::size_t t = 0; t < types.size(); ++t) {
-      if (const auto kind = kind_of(types[t])) {
-        auto& all = elements[*kind];
-        all.insert(all.end(), nodes[t].begin(), nodes[t].end());
-      } else {
-        unknown[types[t]] += tags[t].size();
-      }
-    }
-  }
-  if (!unknown.empty()) refuse_kinds(group, unknown);
-  if (elements.empty()) throw InputError(group.label() + " has no elements");
-  return elements;
-}
 
 /// gmsh follows an edge in the order of its end points' addresses, so the last bit of a midside
 /// node depends on the heap. Positions are rounded to 2^-36 (1.5e-11) of the largest coordinate, so
@@ -182,7 +67,6 @@ class NodeNumbering {
       positions[static_cast<std::size_t>(found - tags_.begin())] = {
           coordinates[3 * n], coordinates[3 * n + 1], coordinates[3 * n + 2]};
     }
-    round_off_noise(positions);
     return positions;
   }
 
@@ -204,7 +88,7 @@ std::size_t material_index(const std::string& part, const std::vector<Material>&
 }
 
 /// A material for a part that does not exist is a slip of the pen.
-void require_known_parts(const std::vector<PhysicalGroup>& volumes,
+void require_known_parts(const std::vector<GmshGroup>& volumes,
                          const std::map<std::string, std::string>& material_of_part) {
   for (const auto& [part, material] : material_of_part) {
     try {
@@ -225,27 +109,56 @@ NodeSet node_set_of(const FaceSet& faces) {
   return set;
 }
 
+void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source) {
+  for (const GmshGroup& surface : gmsh_groups(2, source)) {
+    FaceSet set{.name = surface.name, .blocks = {}};
+    for (const auto& [kind, tags] : elements_of(surface)) {
+      FaceBlock faces{.kind = kind, .nodes = numbering.indices_of(tags, surface.label())};
+      orient_outwards(mesh, surface.name, faces);
+      set.blocks.push_back(std::move(faces));
+    }
+    mesh.node_sets.push_back(node_set_of(set));
+    mesh.face_sets.push_back(std::move(set));
+  }
+}
+
+/// A set of points with the name of a face set belongs to the same place: the faces' nodes stand.
+void add_node_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source) {
+  for (const int dimension : {1, 0}) {
+    for (const GmshGroup& group : gmsh_groups(dimension, source)) {
+      const std::vector<std::string> known = names_of(mesh.node_sets);
+      if (std::find(known.begin(), known.end(), group.name) != known.end()) continue;
+      mesh.node_sets.push_back(
+          {group.name, numbering.indices_of(node_tags_of(group), group.label())});
+    }
+  }
+}
+
 }  // namespace
 
 Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
-                         const std::map<std::string, std::string>& material_of_part) {
-  const std::vector<PhysicalGroup> volumes = physical_groups(3);
+                         const std::map<std::string, std::string>& material_of_part,
+                         GmshSource source) {
+  const std::vector<GmshGroup> volumes = gmsh_groups(3, source);
   if (volumes.empty()) {
-    throw InputError("the script has no physical volume; each part needs one, as in " +
-                     std::string("Physical Volume(\"part\") = {…}"));
+    throw InputError(source == GmshSource::script
+                         ? "the script has no physical volume; each part needs one, as in "
+                           "Physical Volume(\"part\") = {…}"
+                         : "it has no volume elements");
   }
-  require_one_part_per_volume();
+  require_one_part_per_volume(volumes);
   require_known_parts(volumes, material_of_part);
 
   std::vector<GroupElements> parts;
   NodeNumbering numbering;
-  for (const PhysicalGroup& volume : volumes) {
+  for (const GmshGroup& volume : volumes) {
     parts.push_back(elements_of(volume));
     for (const auto& [kind, tags] : parts.back()) numbering.add(tags);
   }
 
   Mesh mesh;
   mesh.nodes = numbering.positions();
+  if (source == GmshSource::script) round_off_noise(mesh.nodes);
   mesh.materials = materials;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::string& part = volumes[p].name;
@@ -256,16 +169,8 @@ Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
                              .nodes = numbering.indices_of(tags, volumes[p].label())});
     }
   }
-  for (const PhysicalGroup& surface : physical_groups(2)) {
-    FaceSet set{.name = surface.name, .blocks = {}};
-    for (const auto& [kind, tags] : elements_of(surface)) {
-      FaceBlock faces{.kind = kind, .nodes = numbering.indices_of(tags, surface.label())};
-      orient_outwards(mesh, surface.name, faces);
-      set.blocks.push_back(std::move(faces));
-    }
-    mesh.node_sets.push_back(node_set_of(set));
-    mesh.face_sets.push_back(std::move(set));
-  }
+  add_face_sets(mesh, numbering, source);
+  add_node_sets(mesh, numbering, source);
   return mesh;
 }
 

@@ -4,18 +4,21 @@
 #include <map>
 #include <string>
 
+#include "mesher/gmsh_groups.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::mesher {
 
-/// Takes the mesh over from gmsh's current model: a block per physical volume in the order of their
-/// tags, a face set and a node set per physical surface. Nodes are those of the volume elements, in
-/// the order of gmsh's tags, positions rounded to 1.5e-11 of the largest. Faces point out of the
-/// part that they bound.
-/// @throws InputError if a physical group has no name or no elements, elements are of a kind that
-/// is not known or mixed, a volume is in no or several physical volumes, a part has no material, or
-/// a face bounds no part.
+/// Takes the mesh over from gmsh's current model: blocks per physical volume in the order of their
+/// tags, one for each kind; a face set and a node set per physical surface; a node set per physical
+/// curve or point, unless there is a face set of that name. Nodes are those of the volume elements,
+/// in the order of gmsh's tags. Faces point out of the part that they bound. A script's positions
+/// are rounded to 1.5e-11 of the largest, a file's stay as they are.
+/// @throws InputError if a script's physical group has no name, a group has no elements or elements
+/// of a kind that a mesh cannot hold, a volume is in no or several physical volumes, a part has no
+/// material, or a surface, curve or point lies on no part.
 Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
-                         const std::map<std::string, std::string>& material_of_part);
+                         const std::map<std::string, std::string>& material_of_part,
+                         GmshSource source = GmshSource::script);
 
 }  // namespace flexneck::mesher

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesher/mesh/element_kind.h"
+
+namespace flexneck::mesher {
+
+/// Where gmsh's current model comes from. The author of a script names groups; a mesh from outside
+/// may have none, or groups without names.
+enum class GmshSource { script, outside_file };
+
+/// Entities of gmsh's model under one name.
+struct GmshGroup {
+  int dimension = 0;
+  std::string name;
+  std::vector<int> entities;  ///< ascending
+
+  std::string label() const;  ///< "physical volume 'part'"
+};
+
+/// Physical groups of a dimension in the order of their tags. From an outside file, a group without
+/// a name is called "volume_<tag>" (surface, curve, point), and if there is no group of volumes or
+/// surfaces at all, each entity with elements counts as one.
+/// @throws InputError if a script's group has no name.
+std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source);
+
+/// @throws InputError unless every volume belongs to exactly one group: material would be lost or
+/// counted twice.
+void require_one_part_per_volume(const std::vector<GmshGroup>& volumes);
+
+/// Node tags of a group's elements, row-major (elements, nodes per element), by kind.
+using GroupElements = std::map<ElementKind, std::vector<std::size_t>>;
+/// @throws InputError if the group has no elements, or elements of a kind that a mesh cannot hold:
+/// which, and how many.
+GroupElements elements_of(const GmshGroup& group);
+
+/// Node tags of a group's elements of whatever kind, ascending.
+std::vector<std::size_t> node_tags_of(const GmshGroup& group);
+
+}  // namespace flexneck::mesher
