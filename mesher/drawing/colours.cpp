@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/drawing/colours.h"
+
+#include <algorithm>
+#include <array>
+
+namespace flexneck::mesher {
+namespace {
+
+Colour from_hex(std::uint32_t rgb) {
+  return {static_cast<float>(rgb >> 16U) / 255, static_cast<float>(rgb >> 8U & 0xFFU) / 255,
+          static_cast<float>(rgb & 0xFFU) / 255};
+}
+
+}  // namespace
+
+Colour scale_colour(double share) {
+  // Lightness grows evenly along the scale.
+  static constexpr std::array<std::uint32_t, 6> kAnchors = {0x440154, 0x414487, 0x2A788E,
+                                                            0x22A884, 0x7AD151, 0xFDE725};
+  const double place = std::clamp(share, 0.0, 1.0) * (kAnchors.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), kAnchors.size() - 2);
+  const auto rest = static_cast<float>(place - static_cast<double>(below));
+  return (1 - rest) * from_hex(kAnchors[below]) + rest * from_hex(kAnchors[below + 1]);
+}
+
+Colour category_colour(std::size_t index) {
+  static constexpr std::array<std::uint32_t, 8> kColours = {0xB9C4CE, 0x4A4E57, 0x5B8DB8, 0xD9A441,
+                                                            0x7FB285, 0xB5657A, 0x8C7AB8, 0xE3D5B0};
+  return from_hex(kColours[index % kColours.size()]);
+}
+
+}  // namespace flexneck::mesher

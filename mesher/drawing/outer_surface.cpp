@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/drawing/outer_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/shape_functions.h"
+
+namespace flexneck::mesher {
+namespace {
+
+/// Where an element has a side, by the three lowest of its corner nodes.
+struct SidePlace {
+  std::array<std::int32_t, 3> corners;
+  std::size_t block, element, side;
+
+  auto operator<=>(const SidePlace&) const = default;
+};
+
+std::vector<SidePlace> all_sides(const Mesh& mesh) {
+  std::vector<SidePlace> places;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const ElementBlock& block = mesh.blocks[b];
+    const std::size_t width = nodes_per_element(block.kind);
+    const auto sides = sides_of(block.kind);
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        std::array<std::int32_t, 4> nodes{};
+        nodes.fill(std::numeric_limits<std::int32_t>::max());
+        for (std::size_t c = 0; c < corners_per_element(sides[s].kind); ++c) {
+          nodes[c] = block.nodes[e * width + sides[s].nodes[c]];
+        }
+        std::sort(nodes.begin(), nodes.end());
+        places.push_back({{nodes[0], nodes[1], nodes[2]}, b, e, s});
+      }
+    }
+  }
+  return places;
+}
+
+/// A face divided evenly: points of its reference element, triangles between them, and the chain of
+/// points along each of its edges.
+struct Division {
+  Eigen::Matrix3Xd points;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::vector<std::int32_t>> edges;
+};
+
+Division divide_quadrilateral(int n) {
+  Division division{Eigen::Matrix3Xd::Zero(3, (n + 1) * (n + 1)), {}, {{}, {}, {}, {}}};
+  const auto point = [n](int i, int j) { return j * (n + 1) + i; };
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      division.points.col(point(i, j)) << 2.0 * i / n - 1, 2.0 * j / n - 1, 0;
+      if (i == n || j == n) continue;
+      division.triangles.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1)});
+      division.triangles.push_back({point(i, j), point(i + 1, j + 1), point(i, j + 1)});
+    }
+  }
+  for (int i = 0; i <= n; ++i) {
+    division.edges[0].push_back(point(i, 0));
+    division.edges[1].push_back(point(n, i));
+    division.edges[2].push_back(point(n - i, n));
+    division.edges[3].push_back(point(0, n - i));
+  }
+  return division;
+}
+
+Division divide_triangle(int n) {
+  Division division{Eigen::Matrix3Xd::Zero(3, (n + 1) * (n + 2) / 2), {}, {{}, {}, {}}};
+  const auto point = [n](int i, int j) { return j * (n + 1) - j * (j - 1) / 2 + i; };
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n - j; ++i) {
+      division.points.col(point(i, j)) << static_cast<double>(i) / n, static_cast<double>(j) / n, 0;
+      if (i + j == n) continue;
+      division.triangles.push_back({point(i, j), point(i + 1, j), point(i, j + 1)});
+      if (i + j + 1 == n) continue;
+      division.triangles.push_back({point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
+    }
+  }
+  for (int i = 0; i <= n; ++i) {
+    division.edges[0].push_back(point(i, 0));
+    division.edges[1].push_back(point(n - i, i));
+    division.edges[2].push_back(point(0, n - i));
+  }
+  return division;
+}
+
+/// A face's kind with the tables at the points of its division.
+struct DividedKind {
+  Division division;
+  ShapeTable table;
+
+  DividedKind(ElementKind kind, int n)
+      : division(shape_of(kind) == ReferenceShape::triangle ? divide_triangle(n)
+                                                            : divide_quadrilateral(n)),
+        table(tabulate(kind, division.points)) {}
+};
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+void append(const Eigen::MatrixXd& values, const OuterSide& side, std::int32_t first_vertex,
+            Triplets& triplets) {
+  for (Eigen::Index v = 0; v < values.cols(); ++v) {
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      triplets.emplace_back(first_vertex + static_cast<std::int32_t>(v),
+                            side.nodes[static_cast<std::size_t>(i)], values(i, v));
+    }
+  }
+}
+
+std::vector<std::int32_t> shifted(std::vector<std::int32_t> chain, std::int32_t by) {
+  for (std::int32_t& vertex : chain) vertex += by;
+  return chain;
+}
+
+/// What meets at an edge between two corner nodes: the first face seen there.
+struct EdgeOwner {
+  std::size_t block;
+  Eigen::Vector3d normal;
+};
+
+Eigen::Vector3d centre_normal(const Mesh& mesh, const OuterSide& side) {
+  const bool triangle = shape_of(side.kind) == ReferenceShape::triangle;
+  const Eigen::Vector3d centre =
+      triangle ? Eigen::Vector3d(1.0 / 3, 1.0 / 3, 0) : Eigen::Vector3d(0, 0, 0);
+  const ShapeTable table = tabulate(side.kind, centre);
+  const Eigen::Matrix3Xd x = positions_of(mesh, side.nodes);
+  const Eigen::Vector3d along_xi = x * table.derivatives[0];
+  const Eigen::Vector3d along_eta = x * table.derivatives[1];
+  return along_xi.cross(along_eta).normalized();
+}
+
+/// Adds the edges of a face that lie between parts, or between faces that meet at an angle.
+class OutlineFinder {
+ public:
+  /// Faces whose normals differ by more than 40 degrees meet at an edge that one sees.
+  static constexpr double kSharpCosine = 0.77;
+
+  void add(const Mesh& mesh, const OuterSide& side,
+           const std::vector<std::vector<std::int32_t>>& chains, Surface& surface) {
+    const Eigen::Vector3d normal = centre_normal(mesh, side);
+    for (std::size_t e = 0; e < chains.size(); ++e) {
+      const std::int32_t a = side.nodes[e];
+      const std::int32_t b = side.nodes[(e + 1) % chains.size()];
+      const auto [owner, is_new] = owners_.try_emplace(std::minmax(a, b), side.block, normal);
+      if (is_new) continue;
+      if (owner->second.block != side.block || owner->second.normal.dot(normal) < kSharpCosine) {
+        surface.outlines.push_back(chains[e]);
+      }
+    }
+  }
+
+ private:
+  std::map<std::pair<std::int32_t, std::int32_t>, EdgeOwner> owners_;
+};
+
+/// Finest division of a side, up to `most` triangles in all.
+int division_for(std::size_t sides, std::size_t most) {
+  int n = 6;
+  while (n > 1 && sides * 2 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n) > most) --n;
+  return n;
+}
+
+}  // namespace
+
+std::vector<OuterSide> outer_sides(const Mesh& mesh) {
+  std::vector<SidePlace> places = all_sides(mesh);
+  std::sort(places.begin(), places.end());
+  std::vector<SidePlace> single;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const bool as_before = p > 0 && places[p].corners == places[p - 1].corners;
+    const bool as_after = p + 1 < places.size() && places[p].corners == places[p + 1].corners;
+    if (!as_before && !as_after) single.push_back(places[p]);
+  }
+  std::sort(single.begin(), single.end(), [](const SidePlace& a, const SidePlace& b) {
+    return std::tie(a.block, a.element, a.side) < std::tie(b.block, b.element, b.side);
+  });
+  std::vector<OuterSide> result;
+  result.reserve(single.size());
+  for (const SidePlace& place : single) {
+    const ElementBlock& block = mesh.blocks[place.block];
+    const Side& side = sides_of(block.kind)[place.side];
+    OuterSide outer{place.block, side.kind, {}};
+    for (const std::size_t local : side.nodes) {
+      outer.nodes.push_back(block.nodes[place.element * nodes_per_element(block.kind) + local]);
+    }
+    result.push_back(std::move(outer));
+  }
+  return result;
+}
+
+Surface surface_of(const Mesh& mesh, std::size_t most_triangles) {
+  const std::vector<OuterSide> sides = outer_sides(mesh);
+  const int n = division_for(sides.size(), most_triangles);
+  std::map<ElementKind, DividedKind> kinds;
+  Surface surface;
+  OutlineFinder outlines;
+  Triplets value, along_xi, along_eta;
+  std::int32_t vertices = 0;
+  for (const OuterSide& side : sides) {
+    const DividedKind& kind = kinds.try_emplace(side.kind, side.kind, n).first->second;
+    append(kind.table.values, side, vertices, value);
+    append(kind.table.derivatives[0], side, vertices, along_xi);
+    append(kind.table.derivatives[1], side, vertices, along_eta);
+    for (const auto& t : kind.division.triangles) {
+      surface.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+    }
+    std::vector<std::vector<std::int32_t>> chains;
+    for (const auto& edge : kind.division.edges) chains.push_back(shifted(edge, vertices));
+    outlines.add(mesh, side, chains, surface);
+    surface.edges.insert(surface.edges.end(), chains.begin(), chains.end());
+    const Eigen::Index count = kind.division.points.cols();
+    surface.block_of_vertex.insert(surface.block_of_vertex.end(), static_cast<std::size_t>(count),
+                                   side.block);
+    vertices += static_cast<std::int32_t>(count);
+  }
+  for (const auto& [matrix, triplets] :
+       {std::pair{&surface.value, &value}, std::pair{&surface.along_xi, &along_xi},
+        std::pair{&surface.along_eta, &along_eta}}) {
+    matrix->resize(vertices, static_cast<Eigen::Index>(mesh.nodes.size()));
+    matrix->setFromTriplets(triplets->begin(), triplets->end());
+  }
+  return surface;
+}
+
+}  // namespace flexneck::mesher

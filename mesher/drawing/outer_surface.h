@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::mesher {
+
+/// A side of one volume element.
+struct OuterSide {
+  std::size_t block = 0;
+  ElementKind kind = ElementKind::quad9;
+  std::vector<std::int32_t> nodes;
+};
+
+/// The sides that belong to one element only, block by block: the skin of the body, open slits
+/// included.
+std::vector<OuterSide> outer_sides(const Mesh& mesh);
+
+/// The skin as triangles, fine enough to show curved faces. Fields on the nodes, (n) rows, come to
+/// the vertices by the shape functions: `value * field`.
+struct Surface {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> value;                ///< (vertices, nodes)
+  Eigen::SparseMatrix<double, Eigen::RowMajor> along_xi, along_eta;  ///< derivatives on the face
+  std::vector<std::array<std::int32_t, 3>> triangles;                ///< vertices
+  std::vector<std::size_t> block_of_vertex;
+  std::vector<std::vector<std::int32_t>> edges;     ///< of the elements, as chains of vertices
+  std::vector<std::vector<std::int32_t>> outlines;  ///< those between parts and at sharp bends
+};
+
+/// @param most_triangles bounds the subdivision of the sides
+Surface surface_of(const Mesh& mesh, std::size_t most_triangles = 200'000);
+
+}  // namespace flexneck::mesher
