@@ -25,7 +25,7 @@ Colour scale_colour(double share) {
 }
 
 Colour category_colour(std::size_t index) {
-  static constexpr std::array<std::uint32_t, 8> kColours = {0xB9C4CE, 0x4A4E57, 0x5B8DB8, 0xD9A441,
+  static constexpr std::array<std::uint32_t, 8> kColours = {0xB9C4CE, 0x666B75, 0x5B8DB8, 0xD9A441,
                                                             0x7FB285, 0xB5657A, 0x8C7AB8, 0xE3D5B0};
   return from_hex(kColours[index % kColours.size()]);
 }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "mesher/drawing/body_picture.h"
+#include "mesher/drawing/colours.h"
+#include "mesher/drawing/picture_sheet.h"
+#include "tests/support/block_mesh.h"
+#include "tests/support/temporary_folder.h"
+
+namespace flexneck::mesher {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Material kMaterial{
+    .name = "any", .youngs_modulus_Pa = 1e9, .poissons_ratio = 0.3, .density_kg_m3 = 1000};
+constexpr std::uint32_t kWhite = 0xFFFFFF;
+
+Mesh box_of(int x, int y, int z) {
+  return testing::box({x, y, z}, Eigen::Vector3d(x, y, z), kMaterial).make();
+}
+
+/// Number of pixels that are not background.
+std::ptrdiff_t covered(const Raster& picture) {
+  const auto pixels = picture.pixels();
+  return std::count_if(pixels.begin(), pixels.end(),
+                       [](std::uint32_t pixel) { return pixel != kWhite; });
+}
+
+std::uint32_t pixel_at(const Raster& picture, int x, int y) {
+  return picture.pixels()[static_cast<std::size_t>(y * picture.width() + x)];
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST_CASE("the skin of a box has its outer sides and the box's area") {
+  const Mesh mesh = box_of(2, 3, 4);
+  const std::vector<OuterSide> sides = outer_sides(mesh);
+  CHECK(sides.size() == 2 * (2 * 3 + 3 * 4 + 4 * 2));
+
+  const Surface surface = surface_of(mesh);
+  Eigen::MatrixX3d nodes(static_cast<Eigen::Index>(mesh.nodes.size()), 3);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    nodes.row(static_cast<Eigen::Index>(n)) = Eigen::RowVector3d(mesh.nodes[n].data());
+  }
+  const Eigen::MatrixX3d x = surface.value * nodes;
+  double area = 0;
+  double volume = 0;
+  for (const auto& t : surface.triangles) {
+    const Eigen::Vector3d a = x.row(t[0]);
+    const Eigen::Vector3d b = x.row(t[1]);
+    const Eigen::Vector3d c = x.row(t[2]);
+    const Eigen::Vector3d normal = (b - a).cross(c - a) / 2;
+    area += normal.norm();
+    volume += normal.dot(a) / 3;
+  }
+  CHECK(area == Approx(52));
+  CHECK(volume == Approx(24));  // the normals point outwards
+  CHECK(surface.edges.size() == 4 * sides.size());
+  // Twelve edges of the box, each as long as it has elements: 4 (2 + 3 + 4).
+  CHECK(surface.outlines.size() == 36);
+}
+
+TEST_CASE("a box seen from the front covers its height times its width") {
+  const Mesh mesh = box_of(1, 2, 4);
+  const BodyPicture plain{.displacement_m = {}, .field = {}, .element_edges = false};
+  const View front{{1, 0, 0}};
+  const Raster picture = draw_body(mesh, surface_of(mesh), plain, front, 200, 200);
+  // Four high fill the picture but for the margins of 5 %: 180 pixels, half as wide. Lines along
+  // the rim are a pixel wide.
+  CHECK(covered(picture) >= 180 * 90);
+  CHECK(covered(picture) <= 182 * 92);
+}
+
+TEST_CASE("what lies nearer to the eye hides what lies behind, whatever is drawn first") {
+  const auto square = [](Raster& raster, double depth, const Colour& colour) {
+    const std::array<Colour, 3> same = {colour, colour, colour};
+    raster.draw_triangle({ScreenPoint(0, 0, depth), {20, 0, depth}, {20, 20, depth}}, same);
+    raster.draw_triangle({ScreenPoint(0, 0, depth), {20, 20, depth}, {0, 20, depth}}, same);
+  };
+  for (const bool near_first : {true, false}) {
+    Raster raster(20, 20, {1, 1, 1});
+    square(raster, near_first ? 2 : 1, near_first ? Colour(1, 0, 0) : Colour(0, 0, 1));
+    square(raster, near_first ? 1 : 2, near_first ? Colour(0, 0, 1) : Colour(1, 0, 0));
+    CHECK(pixel_at(raster, 12, 7) == 0xFF0000);
+  }
+}
+
+TEST_CASE("displacements move the picture and a field colours it") {
+  const Mesh mesh = box_of(1, 1, 1);
+  const Surface surface = surface_of(mesh);
+  const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
+  BodyPicture what{.displacement_m = Eigen::Matrix3Xd::Zero(3, n),
+                   .field = Eigen::VectorXd::Zero(n),
+                   .element_edges = false};
+  what.displacement_m.row(1).setConstant(0.5);
+  const View front{{1, 0, 0}};  // y runs to the right
+  const Raster picture = draw_body(mesh, surface, what, front, 200, 200, 0.5);
+  // The box, 90 pixels wide at this scale, has moved by 45 from the middle.
+  CHECK(pixel_at(picture, 95, 100) == kWhite);
+  CHECK(pixel_at(picture, 110, 100) != kWhite);
+  CHECK(pixel_at(picture, 185, 100) != kWhite);
+
+  what.field.setOnes();
+  const std::uint32_t high =
+      pixel_at(draw_body(mesh, surface, what, front, 200, 200, 0.5), 145, 100);
+  const Colour yellow = scale_colour(1);
+  const auto red = static_cast<float>(high >> 16U);
+  const auto blue = static_cast<float>(high & 0xFFU);
+  CHECK(red / blue == Approx(yellow[0] / yellow[2]).epsilon(0.05));  // shaded, of the same hue
+}
+
+TEST_CASE("a sheet is a PNG file, the same each time, and nothing is left where it fails") {
+  const testing::TemporaryFolder folder;
+  const Mesh mesh = box_of(1, 1, 2);
+  PictureSheet sheet;
+  sheet.panels.push_back({"box", draw_body(mesh, surface_of(mesh), {}, {}, 120, 120)});
+  sheet.legend = {{"any", category_colour(0)}};
+  sheet.scale = ScaleBar{"0", "1"};
+  write_png(folder / "a.png", sheet);
+  write_png(folder / "b.png", sheet);
+  CHECK(bytes_of(folder / "a.png").substr(1, 3) == "PNG");
+  CHECK(bytes_of(folder / "a.png") == bytes_of(folder / "b.png"));
+  CHECK_THROWS_AS(write_png(folder / "none" / "c.png", sheet), ComputationError);
+  CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 2);
+}
+
+}  // namespace flexneck::mesher
