@@ -234,7 +234,7 @@ double EquationsOfMotion::work_W() const {
   // A driven body only translates: through a joint it does the force's work. Body i bears -f, j +f.
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& joint = system_.joints[k];
-    const Eigen::Vector3d f = multipliers_.segment<3>(solver_.joint_offset(k));
+    const Eigen::Vector3d f = joint_reaction(k).force_N;
     if (system_.places[k].body_i == kNone) power += f.dot(markers_[joint.marker_i].pd);
     if (system_.places[k].body_j == kNone) power -= f.dot(markers_[joint.marker_j].pd);
   }

@@ -15,17 +15,6 @@ using Eigen::VectorXd;
 
 constexpr double kTolerance = 1e-6;
 
-/// Size of a joint's residual: m and rad, or m/s and rad/s. For a pin the rotation is that of its
-/// axis.
-struct Violation {
-  double translation;
-  double rotation;
-};
-
-Violation violation(const RowVector& residual) {
-  return {residual.head<3>().norm(), residual.tail<3>().norm()};
-}
-
 [[noreturn]] void refuse(const Joint& joint, const Model& model, const std::string& problem) {
   throw InputError("joint '" + joint.name + "' between markers '" +
                    model.markers[joint.marker_i].name + "' and '" +
@@ -35,7 +24,7 @@ Violation violation(const RowVector& residual) {
 void check_positions(const Model& model, const EquationsOfMotion& equations) {
   const double size = std::max(equations.system().size_m, 1e-3);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    const Violation found = violation(equations.joint(k).position_residual);
+    const Violation found = violation(equations.joint(k), equations.joint(k).position_residual);
     if (found.translation <= kTolerance * size && found.rotation <= kTolerance) continue;
     std::ostringstream problem;
     problem << "at the start the markers are " << found.translation << " m and " << found.rotation
@@ -53,7 +42,7 @@ void check_velocities(const Model& model, const EquationsOfMotion& equations) {
       speed = std::max({speed, motion.pd.norm(), size * motion.Om.norm()});
     }
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    const Violation found = violation(equations.joint(k).velocity_residual);
+    const Violation found = violation(equations.joint(k), equations.joint(k).velocity_residual);
     if (found.translation <= kTolerance * speed && size * found.rotation <= kTolerance * speed)
       continue;
     std::ostringstream problem;

@@ -15,37 +15,50 @@ using RowVector = Eigen::Matrix<double, kMaxRows, 1>;
 /// rows.
 using TransposedRows = Eigen::Matrix<double, Eigen::Dynamic, kMaxRows, Eigen::RowMajor>;
 
-/// What tells one kind of joint from another: how orientations are held together.
+/// What tells one kind of joint from another: how many rows hold the positions together, and how
+/// orientations are held.
 struct JointLaw;
 
-/// Constraint rows of a joint, "rows i minus j" (equations.md section 4): three rows hold the
-/// positions together, and the rows of T (none, 2 or 3) the orientations:
-///   B = [P_i, -P_j; T W_i, -T W_j],  B Vdot = gamma,  B V + drive = velocity residual.
-/// A pin's T follows from the configuration.
+/// Constraint rows of a joint, "rows i minus j" (equations.md section 4): first those along the
+/// directions D (none, 2 or 3) that hold the positions together, then those of T (none, 1, 2 or 3)
+/// for the orientations:
+///   B = [D P_i + L W_i, -D P_j; T W_i, -T W_j],  B Vdot = gamma,  B V + drive = velocity residual.
+/// D, L and T follow from the configuration; L is not zero only where marker j slides along i.
 struct JointRows {
   JointRows(const Joint& joint, Eigen::Index velocity_count_i, Eigen::Index velocity_count_j);
 
-  const JointLaw* law;   ///< of static storage
-  Eigen::Vector3d axis;  ///< of a pin, in the axes of both markers
+  const JointLaw* law;            ///< of static storage
+  Eigen::Vector3d axis_i;         ///< in the axes of marker i
+  Eigen::Vector3d axis_j;         ///< in the axes of marker j
+  Eigen::Index translation_rows;  ///< of D
   Eigen::Index rows;
-  Eigen::Matrix3d T = Eigen::Matrix3d::Zero();      ///< unused rows are zero
+  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();  ///< world; unused rows do not count
+  Eigen::Matrix3d L = Eigen::Matrix3d::Zero();      ///< rows d x (p_i - p_j) with d of D
+  Eigen::Matrix3d T = Eigen::Matrix3d::Zero();      ///< world; unused rows are zero
   TransposedRows B_i, B_j;                          ///< a driven body's has no rows
   RowVector position_residual = RowVector::Zero();  ///< Phi
   RowVector velocity_residual = RowVector::Zero();  ///< its rate
   RowVector gamma = RowVector::Zero();
 };
 
-/// T, B and Phi.
+/// D, L, T, B and Phi.
 void update_configuration(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
 /// The velocity residual and gamma.
 void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
 
-/// Force and moment about the joint point that i exerts on j, world axes (section 4.1).
+/// Length of what a residual says about positions (m or m/s) and about orientations (rad or rad/s).
+struct Violation {
+  double translation;
+  double rotation;
+};
+Violation violation(const JointRows& joint, const RowVector& residual);
+
+/// Force and moment about the origin of marker j that i exerts on j, world axes (section 4.1).
 struct Reaction {
   Eigen::Vector3d force_N;
   Eigen::Vector3d moment_Nm;
 };
-/// From the joint's multipliers, padded with anything.
+/// From the joint's multipliers, padded with zeros.
 Reaction reaction(const JointRows& joint, const RowVector& multipliers);
 
 }  // namespace flexneck::multibody

@@ -216,7 +216,8 @@ void check_joint(const Joint& joint, const Model& model) {
     refuse(who,
            "it joins '" + lower.name + "' and '" + upper.name + "', whose motions are both given");
   }
-  if (joint.kind == JointKind::pin) check_unit_vector(who, "axis", joint.axis);
+  check_unit_vector(who, "axis", joint.axis);
+  check_unit_vector(who, "second axis", joint.second_axis);
 }
 
 void check_force(const PointForce& force, const Model& model) {
