@@ -69,8 +69,9 @@ std::vector<GmshGroup> groups_by_entity(int dimension) {
   std::vector<GmshGroup> groups;
   for (const auto& [dim, tag] : entities) {
     if (elements_of_entity(dim, tag).types.empty()) continue;
-    groups.push_back(
-        {.dimension = dim, .name = entity_name(dim) + "_" + std::to_string(tag), .entities = {tag}});
+    groups.push_back({.dimension = dim,
+                      .name = entity_name(dim) + "_" + std::to_string(tag),
+                      .entities = {tag}});
   }
   return groups;
 }

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/file_signature.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+
+namespace flexneck::mesher {
+namespace {
+
+/// Hands out lines without their ends.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  std::optional<std::string_view> next() {
+    if (rest_.empty()) return std::nullopt;
+    ++number_;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+  std::string_view rest() const { return rest_; }
+  std::size_t number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// The beginning of a file for a message: printable and short.
+std::string shown(std::string_view text) {
+  std::string result;
+  for (const char c : text.substr(0, 24)) {
+    if (c == '\n' || c == '\r') break;
+    result += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
+  }
+  return "'" + result + "'";
+}
+
+bool is_text(std::string_view contents) { return contents.find('\0') == std::string_view::npos; }
+
+/// Sections $Name … $EndName with nothing but blank lines between them.
+std::string msh_section_problem(Lines lines) {
+  std::string open;
+  bool has_nodes = false;
+  bool has_elements = false;
+  while (const auto line = lines.next()) {
+    const std::string_view text = trimmed(*line);
+    const std::string at = "line " + std::to_string(lines.number());
+    if (!open.empty()) {
+      if (text == "$End" + open) open.clear();
+      continue;
+    }
+    if (text.empty()) continue;
+    if (text.front() != '$' || text.starts_with("$End")) {
+      return at + " lies in no section: " + shown(text);
+    }
+    open = text.substr(1);
+    has_nodes = has_nodes || open == "Nodes";
+    has_elements = has_elements || open == "Elements";
+  }
+  if (!open.empty()) return "section $" + open + " has no end: the file is truncated";
+  if (!has_nodes || !has_elements) return "it has no $Nodes or no $Elements";
+  return {};
+}
+
+/// The four bytes after the header tell the byte order: one, as this machine writes it.
+std::string msh_binary_problem(std::string_view contents) {
+  constexpr std::string_view kOne("\1\0\0\0", 4);
+  if (!contents.starts_with(kOne)) return "its bytes are in another order";
+  if (!trimmed(Lines(contents.substr(kOne.size() + 1)).next().value_or("")).starts_with("$End")) {
+    return "section $MeshFormat has no end";
+  }
+  for (const std::string_view name : {"$Nodes", "$EndNodes", "$Elements", "$EndElements"}) {
+    if (contents.find(name) == std::string_view::npos) {
+      return "it has no " + std::string(name) + ": the file is truncated, or no mesh";
+    }
+  }
+  return {};
+}
+
+std::string msh_problem(std::string_view contents) {
+  Lines lines(contents);
+  const std::string_view first = lines.next().value_or("");
+  if (first != "$MeshFormat") {
+    return "expected $MeshFormat in the first line, found " + shown(first);
+  }
+  const std::string_view header = trimmed(lines.next().value_or(""));
+  constexpr std::array<std::string_view, 7> kVersions = {"2", "2.0", "2.1", "2.2",
+                                                         "4", "4.0", "4.1"};
+  const std::string_view version = header.substr(0, header.find(' '));
+  if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
+    return "expected version 2.0, 2.1, 2.2, 4.0 or 4.1, found " + shown(header);
+  }
+  const std::string_view kind = trimmed(header.substr(version.size()));
+  if (kind == "1 8" || kind == "1 4") return msh_binary_problem(lines.rest());
+  if (kind != "0 8" && kind != "0 4") {
+    return "expected a file type of 0 or 1 and a data size of 8, found " + shown(header);
+  }
+  if (!is_text(contents)) return "it says that it is text, and is not";
+  return msh_section_problem(Lines(contents));
+}
+
+/// Data sets between lines of -1, the first line among them.
+std::string unv_problem(std::string_view contents) {
+  Lines lines(contents);
+  const std::string_view first = lines.next().value_or("");
+  if (!is_text(contents) || trimmed(first) != "-1") {
+    return "expected a line -1 first, found " + shown(first);
+  }
+  const std::string_view number = trimmed(lines.next().value_or(""));
+  int data_set = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), data_set);
+  if (error != std::errc() || end != number.data() + number.size()) {
+    return "expected the number of a data set in the second line, found " + shown(number);
+  }
+  return {};
+}
+
+/// Free or fixed fields; comments and case control may come first. A card's name is upper case.
+std::string bdf_problem(std::string_view contents) {
+  if (!is_text(contents)) return "it is no text";
+  bool has_grid = false;
+  bool has_element = false;
+  Lines lines(contents);
+  while (const auto line = lines.next()) {
+    has_grid = has_grid || line->starts_with("GRID");
+    for (const std::string_view card : {"CTETRA", "CHEXA", "CPENTA", "CPYRAM"}) {
+      has_element = has_element || line->starts_with(card);
+    }
+  }
+  if (!has_grid) return "it has no GRID card, begins " + shown(contents);
+  if (!has_element) return "it has no card CHEXA, CPENTA or CTETRA";
+  return {};
+}
+
+std::string step_problem(std::string_view contents) {
+  if (contents.starts_with("ISO-10303-21;")) return {};
+  return "expected ISO-10303-21; in the first line, found " + shown(contents);
+}
+
+std::string brep_problem(std::string_view contents) {
+  Lines lines(contents);
+  std::string_view first = lines.next().value_or("");
+  if (first == "DBRep_DrawableShape") {
+    first = lines.next().value_or("");
+    if (trimmed(first).empty()) first = lines.next().value_or("");
+  }
+  if (first.starts_with("CASCADE Topology V")) return {};
+  return "expected 'CASCADE Topology V…' in the first lines, found " + shown(first);
+}
+
+/// Lines of keywords and data; the first that is no comment is a keyword.
+std::string inp_problem(std::string_view contents) {
+  if (!is_text(contents)) return "it is no text";
+  Lines lines(contents);
+  while (const auto line = lines.next()) {
+    const std::string_view text = trimmed(*line);
+    if (text.empty() || text.starts_with("**")) continue;
+    if (text.size() > 1 && text[0] == '*' &&
+        std::isalpha(static_cast<unsigned char>(text[1])) != 0) {
+      return {};
+    }
+    return "expected a keyword such as *NODE in line " + std::to_string(lines.number()) +
+           ", found " + shown(text);
+  }
+  return "it is empty";
+}
+
+}  // namespace
+
+std::string signature_problem(OutsideFormat format, std::string_view contents) {
+  switch (format) {
+    case OutsideFormat::msh:
+      return msh_problem(contents);
+    case OutsideFormat::unv:
+      return unv_problem(contents);
+    case OutsideFormat::bdf:
+      return bdf_problem(contents);
+    case OutsideFormat::inp:
+      return inp_problem(contents);
+    case OutsideFormat::step:
+      return step_problem(contents);
+    case OutsideFormat::brep:
+      return brep_problem(contents);
+  }
+  return "it is of no known format";
+}
+
+}  // namespace flexneck::mesher

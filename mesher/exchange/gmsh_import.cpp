@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/gmsh_import.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gmsh.h>
+
+#include "geometry/foundation/error.h"
+#include "mesher/gmsh_session.h"
+#include "mesher/gmsh_take_over.h"
+
+namespace flexneck::mesher {
+namespace {
+
+/// Part names of volumes: the last piece of the label if no other volume has it, else the tag.
+std::map<int, std::string> volume_names(const gmsh::vectorpair& volumes) {
+  std::map<int, std::string> names;
+  std::multiset<std::string> all;
+  for (const auto& [dim, tag] : volumes) {
+    std::string label;
+    gmsh::model::getEntityName(dim, tag, label);
+    names[tag] = label.substr(label.rfind('/') + 1);
+    all.insert(names[tag]);
+  }
+  for (auto& [tag, name] : names) {
+    if (name.empty() || all.count(name) > 1) name = "volume_" + std::to_string(tag);
+  }
+  return names;
+}
+
+/// Volumes that touch get common faces, or else they would not hold together. Their tags stay.
+void glue(const gmsh::vectorpair& volumes) {
+  if (volumes.size() < 2) return;
+  gmsh::vectorpair pieces;
+  std::vector<gmsh::vectorpair> piece_of;
+  gmsh::model::occ::fragment(volumes, {}, pieces, piece_of);
+  gmsh::model::occ::synchronize();
+  if (pieces.size() != volumes.size()) {
+    throw InputError("its volumes overlap: " + std::to_string(volumes.size()) +
+                     " of them cut each other into " + std::to_string(pieces.size()));
+  }
+}
+
+void name_groups(const std::map<int, std::string>& volumes) {
+  for (const auto& [tag, name] : volumes) {
+    gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {tag}, tag), name);
+  }
+  gmsh::vectorpair surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  for (const auto& [dim, tag] : surfaces) {
+    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {tag}, tag),
+                                 "surface_" + std::to_string(tag));
+  }
+}
+
+void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double size) {
+  const bool is_step = copy.format() == OutsideFormat::step;
+  if (is_step) gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+  gmsh::vectorpair shapes;
+  gmsh::model::occ::importShapes(copy.path().string(), shapes, true, is_step ? "step" : "brep");
+  gmsh::model::occ::synchronize();
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  if (volumes.empty()) throw InputError(options.file.string() + ": the shape has no volume");
+  const std::map<int, std::string> names = volume_names(volumes);
+  glue(volumes);
+  name_groups(names);
+  if (size > 0) {
+    gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+    gmsh::option::setNumber("Mesh.MeshSizeMin", size / 100);
+  }
+  gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // the one that repeats itself from run to run
+  gmsh::option::setNumber("Mesh.ElementOrder", 2);
+  gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);
+  gmsh::model::mesh::generate(3);
+}
+
+}  // namespace
+
+Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options) {
+  GmshSession session;
+  const bool is_step = copy.format() == OutsideFormat::step;
+  const bool is_shape = is_step || copy.format() == OutsideFormat::brep;
+  const double scale = is_step ? 1 : options.length_unit_m;
+  const std::string errors = session.errors_of([&] {
+    if (is_shape) {
+      mesh_shape(copy, options, options.element_size_m / scale);
+    } else {
+      gmsh::merge(copy.path().string());
+    }
+  });
+  if (!errors.empty()) {
+    throw InputError("gmsh cannot " + std::string(is_shape ? "mesh" : "read") + " it: " + errors);
+  }
+  Mesh mesh = take_over_gmsh_mesh(options.materials, options.material_of_part,
+                                  is_shape ? GmshSource::script : GmshSource::outside_file);
+  for (auto& node : mesh.nodes) {
+    for (double& x : node) x *= scale;
+  }
+  return mesh;
+}
+
+}  // namespace flexneck::mesher

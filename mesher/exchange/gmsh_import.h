@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "mesher/exchange/mesh_import.h"
+#include "mesher/exchange/outside_file.h"
+
+namespace flexneck::mesher {
+
+/// Lets gmsh read a checked mesh, or mesh a checked shape. Lengths in m.
+/// @throws InputError if gmsh cannot read or mesh it, or as take_over_gmsh_mesh.
+Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options);
+
+}  // namespace flexneck::mesher

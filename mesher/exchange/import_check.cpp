@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/import_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <set>
+#include <span>
+
+#include "geometry/foundation/error.h"
+#include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/shape_functions.h"
+
+namespace flexneck::mesher {
+namespace {
+
+/// Of the mesh's size: rounding of the numbers in a text file, far below any element.
+constexpr double kSamePlace = 1e-9;
+
+using Point = std::array<double, 3>;
+
+std::string place(const Point& x) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "(%.4g, %.4g, %.4g) m", x[0], x[1], x[2]);
+  return text.data();
+}
+
+Point centre_of(const Mesh& mesh, std::span<const std::int32_t> nodes) {
+  const Eigen::Vector3d centre = positions_of(mesh, nodes).rowwise().mean();
+  return {centre[0], centre[1], centre[2]};
+}
+
+/// Calls `visit` with each block and the nodes of each of its elements.
+template <class Visit>
+void for_each_element(const Mesh& mesh, const Visit& visit) {
+  for (const ElementBlock& block : mesh.blocks) {
+    const std::size_t n = nodes_per_element(block.kind);
+    for (std::size_t first = 0; first < block.nodes.size(); first += n) {
+      visit(block, std::span(block.nodes).subspan(first, n));
+    }
+  }
+}
+
+void refuse_doubled_elements(const Mesh& mesh) {
+  std::set<std::vector<std::int32_t>> seen;
+  std::size_t doubles = 0;
+  std::string first;
+  for_each_element(mesh, [&](const ElementBlock& block, std::span<const std::int32_t> nodes) {
+    std::vector<std::int32_t> sorted(nodes.begin(), nodes.end());
+    std::sort(sorted.begin(), sorted.end());
+    if (seen.insert(std::move(sorted)).second) return;
+    if (doubles++ == 0) {
+      first = "part '" + block.part + "' round " + place(centre_of(mesh, nodes));
+    }
+  });
+  if (doubles == 0) return;
+  throw InputError(std::to_string(doubles) + " elements lie on the nodes of others, the first in " +
+                   first + "; remove the copies");
+}
+
+double size_of(const Mesh& mesh) {
+  Eigen::Vector3d low(mesh.nodes.front().data());
+  Eigen::Vector3d high = low;
+  for (const Point& x : mesh.nodes) {
+    low = low.cwiseMin(Eigen::Vector3d(x.data()));
+    high = high.cwiseMax(Eigen::Vector3d(x.data()));
+  }
+  return (high - low).norm();
+}
+
+/// Nodes that lie where another of smaller index does, ascending. Sorted along a direction in which
+/// no mesh has planes, nodes in the same place are neighbours.
+std::vector<std::int32_t> doubled_nodes(const Mesh& mesh) {
+  const double tolerance = kSamePlace * size_of(mesh);
+  const Eigen::Vector3d direction = Eigen::Vector3d(0.8191, 0.5013, 0.2789).normalized();
+  const auto at = [&](std::int32_t node) {
+    return Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data());
+  };
+  std::vector<std::pair<double, std::int32_t>> along(mesh.nodes.size());
+  for (std::size_t n = 0; n < along.size(); ++n) {
+    const auto node = static_cast<std::int32_t>(n);
+    along[n] = {direction.dot(at(node)), node};
+  }
+  std::sort(along.begin(), along.end());
+  std::vector<std::int32_t> doubles;
+  for (auto one = along.begin(); one != along.end(); ++one) {
+    for (auto two = one + 1; two != along.end() && two->first - one->first <= tolerance; ++two) {
+      if ((at(one->second) - at(two->second)).norm() > tolerance) continue;
+      doubles.push_back(std::max(one->second, two->second));
+    }
+  }
+  std::sort(doubles.begin(), doubles.end());
+  doubles.erase(std::unique(doubles.begin(), doubles.end()), doubles.end());
+  return doubles;
+}
+
+void refuse_doubled_nodes(const Mesh& mesh) {
+  const std::vector<std::int32_t> doubles = doubled_nodes(mesh);
+  if (doubles.empty()) return;
+  const Point& first = mesh.nodes[static_cast<std::size_t>(doubles.front())];
+  throw InputError(std::to_string(doubles.size()) +
+                   " nodes lie in the place of others, the first at " + place(first) +
+                   ": the parts do not hold together there, or lie twice; merge the "
+                   "nodes, or say coincident_nodes = \"keep\" if a gap is meant");
+}
+
+/// Nodes that elements tie together.
+class Components {
+ public:
+  explicit Components(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  std::int32_t root_of(std::int32_t node) {
+    while (parent(node) != node) {
+      parent(node) = parent(parent(node));
+      node = parent(node);
+    }
+    return node;
+  }
+  void join(std::int32_t a, std::int32_t b) { parent(root_of(b)) = root_of(a); }
+
+ private:
+  std::int32_t& parent(std::int32_t node) { return parent_[static_cast<std::size_t>(node)]; }
+  std::vector<std::int32_t> parent_;
+};
+
+void refuse_unconnected(const Mesh& mesh) {
+  Components components(mesh.nodes.size());
+  for_each_element(mesh, [&](const ElementBlock&, std::span<const std::int32_t> nodes) {
+    for (const std::int32_t node : nodes) components.join(nodes.front(), node);
+  });
+  std::set<std::int32_t> roots;
+  std::string second;
+  for_each_element(mesh, [&](const ElementBlock& block, std::span<const std::int32_t> nodes) {
+    if (!roots.insert(components.root_of(nodes.front())).second || roots.size() != 2) return;
+    second = "part '" + block.part + "' round " + place(centre_of(mesh, nodes));
+  });
+  if (roots.size() < 2) return;
+  throw InputError("the mesh falls apart into " + std::to_string(roots.size()) +
+                   " pieces that share no node, the second with " + second +
+                   "; join them, or take a mesh of one piece");
+}
+
+/// Elements whose Jacobian is not positive at all of their nodes.
+std::size_t count_inverted(const Mesh& mesh, const ElementBlock& block) {
+  const auto nodes = reference_nodes(block.kind);
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    points.col(static_cast<Eigen::Index>(n)) = Eigen::Vector3d(nodes[n].data());
+  }
+  const ShapeTable table = tabulate(block.kind, points);
+  const auto is_inverted = [&](const Eigen::Matrix3Xd& x) {
+    for (Eigen::Index q = 0; q < points.cols(); ++q) {
+      Eigen::Matrix3d jacobian;
+      for (std::size_t d = 0; d < 3; ++d) {
+        jacobian.col(static_cast<Eigen::Index>(d)) = x * table.derivatives[d].col(q);
+      }
+      if (!(jacobian.determinant() > 0)) return true;
+    }
+    return false;
+  };
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < block.size(); ++e) {
+    const auto element = std::span(block.nodes).subspan(e * nodes.size(), nodes.size());
+    if (is_inverted(positions_of(mesh, element))) ++count;
+  }
+  return count;
+}
+
+void refuse_inverted(const Mesh& mesh) {
+  for (const ElementBlock& block : mesh.blocks) {
+    const BlockMeasure measured = measure(mesh, block);
+    if (measured.smallest_scaled_jacobian > 1e-6) continue;
+    const std::size_t count = count_inverted(mesh, block);
+    const std::size_t n = nodes_per_element(block.kind);
+    const Point worst =
+        centre_of(mesh, std::span(block.nodes).subspan(measured.worst_element * n, n));
+    throw InputError(
+        "part '" + block.part + "': " + std::to_string(count) + " of " +
+        std::to_string(block.size()) + " elements (" + std::string(name_of(block.kind)) +
+        ") are inverted, the worst round " + place(worst) +
+        (count == block.size()
+             ? "; all are: the mesh is a mirror image, or its nodes are in another order"
+             : "; repair the mesh"));
+  }
+}
+
+}  // namespace
+
+void check_import(const Mesh& mesh, bool keeps_doubles) {
+  refuse_doubled_elements(mesh);
+  if (!keeps_doubles) refuse_doubled_nodes(mesh);
+  refuse_unconnected(mesh);
+  refuse_inverted(mesh);
+}
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "mesher/exchange/mesh_import.h"
+
+namespace flexneck::mesher {
+
+/// A mesh from an Abaqus or CalculiX input.
+///  - Parts: the ELSETs that `material_of_part` names, with its materials; then, for elements in
+///    none of them, the ELSETs of *SOLID SECTION with the file's materials. Every element must
+///    belong to exactly one.
+///  - Units: the file's numbers are consistent. With the length unit L and the force unit F of the
+///    options and seconds, E counts in F / L^2 and the density in F s^2 / L^4: with mm and N that
+///    is MPa and t/mm^3.
+///  - Sets: each NSET is a node set, and a face set of those faces of the mesh's surface whose
+///    nodes all belong to it, if there are any; each SURFACE is a face set, and a node set if no
+///    NSET has its name. Nodes that *BOUNDARY holds are the node set "boundary".
+///  - Names keep the case in which they are first written; to the file both cases are one.
+/// Nodes without elements are left out.
+/// @throws InputError as import_mesh, with the line where there is one.
+Mesh import_inp(const ImportOptions& options, const Progress& progress);
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/exchange/inp_cards.h"
+#include "mesher/mesh/element_kind.h"
+
+namespace flexneck::mesher {
+
+/// Numbers of nodes or elements under a name, ascending.
+struct InpSet {
+  std::string name;  ///< as written where it first appears
+  std::vector<std::int64_t> members;
+};
+/// By the name in capitals: names are the same in either case.
+using InpSets = std::map<std::string, InpSet>;
+
+struct InpElement {
+  std::int64_t number = 0;
+  ElementKind kind = ElementKind::hex20;
+  std::vector<std::int64_t> nodes;  ///< numbers, in the order of Mesh
+};
+
+/// A side S<n> of an element.
+struct InpSide {
+  std::int64_t element = 0;
+  std::size_t side = 0;  ///< counted from 0
+};
+
+struct InpSurface {
+  std::string name;
+  std::vector<InpSide> sides;
+};
+
+/// In the units of the file; what it does not say is missing.
+struct InpMaterial {
+  std::string name;
+  std::optional<double> youngs_modulus;
+  std::optional<double> poissons_ratio;
+  std::optional<double> density;
+};
+
+struct InpSection {
+  InpPlace place;
+  std::string elset;
+  std::string material;
+};
+
+/// What we take from an Abaqus or CalculiX input.
+struct InpModel {
+  std::map<std::int64_t, std::array<double, 3>> nodes;  ///< in the unit of the file
+  std::vector<InpElement> elements;                     ///< by number, ascending
+  InpSets elsets;
+  InpSets nsets;
+  std::vector<std::string> element_elsets;  ///< ELSET= of *ELEMENT, in capitals, as they come
+  std::vector<InpSurface> surfaces;
+  std::vector<InpMaterial> materials;
+  std::vector<InpSection> sections;
+  std::vector<std::int64_t> held;    ///< nodes that *BOUNDARY holds in directions 1, 2 and 3
+  std::vector<std::string> ignored;  ///< keywords that were passed over, each once
+};
+
+/// Reads *NODE, *ELEMENT (the types of abaqus_elements.h), *ELSET, *NSET, *SURFACE (of elements),
+/// *MATERIAL with *ELASTIC (isotropic) and *DENSITY, *SOLID SECTION and *BOUNDARY (zero
+/// displacements, all three directions of a node). Analysis steps, loads and output requests are
+/// passed over; what would change the structure (springs, ties, equations, transformations, parts
+/// and instances …) is refused, and so is every keyword that is not known.
+/// @throws InputError with file and line; for elements of other types: which, how many, where.
+InpModel read_inp(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace flexneck::mesher

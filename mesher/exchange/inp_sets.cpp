@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/inp_sets.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
+namespace flexneck::mesher {
+namespace {
+
+std::vector<std::int64_t> range_of(const InpData& line) {
+  const std::int64_t first = inp_integer(line, 0);
+  const std::int64_t last = line.fields.size() > 1 ? inp_integer(line, 1) : first;
+  const std::int64_t step = line.fields.size() > 2 ? inp_integer(line, 2) : 1;
+  constexpr std::int64_t kMost = 10'000'000;
+  if (step < 1 || last < first || (last - first) / step > kMost) {
+    throw InputError(line.place.text() + "expected first, last and step of a range");
+  }
+  std::vector<std::int64_t> range;
+  for (std::int64_t number = first; number <= last; number += step) range.push_back(number);
+  return range;
+}
+
+}  // namespace
+
+void add_to_inp_set(InpSets& sets, const std::string& name,
+                    const std::vector<std::int64_t>& members) {
+  InpSet& set = sets.try_emplace(upper_case(name), InpSet{name, {}}).first->second;
+  set.members.insert(set.members.end(), members.begin(), members.end());
+  std::sort(set.members.begin(), set.members.end());
+  set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
+}
+
+std::vector<std::int64_t> inp_members_of(const InpData& line, std::size_t field,
+                                         const InpSets& sets, const std::string& kind) {
+  if (field >= line.fields.size() || line.fields[field].empty()) {
+    throw InputError(line.place.text() + "expected a number or an " + kind);
+  }
+  const std::string& text = line.fields[field];
+  const auto set = sets.find(upper_case(text));
+  if (set != sets.end()) return set->second.members;
+  if (std::isdigit(static_cast<unsigned char>(text.front())) != 0)
+    return {inp_integer(line, field)};
+  std::vector<std::string> names;
+  for (const auto& [key, each] : sets) names.push_back(each.name);
+  throw InputError(line.place.text() + "there is no " + kind + " '" + text + "'" +
+                   did_you_mean(names, text));
+}
+
+void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& sets) {
+  const std::string& name = card.parameter(parameter);
+  if (card.has("INSTANCE") || (parameter == "NSET" && card.has("ELSET"))) {
+    card.refuse("INSTANCE= and ELSET= are not supported; list the numbers");
+  }
+  std::vector<std::int64_t> members;
+  for (const InpData& line : card.data) {
+    if (card.has("GENERATE")) {
+      const std::vector<std::int64_t> range = range_of(line);
+      members.insert(members.end(), range.begin(), range.end());
+      continue;
+    }
+    for (std::size_t f = 0; f < line.fields.size(); ++f) {
+      const std::vector<std::int64_t> more = inp_members_of(line, f, sets, parameter);
+      members.insert(members.end(), more.begin(), more.end());
+    }
+  }
+  add_to_inp_set(sets, name, members);
+}
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/mesh_import.h"
+
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "mesher/exchange/boundary_faces.h"
+#include "mesher/exchange/gmsh_import.h"
+#include "mesher/exchange/import_check.h"
+#include "mesher/exchange/inp_import.h"
+#include "mesher/exchange/outside_file.h"
+
+namespace flexneck::mesher {
+namespace {
+
+bool is_inside(const std::array<double, 3>& x, const BoxSet& box) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!(x[d] >= box.low_m[d] && x[d] <= box.high_m[d])) return false;
+  }
+  return true;
+}
+
+void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
+  for (const BoxSet& box : boxes) {
+    FaceSet faces = boundary_faces(mesh, box.name, [&](std::int32_t node) {
+      return is_inside(mesh.nodes[static_cast<std::size_t>(node)], box);
+    });
+    if (faces.blocks.empty()) {
+      throw InputError("set '" + box.name + "': no face of the surface lies in its box");
+    }
+    mesh.node_sets.push_back(nodes_of(faces));
+    mesh.face_sets.push_back(std::move(faces));
+  }
+}
+
+Mesh read(const ImportOptions& options, const Progress& progress) {
+  if (outside_format_of(options.file) == OutsideFormat::inp) return import_inp(options, progress);
+  const CheckedCopy copy(options.file);
+  return import_with_gmsh(copy, options);
+}
+
+/// The message begins with the file, unless it does already, with a line.
+[[noreturn]] void rethrow(const std::filesystem::path& file, const InputError& error) {
+  const std::string text = error.what();
+  if (text.starts_with(file.string())) throw InputError(text);
+  throw InputError(file.string() + ": " + text);
+}
+
+}  // namespace
+
+Mesh import_mesh(const ImportOptions& options, const Progress& progress) {
+  if (progress) progress("reading " + options.file.filename().string());
+  try {
+    Mesh mesh = read(options, progress);
+    add_box_sets(options.box_sets, mesh);
+    check(mesh);
+    check_import(mesh, options.keeps_doubles);
+    return mesh;
+  } catch (const InputError& error) {
+    rethrow(options.file, error);
+  }
+}
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/outside_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+#include <stdlib.h>  // mkdtemp is POSIX
+#include <string>
+
+#include "geometry/foundation/error.h"
+#include "mesher/exchange/file_signature.h"
+
+namespace flexneck::mesher {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FormatRecord {
+  std::string_view ending;
+  OutsideFormat format;
+  const char* safe_name;  ///< decides which reader gmsh takes
+};
+
+constexpr std::array<FormatRecord, 8> kFormats = {{
+    {".msh", OutsideFormat::msh, "mesh.msh"},
+    {".unv", OutsideFormat::unv, "mesh.unv"},
+    {".bdf", OutsideFormat::bdf, "mesh.bdf"},
+    {".nas", OutsideFormat::bdf, "mesh.bdf"},
+    {".inp", OutsideFormat::inp, "mesh.inp"},
+    {".step", OutsideFormat::step, "shape.step"},
+    {".stp", OutsideFormat::step, "shape.step"},
+    {".brep", OutsideFormat::brep, "shape.brep"},
+}};
+
+const FormatRecord& record_of(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto* const found =
+      std::find_if(kFormats.begin(), kFormats.end(),
+                   [&](const FormatRecord& record) { return record.ending == ending; });
+  if (found != kFormats.end()) return *found;
+  if (ending == ".geo") {
+    throw InputError(file.string() +
+                     ": a .geo file is a script, that is a program; if you trust it, name it with "
+                     "the key script");
+  }
+  std::string known;
+  for (const FormatRecord& record : kFormats) known += " " + std::string(record.ending);
+  throw InputError(file.string() + ": expected a file with one of the endings" + known);
+}
+
+std::string contents_of(const fs::path& file) {
+  std::error_code ignored;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || !fs::is_regular_file(file, ignored)) {
+    throw InputError(file.string() + ": the file cannot be read");
+  }
+  std::ostringstream contents;
+  contents << stream.rdbuf();
+  return contents.str();
+}
+
+fs::path fresh_folder() {
+  std::string name = (fs::temp_directory_path() / "flexneck-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) {
+    throw ComputationError(name + ": a temporary folder cannot be made");
+  }
+  return name;
+}
+
+}  // namespace
+
+OutsideFormat outside_format_of(const fs::path& file) { return record_of(file).format; }
+
+std::string checked_contents(const fs::path& file) {
+  const OutsideFormat format = outside_format_of(file);
+  std::string contents = contents_of(file);
+  const std::string problem = signature_problem(format, contents);
+  if (!problem.empty()) {
+    throw InputError(file.string() + ": this is no " + file.extension().string() +
+                     " file: " + problem);
+  }
+  return contents;
+}
+
+CheckedCopy::CheckedCopy(const fs::path& file) : format_(outside_format_of(file)) {
+  const std::string contents = checked_contents(file);
+  folder_ = fresh_folder();
+  path_ = folder_ / record_of(file).safe_name;
+  std::ofstream copy(path_, std::ios::binary);
+  copy << contents;
+  copy.close();
+  if (!copy) {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    throw ComputationError(path_.string() + ": cannot be written");
+  }
+}
+
+CheckedCopy::~CheckedCopy() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+}  // namespace flexneck::mesher
