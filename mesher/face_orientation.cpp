@@ -2,43 +2,72 @@
 #include "mesher/face_orientation.h"
 
 #include <algorithm>
-#include <map>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "geometry/foundation/error.h"
+#include "mesher/side_key.h"
 
 namespace flexneck::mesher {
 namespace {
 
 using NodeList = std::vector<std::int32_t>;
 
-NodeList sorted(NodeList nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
+/// The faces of a block, to be found by their corners.
+class FaceIndex {
+ public:
+  FaceIndex(const FaceBlock& faces, std::size_t node_count) : on_faces_(node_count, false) {
+    const std::size_t n = nodes_per_element(faces.kind);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const SideKey key = key_of_face(faces.kind, std::span(faces.nodes).subspan(f * n, n));
+      faces_.emplace_back(key, f);
+      for (const std::int32_t node : key) {
+        if (node >= 0) on_faces_[static_cast<std::size_t>(node)] = true;
+      }
+    }
+    std::sort(faces_.begin(), faces_.end());
+  }
 
-NodeList face_at(const FaceBlock& faces, std::size_t first) {
-  const auto begin = faces.nodes.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, begin + static_cast<std::ptrdiff_t>(nodes_per_element(faces.kind))};
-}
+  /// Faces with the corners of this side; empty for nearly every side of a mesh, at once.
+  std::span<const std::pair<SideKey, std::size_t>> find(
+      const Side& side, std::span<const std::int32_t> element) const {
+    const std::size_t corners = corners_per_element(side.kind);
+    for (std::size_t c = 0; c < corners; ++c) {
+      if (!on_faces_[static_cast<std::size_t>(element[side.nodes[c]])]) return {};
+    }
+    const SideKey key = key_of_side(side, element);
+    const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto [first, last] =
+        std::equal_range(faces_.begin(), faces_.end(), std::pair(key, std::size_t{0}), less);
+    return {first, last};
+  }
 
-/// Nodes of the sides that are wanted as the first volume element with such a side sees them, in
-/// the order that makes the normal point out of it; by the sorted nodes.
-std::map<NodeList, NodeList> outward_sides(const Mesh& mesh, std::map<NodeList, NodeList> wanted) {
+ private:
+  std::vector<bool> on_faces_;  ///< by node: is it a corner of a face
+  std::vector<std::pair<SideKey, std::size_t>> faces_;
+};
+
+/// Each face as the first volume element with such a side sees it, in the order that makes the
+/// normal point out of it; empty if there is none.
+std::vector<NodeList> outward_faces(const Mesh& mesh, const FaceBlock& faces) {
+  const FaceIndex index(faces, mesh.nodes.size());
+  std::vector<NodeList> outward(faces.size());
   for (const ElementBlock& block : mesh.blocks) {
     const std::size_t n = nodes_per_element(block.kind);
+    const std::span<const Side> sides = sides_of(block.kind);
     for (std::size_t first = 0; first < block.nodes.size(); first += n) {
-      for (const Side& side : sides_of(block.kind)) {
-        NodeList nodes;
-        nodes.reserve(side.nodes.size());
-        for (const std::size_t local : side.nodes) nodes.push_back(block.nodes[first + local]);
-        const auto found = wanted.find(sorted(nodes));
-        if (found != wanted.end() && found->second.empty()) found->second = std::move(nodes);
+      const auto element = std::span(block.nodes).subspan(first, n);
+      for (const Side& side : sides) {
+        if (side.kind != faces.kind) continue;
+        for (const auto& [key, face] : index.find(side, element)) {
+          if (!outward[face].empty()) continue;
+          for (const std::size_t local : side.nodes) outward[face].push_back(element[local]);
+        }
       }
     }
   }
-  return wanted;
+  return outward;
 }
 
 /// The same face from another of its corners on: corners and edges turn by `steps`, a centre stays.
@@ -56,21 +85,16 @@ NodeList turned(const NodeList& face, std::size_t corners, std::size_t steps) {
 void orient_outwards(const Mesh& mesh, const std::string& name, FaceBlock& faces) {
   const std::size_t n = nodes_per_element(faces.kind);
   const std::size_t corners = corners_per_element(faces.kind);
-  std::map<NodeList, NodeList> wanted;
-  for (std::size_t first = 0; first < faces.nodes.size(); first += n) {
-    wanted.emplace(sorted(face_at(faces, first)), NodeList());
-  }
-  const auto outward = outward_sides(mesh, std::move(wanted));
-
-  for (std::size_t first = 0; first < faces.nodes.size(); first += n) {
-    const NodeList& side = outward.at(sorted(face_at(faces, first)));
+  const std::vector<NodeList> outward = outward_faces(mesh, faces);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const NodeList& side = outward[f];
     if (side.empty()) {
       throw InputError("physical surface '" + name + "' has a face that bounds no part");
     }
-    const auto start = std::find(side.begin(), side.end(), faces.nodes[first]) - side.begin();
+    const auto start = std::find(side.begin(), side.end(), faces.nodes[f * n]) - side.begin();
     const NodeList from_start = turned(side, corners, static_cast<std::size_t>(start));
     std::copy(from_start.begin(), from_start.end(),
-              faces.nodes.begin() + static_cast<std::ptrdiff_t>(first));
+              faces.nodes.begin() + static_cast<std::ptrdiff_t>(f * n));
   }
 }
 
