@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -89,6 +91,33 @@ std::span<const std::int32_t> nodes_of(std::span<const std::int32_t> all, Elemen
   return all.subspan(element * n, n);
 }
 
+/// Pairs of local corners that an edge joins.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> edges_of(ElementKind kind) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> edges;
+  for (const Side& side : sides_of(kind)) {
+    const std::size_t corners = corners_per_element(side.kind);
+    for (std::size_t c = 0; c < corners; ++c) {
+      const std::size_t a = side.nodes[c];
+      const std::size_t b = side.nodes[(c + 1) % corners];
+      // Both sides at an edge follow it, in opposite directions: take one.
+      if (a < b) edges.emplace_back(a, b);
+    }
+  }
+  return edges;
+}
+
+double aspect_ratio(const Eigen::Matrix3Xd& x,
+                    const std::vector<std::pair<Eigen::Index, Eigen::Index>>& edges) {
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (const auto& [a, b] : edges) {
+    const double length = (x.col(a) - x.col(b)).norm();
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  return longest / shortest;
+}
+
 }  // namespace
 
 Eigen::Matrix3Xd positions_of(const Mesh& mesh, std::span<const std::int32_t> nodes) {
@@ -106,7 +135,8 @@ BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
   const Quadrature rule = gauss_rule(block.kind, 3);
   const ShapeTable at_rule = tabulate(block.kind, rule.points);
   const ShapeTable at_nodes = tabulate(block.kind, node_points(block.kind));
-  const CornerEdges edges = corner_edges(block.kind);
+  const CornerEdges corners = corner_edges(block.kind);
+  const auto edges = edges_of(block.kind);
 
   BlockMeasure result;
   result.smallest_scaled_jacobian = std::numeric_limits<double>::infinity();
@@ -116,7 +146,8 @@ BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
       result.volume_m3 += rule.weights[q] * jacobian_at(x, at_rule, q).determinant();
     }
     const double scaled =
-        std::min(smallest_scaled(x, at_rule, edges), smallest_scaled(x, at_nodes, edges));
+        std::min(smallest_scaled(x, at_rule, corners), smallest_scaled(x, at_nodes, corners));
+    result.largest_aspect_ratio = std::max(result.largest_aspect_ratio, aspect_ratio(x, edges));
     if (scaled < result.smallest_scaled_jacobian) {
       result.smallest_scaled_jacobian = scaled;
       result.worst_element = e;

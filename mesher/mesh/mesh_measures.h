@@ -21,6 +21,8 @@ struct BlockMeasure {
   /// prism, 0 or less for an element that is degenerate or inverted.
   double smallest_scaled_jacobian = 0;
   std::size_t worst_element = 0;  ///< where it occurs
+  /// Largest ratio of an element's longest edge to its shortest, corner to corner.
+  double largest_aspect_ratio = 0;
 };
 
 BlockMeasure measure(const Mesh& mesh, const ElementBlock& block);

@@ -17,11 +17,13 @@ MeshSummary summarise(const Mesh& mesh) {
     const Material& material = mesh.materials[block.material];
     const BlockMeasure measured = measure(mesh, block);
     summary.parts.push_back({.part = block.part,
+                             .kind = block.kind,
                              .material = material.name,
                              .elements = block.size(),
                              .volume_m3 = measured.volume_m3,
                              .mass_kg = measured.volume_m3 * material.density_kg_m3,
-                             .smallest_scaled_jacobian = measured.smallest_scaled_jacobian});
+                             .smallest_scaled_jacobian = measured.smallest_scaled_jacobian,
+                             .largest_aspect_ratio = measured.largest_aspect_ratio});
     const PartSummary& part = summary.parts.back();
     summary.elements += part.elements;
     summary.volume_m3 += part.volume_m3;

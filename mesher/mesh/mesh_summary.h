@@ -8,13 +8,16 @@
 
 namespace flexneck::mesher {
 
+/// A block of the mesh: a part, or its elements of one kind.
 struct PartSummary {
   std::string part;
+  ElementKind kind = ElementKind::hex27;
   std::string material;
   std::size_t elements = 0;
   double volume_m3 = 0;
   double mass_kg = 0;
   double smallest_scaled_jacobian = 0;  ///< as in mesh_measures.h
+  double largest_aspect_ratio = 0;      ///< likewise
 };
 
 struct MeshSummary {

@@ -2,6 +2,7 @@
 #include <functional>
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
@@ -151,6 +152,42 @@ TEST_CASE("the scaled Jacobian of a sheared box is the cosine of the shear") {
   const BlockMeasure measured = measure(mesh, mesh.blocks[0]);
   CHECK(measured.volume_m3 == Approx(1).epsilon(kRounding));
   CHECK(measured.smallest_scaled_jacobian == Approx(std::cos(30 * M_PI / 180)).epsilon(kRounding));
+}
+
+TEST_CASE("ideal elements of every shape have the scaled Jacobian one, stretched ones less") {
+  // Reference elements, sheared and scaled into a cube, an upright equilateral prism and a regular
+  // tetrahedron, all with edges of length one.
+  const Eigen::Vector3d second(0.5, std::sqrt(3.0) / 2, 0);
+  const Eigen::Vector3d apex(0.5, std::sqrt(3.0) / 6, std::sqrt(2.0 / 3));
+  for (const ElementKind kind : element_kinds()) {
+    if (dimension(kind) != 3) continue;
+    Eigen::Matrix3d map = Eigen::Matrix3d::Identity() / 2;
+    if (shape_of(kind) == ReferenceShape::prism) map.topLeftCorner<2, 2>() << 1, 0.5, 0, second[1];
+    if (shape_of(kind) == ReferenceShape::tetrahedron) {
+      map << Eigen::Vector3d::UnitX(), second, apex;
+    }
+    for (const double stretch : {1.0, 3.0}) {
+      Mesh mesh;
+      mesh.blocks = {{.part = "one", .kind = kind, .material = 0, .nodes = {}}};
+      for (const auto& reference : reference_nodes(kind)) {
+        Eigen::Vector3d x = map * Eigen::Vector3d(reference.data());
+        x[0] *= stretch;
+        mesh.blocks[0].nodes.push_back(static_cast<std::int32_t>(mesh.nodes.size()));
+        mesh.nodes.push_back({x[0], x[1], x[2]});
+      }
+      const BlockMeasure measured = measure(mesh, mesh.blocks[0]);
+      if (stretch == 1) {
+        CHECK(measured.smallest_scaled_jacobian == Approx(1).epsilon(kRounding));
+        CHECK(measured.largest_aspect_ratio == Approx(1).epsilon(kRounding));
+      } else if (shape_of(kind) == ReferenceShape::hexahedron) {
+        CHECK(measured.smallest_scaled_jacobian == Approx(1).epsilon(kRounding));
+        CHECK(measured.largest_aspect_ratio == Approx(3).epsilon(kRounding));
+      } else {
+        CHECK(measured.smallest_scaled_jacobian < 0.8);
+        CHECK(measured.smallest_scaled_jacobian > 0.3);
+      }
+    }
+  }
 }
 
 TEST_CASE("elements that are inverted, folded in a corner or flat are refused") {
