@@ -6,6 +6,7 @@
 // Frame: x forward, y left, z from base to head; the origin lies on the plate axis at the base
 // face. Layers from below: base plate, rubber 1, plate 1, rubber 2, plate 2, rubber 3, plate 3,
 // rubber 4, top plate. Look at it with: gmsh neck.geo, then press 3.
+// Surfaces: "base", "top" and, where asked for, "slit_rubber_1" … "slit_rubber_4".
 //
 // Every constant below can be overridden from outside; the values here are those of the default
 // neck (parameter file hybrid3_c.toml), with their origin: published in the paper of Ashrafiuon
@@ -50,7 +51,21 @@ DefineConstant[
   // Element length over that of the neighbour nearer to the rubber's rim, on either side of it.
   ring_grading = {1.15, Name "Divisions/ring_grading"},
   // Rubber: thickness of a layer over that of the neighbour nearer to the bond.
-  rubber_grading = {1.5, Name "Divisions/rubber_grading"}
+  rubber_grading = {1.5, Name "Divisions/rubber_grading"},
+  // Every element is cut in so many in each direction, its neighbours' ratio spread over them.
+  refine = {1, Name "Divisions/refine"},
+  // 1: hexahedra. 0: tetrahedra in the same blocks, with twice the divisions round the neck and
+  // through its plates: cut into the hexahedra of the default, they would be too flat.
+  recombine = {1, Name "Divisions/recombine"},
+
+  // Share of the rubber between its front rim and the hole that a slit cuts through; 0 without slits.
+  // The paper gives the centre sections slits; where and how deep is inferred.
+  slit_depth = {0, Name "Slits/slit_depth"},
+  // 1: the section gets the surface of a slit at mid-height, "slit_rubber_<n>".
+  slit_rubber_1 = {0, Name "Slits/slit_rubber_1"},
+  slit_rubber_2 = {0, Name "Slits/slit_rubber_2"},
+  slit_rubber_3 = {0, Name "Slits/slit_rubber_3"},
+  slit_rubber_4 = {0, Name "Slits/slit_rubber_4"}
 ];
 
 rubber_height = (length - base_plate_thickness - 3 * plate_thickness - top_plate_thickness) / 4;
@@ -58,12 +73,17 @@ rubber_height = (length - base_plate_thickness - 3 * plate_thickness - top_plate
 // Each plane carries the circles g = 0 … rings: hole (0), rubber (inner_ring), plate rim (rings).
 // The circles between change centre and radius evenly, so that every ring of elements lies between
 // true arcs. Spokes at q * 90 + 45 degrees, seen from the plate axis, cut each ring in four: the
-// bolts at 45, 135, 225 and 315 degrees lie on spokes whatever the offset of the rubber is.
+// bolts at 45, 135, 225 and 315 degrees lie on spokes whatever the offset of the rubber is. A neck
+// with a slit depth has spokes at 0, 90, 180 and 270 degrees as well, and circle `slit_ring` moved
+// to that depth: between them lie the slits, from -90 to 90 degrees.
 //
 // Where the circles below and above a plate differ, the shells between its rings are ruled from one
 // to the other; they are internal, so no volume depends on them.
 
 rings = inner_ring + outer_ring;
+sectors = (slit_depth > 0) ? 8 : 4;
+arc_divisions = quadrant * 4 / sectors * refine * (recombine ? 1 : 2);
+slit[] = {slit_rubber_1, slit_rubber_2, slit_rubber_3, slit_rubber_4};
 
 // Level k lies between planes k and k + 1: a whole plate, or one layer of elements of a rubber
 // section. Sections n = 0 … 8 from below: even ones are plates.
@@ -85,20 +105,27 @@ section_offset[] = {b, b, b, c, c, c, c, t, t};
 
 // Layers of a rubber section grow from both bonds to mid-height.
 layer_share[] = {};
+layer_ratio[] = {};
 sum = 0;
 For i In {0 : rubber_layers - 1}
   from_bond = (2 * i < rubber_layers) ? i : rubber_layers - 1 - i;
   layer_share[i] = rubber_grading ^ from_bond;
   sum = sum + layer_share[i];
+  side = (2 * i + 1 < rubber_layers) ? 1 : (2 * i + 1 > rubber_layers) ? -1 : 0;
+  layer_ratio[i] = rubber_grading ^ (side / refine);
 EndFor
 
 levels = 0;
 level_section[] = {};
 level_height[] = {};
+level_ratio[] = {};
+mid_plane[] = {};
 For n In {0 : 8}
   parts = (n % 2 == 0) ? 1 : rubber_layers;
+  mid_plane[n] = levels + parts / 2;
   For i In {0 : parts - 1}
     level_section[levels] = n;
+    level_ratio[levels] = (n % 2 == 0) ? 1 : layer_ratio[i];
     level_height[levels] = (n % 2 == 0) ? thickness[n] : thickness[n] * layer_share[i] / sum;
     levels = levels + 1;
   EndFor
@@ -123,8 +150,29 @@ For g In {1 : outer_ring}
   way[inner_ring + g] = 1 + way[inner_ring + g] / sum;
 EndFor
 
-// Tags: 1 + q + 4 g + step * (plane or level) within each family, families one `family` apart.
-step = 4 * (rings + 1);
+// The circle nearest to the depth of the slits moves there; those on either side follow in
+// proportion.
+slit_ring = 0;
+If (slit_depth > 0)
+  If (inner_ring < 2 || slit_depth >= 1)
+    Error("slits need slit_depth < 1 and inner_ring of at least 2");
+  EndIf
+  edge = 1 - slit_depth;
+  slit_ring = 1;
+  For g In {1 : inner_ring - 1}
+    If (Fabs(way[g] - edge) < Fabs(way[slit_ring] - edge))
+      slit_ring = g;
+    EndIf
+  EndFor
+  old_edge = way[slit_ring];
+  For g In {1 : inner_ring - 1}
+    way[g] = (g <= slit_ring) ? way[g] * edge / old_edge
+                              : 1 - (1 - way[g]) * slit_depth / (1 - old_edge);
+  EndFor
+EndIf
+
+// Tags: 1 + q + sectors * g + step * (plane or level) within each family, families one `family` apart.
+step = sectors * (rings + 1);
 family = (levels + 1) * step;
 arc = family; spoke = 2 * family; upright = 3 * family;    // curves
 face = family; shell = 2 * family; wall = 3 * family;      // surfaces
@@ -138,7 +186,7 @@ For j In {0 : levels}
   above = level_section[(j == levels) ? levels - 1 : j];
   plane_rings[j] = (below % 2 == 0 || above % 2 == 0) ? rings : inner_ring;
   For g In {0 : plane_rings[j]}
-    tag = 1 + 4 * g + step * j;
+    tag = 1 + sectors * g + step * j;
     s = way[g];
     If (s <= 1)
       offset = s * section_offset[above];
@@ -148,10 +196,10 @@ For j In {0 : levels}
       radius = (2 - s) * section_radius[above] + (s - 1) * plate_diameter / 2;
     EndIf
     Point(arc + tag) = {offset, 0, z};
-    For q In {0 : 3}
+    For q In {0 : sectors - 1}
       // Distance from the axis, along the spoke, of a circle whose centre is shifted towards +x.
-      ux = Cos(Pi / 4 + q * Pi / 2);
-      uy = Sin(Pi / 4 + q * Pi / 2);
+      ux = Cos(Pi / 4 + q * 2 * Pi / sectors);
+      uy = Sin(Pi / 4 + q * 2 * Pi / sectors);
       reach = offset * ux + Sqrt(radius * radius - offset * offset * uy * uy);
       Point(tag + q) = {reach * ux, reach * uy, z};
     EndFor
@@ -164,21 +212,22 @@ EndFor
 // Curves and faces within the planes.
 For j In {0 : levels}
   For g In {0 : plane_rings[j]}
-    tag = 1 + 4 * g + step * j;
-    For q In {0 : 3}
-      Circle(arc + tag + q) = {tag + q, arc + tag, tag + (q + 1) % 4};
-      Transfinite Curve {arc + tag + q} = quadrant + 1;
+    tag = 1 + sectors * g + step * j;
+    ratio = ring_grading ^ ((g < inner_ring ? -1 : 1) / refine);
+    For q In {0 : sectors - 1}
+      Circle(arc + tag + q) = {tag + q, arc + tag, tag + (q + 1) % sectors};
+      Transfinite Curve {arc + tag + q} = arc_divisions + 1;
       If (g < plane_rings[j])
-        Line(spoke + tag + q) = {tag + q, tag + 4 + q};
-        Transfinite Curve {spoke + tag + q} = 2;
+        Line(spoke + tag + q) = {tag + q, tag + sectors + q};
+        Transfinite Curve {spoke + tag + q} = refine + 1 Using Progression ratio;
       EndIf
     EndFor
   EndFor
   For g In {0 : plane_rings[j] - 1}
-    tag = 1 + 4 * g + step * j;
-    For q In {0 : 3}
-      Curve Loop(face + tag + q) = {spoke + tag + q, arc + tag + 4 + q,
-                                    -(spoke + tag + (q + 1) % 4), -(arc + tag + q)};
+    tag = 1 + sectors * g + step * j;
+    For q In {0 : sectors - 1}
+      Curve Loop(face + tag + q) = {spoke + tag + q, arc + tag + sectors + q,
+                                    -(spoke + tag + (q + 1) % sectors), -(arc + tag + q)};
       Plane Surface(face + tag + q) = {face + tag + q};
     EndFor
   EndFor
@@ -188,36 +237,38 @@ EndFor
 For k In {0 : levels - 1}
   n = level_section[k];
   level_rings = (n % 2 == 0) ? rings : inner_ring;
-  divisions = (n % 2 == 0) ? plate_divisions[n] : 1;
+  divisions = refine * ((n % 2 == 0) ? plate_divisions[n] * (recombine ? 1 : 2) : 1);
   For g In {0 : level_rings}
-    tag = 1 + 4 * g + step * k;
-    For q In {0 : 3}
+    tag = 1 + sectors * g + step * k;
+    For q In {0 : sectors - 1}
       Line(upright + tag + q) = {tag + q, tag + step + q};
-      Transfinite Curve {upright + tag + q} = divisions + 1;
+      Transfinite Curve {upright + tag + q} = divisions + 1 Using Progression level_ratio[k];
     EndFor
-    For q In {0 : 3}
-      Curve Loop(shell + tag + q) = {arc + tag + q, upright + tag + (q + 1) % 4,
+    For q In {0 : sectors - 1}
+      Curve Loop(shell + tag + q) = {arc + tag + q, upright + tag + (q + 1) % sectors,
                                      -(arc + tag + step + q), -(upright + tag + q)};
       Surface(shell + tag + q) = {shell + tag + q};
     EndFor
   EndFor
   For g In {0 : level_rings - 1}
-    tag = 1 + 4 * g + step * k;
-    For q In {0 : 3}
-      Curve Loop(wall + tag + q) = {spoke + tag + q, upright + tag + 4 + q,
+    tag = 1 + sectors * g + step * k;
+    For q In {0 : sectors - 1}
+      Curve Loop(wall + tag + q) = {spoke + tag + q, upright + tag + sectors + q,
                                     -(spoke + tag + step + q), -(upright + tag + q)};
       Plane Surface(wall + tag + q) = {wall + tag + q};
     EndFor
-    For q In {0 : 3}
+    For q In {0 : sectors - 1}
       Surface Loop(tag + q) = {face + tag + q, face + tag + step + q, shell + tag + q,
-                               shell + tag + 4 + q, wall + tag + q, wall + tag + (q + 1) % 4};
+                               shell + tag + sectors + q, wall + tag + q, wall + tag + (q + 1) % sectors};
       Volume(tag + q) = {tag + q};
     EndFor
   EndFor
 EndFor
 
 Transfinite Surface {:};
-Recombine Surface {:};
+If (recombine)
+  Recombine Surface {:};
+EndIf
 Transfinite Volume {:};
 
 // The blocks of a level follow one another, ring by ring.
@@ -226,7 +277,7 @@ For n In {0 : 8}
   For k In {0 : levels - 1}
     If (level_section[k] == n)
       level_rings = (n % 2 == 0) ? rings : inner_ring;
-      blocks[] += {1 + k * step : 4 * level_rings + k * step};
+      blocks[] += {1 + k * step : sectors * level_rings + k * step};
     EndIf
   EndFor
   If (n == 0)
@@ -239,8 +290,24 @@ For n In {0 : 8}
     Physical Volume(Sprintf("rubber_%g", (n + 1) / 2)) = blocks[];
   EndIf
 EndFor
-Physical Surface("base") = {face + 1 : face + 4 * rings};
-Physical Surface("top") = {face + 1 + levels * step : face + 4 * rings + levels * step};
+Physical Surface("base") = {face + 1 : face + sectors * rings};
+Physical Surface("top") = {face + 1 + levels * step : face + sectors * rings + levels * step};
+
+// Slits run from circle slit_ring to the rim, through the sectors 0 and 5 to 7 of 45 degrees each:
+// the front half.
+For n In {1 : 4}
+  If (slit[n - 1])
+    If (slit_depth <= 0 || rubber_layers % 2 != 0)
+      Error("slits need slit_depth > 0 and an even number of rubber_layers");
+    EndIf
+    cut[] = {};
+    For g In {slit_ring : inner_ring - 1}
+      tag = 1 + sectors * g + step * mid_plane[2 * n - 1];
+      cut[] += {face + tag, face + tag + 5, face + tag + 6, face + tag + 7};
+    EndFor
+    Physical Surface(Sprintf("slit_rubber_%g", n)) = cut[];
+  EndIf
+EndFor
 
 // 27-node hexahedra; a reproducible 3-D algorithm, should a block ever not be structured.
 Mesh.ElementOrder = 2;

@@ -15,6 +15,7 @@
 #include "mesher/gmsh_session.h"
 #include "mesher/gmsh_take_over.h"
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/slits.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -67,13 +68,42 @@ void run_script(GmshSession& session, const ScriptMeshOptions& options) {
   open_script(session, options.script);
 }
 
-void generate(GmshSession& session, const std::filesystem::path& script) {
-  const std::string errors = session.errors_of([] {
-    gmsh::option::setNumber("Mesh.ElementOrder", 2);
-    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 0);
+void require_meshable(const ScriptMeshOptions& options) {
+  constexpr std::array kOffered = {ElementKind::hex27, ElementKind::hex20, ElementKind::hex8,
+                                   ElementKind::tet10};
+  if (!options.element ||
+      std::find(kOffered.begin(), kOffered.end(), *options.element) != kOffered.end()) {
+    return;
+  }
+  throw InputError("a script is meshed with hex27, hex20, hex8 or tet10, found " +
+                   std::string(name_of(*options.element)));
+}
+
+void generate(GmshSession& session, const ScriptMeshOptions& options) {
+  const ElementKind element = options.element.value_or(ElementKind::hex27);
+  const std::string errors = session.errors_of([&] {
+    gmsh::option::setNumber("Mesh.ElementOrder", order_of(element));
+    gmsh::option::setNumber("Mesh.SecondOrderIncomplete", element == ElementKind::hex20 ? 1 : 0);
+    if (element == ElementKind::tet10) {
+      gmsh::option::setNumber("Mesh.RecombineAll", 0);
+      gmsh::option::setNumber("Mesh.Recombine3DAll", 0);
+      gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // others differ from run to run
+    }
     gmsh::model::mesh::generate(3);
   });
-  if (!errors.empty()) throw InputError(script.string() + ": gmsh cannot mesh it: " + errors);
+  if (!errors.empty()) {
+    throw InputError(options.script.string() + ": gmsh cannot mesh it: " + errors);
+  }
+}
+
+void require_wanted_kind(const Mesh& mesh, const ScriptMeshOptions& options) {
+  if (!options.element) return;
+  const auto is_wanted = [&](const ElementBlock& block) { return block.kind == *options.element; };
+  if (std::any_of(mesh.blocks.begin(), mesh.blocks.end(), is_wanted)) return;
+  throw InputError(options.script.string() + ": its elements are " +
+                   std::string(name_of(mesh.blocks.front().kind)) + ", asked for are " +
+                   std::string(name_of(*options.element)) +
+                   "; whether there are hexahedra is up to the script (Recombine Surface)");
 }
 
 Mesh take_over(const ScriptMeshOptions& options) {
@@ -123,14 +153,18 @@ NodeSet patch_nodes(const Mesh& mesh, const NodePatches& patches) {
 std::string gmsh_version() { return GMSH_API_VERSION; }
 
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress) {
+  require_meshable(options);
   Mesh mesh;
   {
     GmshSession session;
     report(progress, "gmsh " + gmsh_version() + " runs " + options.script.filename().string());
     run_script(session, options);
-    generate(session, options.script);
+    generate(session, options);
+    report(progress, "gmsh is done, taking the mesh over");
     mesh = take_over(options);
   }
+  require_wanted_kind(mesh, options);
+  open_slits(mesh, options.slits, options.slits_tied);
   for (const NodePatches& patches : options.patches) {
     mesh.node_sets.push_back(patch_nodes(mesh, patches));
   }

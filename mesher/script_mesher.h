@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,15 +30,21 @@ struct ScriptMeshOptions {
   std::map<std::string, double> constants;
   std::vector<Material> materials;
   std::map<std::string, std::string> material_of_part;  ///< part to material name, every part once
-  std::vector<NodePatches> patches;
+  /// What the elements shall be: hex27, hex20, hex8 or tet10. A script without recombination gives
+  /// tetrahedra whatever is asked for, so it has to agree. Without a wish: complete second order,
+  /// of the shapes that the script gives.
+  std::optional<ElementKind> element;
+  std::vector<std::string> slits;  ///< face sets to cut the mesh along, as in slits.h
+  bool slits_tied = false;
+  std::vector<NodePatches> patches;  ///< taken after the cuts: both nodes of a pair are near
 };
 
-/// Runs the script in gmsh, meshes it with second-order elements and takes the mesh over.
+/// Runs the script in gmsh, meshes it and takes the mesh over.
 /// A script is a program: it may do what gmsh scripts may do. With constants to override it runs
 /// twice, first to tell which it declares.
 /// @throws InputError if the script cannot be read, has an error (gmsh's message), sets a constant
 /// that it does not declare, names a part without material, has elements of a kind that a mesh
-/// cannot hold, or leaves a set empty.
+/// cannot hold or none of the kind asked for, leaves a set empty, or cannot be slit as asked.
 /// @throws ComputationError if an element is inverted or degenerate.
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress);
 
