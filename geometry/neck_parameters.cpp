@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <utility>
+#include <string_view>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
@@ -22,39 +22,39 @@ std::string in_inches(double length_m) {
   throw InputError("neck geometry: " + problem);
 }
 
-struct NamedLength {
-  const char* name;
-  double value_m;
-  bool may_be_zero;
-};
+constexpr std::array<NeckDimension, 14> kDimensions = {{
+    {"length", &NeckParameters::length, false, "height of the neck, end plates included"},
+    {"base_plate_thickness", &NeckParameters::base_plate_thickness, false,
+     "thickness, lowest plate"},
+    {"plate_thickness", &NeckParameters::plate_thickness, false,
+     "thickness of each of the three plates between rubber"},
+    {"top_plate_thickness", &NeckParameters::top_plate_thickness, false,
+     "thickness, uppermost plate"},
+    {"plate_diameter", &NeckParameters::plate_diameter, false, "of all five plates"},
+    {"hole_diameter", &NeckParameters::hole_diameter, false, "cable hole, through everything"},
+    {"centre_rubber_diameter", &NeckParameters::centre_rubber_diameter, false, "of rubber 2 and 3"},
+    {"centre_rubber_offset", &NeckParameters::centre_rubber_offset, true,
+     "forward, of the axis of rubber 2 and 3"},
+    {"bottom_rubber_diameter", &NeckParameters::bottom_rubber_diameter, false, "of rubber 1"},
+    {"bottom_rubber_offset", &NeckParameters::bottom_rubber_offset, true,
+     "forward, of the axis of rubber 1"},
+    {"top_rubber_diameter", &NeckParameters::top_rubber_diameter, false, "of rubber 4"},
+    {"top_rubber_offset", &NeckParameters::top_rubber_offset, true,
+     "forward, of the axis of rubber 4"},
+    {"bolt_circle_radius", &NeckParameters::bolt_circle_radius, false,
+     "bolts stand at 45, 135, 225 and 315 deg on it"},
+    {"bolt_patch_radius", &NeckParameters::bolt_patch_radius, false,
+     "base-face nodes this close to a bolt are held"},
+}};
 
-void check_range(const NamedLength& length) {
-  const bool ok = std::isfinite(length.value_m) &&
-                  (length.value_m > 0 || (length.may_be_zero && length.value_m == 0));
+void check_range(const NeckDimension& dimension, double value_m) {
+  const bool ok =
+      std::isfinite(value_m) && (value_m > 0 || (dimension.may_be_zero && value_m == 0));
   if (!ok) {
-    refuse(std::string(length.name) + (length.may_be_zero ? " must be 0 or more" : " must be > 0") +
-           ", found " + in_inches(length.value_m));
+    refuse(std::string(dimension.name) +
+           (dimension.may_be_zero ? " must be 0 or more" : " must be > 0") + ", found " +
+           in_inches(value_m));
   }
-}
-
-void check_ranges(const NeckParameters& neck) {
-  const std::array lengths = {
-      NamedLength{"length", neck.length, false},
-      NamedLength{"base_plate_thickness", neck.base_plate_thickness, false},
-      NamedLength{"plate_thickness", neck.plate_thickness, false},
-      NamedLength{"top_plate_thickness", neck.top_plate_thickness, false},
-      NamedLength{"plate_diameter", neck.plate_diameter, false},
-      NamedLength{"hole_diameter", neck.hole_diameter, false},
-      NamedLength{"centre_rubber_diameter", neck.centre_rubber_diameter, false},
-      NamedLength{"centre_rubber_offset", neck.centre_rubber_offset, true},
-      NamedLength{"bottom_rubber_diameter", neck.bottom_rubber_diameter, false},
-      NamedLength{"bottom_rubber_offset", neck.bottom_rubber_offset, true},
-      NamedLength{"top_rubber_diameter", neck.top_rubber_diameter, false},
-      NamedLength{"top_rubber_offset", neck.top_rubber_offset, true},
-      NamedLength{"bolt_circle_radius", neck.bolt_circle_radius, false},
-      NamedLength{"bolt_patch_radius", neck.bolt_patch_radius, false},
-  };
-  for (const NamedLength& length : lengths) check_range(length);
 }
 
 void check_height(const NeckParameters& neck) {
@@ -100,6 +100,8 @@ void check_bolts(const NeckParameters& neck) {
 
 }  // namespace
 
+std::span<const NeckDimension> neck_dimensions() { return kDimensions; }
+
 double rubber_height(const NeckParameters& neck) {
   return (neck.length - neck.base_plate_thickness - 3 * neck.plate_thickness -
           neck.top_plate_thickness) /
@@ -112,7 +114,7 @@ std::array<std::array<double, 3>, 4> bolt_centres(const NeckParameters& neck) {
 }
 
 void check(const NeckParameters& neck) {
-  check_ranges(neck);
+  for (const NeckDimension& dimension : kDimensions) check_range(dimension, neck.*dimension.member);
   check_height(neck);
   check_rubber(neck, "centre", neck.centre_rubber_diameter, neck.centre_rubber_offset);
   check_rubber(neck, "bottom", neck.bottom_rubber_diameter, neck.bottom_rubber_offset);
@@ -120,55 +122,48 @@ void check(const NeckParameters& neck) {
   check_bolts(neck);
 }
 
-void check(const NeckDivisions& divisions) {
-  const std::array<std::pair<const char*, int>, 6> counts = {{
-      {"quadrant", divisions.quadrant},
-      {"inner_ring", divisions.inner_ring},
-      {"outer_ring", divisions.outer_ring},
-      {"rubber_layers", divisions.rubber_layers},
-      {"plate_layers", divisions.plate_layers},
-      {"end_plate_layers", divisions.end_plate_layers},
-  }};
-  for (const auto& [name, count] : counts) {
-    if (count < 1) {
-      throw InputError(std::string("mesh divisions: ") + name + " must be 1 or more, found " +
-                       std::to_string(count));
-    }
-  }
-  const std::array<std::pair<const char*, double>, 2> gradings = {
-      {{"ring_grading", divisions.ring_grading}, {"rubber_grading", divisions.rubber_grading}}};
-  for (const auto& [name, grading] : gradings) {
-    if (!(std::isfinite(grading) && grading > 0)) {
-      throw InputError(std::string("mesh divisions: ") + name + " must be > 0, found " +
-                       std::to_string(grading));
-    }
-  }
-}
-
 std::map<std::string, double> script_constants(const NeckParameters& neck,
                                                const NeckDivisions& divisions) {
-  return {
-      {"length", neck.length},
-      {"base_plate_thickness", neck.base_plate_thickness},
-      {"plate_thickness", neck.plate_thickness},
-      {"top_plate_thickness", neck.top_plate_thickness},
-      {"plate_diameter", neck.plate_diameter},
-      {"hole_diameter", neck.hole_diameter},
-      {"centre_rubber_diameter", neck.centre_rubber_diameter},
-      {"centre_rubber_offset", neck.centre_rubber_offset},
-      {"bottom_rubber_diameter", neck.bottom_rubber_diameter},
-      {"bottom_rubber_offset", neck.bottom_rubber_offset},
-      {"top_rubber_diameter", neck.top_rubber_diameter},
-      {"top_rubber_offset", neck.top_rubber_offset},
-      {"quadrant", divisions.quadrant},
-      {"inner_ring", divisions.inner_ring},
-      {"outer_ring", divisions.outer_ring},
-      {"rubber_layers", divisions.rubber_layers},
-      {"plate_layers", divisions.plate_layers},
-      {"end_plate_layers", divisions.end_plate_layers},
-      {"ring_grading", divisions.ring_grading},
-      {"rubber_grading", divisions.rubber_grading},
+  std::map<std::string, double> constants = {
+      {"quadrant", divisions.quadrant},         {"inner_ring", divisions.inner_ring},
+      {"outer_ring", divisions.outer_ring},     {"rubber_layers", divisions.rubber_layers},
+      {"plate_layers", divisions.plate_layers}, {"end_plate_layers", divisions.end_plate_layers},
+      {"ring_grading", divisions.ring_grading}, {"rubber_grading", divisions.rubber_grading},
   };
+  if (divisions.refine > 0) constants["refine"] = divisions.refine + 1;
+  for (const NeckDimension& dimension : kDimensions) {
+    // The bolts are taken from the mesh, not drawn.
+    if (std::string_view(dimension.name).starts_with("bolt")) continue;
+    constants[dimension.name] = neck.*dimension.member;
+  }
+  return constants;
+}
+
+std::vector<NeckLayer> layers_of(const NeckParameters& neck) {
+  const double h = rubber_height(neck);
+  std::vector<NeckLayer> layers;
+  double z = 0;
+  const auto add = [&](const std::string& part, double thickness, double diameter, double offset,
+                       bool is_rubber) {
+    layers.push_back({part, z, thickness, diameter, offset, is_rubber});
+    z += thickness;
+  };
+  const auto plate = [&](const std::string& part, double thickness) {
+    add(part, thickness, neck.plate_diameter, 0, false);
+  };
+  const auto centre_rubber = [&](const std::string& part) {
+    add(part, h, neck.centre_rubber_diameter, neck.centre_rubber_offset, true);
+  };
+  plate("base_plate", neck.base_plate_thickness);
+  add("rubber_1", h, neck.bottom_rubber_diameter, neck.bottom_rubber_offset, true);
+  plate("plate_1", neck.plate_thickness);
+  centre_rubber("rubber_2");
+  plate("plate_2", neck.plate_thickness);
+  centre_rubber("rubber_3");
+  plate("plate_3", neck.plate_thickness);
+  add("rubber_4", h, neck.top_rubber_diameter, neck.top_rubber_offset, true);
+  plate("top_plate", neck.top_plate_thickness);
+  return layers;
 }
 
 }  // namespace flexneck::geometry

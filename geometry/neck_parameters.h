@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,16 @@ struct NeckParameters {
   double bolt_patch_radius = 0;  ///< base-face nodes this close to a bolt's centre are held
 };
 
+/// What is known of one of the dimensions.
+struct NeckDimension {
+  const char* name;  ///< of the member, of the script's constant and of the key in a study
+  double NeckParameters::*member;
+  bool may_be_zero;
+  const char* meaning;
+};
+/// All dimensions, in the order of NeckParameters.
+std::span<const NeckDimension> neck_dimensions();
+
 /// Mesh divisions of the neck's blocks.
 struct NeckDivisions {
   int quadrant = 4;       ///< round a quarter of the circumference
@@ -40,7 +51,17 @@ struct NeckDivisions {
   double ring_grading =
       1.15;  ///< ratio of neighbouring elements away from the rubber's rim, 1 = even
   double rubber_grading = 1.5;  ///< ratio of neighbouring layers away from the bonds, 1 = even
+  /// Elements are cut in refine + 1 in each direction; the cuts keep the boundaries of the coarser
+  /// elements and spread their ratios evenly, so that meshes with 0, 1, 3, 7 … nest.
+  int refine = 0;
 };
+
+/// "default", or "paper": as many elements as the paper tells of (2386 elements and 3427 nodes;
+/// these give 2400 and, with 8-node hexahedra, 3408), evenly divided.
+/// @throws InputError for another name.
+NeckDivisions divisions_preset(const std::string& name);
+/// Hexahedra that the divisions give.
+long hexahedra(const NeckDivisions& divisions);
 
 /// Height of one rubber section: (length - plates) / 4.
 double rubber_height(const NeckParameters& neck);
@@ -48,11 +69,23 @@ double rubber_height(const NeckParameters& neck);
 /// Centres of the four bolt patches on the base face, at 45, 135, 225 and 315 degrees.
 std::array<std::array<double, 3>, 4> bolt_centres(const NeckParameters& neck);
 
+/// A layer of the neck, a plate or a rubber section.
+struct NeckLayer {
+  std::string part;
+  double bottom_m = 0;  ///< height of its lower face
+  double thickness_m = 0;
+  double diameter_m = 0;
+  double offset_m = 0;  ///< of its axis towards the front
+  bool is_rubber = false;
+};
+/// The nine layers from below.
+std::vector<NeckLayer> layers_of(const NeckParameters& neck);
+
 /// Refuses impossible dimensions. @throws InputError with the inequality that fails and its values.
 void check(const NeckParameters& neck);
 void check(const NeckDivisions& divisions);
 
-/// Values of the constants that geometry/neck.geo declares, by name. Lengths in m.
+/// Values of the constants that geometry/neck.geo declares for them, by name. Lengths in m.
 std::map<std::string, double> script_constants(const NeckParameters& neck,
                                                const NeckDivisions& divisions);
 
