@@ -12,12 +12,6 @@
 
 namespace flexneck::multibody {
 
-/// How driven bodies move.
-enum class Drive {
-  prescribed,  ///< as their tables say
-  held         ///< not at all, where they are at the time asked for
-};
-
 /// Evaluates the equations of motion, equations.md (8)-(13) and section 5, of a system. Owns the
 /// workspace: after construction nothing is allocated. Call set_positions, then
 /// set_velocities, then solve.

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/equilibrium.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
-
-#include <Eigen/Eigenvalues>
 
 #include "geometry/foundation/error.h"
 #include "multibody/initial_state.h"
+#include "multibody/joint_check.h"
 #include "multibody/reduced_dynamics.h"
+#include "multibody/rest.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -19,14 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-constexpr int kMostIterations = 200;
-/// Extent (see ReducedDynamics) of the largest step, and of the one that ends the search: Newton's
-/// convergence is quadratic, so what is left behind the last is rounding.
-constexpr double kLargestStep = 0.5;
-constexpr double kConverged = 1e-10;
-/// Stiffness below this share of the largest is none: the direction is neutral.
-constexpr double kNeutral = 1e-10;
 
 /// Of gravity, strain and the forces at time zero, for equations as solved.
 double potential_energy(const EquationsOfMotion& equations) {
@@ -44,22 +35,30 @@ double potential_energy(const EquationsOfMotion& equations) {
   return energy;
 }
 
-/// Newton's step with the stiffness made positive, so that it always leads downhill.
-VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen((stiffness + stiffness.transpose()) / 2);
-  const VectorXd magnitude = eigen.eigenvalues().cwiseAbs();
-  // Not zero even where all stiffness vanishes: the caller shortens a long step.
-  const double floor = std::max(kNeutral * magnitude.maxCoeff(), 1e-9);
-  VectorXd along = eigen.eigenvectors().transpose() * force;
-  // In a neutral direction only a force that is more than rounding counts.
-  const double noise = 1e-12 * force.norm();
-  for (Index i = 0; i < along.size(); ++i) {
-    const bool neutral = magnitude[i] <= floor;
-    along[i] =
-        neutral && std::abs(along[i]) <= noise ? 0 : along[i] / std::max(magnitude[i], floor);
+/// The descriptor form's coordinates of the search.
+class DescriptorRest final : public RestProblem {
+ public:
+  DescriptorRest(EquationsOfMotion& equations, VectorXd positions)
+      : equations_(equations), positions_(std::move(positions)) {
+    reduced_.emplace(equations_, positions_);
   }
-  return eigen.eigenvectors() * along;
-}
+
+  Index count() const override { return reduced_->count(); }
+  double extent(const VectorXd& xi) const override { return reduced_->extent(xi); }
+  VectorXd forces_at(const VectorXd& xi) override { return reduced_->accelerations_at(xi); }
+  double energy() const override { return potential_energy(equations_); }
+  MatrixXd stiffness() override { return reduced_->stiffness(); }
+  void move_to(const VectorXd& xi) override {
+    positions_ = reduced_->positions_at(xi);
+    reduced_.emplace(equations_, positions_);
+  }
+  const VectorXd& positions() const { return positions_; }
+
+ private:
+  EquationsOfMotion& equations_;
+  VectorXd positions_;
+  std::optional<ReducedDynamics> reduced_;
+};
 
 /// Velocity of the driven body that each free body hangs on, through joints; none if there is none.
 class Carriers {
@@ -105,10 +104,7 @@ VectorXd carried_velocities(const Model& model, const System& system) {
   const Carriers carriers(model, system);
   VectorXd velocities = VectorXd::Zero(system.velocity_count);
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    if (!carriers.velocity(b))
-      throw InputError("body '" + system.bodies[b].name +
-                       "': no joint connects it, directly or through others, to a driven body, so "
-                       "it has no equilibrium");
+    if (!carriers.velocity(b)) refuse_floating_body(system.bodies[b].name);
     velocities.segment<3>(system.bodies[b].velocity) = *carriers.velocity(b);
   }
   return velocities;
@@ -119,27 +115,9 @@ VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equations)
   carried_velocities(model, system);
   VectorXd state = given_state(model, system);
   join(model, equations, state, Check::positions);
-  VectorXd positions = state.head(system.position_count);
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    ReducedDynamics reduced(equations, positions);
-    if (reduced.count() == 0) return positions;
-    const VectorXd rest = VectorXd::Zero(reduced.count());
-    const VectorXd force = reduced.accelerations_at(rest);
-    const double energy = potential_energy(equations);
-    if (!(force.allFinite() && std::isfinite(energy))) break;
-    VectorXd step = descent_step(reduced.stiffness(), force);
-    step *= std::min(1.0, kLargestStep / std::max(reduced.extent(step), kConverged));
-    if (reduced.extent(step) <= kConverged) return reduced.positions_at(step);
-    // Halve the step until it leads down; close to the end the energy no longer tells, the forces
-    // do.
-    for (int halving = 0; halving < 40; ++halving, step /= 2) {
-      const double remaining = reduced.accelerations_at(step).norm();
-      if (potential_energy(equations) < energy || remaining < force.norm()) break;
-    }
-    positions = reduced.positions_at(step);
-  }
-  throw ComputationError("no static equilibrium was found from the poses given, after " +
-                         std::to_string(kMostIterations) + " steps");
+  DescriptorRest rest(equations, state.head(system.position_count));
+  find_equilibrium(rest);
+  return rest.positions();
 }
 
 }  // namespace flexneck::multibody

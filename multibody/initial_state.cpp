@@ -2,7 +2,6 @@
 #include "multibody/initial_state.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
 #include "multibody/projection.h"
@@ -13,28 +12,15 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kTolerance = 1e-6;
-
-[[noreturn]] void refuse(const Joint& joint, const Model& model, const std::string& problem) {
-  throw InputError("joint '" + joint.name + "' between markers '" +
-                   model.markers[joint.marker_i].name + "' and '" +
-                   model.markers[joint.marker_j].name + "': " + problem);
-}
-
-void check_positions(const Model& model, const EquationsOfMotion& equations) {
-  const double size = std::max(equations.system().size_m, 1e-3);
+void check_all_positions(const Model& model, const EquationsOfMotion& equations) {
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    const Violation found = violation(equations.joint(k), equations.joint(k).position_residual);
-    if (found.translation <= kTolerance * size && found.rotation <= kTolerance) continue;
-    std::ostringstream problem;
-    problem << "at the start the markers are " << found.translation << " m and " << found.rotation
-            << " rad apart; give the bodies poses that fit the joint";
-    refuse(model.joints[k], model, problem.str());
+    const JointRows& joint = equations.joint(k);
+    check_positions(model, k, violation(joint, joint.position_residual), equations.system().size_m);
   }
 }
 
-void check_velocities(const Model& model, const EquationsOfMotion& equations) {
-  const double size = std::max(equations.system().size_m, 1e-3);
+void check_all_velocities(const Model& model, const EquationsOfMotion& equations) {
+  const double size = equations.system().size_m;
   double speed = 0;
   for (const Joint& joint : model.joints)
     for (const std::size_t marker : {joint.marker_i, joint.marker_j}) {
@@ -42,13 +28,8 @@ void check_velocities(const Model& model, const EquationsOfMotion& equations) {
       speed = std::max({speed, motion.pd.norm(), size * motion.Om.norm()});
     }
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    const Violation found = violation(equations.joint(k), equations.joint(k).velocity_residual);
-    if (found.translation <= kTolerance * speed && size * found.rotation <= kTolerance * speed)
-      continue;
-    std::ostringstream problem;
-    problem << "at the start the markers part with " << found.translation << " m/s and "
-            << found.rotation << " rad/s; give the bodies velocities that fit the joint";
-    refuse(model.joints[k], model, problem.str());
+    const JointRows& joint = equations.joint(k);
+    check_velocities(model, k, violation(joint, joint.velocity_residual), size, speed);
   }
 }
 
@@ -81,10 +62,10 @@ void join(const Model& model, EquationsOfMotion& equations, VectorXd& state, Che
   const System& system = equations.system();
   const auto velocities = state.segment(system.position_count, system.velocity_count);
   equations.set_positions(0, state.head(system.position_count));
-  check_positions(model, equations);
+  check_all_positions(model, equations);
   check_independent_joints(equations);
   equations.set_velocities(velocities);
-  if (check == Check::positions_and_velocities) check_velocities(model, equations);
+  if (check == Check::positions_and_velocities) check_all_velocities(model, equations);
   Projection(equations).apply(0, state);
 }
 

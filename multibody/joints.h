@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 
+#include "multibody/joint_check.h"
 #include "multibody/model.h"
+#include "multibody/motion_state.h"
 #include "multibody/node_kinematics.h"
 
 namespace flexneck::multibody {
@@ -46,18 +48,9 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
 /// The velocity residual and gamma.
 void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
 
-/// Length of what a residual says about positions (m or m/s) and about orientations (rad or rad/s).
-struct Violation {
-  double translation;
-  double rotation;
-};
+/// Length of what a residual says about positions and about orientations.
 Violation violation(const JointRows& joint, const RowVector& residual);
 
-/// Force and moment about the origin of marker j that i exerts on j, world axes (section 4.1).
-struct Reaction {
-  Eigen::Vector3d force_N;
-  Eigen::Vector3d moment_Nm;
-};
 /// From the joint's multipliers, padded with zeros.
 Reaction reaction(const JointRows& joint, const RowVector& multipliers);
 

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/motion.h"
 
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "multibody/dormand_prince.h"
-#include "multibody/equations_of_motion.h"
-#include "multibody/projection.h"
 #include "multibody/recorder.h"
-#include "multibody/state_error.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -28,18 +24,12 @@ VectorXd output_times(const OutputOptions& output) {
   return times;
 }
 
-double largest(const VectorXd& residual) {
-  return residual.size() == 0 ? 0 : residual.lpNorm<Eigen::Infinity>();
-}
-
 /// One run: the integrator, and the recorder behind it.
 class Run {
  public:
-  Run(const Model& model, const System& system, const VectorXd& state, const SolverOptions& solver,
+  Run(const Model& model, Equations& equations, const VectorXd& state, const SolverOptions& solver,
       const OutputOptions& output)
-      : equations_(system),
-        projection_(equations_),
-        error_(system, solver.relative_tolerance, solver.absolute_tolerance),
+      : equations_(equations),
         recorder_(model, output_times(output)),
         integrator_(problem(), {solver.largest_step_s, solver.smallest_step_s}, 0, state),
         output_state_(state) {}
@@ -65,36 +55,24 @@ class Run {
  private:
   InitialValueProblem problem() {
     return {
-        [this](double t, const VectorXd& y, VectorXd& rate) { equations_.evaluate(t, y, rate); },
-        [this](double t, VectorXd& y, VectorXd& rate) {
-          projection_.apply(t, y);
-          equations_.evaluate_updated(y, rate);
-        },
+        [this](double t, const VectorXd& y, VectorXd& rate) { equations_.derivative(t, y, rate); },
+        [this](double t, VectorXd& y, VectorXd& rate) { equations_.finish_step(t, y, rate); },
         [this](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
-          return error_(begin, end, error);
+          return equations_.measure(begin, end, error);
         },
-        [this](std::size_t component) { return error_.name_of(component); }};
+        [this](std::size_t component) { return equations_.name_of(component); }};
   }
 
   void record_until(double time_s) {
     while (next_ < recorder_.columns() && recorder_.time_s(next_) <= time_s) {
       const double at = recorder_.time_s(next_);
       integrator_.interpolate(at, output_state_);
-      projection_.apply(at, output_state_);
-      equations_.solve();
-      StepStatistics& statistics = recorder_.statistics();
-      statistics.largest_position_residual =
-          std::max(statistics.largest_position_residual, largest(equations_.position_residual()));
-      statistics.largest_velocity_residual =
-          std::max(statistics.largest_velocity_residual, largest(equations_.velocity_residual()));
-      recorder_.record(next_, equations_, output_state_);
+      equations_.record(at, output_state_, recorder_, next_);
       ++next_;
     }
   }
 
-  EquationsOfMotion equations_;
-  Projection projection_;
-  StateError error_;
+  Equations& equations_;
   Recorder recorder_;
   DormandPrince integrator_;
   VectorXd output_state_;
@@ -103,10 +81,10 @@ class Run {
 
 }  // namespace
 
-History integrate(const Model& model, const System& system, const VectorXd& state,
+History integrate(const Model& model, Equations& equations, const VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output) {
-  Run run(model, system, state, solver, output);
-  std::vector<double> ends = system.breakpoints(output.end_time_s);
+  Run run(model, equations, state, solver, output);
+  std::vector<double> ends = equations.breakpoints(output.end_time_s);
   ends.push_back(output.end_time_s);
   double begin = 0;
   for (const double end : ends) {

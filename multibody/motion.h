@@ -3,16 +3,16 @@
 
 #include <Eigen/Core>
 
+#include "multibody/equations.h"
 #include "multibody/history.h"
 #include "multibody/model.h"
 #include "multibody/simulation.h"
-#include "multibody/system.h"
 
 namespace flexneck::multibody {
 
 /// Integrates from a state at time zero that keeps the joints, and records at the output times.
 /// @throws ComputationError as simulate().
-History integrate(const Model& model, const System& system, const Eigen::VectorXd& state,
+History integrate(const Model& model, Equations& equations, const Eigen::VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output);
 
 }  // namespace flexneck::multibody

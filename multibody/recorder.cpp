@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/recorder.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 namespace flexneck::multibody {
@@ -8,7 +10,8 @@ namespace flexneck::multibody {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Recorder::Recorder(const Model& model, const VectorXd& times_s) {
+Recorder::Recorder(const Model& model, const VectorXd& times_s)
+    : modal_of_body_(model.bodies.size(), 0) {
   const Index n = times_s.size();
   history_.time_s = times_s;
   for (const Marker& marker : model.markers) {
@@ -18,12 +21,14 @@ Recorder::Recorder(const Model& model, const VectorXd& times_s) {
   }
   for (const Joint& joint : model.joints)
     history_.joints.push_back({joint.name, Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)});
-  for (const Body& body : model.bodies) {
-    const auto* deformable = std::get_if<DeformableBody>(&body.kind);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto* deformable = std::get_if<DeformableBody>(&model.bodies[b].kind);
     if (deformable == nullptr) continue;
-    ModalHistory modal{body.name, {}, Eigen::MatrixXd(deformable->modes.mode_count(), n)};
+    ModalHistory modal{
+        model.bodies[b].name, {}, Eigen::MatrixXd(deformable->modes.mode_count(), n)};
     for (const fe_modal::ModeRecord& mode : deformable->modes.modes)
       modal.modes.push_back(mode.name);
+    modal_of_body_[b] = history_.modal.size();
     history_.modal.push_back(std::move(modal));
   }
   EnergyHistory& energy = history_.energy;
@@ -33,62 +38,43 @@ Recorder::Recorder(const Model& model, const VectorXd& times_s) {
   }
 }
 
-void Recorder::record(Index column, EquationsOfMotion& equations, const VectorXd& state) {
-  const System& system = equations.system();
-  equations.update_idle_markers(state.segment(system.position_count, system.velocity_count));
-  for (std::size_t k = 0; k < history_.markers.size(); ++k) record_marker(column, k, equations);
-  for (std::size_t k = 0; k < history_.joints.size(); ++k) {
-    const Reaction world = equations.joint_reaction(k);
-    const Eigen::Matrix3d& R_i = equations.marker(system.joints[k].marker_i).R;
-    history_.joints[k].force_N.col(column) = R_i.transpose() * world.force_N;
-    history_.joints[k].moment_Nm.col(column) = R_i.transpose() * world.moment_Nm;
-  }
-  std::size_t deformable = 0;
-  for (std::size_t b = 0; b < system.bodies.size(); ++b)
-    if (system.bodies[b].constants.mode_count() > 0)
-      history_.modal[deformable++].coordinates.col(column) = equations.body(b).a;
-  record_energies(column, equations, state);
-}
-
-void Recorder::record_marker(Index column, std::size_t index, const EquationsOfMotion& equations) {
-  const System& system = equations.system();
-  const NodeKinematics& motion = equations.marker(index);
+void Recorder::marker(Index column, std::size_t index, const MarkerState& motion) {
   MarkerHistory& marker = history_.markers[index];
-  marker.position_m.col(column) = motion.p;
-  marker.velocity_m_s.col(column) = motion.pd;
-  marker.angular_velocity_rad_s.col(column) = motion.Om;
-  // pdd = P Vdot + gp.
-  marker.acceleration_m_s2.col(column) = motion.gp;
-  const std::size_t b = system.markers[index].free_body;
-  if (b != JointPlace::kNoBody) {
-    const FreeBody& body = system.bodies[b];
-    marker.acceleration_m_s2.col(column) +=
-        motion.P * equations.accelerations().segment(body.velocity, motion.P.cols());
-  }
+  marker.position_m.col(column) = motion.position_m;
+  marker.velocity_m_s.col(column) = motion.velocity_m_s;
+  marker.angular_velocity_rad_s.col(column) = motion.angular_velocity_rad_s;
+  marker.acceleration_m_s2.col(column) = motion.acceleration_m_s2;
   // Of the two quaternions of a rotation, the one near the last.
-  const Eigen::Quaterniond q(motion.R);
+  const Eigen::Quaterniond q(motion.rotation);
   Eigen::Vector4d rotation(q.w(), q.x(), q.y(), q.z());
   if (column > 0 && rotation.dot(marker.rotation.col(column - 1)) < 0) rotation = -rotation;
   marker.rotation.col(column) = rotation;
 }
 
-void Recorder::record_energies(Index column, const EquationsOfMotion& equations,
-                               const VectorXd& state) {
-  const System& system = equations.system();
+void Recorder::joint(Index column, std::size_t index, const Reaction& world,
+                     const Eigen::Matrix3d& R_i) {
+  JointHistory& joint = history_.joints[index];
+  joint.force_N.col(column) = R_i.transpose() * world.force_N;
+  joint.moment_Nm.col(column) = R_i.transpose() * world.moment_Nm;
+}
+
+void Recorder::modal(Index column, std::size_t body, const VectorXd& a) {
+  if (a.size() > 0) history_.modal[modal_of_body_[body]].coordinates.col(column) = a;
+}
+
+void Recorder::energy(Index column, const Energies& stored, double dissipated_J, double work_J) {
   EnergyHistory& energy = history_.energy;
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    const FreeBody& body = system.bodies[b];
-    const BodyTerms& terms = equations.body(b);
-    const auto V =
-        state.segment(system.position_count + body.velocity, body.constants.velocity_count());
-    energy.kinetic_J[column] += kinetic_energy_J(terms, V);
-    energy.gravitational_J[column] +=
-        gravitational_energy_J(body.constants, system.gravity_m_s2, terms);
-    energy.strain_J[column] += strain_energy_J(body.constants, terms);
-  }
-  const Index quadratures = system.position_count + system.velocity_count;
-  energy.dissipated_J[column] = state[quadratures];
-  energy.work_J[column] = state[quadratures + 1];
+  energy.kinetic_J[column] = stored.kinetic_J;
+  energy.gravitational_J[column] = stored.gravitational_J;
+  energy.strain_J[column] = stored.strain_J;
+  energy.dissipated_J[column] = dissipated_J;
+  energy.work_J[column] = work_J;
+}
+
+void Recorder::residuals(double position, double velocity) {
+  StepStatistics& statistics = history_.statistics;
+  statistics.largest_position_residual = std::max(statistics.largest_position_residual, position);
+  statistics.largest_velocity_residual = std::max(statistics.largest_velocity_residual, velocity);
 }
 
 }  // namespace flexneck::multibody

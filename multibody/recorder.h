@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "multibody/equations_of_motion.h"
 #include "multibody/history.h"
 #include "multibody/model.h"
+#include "multibody/motion_state.h"
 
 namespace flexneck::multibody {
 
@@ -16,17 +16,23 @@ class Recorder {
 
   double time_s(Eigen::Index column) const { return history_.time_s[column]; }
   Eigen::Index columns() const { return history_.time_s.size(); }
-  /// @param equations  solved for `state` at the column's time
-  void record(Eigen::Index column, EquationsOfMotion& equations, const Eigen::VectorXd& state);
+
+  void marker(Eigen::Index column, std::size_t index, const MarkerState& motion);
+  /// @param world  in world axes
+  /// @param R_i    marker i's axes to the world
+  void joint(Eigen::Index column, std::size_t index, const Reaction& world,
+             const Eigen::Matrix3d& R_i);
+  /// @param body  among the model's bodies; nothing is recorded of one that has no modes
+  void modal(Eigen::Index column, std::size_t body, const Eigen::VectorXd& a);
+  void energy(Eigen::Index column, const Energies& stored, double dissipated_J, double work_J);
+  void residuals(double position, double velocity);
+
   StepStatistics& statistics() { return history_.statistics; }
   History take() { return std::move(history_); }
 
  private:
-  void record_marker(Eigen::Index column, std::size_t index, const EquationsOfMotion& equations);
-  void record_energies(Eigen::Index column, const EquationsOfMotion& equations,
-                       const Eigen::VectorXd& state);
-
   History history_;
+  std::vector<std::size_t> modal_of_body_;
 };
 
 }  // namespace flexneck::multibody

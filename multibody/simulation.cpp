@@ -2,16 +2,17 @@
 #include "multibody/simulation.h"
 
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "multibody/equations.h"
 #include "multibody/equilibrium.h"
-#include "multibody/initial_state.h"
 #include "multibody/linearisation.h"
 #include "multibody/motion.h"
-#include "multibody/projection.h"
 #include "multibody/reduced_dynamics.h"
 #include "multibody/system.h"
+#include "multibody/tree/tree.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -34,30 +35,27 @@ void check_options(const SolverOptions& solver, const OutputOptions& output) {
     throw InputError("the output interval gives over 1e8 output times; make it longer");
 }
 
+std::unique_ptr<Equations> equations_of(const Model& model, const SolverOptions& solver) {
+  const bool recursive = solver.formulation == Formulation::recursive ||
+                         (solver.formulation == Formulation::automatic && tree::is_tree(model));
+  return recursive ? recursive_equations(model, solver) : descriptor_equations(model, solver);
+}
+
 }  // namespace
 
 History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output) {
   check(model);
   check_options(solver, output);
-  const System system(model);
-  EquationsOfMotion equations(system);
-  Eigen::VectorXd state = given_state(model, system);
-  join(model, equations, state, Check::positions_and_velocities);
-  return integrate(model, system, state, solver, output);
+  const std::unique_ptr<Equations> equations = equations_of(model, solver);
+  return integrate(model, *equations, equations->given_state(), solver, output);
 }
 
 History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
                                   const OutputOptions& output) {
   check(model);
   check_options(solver, output);
-  const System system(model);
-  EquationsOfMotion held(system, Drive::held);
-  Eigen::VectorXd state = Eigen::VectorXd::Zero(system.state_count());
-  state.head(system.position_count) = equilibrium_positions(model, held);
-  state.segment(system.position_count, system.velocity_count) = carried_velocities(model, system);
-  EquationsOfMotion equations(system);
-  Projection(equations).apply(0, state);
-  return integrate(model, system, state, solver, output);
+  const std::unique_ptr<Equations> equations = equations_of(model, solver);
+  return integrate(model, *equations, equations->equilibrium_state(), solver, output);
 }
 
 std::vector<SystemMode> system_modes(const Model& model) {

@@ -10,11 +10,19 @@
 
 namespace flexneck::multibody {
 
+/// Which equations of motion a run solves. They agree to rounding; see README.md for the choice.
+enum class Formulation {
+  descriptor,  ///< all bodies' coordinates, joints as constraints with multipliers: any model
+  recursive,   ///< joint coordinates: trees of bodies, work in proportion to their number
+  automatic    ///< recursive where the joints make trees, else descriptor
+};
+
 struct SolverOptions {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-9;
   double largest_step_s = 0.05;
   double smallest_step_s = 1e-10;
+  Formulation formulation = Formulation::automatic;
 };
 
 struct OutputOptions {
@@ -32,7 +40,8 @@ struct SystemMode {
 /// Runs a model from the state its bodies are given; constraints are projected first.
 /// @throws InputError if the model is not sound, an option makes no sense, a joint is violated at
 /// the start in position or velocity by more than rounding (1e-6 of the system's size or speed,
-/// 1e-6 rad), or a joint repeats what others hold.
+/// 1e-6 rad), or a joint repeats what others hold; or if the recursive
+/// formulation is asked for and a joint closes a loop.
 /// @throws ComputationError if the step collapses: time and what limited it.
 History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output);
 

@@ -27,18 +27,6 @@ struct ConstantsOf {
 
 }  // namespace
 
-Vector3d DrivenPath::position_m(double time_s) const {
-  const TimeTable& table = body.acceleration_m_s2;
-  const double travel = body.initial_velocity_m_s * time_s + table.second_integral(time_s) -
-                        table.second_integral(0) - table.integral(0) * time_s;
-  return start.position_m + travel * body.direction;
-}
-
-Vector3d DrivenPath::velocity_m_s(double time_s) const {
-  const TimeTable& table = body.acceleration_m_s2;
-  return (body.initial_velocity_m_s + table.integral(time_s) - table.integral(0)) * body.direction;
-}
-
 System::System(const Model& model)
     : joints(model.joints), forces(model.forces), gravity_m_s2(model.gravity_m_s2) {
   std::vector<std::size_t> free_index(model.bodies.size(), kNone);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "multibody/body_dynamics.h"
+#include "multibody/driven_path.h"
 #include "multibody/kkt_solver.h"
 #include "multibody/model.h"
 #include "multibody/node_kinematics.h"
@@ -21,15 +22,6 @@ struct FreeBody {
   BodyConstants constants;
   Eigen::Index position;
   Eigen::Index velocity;
-};
-
-/// The motion of a driven body: exact, by the integrals of its table.
-struct DrivenPath {
-  Pose start;
-  DrivenBody body;
-
-  Eigen::Vector3d position_m(double time_s) const;
-  Eigen::Vector3d velocity_m_s(double time_s) const;
 };
 
 struct SystemMarker {

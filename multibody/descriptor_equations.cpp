@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/equations.h"
+#include "multibody/equations_of_motion.h"
+#include "multibody/equilibrium.h"
+#include "multibody/initial_state.h"
+#include "multibody/projection.h"
+#include "multibody/state_error.h"
+#include "multibody/system.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+double largest(const VectorXd& residual) {
+  return residual.size() == 0 ? 0 : residual.lpNorm<Eigen::Infinity>();
+}
+
+/// pdd = P Vdot + gp.
+MarkerState marker_state(const EquationsOfMotion& equations, std::size_t index) {
+  const System& system = equations.system();
+  const NodeKinematics& motion = equations.marker(index);
+  MarkerState state{motion.p, motion.pd, motion.gp, motion.R, motion.Om};
+  const std::size_t b = system.markers[index].free_body;
+  if (b != JointPlace::kNoBody)
+    state.acceleration_m_s2 +=
+        motion.P * equations.accelerations().segment(system.bodies[b].velocity, motion.P.cols());
+  return state;
+}
+
+Energies energies_of(const EquationsOfMotion& equations, const VectorXd& state) {
+  const System& system = equations.system();
+  Energies sum;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const FreeBody& body = system.bodies[b];
+    const BodyTerms& terms = equations.body(b);
+    const auto V =
+        state.segment(system.position_count + body.velocity, body.constants.velocity_count());
+    sum.kinetic_J += kinetic_energy_J(terms, V);
+    sum.gravitational_J += gravitational_energy_J(body.constants, system.gravity_m_s2, terms);
+    sum.strain_J += strain_energy_J(body.constants, terms);
+  }
+  return sum;
+}
+
+class DescriptorEquations final : public Equations {
+ public:
+  DescriptorEquations(const Model& model, const SolverOptions& solver)
+      : model_(model),
+        system_(model),
+        equations_(system_),
+        projection_(equations_),
+        error_(system_, solver.relative_tolerance, solver.absolute_tolerance) {}
+
+  Vector given_state() override {
+    Vector state = multibody::given_state(model_, system_);
+    join(model_, equations_, state, Check::positions_and_velocities);
+    return state;
+  }
+
+  Vector equilibrium_state() override {
+    EquationsOfMotion held(system_, Drive::held);
+    Vector state = Vector::Zero(system_.state_count());
+    state.head(system_.position_count) = equilibrium_positions(model_, held);
+    state.segment(system_.position_count, system_.velocity_count) =
+        carried_velocities(model_, system_);
+    projection_.apply(0, state);
+    return state;
+  }
+
+  std::vector<double> breakpoints(double end_s) const override {
+    return system_.breakpoints(end_s);
+  }
+  void set_interval(double begin_s, double end_s) override {
+    equations_.set_interval(begin_s, end_s);
+  }
+  void derivative(double time_s, const Vector& state, Vector& rate) override {
+    equations_.evaluate(time_s, state, rate);
+  }
+  void finish_step(double time_s, Vector& state, Vector& rate) override {
+    projection_.apply(time_s, state);
+    equations_.evaluate_updated(state, rate);
+  }
+  ErrorEstimate measure(const Vector& begin, const Vector& end,
+                        const Vector& error) const override {
+    return error_(begin, end, error);
+  }
+  std::string name_of(std::size_t component) const override { return error_.name_of(component); }
+  int evaluations() const override { return equations_.evaluations(); }
+
+  void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
+    projection_.apply(time_s, state);
+    equations_.solve();
+    equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
+    recorder.residuals(largest(equations_.position_residual()),
+                       largest(equations_.velocity_residual()));
+    for (std::size_t k = 0; k < system_.markers.size(); ++k)
+      recorder.marker(column, k, marker_state(equations_, k));
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      recorder.joint(column, k, equations_.joint_reaction(k),
+                     equations_.marker(system_.joints[k].marker_i).R);
+    for (std::size_t b = 0; b < system_.bodies.size(); ++b)
+      recorder.modal(column, system_.bodies[b].index, equations_.body(b).a);
+    const Index quadratures = system_.position_count + system_.velocity_count;
+    recorder.energy(column, energies_of(equations_, state), state[quadratures],
+                    state[quadratures + 1]);
+  }
+
+ private:
+  const Model& model_;
+  System system_;
+  EquationsOfMotion equations_;
+  Projection projection_;
+  StateError error_;
+};
+
+}  // namespace
+
+std::unique_ptr<Equations> descriptor_equations(const Model& model, const SolverOptions& solver) {
+  return std::make_unique<DescriptorEquations>(model, solver);
+}
+
+}  // namespace flexneck::multibody

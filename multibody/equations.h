@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/dormand_prince.h"
+#include "multibody/recorder.h"
+#include "multibody/simulation.h"
+
+namespace flexneck::multibody {
+
+/// A formulation's equations of motion for one model, as a run sees them. States are its own.
+class Equations {
+ public:
+  using Vector = Eigen::VectorXd;
+
+  virtual ~Equations() = default;
+
+  /// The state that the bodies are given, put onto the joints. @throws InputError as simulate().
+  virtual Vector given_state() = 0;
+  /// Static equilibrium, moving with the driven bodies.
+  /// @throws InputError, ComputationError as simulate_from_equilibrium().
+  virtual Vector equilibrium_state() = 0;
+
+  /// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
+  virtual std::vector<double> breakpoints(double end_s) const = 0;
+  /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
+  virtual void set_interval(double begin_s, double end_s) = 0;
+  virtual void derivative(double time_s, const Vector& state, Vector& rate) = 0;
+  /// See InitialValueProblem::finish_step.
+  virtual void finish_step(double time_s, Vector& state, Vector& rate) = 0;
+  virtual ErrorEstimate measure(const Vector& begin, const Vector& end,
+                                const Vector& error) const = 0;
+  virtual std::string name_of(std::size_t component) const = 0;
+
+  /// Records an interpolated state, put onto the joints first.
+  virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;
+  virtual int evaluations() const = 0;
+};
+
+/// The paper's form with multipliers: positions of all bodies, joints as constraints.
+std::unique_ptr<Equations> descriptor_equations(const Model& model, const SolverOptions& solver);
+/// Joint coordinates of trees. @throws InputError if a joint closes a loop.
+std::unique_ptr<Equations> recursive_equations(const Model& model, const SolverOptions& solver);
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+namespace flexneck::multibody {
+
+/// Motion of a marker, world axes.
+struct MarkerState {
+  Eigen::Vector3d position_m;
+  Eigen::Vector3d velocity_m_s;
+  Eigen::Vector3d acceleration_m_s2;  ///< kinematic
+  Eigen::Matrix3d rotation;           ///< marker axes to world
+  Eigen::Vector3d angular_velocity_rad_s;
+};
+
+/// Motion of a body's frame: x'' and x' of its origin in world axes, w and its rate in its own.
+struct BodyState {
+  Eigen::Vector3d position_m;
+  Eigen::Matrix3d rotation;  ///< body axes to world
+  Eigen::VectorXd modal;
+  Eigen::VectorXd velocities;     ///< [x'; w; a']
+  Eigen::VectorXd accelerations;  ///< [x''; w'; a'']
+};
+
+/// Force and moment about the origin of marker j that i exerts on j, world axes (equations.md
+/// section 4).
+struct Reaction {
+  Eigen::Vector3d force_N;
+  Eigen::Vector3d moment_Nm;
+};
+
+/// Of all bodies that are not driven.
+struct Energies {
+  double kinetic_J = 0;
+  double gravitational_J = 0;
+  double strain_J = 0;
+};
+
+}  // namespace flexneck::multibody

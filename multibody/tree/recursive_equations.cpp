@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/equations.h"
+#include "multibody/joint_check.h"
+#include "multibody/tree/tree_dynamics.h"
+#include "multibody/tree/tree_error.h"
+#include "multibody/tree/tree_rest.h"
+#include "multibody/tree/tree_start.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+
+class RecursiveEquations final : public Equations {
+ public:
+  RecursiveEquations(const Model& model, const SolverOptions& solver)
+      : tree_(model),
+        dynamics_(tree_),
+        error_(tree_, solver.relative_tolerance, solver.absolute_tolerance) {}
+
+  Vector given_state() override { return tree::given_state(tree_); }
+
+  Vector equilibrium_state() override {
+    for (const tree::TreeBody& body : tree_.bodies)
+      if (body.joint_index == tree::kNone) refuse_floating_body(body.name);
+    tree::TreeDynamics held(tree_, Drive::held);
+    tree::TreeRest rest(held, tree::given_positions(tree_));
+    find_equilibrium(rest);
+    // Rates against the driven bodies are zero: all moves with them.
+    return rest.state();
+  }
+
+  std::vector<double> breakpoints(double end_s) const override { return tree_.breakpoints(end_s); }
+  void set_interval(double begin_s, double end_s) override {
+    dynamics_.set_interval(begin_s, end_s);
+  }
+  void derivative(double time_s, const Vector& state, Vector& rate) override {
+    dynamics_.evaluate(time_s, state, rate);
+  }
+  void finish_step(double time_s, Vector& state, Vector& rate) override {
+    normalise(state);
+    dynamics_.evaluate(time_s, state, rate);
+  }
+  ErrorEstimate measure(const Vector& begin, const Vector& end,
+                        const Vector& error) const override {
+    return error_(begin, end, error);
+  }
+  std::string name_of(std::size_t component) const override { return error_.name_of(component); }
+  int evaluations() const override { return dynamics_.evaluations(); }
+
+  void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
+    normalise(state);
+    dynamics_.update(time_s, state);
+    dynamics_.solve();
+    for (std::size_t k = 0; k < tree_.markers.size(); ++k)
+      recorder.marker(column, k, dynamics_.marker_state(k));
+    for (std::size_t k = 0; k < tree_.body_of_joint.size(); ++k)
+      recorder.joint(column, k, dynamics_.joint_reaction(k), dynamics_.joint_axes(k));
+    for (std::size_t b = 0; b < tree_.bodies.size(); ++b)
+      recorder.modal(column, tree_.bodies[b].index, dynamics_.modal(b));
+    const Index quadratures = tree_.position_count + tree_.velocity_count;
+    recorder.energy(column, dynamics_.energies(), state[quadratures], state[quadratures + 1]);
+  }
+
+ private:
+  void normalise(Vector& state) const {
+    for (const tree::TreeBody& body : tree_.bodies) {
+      const Index nq = body.joint.position_count();
+      if (nq > body.joint.velocity_count()) state.segment<4>(body.position + nq - 4).normalize();
+    }
+  }
+
+  tree::Tree tree_;
+  tree::TreeDynamics dynamics_;
+  tree::TreeError error_;
+};
+
+}  // namespace
+
+std::unique_ptr<Equations> recursive_equations(const Model& model, const SolverOptions& solver) {
+  return std::make_unique<RecursiveEquations>(model, solver);
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/tree/tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody::tree {
+namespace {
+
+using Eigen::Index;
+
+bool is_driven(const Body& body) { return std::holds_alternative<DrivenBody>(body.kind); }
+
+/// A body's place in the order of a walk over the joints from the driven bodies outwards, then over
+/// what is left from the first body of it.
+struct Visit {
+  std::size_t body;
+  std::size_t carrier;  ///< among the model's bodies; kNone for the world
+  std::size_t joint;
+};
+
+struct Walk {
+  std::vector<Visit> order;
+  std::optional<std::size_t> closing_joint;
+};
+
+Walk walk(const Model& model) {
+  std::vector<std::vector<std::size_t>> joints_on(model.bodies.size());
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    if (model.joints[k].kind == JointKind::free) continue;
+    for (const std::size_t marker : {model.joints[k].marker_i, model.joints[k].marker_j})
+      joints_on[model.markers[marker].body].push_back(k);
+  }
+  Walk found;
+  std::vector<bool> reached(model.bodies.size(), false);
+  std::vector<bool> used(model.joints.size(), false);
+  std::vector<std::size_t> queue;
+  const auto spread = [&] {
+    for (std::size_t next = 0; next < queue.size(); ++next)
+      for (const std::size_t k : joints_on[queue[next]]) {
+        if (used[k]) continue;
+        used[k] = true;
+        const std::size_t body_i = model.markers[model.joints[k].marker_i].body;
+        const std::size_t body_j = model.markers[model.joints[k].marker_j].body;
+        const std::size_t other = body_i == queue[next] ? body_j : body_i;
+        if (reached[other]) {
+          if (!found.closing_joint) found.closing_joint = k;
+          continue;
+        }
+        reached[other] = true;
+        queue.push_back(other);
+        found.order.push_back({other, queue[next], k});
+      }
+    queue.clear();
+  };
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (!is_driven(model.bodies[b])) continue;
+    reached[b] = true;
+    queue.push_back(b);
+  }
+  spread();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (reached[b]) continue;
+    reached[b] = true;
+    queue.push_back(b);
+    found.order.push_back({b, kNone, kNone});
+    spread();
+  }
+  return found;
+}
+
+struct InertiaOf {
+  std::optional<BodyInertia> operator()(const RigidBody& body) const { return BodyInertia(body); }
+  std::optional<BodyInertia> operator()(const DeformableBody& body) const {
+    return BodyInertia(body);
+  }
+  std::optional<BodyInertia> operator()(const DrivenBody&) const { return std::nullopt; }
+};
+
+double trace(const Vector6d& packed) { return packed[0] + packed[1] + packed[2]; }
+
+}  // namespace
+
+bool is_tree(const Model& model) { return !walk(model).closing_joint; }
+
+Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) {
+  const Walk walked = walk(model);
+  if (walked.closing_joint)
+    throw InputError("joint '" + model.joints[*walked.closing_joint].name +
+                     "' closes a loop of joints, which the recursive formulation does not treat; "
+                     "use the descriptor formulation");
+  std::vector<Carrier> carriers(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto* body = std::get_if<DrivenBody>(&model.bodies[b].kind);
+    if (body == nullptr) continue;
+    carriers[b].driven = driven.size();
+    driven.push_back({model.bodies[b].initial_pose, *body});
+  }
+  bodies.reserve(walked.order.size());
+  for (const Visit& visit : walked.order) {
+    const Body& body = model.bodies[visit.body];
+    TreeBody added{body.name,
+                   visit.body,
+                   *std::visit(InertiaOf{}, body.kind),
+                   {},
+                   visit.joint,
+                   true,
+                   {},
+                   {},
+                   {},
+                   position_count,
+                   velocity_count};
+    if (visit.joint != kNone) {
+      const Joint& joint = model.joints[visit.joint];
+      added.carrier = carriers[visit.carrier];
+      added.inner_is_i = model.markers[joint.marker_i].body == visit.carrier;
+      added.joint = TreeJoint(joint, added.inner_is_i);
+      const Marker& marker_i = model.markers[joint.marker_i];
+      const Marker& marker_j = model.markers[joint.marker_j];
+      added.inner = {model.bodies[visit.carrier], added.inner_is_i ? marker_i : marker_j};
+      added.outer = {body, added.inner_is_i ? marker_j : marker_i};
+      body_of_joint[visit.joint] = bodies.size();
+      size_m = std::max(size_m, added.outer.s0.norm());
+      if (added.carrier.body != kNone) size_m = std::max(size_m, added.inner.s0.norm());
+    } else {
+      const Index m = added.inertia.mode_count();
+      added.outer.psi.setZero(3, m);
+      added.outer.mu.setZero(3, m);
+    }
+    const Index m = added.inertia.mode_count();
+    position_count += added.joint.position_count() + m;
+    velocity_count += added.joint.velocity_count() + m;
+    size_m = std::max(size_m, std::sqrt(trace(added.inertia.J0) / (2 * added.inertia.mass)));
+    carriers[visit.body].body = bodies.size();
+    bodies.push_back(std::move(added));
+  }
+  for (const Marker& marker : model.markers)
+    markers.push_back({TreeNode(model.bodies[marker.body], marker), carriers[marker.body]});
+}
+
+std::vector<double> Tree::breakpoints(double end_s) const {
+  std::vector<double> times;
+  const auto add = [&](const TimeTable& table) {
+    for (const double time : table.times_s())
+      if (time > 0 && time < end_s) times.push_back(time);
+  };
+  for (const DrivenPath& path : driven) add(path.body.acceleration_m_s2);
+  for (const PointForce& force : model.forces) add(force.magnitude_N);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace flexneck::multibody::tree

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/driven_path.h"
+#include "multibody/model.h"
+#include "multibody/tree/body_inertia.h"
+#include "multibody/tree/tree_joint.h"
+#include "multibody/tree/tree_node.h"
+
+namespace flexneck::multibody::tree {
+
+inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// What carries a body, a marker or a node: a body of the tree, a driven one or the world.
+struct Carrier {
+  std::size_t body = kNone;    ///< in the tree's order, or
+  std::size_t driven = kNone;  ///< among the driven ones, or neither: the world
+};
+
+/// A body, and the joint through which it hangs on what is before it in the tree.
+struct TreeBody {
+  std::string name;
+  std::size_t index;  ///< among the model's bodies
+  BodyInertia inertia;
+  Carrier carrier;
+  std::size_t joint_index = kNone;  ///< among the model's joints; none if it floats
+  bool inner_is_i = true;           ///< the joint's marker i is the carrier's
+  TreeJoint joint;
+  TreeNode inner;         ///< F, on the carrier
+  TreeNode outer;         ///< M, on this body
+  Eigen::Index position;  ///< of the joint's coordinates, then the modes', in the positions
+  Eigen::Index velocity;  ///< of their rates in the velocities
+};
+
+struct TreeMarker {
+  TreeNode node;
+  Carrier carrier;
+};
+
+/// A model as trees of bodies in joint coordinates. Its state is y = [q; u; e]: for each body in
+/// the tree's order, inner ones first, its joint's coordinates (TreeJoint) and its modal ones, then
+/// their rates, then two quadratures: the energy that damping has dissipated and the work of forces
+/// and driven bodies.
+struct Tree {
+  static constexpr Eigen::Index kQuadratures = 2;
+
+  /// @param model  sound (see check()); must outlive this
+  /// @throws InputError naming the joint that closes a loop.
+  explicit Tree(const Model& model);
+
+  const Model& model;
+  std::vector<TreeBody> bodies;
+  std::vector<DrivenPath> driven;
+  std::vector<TreeMarker> markers;         ///< of the model
+  std::vector<std::size_t> body_of_joint;  ///< which hangs on the model's joint; kNone if free
+  Eigen::Index position_count = 0;
+  Eigen::Index velocity_count = 0;
+  double size_m = 0;  ///< largest distance in a body: from its origin to a joint, or its radius
+
+  Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
+  /// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
+  std::vector<double> breakpoints(double end_s) const;
+};
+
+/// Whether the joints of a model make trees.
+bool is_tree(const Model& model);
+
+}  // namespace flexneck::multibody::tree

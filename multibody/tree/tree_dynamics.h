@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/motion_state.h"
+#include "multibody/tree/tree.h"
+
+namespace flexneck::multibody::tree {
+
+/// The equations of motion of a tree in joint coordinates, equations.md section 7: articulated-body
+/// recursion with the modal coordinates of each body eliminated in the body. Work and memory grow
+/// with the number of bodies. Owns the workspace: after construction nothing is allocated. Call
+/// update, then solve.
+class TreeDynamics {
+ public:
+  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
+
+  /// @param tree  must outlive this
+  explicit TreeDynamics(const Tree& tree, Drive drive = Drive::prescribed);
+
+  /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
+  void set_interval(double begin_s, double end_s);
+  /// Positions and velocities of everything, inertia and loads.
+  void update(double time_s, const ConstVector& state);
+  /// Accelerations and joint reactions.
+  void solve();
+  /// Rate of the whole state (Tree::state_count()).
+  void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
+  /// Generalised forces besides the model's, (velocity_count); zero unless set.
+  Eigen::VectorXd& extra_forces() { return extra_forces_; }
+
+  const Tree& tree() const { return tree_; }
+  /// (velocity_count), after solve().
+  const Eigen::VectorXd& accelerations() const { return accelerations_; }
+  BodyState body_state(std::size_t body) const;
+  /// Accelerations only after solve().
+  MarkerState marker_state(std::size_t marker);
+  /// Of the model's joint, after solve().
+  Reaction joint_reaction(std::size_t joint) const;
+  /// Marker i's axes to the world.
+  Eigen::Matrix3d joint_axes(std::size_t joint) const;
+  const Eigen::VectorXd& modal(std::size_t body) const { return work_[body].a; }
+  Energies energies() const;
+  /// Potential energy of the forces as they are now, if they stayed.
+  double load_energy_J() const;
+  double dissipation_W() const;
+  /// After solve().
+  double work_W() const;
+  int evaluations() const { return evaluations_; }
+
+ private:
+  /// A frame's motion, vectors but x in its own axes; acc is less gravity.
+  struct Frame {
+    Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    Eigen::Vector3d v = Eigen::Vector3d::Zero();
+    Eigen::Vector3d w = Eigen::Vector3d::Zero();
+    Vector6d acceleration = Vector6d::Zero();  ///< acc above wdot
+  };
+  struct Work {
+    explicit Work(const TreeBody& body);
+    Frame frame;
+    Eigen::VectorXd a, a_rate, a_acceleration;
+    NodeMotion inner, outer;
+    JointMotion joint;
+    Eigen::Matrix3d R;  ///< body axes to the carrier's
+    Eigen::Vector3d d;  ///< F to M, carrier's axes
+    Matrix6d S;         ///< the joint's, body axes
+    Vector6d inner_bias, outer_bias, joint_bias;
+    InertiaTerms terms;  ///< articulated as the recursion comes inwards
+    Matrix6Xd coupling;  ///< (6, m): M_ra seen from M, then Y^T
+    Eigen::VectorXd z;   ///< L^-1 of the modal bias
+    Matrix6d inertia;    ///< at M, modes eliminated
+    Vector6d bias;
+    Matrix6d U;         ///< inertia S
+    Matrix6d D;         ///< factor of S^T U
+    Vector6d residual;  ///< tau - S^T bias
+    Vector6d reaction;  ///< force above moment at M on this body, body axes
+  };
+
+  double table_time(double time_s) const;
+  const Frame& frame_of(const Carrier& carrier) const;
+  void update_driven_bodies();
+  void update_body(const TreeBody& body, Work& work, const ConstVector& state);
+  void apply_forces();
+  void apply(const TreeMarker& marker, NodeMotion& node, const Eigen::Vector3d& force,
+             const Eigen::Vector3d& torque);
+  void eliminate_modes(const TreeBody& body, Work& work);
+  void eliminate_joint(const TreeBody& body, Work& work);
+  void pass_inwards(const TreeBody& body, Work& work);
+  void accelerate(const TreeBody& body, Work& work);
+
+  const Tree& tree_;
+  Drive drive_;
+  Eigen::Vector3d gravity_;
+  double interval_begin_s_;
+  double interval_end_s_;
+  double time_s_ = 0;
+  Frame world_;
+  std::vector<Frame> driven_;
+  std::vector<Work> work_;
+  std::vector<NodeMotion> marker_nodes_;
+  std::vector<double> force_values_;
+  Eigen::VectorXd extra_forces_, accelerations_;
+  int evaluations_ = 0;
+};
+
+}  // namespace flexneck::multibody::tree

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "multibody/model.h"
+
+namespace flexneck::multibody::tree {
+
+/// Where a marker sits on its body. A rigid or driven body's has no columns in psi and mu.
+struct TreeNode {
+  TreeNode() = default;
+  TreeNode(const Body& body, const Marker& marker);
+
+  Eigen::Vector3d s0 = Eigen::Vector3d::Zero();  ///< body axes
+  Eigen::Matrix3Xd psi{3, 0};
+  Eigen::Matrix3Xd mu{3, 0};
+  Eigen::Matrix3d R0 = Eigen::Matrix3d::Identity();  ///< marker axes to body axes, undeformed
+  bool moves = false;                                ///< with the modes
+};
+
+/// Its place and motion seen from the body, in body axes (equations.md section 7).
+struct NodeMotion {
+  explicit NodeMotion(const TreeNode& node);
+
+  Eigen::Vector3d s;    ///< position
+  Eigen::Matrix3d R;    ///< marker axes to body axes
+  Eigen::Matrix3Xd jm;  ///< (3, m): angular velocity against the body by the modal rates
+  Eigen::Vector3d s_dot = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();       ///< angular velocity against the body
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< of `turn`, while the rates stay
+};
+
+void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,
+            NodeMotion& motion);
+
+}  // namespace flexneck::multibody::tree

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is read off a tree once its equations are solved.
+#include "multibody/tree/tree_dynamics.h"
+
+namespace flexneck::multibody::tree {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+BodyState TreeDynamics::body_state(std::size_t body) const {
+  const Work& work = work_[body];
+  const Frame& frame = work.frame;
+  const Index m = work.a.size();
+  BodyState state{frame.x, frame.A, work.a, Eigen::VectorXd(6 + m), Eigen::VectorXd(6 + m)};
+  state.velocities << frame.A * frame.v, frame.w, work.a_rate;
+  state.accelerations << frame.A * frame.acceleration.head<3>() + gravity_,
+      frame.acceleration.tail<3>(), work.a_acceleration;
+  return state;
+}
+
+MarkerState TreeDynamics::marker_state(std::size_t index) {
+  const TreeMarker& marker = tree_.markers[index];
+  NodeMotion& node = marker_nodes_[index];
+  const Frame& frame = frame_of(marker.carrier);
+  MarkerState state;
+  Vector3d acceleration = frame.acceleration.head<3>() + frame.acceleration.tail<3>().cross(node.s);
+  if (marker.carrier.body != kNone) {
+    const Work& work = work_[marker.carrier.body];
+    tree::update(marker.node, work.a, work.a_rate, node);
+    acceleration = frame.acceleration.head<3>() + frame.acceleration.tail<3>().cross(node.s) +
+                   frame.w.cross(frame.w.cross(node.s) + 2 * node.s_dot);
+    if (marker.node.moves)
+      for (Index l = 0; l < work.a.size(); ++l)
+        acceleration += work.a_acceleration[l] * marker.node.psi.col(l);
+  }
+  state.position_m = frame.x + frame.A * node.s;
+  state.rotation = frame.A * node.R;
+  state.velocity_m_s = frame.A * (frame.v + frame.w.cross(node.s) + node.s_dot);
+  state.angular_velocity_rad_s = frame.A * (frame.w + node.turn);
+  state.acceleration_m_s2 = frame.A * acceleration + gravity_;
+  return state;
+}
+
+Reaction TreeDynamics::joint_reaction(std::size_t joint) const {
+  const std::size_t b = tree_.body_of_joint[joint];
+  if (b == kNone) return {Vector3d::Zero(), Vector3d::Zero()};
+  const Work& work = work_[b];
+  const Vector3d force = work.frame.A * work.reaction.head<3>();
+  const Vector3d moment = work.frame.A * work.reaction.tail<3>();
+  if (tree_.bodies[b].inner_is_i) return {force, moment};
+  // Marker j is the inner one: what is known at M acts on i, and counts about F.
+  const Vector3d arm = frame_of(tree_.bodies[b].carrier).A * work.d;
+  return {-force, -(moment + arm.cross(force))};
+}
+
+Matrix3d TreeDynamics::joint_axes(std::size_t joint) const {
+  const std::size_t b = tree_.body_of_joint[joint];
+  if (b == kNone) return Matrix3d::Identity();
+  const Work& work = work_[b];
+  return tree_.bodies[b].inner_is_i ? frame_of(tree_.bodies[b].carrier).A * work.inner.R
+                                    : work.frame.A * work.outer.R;
+}
+
+Energies TreeDynamics::energies() const {
+  Energies sum;
+  for (std::size_t b = 0; b < work_.size(); ++b) {
+    const BodyInertia& body = tree_.bodies[b].inertia;
+    const Work& work = work_[b];
+    const Frame& frame = work.frame;
+    Vector3d S = body.S1;
+    for (Index l = 0; l < work.a.size(); ++l) {
+      S += work.a[l] * body.S2.col(l);
+      sum.strain_J += 0.5 * body.stiffness[l] * work.a[l] * work.a[l];
+    }
+    sum.kinetic_J += kinetic_energy_J(body, work.a, work.a_rate, frame.v, frame.w);
+    sum.gravitational_J -= gravity_.dot(body.mass * frame.x + frame.A * S);
+  }
+  return sum;
+}
+
+double TreeDynamics::load_energy_J() const {
+  double energy = 0;
+  for (std::size_t k = 0; k < force_values_.size(); ++k) {
+    const PointForce& force = tree_.model.forces[k];
+    const Frame& frame = frame_of(tree_.markers[force.marker].carrier);
+    const Vector3d place = frame.x + frame.A * marker_nodes_[force.marker].s;
+    energy -= force_values_[k] * force.direction.dot(place);
+  }
+  return energy;
+}
+
+double TreeDynamics::dissipation_W() const {
+  double power = 0;
+  for (std::size_t b = 0; b < work_.size(); ++b) {
+    const Eigen::VectorXd& damping = tree_.bodies[b].inertia.damping;
+    const Eigen::VectorXd& rate = work_[b].a_rate;
+    for (Index l = 0; l < rate.size(); ++l) power += damping[l] * rate[l] * rate[l];
+  }
+  return power;
+}
+
+double TreeDynamics::work_W() const {
+  double power = 0;
+  for (std::size_t k = 0; k < force_values_.size(); ++k) {
+    const PointForce& force = tree_.model.forces[k];
+    const TreeMarker& marker = tree_.markers[force.marker];
+    if (marker.carrier.body == kNone) continue;
+    const Frame& frame = work_[marker.carrier.body].frame;
+    const NodeMotion& node = marker_nodes_[force.marker];
+    power += force_values_[k] *
+             force.direction.dot(frame.A * (frame.v + frame.w.cross(node.s) + node.s_dot));
+  }
+  // A driven body only translates: through a joint it does the force's work.
+  for (std::size_t b = 0; b < work_.size(); ++b) {
+    const Carrier& carrier = tree_.bodies[b].carrier;
+    if (carrier.driven == kNone) continue;
+    const Frame& driven = driven_[carrier.driven];
+    power += (work_[b].frame.A * work_[b].reaction.head<3>()).dot(driven.A * driven.v);
+  }
+  return power;
+}
+
+}  // namespace flexneck::multibody::tree

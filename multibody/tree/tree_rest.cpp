@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/tree/tree_rest.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace flexneck::multibody::tree {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Extent of the displacements that differences are taken over: their error, of second order in it,
+/// and rounding are then both about 1e-11 of the result.
+constexpr double kDifference = 1e-5;
+
+}  // namespace
+
+TreeRest::TreeRest(TreeDynamics& dynamics, const VectorXd& state)
+    : dynamics_(dynamics), state_(state) {
+  update_basis();
+}
+
+void TreeRest::update_basis() {
+  // Column i of M^-1 is what a unit force in i adds to the accelerations.
+  const Index n = dynamics_.tree().velocity_count;
+  MatrixXd inverse(n, n);
+  const auto accelerations = [&]() -> const VectorXd& {
+    dynamics_.update(0, state_);
+    dynamics_.solve();
+    return dynamics_.accelerations();
+  };
+  const VectorXd unforced = accelerations();
+  for (Index i = 0; i < n; ++i) {
+    dynamics_.extra_forces()[i] = 1;
+    inverse.col(i) = accelerations() - unforced;
+    dynamics_.extra_forces()[i] = 0;
+  }
+  N_ = Eigen::LLT<MatrixXd>((inverse + inverse.transpose()) / 2).matrixL();
+}
+
+double TreeRest::extent(const VectorXd& xi) const {
+  const Tree& tree = dynamics_.tree();
+  const VectorXd change = N_ * xi;
+  double extent = 0;
+  for (const TreeBody& body : tree.bodies) {
+    const Index nu = body.joint.velocity_count();
+    const Index m = body.inertia.mode_count();
+    // Distances in m count as if the system were a metre long: only an order of magnitude matters.
+    extent = std::max({extent, change.segment(body.velocity, nu).norm(),
+                       change.segment(body.velocity + nu, m).norm() /
+                           (std::sqrt(body.inertia.mass) * tree.size_m)});
+  }
+  return extent;
+}
+
+VectorXd TreeRest::state_at(const VectorXd& xi) const {
+  const VectorXd change = N_ * xi;
+  VectorXd state = state_;
+  for (const TreeBody& body : dynamics_.tree().bodies) {
+    const Index nq = body.joint.position_count();
+    const Index nu = body.joint.velocity_count();
+    const Index m = body.inertia.mode_count();
+    retract(body.joint, change.segment(body.velocity, nu), state.segment(body.position, nq));
+    state.segment(body.position + nq, m) += change.segment(body.velocity + nu, m);
+  }
+  return state;
+}
+
+VectorXd TreeRest::forces_at(const VectorXd& xi) {
+  dynamics_.update(0, state_at(xi));
+  dynamics_.solve();
+  return N_.triangularView<Eigen::Lower>().solve(dynamics_.accelerations());
+}
+
+double TreeRest::energy() const {
+  const Energies stored = dynamics_.energies();
+  return stored.gravitational_J + stored.strain_J + dynamics_.load_energy_J();
+}
+
+MatrixXd TreeRest::stiffness() {
+  MatrixXd result(count(), count());
+  for (Index i = 0; i < count(); ++i) {
+    VectorXd xi = VectorXd::Unit(count(), i);
+    const double step = kDifference / extent(xi);
+    xi *= step;
+    result.col(i) = (forces_at(-xi) - forces_at(xi)) / (2 * step);
+  }
+  return result;
+}
+
+void TreeRest::move_to(const VectorXd& xi) {
+  state_ = state_at(xi);
+  update_basis();
+}
+
+}  // namespace flexneck::multibody::tree
