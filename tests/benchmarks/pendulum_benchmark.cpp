@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Times the first 0.25 s of a pendulum run. README.md says what is compared.
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <vector>
 
 #include "multibody/simulation.h"
+#include "tests/benchmarks/timing.h"
 #include "tests/support/test_models.h"
 
 namespace {
@@ -53,32 +51,15 @@ Model rigid_neck() {
   return model;
 }
 
-struct Timing {
-  double median_ms;
-  double fastest_ms;
+void report(const char* name, const Model& model, Formulation formulation, int runs) {
+  SolverOptions solver = kSolver;
+  solver.formulation = formulation;
   StepStatistics steps;
-};
-
-Timing measure(const Model& model, int runs) {
-  Timing timing{};
-  std::vector<double> times_ms;
-  for (int run = 0; run < runs; ++run) {
-    const auto start = std::chrono::steady_clock::now();
-    timing.steps = simulate_from_equilibrium(model, kSolver, kOutput).statistics;
-    const std::chrono::duration<double, std::milli> spent =
-        std::chrono::steady_clock::now() - start;
-    times_ms.push_back(spent.count());
-  }
-  std::sort(times_ms.begin(), times_ms.end());
-  timing.median_ms = times_ms[times_ms.size() / 2];
-  timing.fastest_ms = times_ms.front();
-  return timing;
-}
-
-void print(const char* name, const Timing& timing) {
-  std::printf("%-14s %8.3f ms %8.3f ms %7d steps %3d rejected %7d right-hand sides\n", name,
-              timing.median_ms, timing.fastest_ms, timing.steps.accepted, timing.steps.rejected,
-              timing.steps.evaluations);
+  const flexneck::benchmarks::Timing timing = flexneck::benchmarks::measure(
+      runs, [&] { steps = simulate_from_equilibrium(model, solver, kOutput).statistics; });
+  std::printf("%-24s %8.3f ms %8.3f ms %7d steps %3d rejected %7d right-hand sides\n", name,
+              timing.median_ms, timing.fastest_ms, steps.accepted, steps.rejected,
+              steps.evaluations);
 }
 
 }  // namespace
@@ -89,11 +70,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: %s [RUNS]\n", argv[0]);
     return 2;
   }
-  const Timing flexible = measure(flexible_neck(), runs);
-  const Timing rigid = measure(rigid_neck(), runs);
   std::printf("pendulum, 0.25 s, relative tolerance 1e-6, %d runs: median, fastest\n", runs);
-  print("4 modes", flexible);
-  print("rigid neck", rigid);
-  std::printf("ratio of the medians %.2f\n", flexible.median_ms / rigid.median_ms);
+  report("4 modes, descriptor", flexible_neck(), Formulation::descriptor, runs);
+  report("4 modes, recursive", flexible_neck(), Formulation::recursive, runs);
+  report("rigid neck, descriptor", rigid_neck(), Formulation::descriptor, runs);
+  report("rigid neck, recursive", rigid_neck(), Formulation::recursive, runs);
   return 0;
 }
