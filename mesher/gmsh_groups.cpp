@@ -135,6 +135,12 @@ void require_one_part_per_volume(const std::vector<GmshGroup>& volumes) {
   }
 }
 
+int gmsh_type_of(ElementKind kind) {
+  return std::find_if(kKindOfType.begin(), kKindOfType.end(),
+                      [&](const auto& row) { return row.second == kind; })
+      ->first;
+}
+
 GroupElements elements_of(const GmshGroup& group) {
   GroupElements elements;
   std::map<int, std::size_t> unknown;

@@ -9,6 +9,8 @@
 #include <set>
 #include <span>
 
+#include <Eigen/LU>
+
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/shape_functions.h"

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/inp_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <span>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "mesher/exchange/abaqus_elements.h"
+#include "mesher/exchange/edge_order.h"
+#include "mesher/exchange/inp_cards.h"
+#include "mesher/exchange/output_file.h"
+
+namespace flexneck::mesher {
+namespace {
+
+constexpr int kNumberWidth = 20;  ///< CalculiX cuts numbers off behind this
+constexpr std::size_t kFieldsPerLine = 16;
+
+std::string number(double value) { return text_within(value, kNumberWidth); }
+
+void check_inp_names(const std::vector<std::string>& names, const std::string& kind) {
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    const bool is_plain = std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+                          name.size() <= 80 &&
+                          std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                            return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+                          });
+    if (!is_plain) {
+      throw InputError("an .inp cannot hold the " + kind + " '" + name +
+                       "': expected letters, digits, _, - and ., a letter first, at most 80");
+    }
+    if (!seen.insert(upper_case(name)).second) {
+      throw InputError("an .inp cannot tell the " + kind + " '" + name +
+                       "' from another that differs in case only");
+    }
+  }
+}
+
+std::vector<std::string> parts_of(const Mesh& mesh) {
+  std::vector<std::string> parts;
+  for (const ElementBlock& block : mesh.blocks) {
+    if (std::find(parts.begin(), parts.end(), block.part) == parts.end()) {
+      parts.push_back(block.part);
+    }
+  }
+  return parts;
+}
+
+/// Whole numbers, sixteen a line; a comma at the end says that there are more.
+void write_list(OutputFile& out, std::span<const std::int64_t> values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += std::to_string(values[i]);
+    const bool is_last = i + 1 == values.size();
+    if (!is_last) text += ",";
+    if (is_last || (i + 1) % kFieldsPerLine == 0) text += "\n";
+  }
+  out.write(text);
+}
+
+void write_nodes(OutputFile& out, const Mesh& mesh) {
+  out.write("*NODE\n");
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    const auto& x = mesh.nodes[n];
+    out.write(std::to_string(n + 1) + "," + number(x[0]) + "," + number(x[1]) + "," + number(x[2]) +
+              "\n");
+  }
+}
+
+void write_elements(OutputFile& out, const Mesh& mesh, bool is_reduced) {
+  std::int64_t next = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    out.write("*ELEMENT,TYPE=" + abaqus_type_of(block.kind, is_reduced) + ",ELSET=" + block.part +
+              "\n");
+    const std::vector<std::size_t> order = edge_order(block.kind);
+    for (std::size_t first = 0; first < block.nodes.size(); first += order.size()) {
+      std::vector<std::int64_t> row = {++next};
+      for (const std::size_t local : order) row.push_back(block.nodes[first + local] + 1);
+      write_list(out, row);
+    }
+  }
+}
+
+void write_node_sets(OutputFile& out, const Mesh& mesh) {
+  for (const NodeSet& set : mesh.node_sets) {
+    out.write("*NSET,NSET=" + set.name + "\n");
+    std::vector<std::int64_t> numbers;
+    for (const std::int32_t node : set.nodes) numbers.push_back(node + 1);
+    write_list(out, numbers);
+  }
+}
+
+/// "<element>,S<n>" of the first element with a side on these nodes, by the sorted nodes.
+using SideNames = std::map<std::vector<std::int32_t>, std::string>;
+
+SideNames side_names(const Mesh& mesh) {
+  SideNames names;
+  std::size_t next = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    const std::size_t n = nodes_per_element(block.kind);
+    const auto sides = abaqus_sides(block.kind);
+    for (std::size_t first = 0; first < block.nodes.size(); first += n) {
+      ++next;
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        std::vector<std::int32_t> corners;
+        for (const std::size_t local : sides[s]) corners.push_back(block.nodes[first + local]);
+        std::sort(corners.begin(), corners.end());
+        names.emplace(std::move(corners),
+                      std::to_string(next) + ",S" + std::to_string(s + 1) + "\n");
+      }
+    }
+  }
+  return names;
+}
+
+void write_surfaces(OutputFile& out, const Mesh& mesh) {
+  if (mesh.face_sets.empty()) return;
+  const SideNames names = side_names(mesh);
+  for (const FaceSet& set : mesh.face_sets) {
+    out.write("*SURFACE,NAME=" + set.name + ",TYPE=ELEMENT\n");
+    for (const FaceBlock& block : set.blocks) {
+      const std::size_t n = nodes_per_element(block.kind);
+      const auto corner_count = static_cast<std::ptrdiff_t>(corners_per_element(block.kind));
+      for (std::size_t first = 0; first < block.nodes.size(); first += n) {
+        const auto begin = block.nodes.begin() + static_cast<std::ptrdiff_t>(first);
+        std::vector<std::int32_t> corners(begin, begin + corner_count);
+        std::sort(corners.begin(), corners.end());
+        const auto found = names.find(corners);
+        if (found == names.end()) {
+          throw InputError("a face of set '" + set.name + "' bounds no element");
+        }
+        out.write(found->second);
+      }
+    }
+  }
+}
+
+void write_materials(OutputFile& out, const Mesh& mesh) {
+  for (const Material& material : mesh.materials) {
+    out.write("*MATERIAL,NAME=" + material.name + "\n*ELASTIC\n" +
+              number(material.youngs_modulus_Pa) + "," + number(material.poissons_ratio) +
+              "\n*DENSITY\n" + number(material.density_kg_m3) + "\n");
+  }
+  for (const std::string& part : parts_of(mesh)) {
+    const auto block = std::find_if(mesh.blocks.begin(), mesh.blocks.end(),
+                                    [&](const ElementBlock& each) { return each.part == part; });
+    out.write("*SOLID SECTION,ELSET=" + part + ",MATERIAL=" + mesh.materials[block->material].name +
+              "\n");
+  }
+}
+
+/// The upper node of a pair follows the lower one, unless both are held anyway.
+void write_ties(OutputFile& out, const Mesh& mesh, const std::set<std::int32_t>& held) {
+  for (const Slit& slit : mesh.slits) {
+    if (!slit.tied) continue;
+    for (std::size_t p = 0; p < slit.lower.size(); ++p) {
+      if (held.count(slit.upper[p]) > 0) continue;
+      const std::string upper = std::to_string(slit.upper[p] + 1);
+      const std::string lower = std::to_string(slit.lower[p] + 1);
+      for (const std::string direction : {"1", "2", "3"}) {
+        out.write("*EQUATION\n2\n" + upper + "," + direction + ",1.," + lower + "," + direction +
+                  ",-1.\n");
+      }
+    }
+  }
+}
+
+std::set<std::int32_t> held_nodes(const Mesh& mesh, const std::vector<std::string>& held) {
+  std::set<std::int32_t> nodes;
+  for (const std::string& name : held) {
+    const std::vector<std::int32_t>& set = mesh.node_set(name).nodes;
+    nodes.insert(set.begin(), set.end());
+  }
+  return nodes;
+}
+
+}  // namespace
+
+void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOptions& options) {
+  check_inp_names(parts_of(mesh), "part");
+  check_inp_names(names_of(mesh.node_sets), "node set");
+  check_inp_names(names_of(mesh.face_sets), "face set");
+  check_inp_names(names_of(mesh.materials), "material");
+  for (const ElementBlock& block : mesh.blocks) {
+    static_cast<void>(abaqus_type_of(block.kind, options.is_reduced));
+  }
+  const std::set<std::int32_t> held = held_nodes(mesh, options.held);
+
+  OutputFile out(file);
+  out.write("*HEADING\nflexneck: lengths in m, forces in N, stresses in Pa, densities in kg/m^3\n");
+  write_nodes(out, mesh);
+  write_elements(out, mesh, options.is_reduced);
+  write_node_sets(out, mesh);
+  write_surfaces(out, mesh);
+  write_materials(out, mesh);
+  write_ties(out, mesh, held);
+  if (!options.held.empty()) out.write("*BOUNDARY\n");
+  for (const std::string& name : options.held) out.write(name + ",1,3\n");
+  out.write("*STEP\n*FREQUENCY\n" + std::to_string(options.mode_count) + "\n*END STEP\n");
+  out.commit();
+}
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::mesher {
+
+struct InpOptions {
+  bool is_reduced = false;        ///< C3D20R, C3D8R instead of C3D20, C3D8
+  std::vector<std::string> held;  ///< node sets for *BOUNDARY
+  int mode_count = 10;            ///< of *FREQUENCY
+};
+
+/// Writes a deck in SI units that CalculiX solves for the modes and Abaqus reads: *NODE, *ELEMENT
+/// by part, *NSET, *SURFACE, *MATERIAL, *SOLID SECTION, *BOUNDARY and a step with *FREQUENCY; the
+/// node pairs of tied slits as *EQUATION. Numbers have at most 20 characters, which is all that
+/// CalculiX reads: 13 digits at least.
+/// @throws InputError if the file cannot be written, an element kind has no type there (hex27,
+/// prism18), or a name is none there: letters, digits, "_", "-" and ".", a letter first, different
+/// in capitals.
+void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOptions& options);
+
+}  // namespace flexneck::mesher
