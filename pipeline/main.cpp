@@ -23,6 +23,7 @@ struct Arguments {
   std::vector<std::string> settings;
   bool quiet = false;
   bool verbose = false;
+  bool show = false;
 
   Verbosity verbosity() const {
     return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
@@ -38,6 +39,17 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.settings, "Use another value, e.g. modes.count=12")
       ->option_text("KEY=VALUE ...")
       ->allow_extra_args(false);
+  app.add_option_function<std::string>(
+         "--preset",
+         [&](const std::string& name) { arguments.settings.push_back("mesh.preset=" + name); },
+         "Mesh divisions: default or paper; as --set mesh.preset=NAME")
+      ->option_text("NAME");
+  app.add_option_function<std::string>(
+         "--refine",
+         [&](const std::string& cuts) { arguments.settings.push_back("mesh.refine=" + cuts); },
+         "Cut every element in N + 1 in each direction; as --set mesh.refine=N")
+      ->option_text("N");
+  app.add_flag("--show", arguments.show, "With mesh: print dimensions and a section, mesh nothing");
   CLI::Option* const quiet = app.add_flag("-q,--quiet", arguments.quiet, "Print errors only");
   app.add_flag("-v,--verbose", arguments.verbose, "Print what each stage does")->excludes(quiet);
   std::string footer = "Commands:\n";
@@ -54,11 +66,15 @@ bool execute(const Arguments& arguments, const Console& console) {
   const std::vector<Command>& list = commands();
   const std::size_t which =
       flexneck::find_name(flexneck::names_of(list), arguments.command, "command");
+  if (arguments.show && arguments.command != "mesh") {
+    throw flexneck::InputError("--show belongs to the command mesh, found with '" +
+                               arguments.command + "'");
+  }
   const Study study = read_study(
       arguments.study.empty() ? built_in_study() : std::filesystem::path(arguments.study),
       arguments.settings);
   const ResultsFolder folder(arguments.folder);
-  return list[which].run({study, folder, console});
+  return (arguments.show ? show_command : list[which].run)({study, folder, console});
 }
 
 int exit_code_of(const Arguments& arguments) {

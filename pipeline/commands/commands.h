@@ -29,6 +29,8 @@ const std::vector<Command>& commands();
 
 bool run_command(const CommandInput& input);
 bool mesh_command(const CommandInput& input);
+/// Of `mesh --show`: the neck's dimensions, what follows from them, and a drawing; meshes nothing.
+bool show_command(const CommandInput& input);
 bool modes_command(const CommandInput& input);
 bool static_command(const CommandInput& input);
 bool pendulum_command(const CommandInput& input);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/plausibility.h"
 #include "mesher/mesh/mesh_file.h"
+#include "mesher/mesh/mesh_summary.h"
 #include "mesher/script_mesher.h"
 #include "pipeline/commands/commands.h"
 
@@ -16,6 +20,11 @@ mesher::ScriptMeshOptions mesh_options(const GeometrySection& geometry) {
   options.constants = geometry::script_constants(geometry.neck, geometry.divisions);
   options.materials = geometry.materials;
   options.material_of_part = geometry.material_of_part;
+  options.constants.merge(geometry::script_constants(geometry.slits));
+  if (geometry.element == mesher::ElementKind::tet10) options.constants["recombine"] = 0;
+  options.element = geometry.element;
+  options.slits = geometry::slit_face_sets(geometry.slits);
+  options.slits_tied = geometry.slits.state == geometry::SlitState::closed;
   const auto centres = geometry::bolt_centres(geometry.neck);
   options.patches = {
       {"bolts", "base", {centres.begin(), centres.end()}, geometry.neck.bolt_patch_radius}};
@@ -23,6 +32,14 @@ mesher::ScriptMeshOptions mesh_options(const GeometrySection& geometry) {
 }
 
 }  // namespace
+void warn_if_implausible(const geometry::NeckParameters& neck, double mass_kg,
+                         const Console& console) {
+  const double extent_m = std::max(neck.length, neck.plate_diameter);
+  for (const std::string& remark : geometry::implausibilities(extent_m, mass_kg)) {
+    console.step("Warning: " + remark);
+  }
+}
+
 
 bool mesh_command(const CommandInput& input) {
   if (!input.study.geometry) {
@@ -40,6 +57,7 @@ bool mesh_command(const CommandInput& input) {
   mesher::write_mesh(input.folder.mesh(), file);
 
   std::size_t elements = 0;
+  warn_if_implausible(geometry.neck, mesher::summarise(file.mesh).mass_kg, input.console);
   for (const mesher::ElementBlock& block : file.mesh.blocks) elements += block.size();
   input.console.result(fmt::format("\nMesh: {} elements, {} nodes  ({})", elements,
                                    file.mesh.nodes.size(), input.folder.mesh().string()));

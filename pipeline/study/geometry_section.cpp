@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+
+#include "geometry/foundation/error.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
@@ -6,23 +9,36 @@ namespace flexneck::pipeline {
 namespace {
 
 geometry::NeckParameters read_neck(const StudyTable& table) {
-  const auto length = [&](const std::string& key) { return table.quantity(key, "m"); };
   geometry::NeckParameters neck;
-  neck.length = length("length");
-  neck.base_plate_thickness = length("base_plate_thickness");
-  neck.plate_thickness = length("plate_thickness");
-  neck.top_plate_thickness = length("top_plate_thickness");
-  neck.plate_diameter = length("plate_diameter");
-  neck.hole_diameter = length("hole_diameter");
-  neck.centre_rubber_diameter = length("centre_rubber_diameter");
-  neck.centre_rubber_offset = length("centre_rubber_offset");
-  neck.bottom_rubber_diameter = length("bottom_rubber_diameter");
-  neck.bottom_rubber_offset = length("bottom_rubber_offset");
-  neck.top_rubber_diameter = length("top_rubber_diameter");
-  neck.top_rubber_offset = length("top_rubber_offset");
-  neck.bolt_circle_radius = length("bolt_circle_radius");
-  neck.bolt_patch_radius = length("bolt_patch_radius");
+  for (const geometry::NeckDimension& dimension : geometry::neck_dimensions()) {
+    neck.*dimension.member = table.quantity(dimension.name, "m");
+  }
   return neck;
+}
+
+geometry::NeckSlits read_slits(const StudyTable& table) {
+  using geometry::SlitState;
+  geometry::NeckSlits slits;
+  if (table.has("slits")) {
+    constexpr std::array kStates = {SlitState::none, SlitState::closed, SlitState::open};
+    slits.state = kStates.at(choice(table, "slits", {"none", "closed", "open"}));
+  }
+  if (table.has("slit_parts")) slits.parts = table.texts("slit_parts");
+  if (table.has("slit_edge") && choice(table, "slit_edge", {"ring", "chord"}) == 1) {
+    table.refuse("slit_edge",
+                 "the neck's O-grid has rings and spokes but no straight chord that a slit could "
+                 "end on; take \"ring\", or a script of your own that draws one");
+  }
+  if (table.has("slit_depth")) slits.depth = table.number("slit_depth");
+  return slits;
+}
+
+mesher::ElementKind read_element(const StudyTable& table) {
+  using mesher::ElementKind;
+  if (!table.has("element")) return ElementKind::hex27;
+  constexpr std::array kKinds = {ElementKind::hex27, ElementKind::hex20, ElementKind::hex8,
+                                 ElementKind::tet10};
+  return kKinds.at(choice(table, "element", {"hex27", "hex20", "hex8", "tet10"}));
 }
 
 void read_materials(const StudyTable& table, GeometrySection& section) {
@@ -43,6 +59,13 @@ void read_materials(const StudyTable& table, GeometrySection& section) {
 
 geometry::NeckDivisions read_divisions(const StudyTable& table) {
   geometry::NeckDivisions divisions;
+  if (table.has("preset")) {
+    try {
+      divisions = geometry::divisions_preset(table.text("preset"));
+    } catch (const InputError& error) {
+      table.refuse("preset", error.what());
+    }
+  }
   const auto take = [&](const std::string& key, int& value) {
     value = table.count_or(key, 1, value);
   };
@@ -54,6 +77,7 @@ geometry::NeckDivisions read_divisions(const StudyTable& table) {
   take("end_plate_layers", divisions.end_plate_layers);
   divisions.ring_grading = table.number_or("ring_grading", divisions.ring_grading);
   divisions.rubber_grading = table.number_or("rubber_grading", divisions.rubber_grading);
+  divisions.refine = table.count_or("refine", 0, divisions.refine);
   return divisions;
 }
 
@@ -63,12 +87,14 @@ GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh
   GeometrySection section;
   section.script = geometry.folder_of("script") / geometry.text("script");
   section.neck = read_neck(geometry);
+  section.slits = read_slits(geometry);
   const std::vector<double> point = geometry.quantities("joint_point", "m", 3);
   section.joint_point_m = Eigen::Map<const Eigen::Vector3d>(point.data());
   if (geometry.has("fitted_to")) section.fitted_to = geometry.texts("fitted_to");
   read_materials(geometry, section);
   geometry.finish();
   section.divisions = read_divisions(mesh);
+  section.element = read_element(mesh);
   mesh.finish();
   return section;
 }

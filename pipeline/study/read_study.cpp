@@ -99,6 +99,7 @@ void check_references(const Study& study) {
     for (const std::string& force : experiment.forces) {
       require(who, names_of(study.forces), force, "force");
     }
+    geometry::check(study.geometry->slits, study.geometry->divisions);
   }
   if (!study.modes.attached_body.empty()) {
     require("modes.attached_body", bodies, study.modes.attached_body, "body");

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "geometry/foundation/provenance.h"
-#include "geometry/neck_parameters.h"
+#include "geometry/neck_slits.h"
 #include "mesher/mesh/mesh.h"
 #include "multibody/model.h"
 #include "multibody/simulation.h"
@@ -24,6 +24,8 @@ struct GeometrySection {
   geometry::NeckDivisions divisions;
   std::vector<mesher::Material> materials;
   std::map<std::string, std::string> material_of_part;
+  geometry::NeckSlits slits;
+  mesher::ElementKind element = mesher::ElementKind::hex27;
   Eigen::Vector3d joint_point_m = Eigen::Vector3d::Zero();
   std::vector<std::string> fitted_to;  ///< published figures that the dimensions were fitted to
 };
