@@ -2,110 +2,111 @@
 #include "fe_modal/assembly.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <memory>
+#include <numeric>
+#include <string>
 #include <vector>
 
-#include "fe_modal/node_graph.h"
+#include "fe_modal/element_kernel.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kAssembling = "assembling the system matrices";
+/// An element's nodes by rising number, so that each row of a matrix is walked once.
+class SortedNodes {
+ public:
+  struct Node {
+    std::int32_t number;  ///< in the matrix; negative: it has no row
+    Eigen::Index local;
+  };
 
-/// Zero symmetric matrix with room for exactly the upper half of what couples free nodes.
-/// @param each_direction_alone directions do not couple, as in the mass
-MatHandle make_matrix(const NodeGraph& graph, const FreeNodes& free_nodes,
-                      bool each_direction_alone) {
-  std::vector<PetscInt> row_counts;
-  row_counts.reserve(static_cast<std::size_t>(free_nodes.dof_count()));
-  for (std::int32_t node = 0; node < graph.node_count(); ++node) {
-    const std::int32_t index = free_nodes.index(node);
-    if (index < 0) continue;
-    const auto neighbours = graph.neighbours(node);
-    const auto later = static_cast<PetscInt>(
-        std::count_if(neighbours.begin(), neighbours.end(),
-                      [&](std::int32_t other) { return free_nodes.index(other) > index; }));
-    for (PetscInt a = 0; a < 3; ++a) {
-      row_counts.push_back(each_direction_alone ? later + 1 : 3 * later + 3 - a);
+  template <typename Numbering>
+  void assign(std::span<const std::int32_t> nodes, const Numbering& number) {
+    sorted_.clear();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::int32_t row = number(nodes[i]);
+      if (row >= 0) sorted_.push_back({row, static_cast<Eigen::Index>(i)});
+    }
+    std::sort(sorted_.begin(), sorted_.end(),
+              [](const Node& one, const Node& other) { return one.number < other.number; });
+  }
+
+  std::span<const Node> all() const { return sorted_; }
+  std::span<const Node> from(std::size_t k) const { return std::span(sorted_).subspan(k); }
+  std::size_t size() const { return sorted_.size(); }
+
+ private:
+  std::vector<Node> sorted_;
+};
+
+/// Adds an element's stiffness, (3n, 3n) with degree of freedom a n + i.
+void add_stiffness(const SortedNodes& nodes, const Eigen::MatrixXd& element,
+                   SymmetricMatrix& stiffness) {
+  const Eigen::Index n = element.rows() / 3;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const auto [row, i] = nodes.all()[k];
+    const auto later = stiffness.later(row);
+    auto place = later.begin();
+    for (const auto& [column, j] : nodes.from(k)) {
+      if (column == row) {
+        // Itself, or a node that is tied to it, whose coupling comes from both sides.
+        for (int a = 0; a < 3; ++a) {
+          for (int b = a; b < 3; ++b) {
+            double& entry = stiffness.entry(row, a, -1, b);
+            entry += element(a * n + i, b * n + j);
+            if (i != j) entry += element(a * n + j, b * n + i);
+          }
+        }
+        continue;
+      }
+      place = std::lower_bound(place, later.end(), column);
+      for (int a = 0; a < 3; ++a) {
+        double* entries = &stiffness.entry(row, a, place - later.begin(), 0);
+        for (int b = 0; b < 3; ++b) entries[b] += element(b * n + j, a * n + i);
+      }
     }
   }
-  const auto size = static_cast<PetscInt>(free_nodes.dof_count());
-  MatHandle matrix;
-  require(MatCreateSeqSBAIJ(PETSC_COMM_SELF, 1, size, size, 0, row_counts.data(), matrix.out()),
-          kAssembling);
-  require(MatSetOption(matrix.get(), MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE), kAssembling);
-  require(MatSetOption(matrix.get(), MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE), kAssembling);
-  require(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE), kAssembling);
-  return matrix;
 }
 
-void finish(const MatHandle& matrix) {
-  require(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY), kAssembling);
-  require(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY), kAssembling);
-}
-
-NodalMass zero_mass(const NodeGraph& graph) {
-  const auto n = static_cast<Eigen::Index>(graph.node_count());
-  const std::vector<double> zeros(graph.columns().size(), 0.0);
-  return Eigen::Map<const NodalMass>(n, n, static_cast<Eigen::Index>(zeros.size()),
-                                     graph.offsets().data(), graph.columns().data(), zeros.data());
-}
-
-/// The nodal mass in each of the three directions, between free nodes.
-MatHandle expand_mass(const NodalMass& nodal_mass, const NodeGraph& graph,
-                      const FreeNodes& free_nodes) {
-  MatHandle mass = make_matrix(graph, free_nodes, true);
-  std::vector<PetscInt> columns;
-  std::vector<PetscScalar> values;
-  for (std::int32_t node = 0; node < graph.node_count(); ++node) {
-    if (free_nodes.index(node) < 0) continue;
-    columns.clear();
-    values.clear();
-    for (NodalMass::InnerIterator entry(nodal_mass, node); entry; ++entry) {
-      const std::int32_t column = free_nodes.index(static_cast<std::int32_t>(entry.col()));
-      if (column < 0) continue;
-      columns.push_back(3 * column);
-      values.push_back(entry.value());
-    }
-    for (PetscInt a = 0; a < 3; ++a) {
-      const PetscInt row = 3 * free_nodes.index(node) + a;
-      require(MatSetValues(mass.get(), 1, &row, static_cast<PetscInt>(columns.size()),
-                           columns.data(), values.data(), INSERT_VALUES),
-              kAssembling);
-      for (PetscInt& column : columns) ++column;
+/// Adds an element's mass, (n, n).
+void add_mass(const SortedNodes& nodes, const Eigen::MatrixXd& element, NodalMass& mass) {
+  for (const auto& [row, i] : nodes.all()) {
+    const std::int32_t* first = mass.innerIndexPtr() + mass.outerIndexPtr()[row];
+    const std::int32_t* last = mass.innerIndexPtr() + mass.outerIndexPtr()[row + 1];
+    const std::int32_t* place = first;
+    for (const auto& [column, j] : nodes.all()) {
+      place = std::lower_bound(place, last, column);
+      mass.valuePtr()[mass.outerIndexPtr()[row] + (place - first)] += element(j, i);
     }
   }
-  finish(mass);
-  return mass;
 }
 
 void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
-               const FreeNodes& free_nodes, const Hex27Kernel& kernel, Formulation formulation,
-               ElementMatrices& element, SystemMatrices& system) {
+               const FreeNodes& free_nodes, Formulation formulation, SymmetricMatrix& stiffness,
+               NodalMass& mass) {
   const mesher::Material& material = mesh.materials.at(block.material);
-  Hex27Coordinates coordinates;
-  std::array<PetscInt, 81> dofs{};
+  ElementKernel kernel(element_scheme(block.kind, formulation));
+  ElementMatrices element;
+  const std::size_t width = mesher::nodes_per_element(block.kind);
+  Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
+  SortedNodes sorted;
   for (std::size_t e = 0; e < block.size(); ++e) {
-    const std::int32_t* nodes = block.nodes.data() + 27 * e;
-    for (int i = 0; i < 27; ++i) {
-      coordinates.col(i) =
+    const auto nodes = std::span(block.nodes).subspan(width * e, width);
+    for (std::size_t i = 0; i < width; ++i) {
+      coordinates.col(static_cast<Eigen::Index>(i)) =
           Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
-      const std::int32_t index = free_nodes.index(nodes[i]);
-      for (std::int32_t a = 0; a < 3; ++a) {
-        // PETSc leaves out rows and columns with a negative index.
-        dofs[static_cast<std::size_t>(3 * i + a)] = index < 0 ? -1 : 3 * index + a;
-      }
     }
-    kernel.compute(coordinates, material, formulation, element);
-    require(MatSetValues(system.stiffness.get(), 81, dofs.data(), 81, dofs.data(),
-                         element.stiffness.data(), ADD_VALUES),
-            kAssembling);
-    for (int i = 0; i < 27; ++i) {
-      for (int j = 0; j < 27; ++j) {
-        system.nodal_mass.coeffRef(nodes[i], nodes[j]) += element.mass(i, j);
-      }
+    try {
+      kernel.compute(coordinates, material, element);
+    } catch (const ComputationError& error) {
+      throw ComputationError("part '" + block.part + "', element " + std::to_string(e) +
+                             " of its " + std::string(mesher::name_of(block.kind)) + ": " +
+                             error.what());
     }
+    sorted.assign(nodes, [&](std::int32_t node) { return free_nodes.index(node); });
+    add_stiffness(sorted, element.stiffness, stiffness);
+    sorted.assign(nodes, [](std::int32_t node) { return node; });
+    add_mass(sorted, element.mass, mass);
   }
 }
 
@@ -113,18 +114,28 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
 
 SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
                         Formulation formulation) {
-  const NodeGraph graph(mesh);
-  SystemMatrices system;
-  system.stiffness = make_matrix(graph, free_nodes, false);
-  system.nodal_mass = zero_mass(graph);
-  const Hex27Kernel kernel;
-  const auto element = std::make_unique<ElementMatrices>();  // 58 kB: too much for the stack
+  NodeGraph graph(mesh, free_nodes);
+  SymmetricMatrix stiffness(graph);
+  NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));
   for (const mesher::ElementBlock& block : mesh.blocks) {
-    add_block(mesh, block, free_nodes, kernel, formulation, *element, system);
+    add_block(mesh, block, free_nodes, formulation, stiffness, nodal_mass);
   }
-  finish(system.stiffness);
-  system.mass = expand_mass(system.nodal_mass, graph, free_nodes);
-  return system;
+  MassMatrix mass(nodal_mass, graph, free_nodes);
+  return {std::move(graph), std::move(stiffness), std::move(nodal_mass), std::move(mass)};
+}
+
+SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift) {
+  SymmetricMatrix result = system.stiffness.clone();
+  const NodalMass& mass = system.mass.between_nodes();
+  for (std::int32_t node = 0; node < system.graph.node_count(); ++node) {
+    std::ptrdiff_t place = -1;  // the diagonal block, then the later ones
+    for (NodalMass::InnerIterator entry(mass, node); entry; ++entry) {
+      if (entry.col() < node) continue;
+      for (int a = 0; a < 3; ++a) result.entry(node, a, place, a) -= shift * entry.value();
+      ++place;
+    }
+  }
+  return result;
 }
 
 }  // namespace flexneck::fe_modal

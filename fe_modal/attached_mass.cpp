@@ -52,7 +52,7 @@ AttachedMass::AttachedMass(Mat mass, const FreeNodes& free_nodes, const RigidAve
   terms->average.resize(6, free_nodes.dof_count());
   const auto weights = region.weights(free_nodes.node_count());
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    terms->average.row(static_cast<Eigen::Index>(i)) = free_nodes.restrict(weights[i]).transpose();
+    terms->average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
   }
   terms_ = terms;
   const auto size = static_cast<PetscInt>(free_nodes.dof_count());

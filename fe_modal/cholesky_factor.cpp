@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/cholesky_factor.h"
 
+#include <vector>
+
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -8,35 +10,46 @@ namespace {
 
 constexpr const char* kFactorising = "factorising the stiffness matrix";
 
-MatHandle factorise(Mat matrix) {
-  MatHandle factor;
-  require(MatGetFactor(matrix, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor.out()), kFactorising);
-  MatFactorInfo info;
-  require(MatFactorInfoInitialize(&info), kFactorising);
-  // No ordering of PETSc's: CHOLMOD chooses its own.
-  require(MatCholeskyFactorSymbolic(factor.get(), matrix, nullptr, &info), kFactorising);
-  require(MatCholeskyFactorNumeric(factor.get(), matrix, &info), kFactorising);
-  MatFactorError error = MAT_FACTOR_NOERROR;
-  require(MatFactorGetError(factor.get(), &error), kFactorising);
-  if (error != MAT_FACTOR_NOERROR) {
-    throw ComputationError(
-        "the stiffness matrix is not positive definite: a part of the body is not held");
+/// The order of nodes as one of degrees of freedom.
+IsHandle expand_order(std::span<const std::int32_t> node_order) {
+  std::vector<PetscInt> dofs;
+  dofs.reserve(3 * node_order.size());
+  for (const std::int32_t node : node_order) {
+    for (PetscInt a = 0; a < 3; ++a) dofs.push_back(3 * node + a);
   }
-  return factor;
+  IsHandle order;
+  require(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(dofs.size()), dofs.data(),
+                          PETSC_COPY_VALUES, order.out()),
+          kFactorising);
+  require(ISSetPermutation(order.get()), kFactorising);
+  return order;
 }
 
 }  // namespace
 
-CholeskyFactor::CholeskyFactor(Mat stiffness, Mat mass, double shift) : shift_(shift) {
-  if (shift == 0) {
-    factor_ = factorise(stiffness);
-    return;
+CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
+                               std::span<const std::int32_t> node_order)
+    : shift_(shift) {
+  const bool given = !node_order.empty();
+  require(MatSetOptionsPrefixFactor(shifted_stiffness, given ? kGivenOrderPrefix : nullptr),
+          kFactorising);
+  require(MatGetFactor(shifted_stiffness, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor_.out()),
+          kFactorising);
+  const IsHandle order = given ? expand_order(node_order) : IsHandle();
+  MatFactorInfo settings;
+  require(MatFactorInfoInitialize(&settings), kFactorising);
+  require(MatCholeskyFactorSymbolic(factor_.get(), shifted_stiffness, order.get(), &settings),
+          kFactorising);
+  require(MatCholeskyFactorNumeric(factor_.get(), shifted_stiffness, &settings), kFactorising);
+  MatFactorError error = MAT_FACTOR_NOERROR;
+  require(MatFactorGetError(factor_.get(), &error), kFactorising);
+  if (error != MAT_FACTOR_NOERROR) {
+    throw ComputationError(
+        "the stiffness matrix is not positive definite: a part of the body is not held");
   }
-  MatHandle shifted;
-  require(MatDuplicate(stiffness, MAT_COPY_VALUES, shifted.out()), kFactorising);
-  require(MatAXPY(shifted.get(), -shift, mass, SUBSET_NONZERO_PATTERN), kFactorising);
-  require(MatSetOption(shifted.get(), MAT_SPD, PETSC_TRUE), kFactorising);
-  factor_ = factorise(shifted.get());
+  MatInfo info;
+  require(MatGetInfo(factor_.get(), MAT_LOCAL, &info), kFactorising);
+  nonzeros_ = info.nz_used;
 }
 
 void CholeskyFactor::solve(Vec right_hand_side, Vec solution) const {

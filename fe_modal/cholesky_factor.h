@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "fe_modal/petsc_handles.h"
 
 namespace flexneck::fe_modal {
 
-/// Sparse Cholesky factor of K - shift M, made once and used by every solve. By CHOLMOD, which
-/// orders with AMD or METIS, whichever fills less: on the 26k-DOF neck it factorises in 1.0 s and
-/// solves in 23 ms, where MUMPS, without METIS in Debian, takes 1.0 to 1.4 s and 28 to 38 ms.
+/// Sparse Cholesky factor of K - shift M, made once and used by every solve, by CHOLMOD.
 class CholeskyFactor {
  public:
-  /// @param stiffness symmetric, with the upper half stored
-  /// @param mass its entries lie where the stiffness has some
-  /// @throws ComputationError if K - shift M is not positive definite or memory runs out.
-  CholeskyFactor(Mat stiffness, Mat mass, double shift);
+  /// @param shifted_stiffness K - shift M, symmetric with the upper half stored, N degrees of
+  /// freedom
+  /// @param node_order order of elimination: entry k is the node, three degrees of freedom each,
+  /// that comes k-th; a permutation of 0 … N/3 - 1. Empty: CHOLMOD tries AMD, and METIS on all
+  /// degrees of freedom where AMD fills much, and keeps the better one.
+  /// @throws ComputationError if the matrix is not positive definite or memory runs out.
+  CholeskyFactor(Mat shifted_stiffness, double shift,
+                 std::span<const std::int32_t> node_order = {});
 
   double shift() const { return shift_; }
+  /// Entries of the factor, as CHOLMOD counts them.
+  double nonzeros() const { return nonzeros_; }
   void solve(Vec right_hand_side, Vec solution) const;
 
  private:
   double shift_;
+  double nonzeros_ = 0;
   MatHandle factor_;
 };
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -99,6 +101,16 @@ EigenPairs take_over(EPS eps, const Problem& problem, Eigen::Index count, Eigen:
   return pairs;
 }
 
+/// The start of a search. A Krylov space sees of each eigenspace only what its start has of it; a
+/// search that starts where the last one did is orthogonal to the copies which that one missed.
+Eigen::VectorXd start_vector(Eigen::Index size, Eigen::Index found) {
+  std::mt19937_64 generator(static_cast<std::uint64_t>(found) + 1);
+  Eigen::VectorXd start(size);
+  // Not std::uniform_real_distribution, whose numbers differ from library to library.
+  for (double& x : start) x = std::ldexp(static_cast<double>(generator() >> 11U), -53) - 0.5;
+  return start;
+}
+
 /// The `count` eigenpairs nearest to the shift that are M-orthogonal to the columns of `found`.
 EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& accuracy,
                   const Eigen::MatrixXd& found) {
@@ -116,6 +128,10 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& ac
     require(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()),
             kSolving);
   }
+  const Eigen::VectorXd start = start_vector(size, found.cols());
+  const VecHandle start_handle = wrap(start.data(), start.size());
+  Vec start_space = start_handle.get();
+  require(EPSSetInitialSpace(eps, 1, &start_space), kSolving);
   const auto wanted = static_cast<PetscInt>(count);
   const PetscInt room = size - static_cast<PetscInt>(found.cols());
   require(EPSSetDimensions(eps, wanted, std::min(room, 2 * wanted + accuracy.extra_basis),

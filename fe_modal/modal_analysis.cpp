@@ -2,7 +2,9 @@
 #include "fe_modal/modal_analysis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "fe_modal/assembly.h"
@@ -15,6 +17,7 @@
 #include "fe_modal/mode_conventions.h"
 #include "fe_modal/mode_naming.h"
 #include "fe_modal/rigid_average.h"
+#include "mesher/partition/node_order.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -40,6 +43,20 @@ double shift_for(const mesher::Mesh& mesh, const ModalOptions& options) {
     slowest = std::min(slowest, material.youngs_modulus_Pa / material.density_kg_m3);
   }
   return -slowest / (high - low).squaredNorm();
+}
+
+CholeskyFactor factorise(const SystemMatrices& system, double shift) {
+  const std::vector<std::int32_t> order =
+      mesher::nested_dissection(system.graph.offsets(), system.graph.columns());
+  if (shift == 0) return {system.stiffness.get(), shift, order};
+  return {shifted_stiffness(system, shift).get(), shift, order};
+}
+
+std::string describe(const CholeskyFactor& factor) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "the factor has %.4g million entries",
+                factor.nonzeros() / 1e6);
+  return text.data();
 }
 
 Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues) {
@@ -71,7 +88,7 @@ std::vector<ModeRecord> describe_modes(const mesher::Mesh& mesh, const ModalOpti
                                        const std::vector<Eigen::Matrix3Xd>& shapes,
                                        const Eigen::VectorXd& residuals) {
   std::vector<RigidAverage> parts;
-  for (const std::string& name : options.rigid_parts) parts.emplace_back(mesh, part(mesh, name));
+  for (const std::string& name : options.rigid_parts) parts.emplace_back(mesh, name);
   std::vector<Shares> shares;
   for (const Eigen::Matrix3Xd& shape : shapes) shares.push_back(motion_shares(parts, shape));
   const std::vector<std::string> names = mode_names(shares);
@@ -116,15 +133,16 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   };
   check_options(mesh, options);
   const bool held = !options.held_set.empty();
-  const FreeNodes free_nodes(mesh.nodes.size(), held ? mesh.node_set(options.held_set).nodes
-                                                     : std::vector<std::int32_t>{});
+  const FreeNodes free_nodes(
+      mesh, held ? mesh.node_set(options.held_set).nodes : std::vector<std::int32_t>{});
   report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
          " degrees of freedom");
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const SystemMatrices system = assemble(mesh, free_nodes, options.formulation);
 
   report("factorising the stiffness");
   const double shift = shift_for(mesh, options);
-  const CholeskyFactor factor(system.stiffness.get(), system.mass.get(), shift);
+  const CholeskyFactor factor = factorise(system, shift);
+  report(describe(factor));
   report("solving for " + std::to_string(options.mode_count) + " modes");
   EigenPairs pairs =
       lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, options.mode_count);

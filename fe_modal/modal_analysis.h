@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/modal_body.h"
+#include "fe_modal/formulation.h"
 #include "geometry/foundation/progress.h"
 #include "mesher/mesh/mesh.h"
 
@@ -46,6 +47,7 @@ struct RigidAttachment {
 
 struct ModalOptions {
   int mode_count = 10;
+  Formulation formulation = Formulation::mixed_pressure;
   std::string held_set;        ///< node set held in all directions; empty: a free body
   std::string held_interface;  ///< name of the interface on the held nodes, modes zero there
   Eigen::Vector3d held_position_m = Eigen::Vector3d::Zero();
@@ -57,7 +59,8 @@ struct ModalOptions {
 };
 
 /// Normal modes by shift-invert, reduced to a modal body.
-/// @throws InputError for unknown sets, parts or interfaces, or more modes than degrees of freedom.
+/// @throws InputError for unknown sets, parts or interfaces, elements that have no such
+/// formulation, or more modes than degrees of freedom.
 /// @throws ComputationError if the factorisation or the eigensolver fails.
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                         const Progress& progress);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/modal_options_check.h"
 
+#include <algorithm>
+
 #include <Eigen/QR>
 
+#include "fe_modal/free_nodes.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 
@@ -23,6 +26,23 @@ void check_held(const mesher::Mesh& mesh, const std::string& set) {
   if (decomposition.rank() < 2) {
     throw InputError("held set '" + set + "' has " + std::to_string(nodes.size()) +
                      " nodes on one line: the body can turn about it; hold an area");
+  }
+}
+
+void check_parts(const mesher::Mesh& mesh, const ModalOptions& options) {
+  std::vector<std::string> parts;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    if (std::find(parts.begin(), parts.end(), block.part) == parts.end()) {
+      parts.push_back(block.part);
+    }
+    try {
+      static_cast<void>(element_scheme(block.kind, options.formulation));
+    } catch (const InputError& error) {
+      throw InputError("part '" + block.part + "': " + error.what());
+    }
+  }
+  for (const std::string& name : options.rigid_parts) {
+    static_cast<void>(find_name(parts, name, "part"));
   }
 }
 
@@ -61,30 +81,18 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
 
 }  // namespace
 
-const mesher::ElementBlock& part(const mesher::Mesh& mesh, const std::string& name) {
-  std::vector<std::string> parts;
-  for (const mesher::ElementBlock& block : mesh.blocks) parts.push_back(block.part);
-  return mesh.blocks[find_name(parts, name, "part")];
-}
-
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    if (block.kind != mesher::ElementKind::hex27) {
-      throw InputError("part '" + block.part + "' consists of " +
-                       std::string(mesher::name_of(block.kind)) + ", expected hex27");
-    }
-  }
-  std::size_t held = 0;
+  check_parts(mesh, options);
+  std::vector<std::int32_t> held;
   if (!options.held_set.empty()) {
     check_held(mesh, options.held_set);
-    held = mesh.node_set(options.held_set).nodes.size();
+    held = mesh.node_set(options.held_set).nodes;
   }
-  const std::size_t dofs = 3 * (mesh.nodes.size() - held);
-  if (options.mode_count < 1 || static_cast<std::size_t>(options.mode_count) > dofs) {
+  const Eigen::Index dofs = FreeNodes(mesh, held).dof_count();
+  if (options.mode_count < 1 || options.mode_count > dofs) {
     throw InputError("the number of modes must lie between 1 and the " + std::to_string(dofs) +
                      " degrees of freedom, found " + std::to_string(options.mode_count));
   }
-  for (const std::string& name : options.rigid_parts) static_cast<void>(part(mesh, name));
   check_interfaces(mesh, options);
 }
 

@@ -8,7 +8,4 @@ namespace flexneck::fe_modal {
 /// @throws InputError for the first option that does not fit the mesh or the other options.
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options);
 
-/// Part of a mesh by name. @throws InputError with the names that there are.
-const mesher::ElementBlock& part(const mesher::Mesh& mesh, const std::string& name);
-
 }  // namespace flexneck::fe_modal

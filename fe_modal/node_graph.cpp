@@ -7,61 +7,80 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Elements of each node in compressed rows.
-struct ElementsOfNodes {
-  std::vector<std::span<const std::int32_t>> elements;  ///< nodes of each element
-  std::vector<std::size_t> offsets;
-  std::vector<std::size_t> of_node;
+/// Ragged lists in compressed rows.
+struct Rows {
+  std::vector<std::size_t> offsets = {0};
+  std::vector<std::int32_t> entries;
+
+  std::span<const std::int32_t> row(std::size_t k) const {
+    return std::span(entries).subspan(offsets[k], offsets[k + 1] - offsets[k]);
+  }
+  std::size_t size() const { return offsets.size() - 1; }
 };
 
-ElementsOfNodes invert(const mesher::Mesh& mesh) {
-  ElementsOfNodes result;
+/// Nodes of each element by number; those with a negative number are left out.
+template <typename Numbering>
+Rows nodes_of_elements(const mesher::Mesh& mesh, const Numbering& number) {
+  Rows result;
   for (const mesher::ElementBlock& block : mesh.blocks) {
     const std::size_t width = mesher::nodes_per_element(block.kind);
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      result.elements.push_back(std::span(block.nodes).subspan(e * width, width));
-    }
-  }
-  result.offsets.assign(mesh.nodes.size() + 1, 0);
-  for (const auto nodes : result.elements) {
-    for (const std::int32_t node : nodes) ++result.offsets[static_cast<std::size_t>(node) + 1];
-  }
-  for (std::size_t k = 1; k < result.offsets.size(); ++k)
-    result.offsets[k] += result.offsets[k - 1];
-  result.of_node.resize(result.offsets.back());
-  std::vector<std::size_t> next(result.offsets.begin(), result.offsets.end() - 1);
-  for (std::size_t e = 0; e < result.elements.size(); ++e) {
-    for (const std::int32_t node : result.elements[e]) {
-      result.of_node[next[static_cast<std::size_t>(node)]++] = e;
+    for (std::size_t first = 0; first < block.nodes.size(); first += width) {
+      for (const std::int32_t node : std::span(block.nodes).subspan(first, width)) {
+        if (number(node) >= 0) result.entries.push_back(number(node));
+      }
+      result.offsets.push_back(result.entries.size());
     }
   }
   return result;
 }
 
-}  // namespace
+Rows transpose(const Rows& rows, std::size_t column_count) {
+  Rows result;
+  result.offsets.assign(column_count + 1, 0);
+  for (const std::int32_t column : rows.entries) {
+    ++result.offsets[static_cast<std::size_t>(column) + 1];
+  }
+  for (std::size_t k = 0; k < column_count; ++k) result.offsets[k + 1] += result.offsets[k];
+  result.entries.resize(rows.entries.size());
+  std::vector<std::size_t> next(result.offsets.begin(), result.offsets.end() - 1);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (const std::int32_t column : rows.row(row)) {
+      result.entries[next[static_cast<std::size_t>(column)]++] = static_cast<std::int32_t>(row);
+    }
+  }
+  return result;
+}
 
-NodeGraph::NodeGraph(const mesher::Mesh& mesh) {
-  const ElementsOfNodes map = invert(mesh);
-  std::vector<std::size_t> seen_by(mesh.nodes.size(), mesh.nodes.size());
-  offsets_.push_back(0);
-  for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
-    const auto row = static_cast<std::ptrdiff_t>(columns_.size());
-    for (std::size_t k = map.offsets[node]; k < map.offsets[node + 1]; ++k) {
-      for (const std::int32_t other : map.elements[map.of_node[k]]) {
+/// Rows of the graph from the nodes of the elements.
+void connect(const Rows& elements, std::size_t node_count, std::vector<std::int32_t>& offsets,
+             std::vector<std::int32_t>& columns) {
+  const Rows elements_of_nodes = transpose(elements, node_count);
+  std::vector<std::size_t> seen_by(node_count, node_count);
+  offsets.push_back(0);
+  for (std::size_t node = 0; node < node_count; ++node) {
+    const auto row = static_cast<std::ptrdiff_t>(columns.size());
+    for (const std::int32_t element : elements_of_nodes.row(node)) {
+      for (const std::int32_t other : elements.row(static_cast<std::size_t>(element))) {
         if (std::exchange(seen_by[static_cast<std::size_t>(other)], node) != node) {
-          columns_.push_back(other);
+          columns.push_back(other);
         }
       }
     }
-    std::sort(columns_.begin() + row, columns_.end());
-    offsets_.push_back(static_cast<std::int32_t>(columns_.size()));
+    std::sort(columns.begin() + row, columns.end());
+    offsets.push_back(static_cast<std::int32_t>(columns.size()));
   }
 }
 
-std::span<const std::int32_t> NodeGraph::neighbours(std::int32_t node) const {
-  const auto row = static_cast<std::size_t>(node);
-  const auto begin = static_cast<std::size_t>(offsets_[row]);
-  return std::span(columns_).subspan(begin, static_cast<std::size_t>(offsets_[row + 1]) - begin);
+}  // namespace
+
+NodeGraph::NodeGraph(const mesher::Mesh& mesh) {
+  connect(nodes_of_elements(mesh, [](std::int32_t node) { return node; }), mesh.nodes.size(),
+          offsets_, columns_);
+}
+
+NodeGraph::NodeGraph(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
+  connect(nodes_of_elements(mesh, [&](std::int32_t node) { return free_nodes.index(node); }),
+          static_cast<std::size_t>(free_nodes.free_count()), offsets_, columns_);
 }
 
 }  // namespace flexneck::fe_modal

@@ -30,6 +30,12 @@ PetscSession::PetscSession() {
   // Errors come back as codes, without a trace on the terminal.
   require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
   require(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"), "silencing CHOLMOD");
+  const std::string given = "-" + std::string(kGivenOrderPrefix);
+  require(PetscOptionsSetValue(nullptr, (given + "mat_cholmod_print").c_str(), "0"),
+          "silencing CHOLMOD");
+  // Left to itself CHOLMOD also tries orders of its own and keeps the one it likes best.
+  require(PetscOptionsSetValue(nullptr, (given + "mat_cholmod_nmethods").c_str(), "1"),
+          "telling CHOLMOD to keep a given order");
 }
 
 PetscSession::~PetscSession() { static_cast<void>(SlepcFinalize()); }

@@ -25,13 +25,13 @@ Eigen::Matrix<double, 3, 6> rigid_field(const Eigen::Vector3d& r) {
 /// volume or area that the point stands for.
 template <typename Visitor>
 void for_each_point(const mesher::Mesh& mesh, mesher::ElementKind kind,
-                    const std::vector<std::int32_t>& connectivity, const Visitor& visit) {
+                    std::span<const std::int32_t> connectivity, const Visitor& visit) {
   const mesher::Quadrature rule = mesher::gauss_rule(kind, 3);
   const mesher::ShapeTable table = mesher::tabulate(kind, rule.points);
   const std::size_t width = mesher::nodes_per_element(kind);
   Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
   for (std::size_t first = 0; first < connectivity.size(); first += width) {
-    const auto nodes = std::span(connectivity).subspan(first, width);
+    const auto nodes = connectivity.subspan(first, width);
     for (std::size_t i = 0; i < width; ++i) {
       coordinates.col(static_cast<Eigen::Index>(i)) =
           Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
@@ -55,25 +55,36 @@ void for_each_point(const mesher::Mesh& mesh, mesher::ElementKind kind,
 RigidAverage::RigidAverage(const mesher::Mesh& mesh, const mesher::FaceSet& faces,
                            const Eigen::Vector3d& point_m)
     : point_(point_m) {
-  average(mesh, faces.kind, faces.nodes, 1);
+  std::vector<Region> regions;
+  for (const mesher::FaceBlock& block : faces.blocks) regions.push_back({block.kind, block.nodes});
+  average(mesh, regions, 1);
 }
 
-RigidAverage::RigidAverage(const mesher::Mesh& mesh, const mesher::ElementBlock& block) {
+RigidAverage::RigidAverage(const mesher::Mesh& mesh, const std::string& part) {
   double volume = 0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for_each_point(
-      mesh, block.kind, block.nodes,
-      [&](auto /*nodes*/, const auto& /*values*/, const Eigen::Vector3d& position, double measure) {
-        volume += measure;
-        moment += measure * position;
-      });
+  std::vector<Region> regions;
+  double density = 0;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    if (block.part != part) continue;
+    regions.push_back({block.kind, block.nodes});
+    density = mesh.materials.at(block.material).density_kg_m3;
+    for_each_point(mesh, block.kind, block.nodes,
+                   [&](auto /*nodes*/, const auto& /*values*/, const Eigen::Vector3d& position,
+                       double measure) {
+                     volume += measure;
+                     moment += measure * position;
+                   });
+  }
   point_ = moment / volume;
-  average(mesh, block.kind, block.nodes, mesh.materials.at(block.material).density_kg_m3);
+  average(mesh, regions, density);
 }
 
-void RigidAverage::average(const mesher::Mesh& mesh, mesher::ElementKind kind,
-                           const std::vector<std::int32_t>& connectivity, double density) {
-  nodes_ = connectivity;
+void RigidAverage::average(const mesher::Mesh& mesh, const std::vector<Region>& regions,
+                           double density) {
+  for (const Region& region : regions) {
+    nodes_.insert(nodes_.end(), region.connectivity.begin(), region.connectivity.end());
+  }
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
   std::vector<Eigen::Index> column_of(mesh.nodes.size(), -1);
@@ -81,16 +92,18 @@ void RigidAverage::average(const mesher::Mesh& mesh, mesher::ElementKind kind,
     column_of[static_cast<std::size_t>(nodes_[k])] = 3 * static_cast<Eigen::Index>(k);
   }
   map_.setZero(6, 3 * static_cast<Eigen::Index>(nodes_.size()));
-  for_each_point(
-      mesh, kind, connectivity,
-      [&](auto nodes, const auto& values, const Eigen::Vector3d& position, double measure) {
-        const Eigen::Matrix<double, 3, 6> field = rigid_field(position - point_);
-        gram_ += density * measure * field.transpose() * field;
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-          map_.middleCols<3>(column_of[static_cast<std::size_t>(nodes[i])]) +=
-              density * measure * values[static_cast<Eigen::Index>(i)] * field.transpose();
-        }
-      });
+  for (const Region& region : regions) {
+    for_each_point(
+        mesh, region.kind, region.connectivity,
+        [&](auto nodes, const auto& values, const Eigen::Vector3d& position, double measure) {
+          const Eigen::Matrix<double, 3, 6> field = rigid_field(position - point_);
+          gram_ += density * measure * field.transpose() * field;
+          for (std::size_t i = 0; i < nodes.size(); ++i) {
+            map_.middleCols<3>(column_of[static_cast<std::size_t>(nodes[i])]) +=
+                density * measure * values[static_cast<Eigen::Index>(i)] * field.transpose();
+          }
+        });
+  }
   map_ = gram_.llt().solve(map_).eval();
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,8 +24,9 @@ class RigidAverage {
   /// Area-weighted, over the faces, about the given point.
   RigidAverage(const mesher::Mesh& mesh, const mesher::FaceSet& faces,
                const Eigen::Vector3d& point_m);
-  /// Mass-weighted, over the elements, about their centre of mass.
-  RigidAverage(const mesher::Mesh& mesh, const mesher::ElementBlock& block);
+  /// Mass-weighted, over all elements of a part, about their centre of mass.
+  /// @pre the mesh has a part of that name
+  RigidAverage(const mesher::Mesh& mesh, const std::string& part);
 
   /// @param field displacements of all nodes, (3, n)
   Vector6d of(const Eigen::Matrix3Xd& field) const;
@@ -37,8 +41,13 @@ class RigidAverage {
   const Matrix6d& gram() const { return gram_; }
 
  private:
-  void average(const mesher::Mesh& mesh, mesher::ElementKind kind,
-               const std::vector<std::int32_t>& connectivity, double density);
+  /// Elements or faces of one kind.
+  struct Region {
+    mesher::ElementKind kind;
+    std::span<const std::int32_t> connectivity;
+  };
+
+  void average(const mesher::Mesh& mesh, const std::vector<Region>& regions, double density);
 
   Eigen::Vector3d point_;
   Matrix6d gram_ = Matrix6d::Zero();

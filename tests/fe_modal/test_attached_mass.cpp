@@ -57,13 +57,13 @@ TEST_CASE("frequencies with a body attached agree with a dense solution") {
   options.attachments = {{"head", "tip", 4.5, center, full_inertia()}};
   const ModalBody body = analyse_modes(mesh, options, {});
 
-  const FreeNodes free_nodes(mesh.nodes.size(), mesh.node_set("bottom").nodes);
+  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
   const SystemMatrices system = assemble(mesh, free_nodes);
   const auto weights =
       RigidAverage(mesh, mesh.face_set("top"), point).weights(free_nodes.node_count());
   Eigen::MatrixXd average(6, free_nodes.dof_count());
   for (std::size_t i = 0; i < 6; ++i) {
-    average.row(static_cast<Eigen::Index>(i)) = free_nodes.restrict(weights[i]).transpose();
+    average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
   }
   const Eigen::MatrixXd mass =
       dense(system.mass.get()) +

@@ -41,9 +41,9 @@ double euler_cantilever(double young, double density, double side, double length
 
 /// Lowest frequency of a bar held at the bottom, in either formulation.
 double lowest_frequency(const mesher::Mesh& mesh, Formulation formulation) {
-  const FreeNodes free_nodes(mesh.nodes.size(), mesh.node_set("bottom").nodes);
+  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
   const SystemMatrices system = assemble(mesh, free_nodes, formulation);
-  const CholeskyFactor factor(system.stiffness.get(), system.mass.get(), 0);
+  const CholeskyFactor factor(system.stiffness.get(), 0);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 1);
   return std::sqrt(pairs.values[0]) / (2 * std::numbers::pi);
 }
@@ -74,7 +74,7 @@ TEST_CASE("a round tube twists and stretches at the frequencies of waves in a ro
   constexpr double kLength = 0.3;
   const mesher::Material material{"steel", 2.1e11, 0, 7850};
   const mesher::Mesh mesh = testing::tube({1, 8, 6}, 0.04, 0.06, kLength, material).make();
-  const ModalBody body = analyse_modes(mesh, held_at_bottom(5, kLength), {});
+  const ModalBody body = analyse_modes(mesh, held_at_bottom(6, kLength), {});
   const double stretch = std::sqrt(2.1e11 / 7850) / (4 * kLength);
   CHECK(std::abs(frequency(body, "axial 1") / stretch - 1) < kTolerance);
   CHECK(std::abs(frequency(body, "torsion 1") / (stretch * std::sqrt(0.5)) - 1) < kTolerance);

@@ -25,7 +25,7 @@ Eigen::Matrix3Xd rigid_field(const mesher::Mesh& mesh, const Eigen::Vector3d& ce
 TEST_CASE("shares are the kinetic energies of a part's rigid motion") {
   const Eigen::Vector3d size(0.2, 0.1, 0.3);
   const mesher::Mesh mesh = testing::box({1, 1, 2}, size, kSteel).make();
-  const std::vector<RigidAverage> parts = {RigidAverage(mesh, mesh.blocks.front())};
+  const std::vector<RigidAverage> parts = {RigidAverage(mesh, "block")};
   const Eigen::Vector3d t(0.3, -0.5, 0.2);
   const Eigen::Vector3d w(4, -3, 6);
   const Shares found = motion_shares(parts, rigid_field(mesh, Eigen::Vector3d(0, 0, 0.15), t, w));
@@ -43,7 +43,7 @@ TEST_CASE("shares are the kinetic energies of a part's rigid motion") {
 
 TEST_CASE("a part that only deforms has no shares") {
   const mesher::Mesh mesh = testing::box({1, 1, 2}, {0.2, 0.1, 0.3}, kSteel).make();
-  const std::vector<RigidAverage> parts = {RigidAverage(mesh, mesh.blocks.front())};
+  const std::vector<RigidAverage> parts = {RigidAverage(mesh, "block")};
   const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
   CHECK(motion_shares(parts, Eigen::Matrix3Xd::Zero(3, n)) == Shares{});
   CHECK(motion_shares({}, Eigen::Matrix3Xd::Ones(3, n)) == Shares{});

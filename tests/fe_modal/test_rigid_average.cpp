@@ -36,7 +36,7 @@ TEST_CASE("a rigid motion is its own average, on curved faces and in distorted e
   block.position = testing::distorted;
   const mesher::Mesh mesh = block.make();
   const RigidAverage face(mesh, mesh.face_set("top"), {0.3, -0.2, 1.5});
-  const RigidAverage part(mesh, mesh.blocks.front());
+  const RigidAverage part(mesh, "block");
   const Eigen::Vector3d translation(0.3, -0.7, 0.2);
   const Eigen::Vector3d rotation(-0.4, 0.1, 0.9);
   for (const RigidAverage* average : {&face, &part}) {
@@ -82,7 +82,7 @@ TEST_CASE("weights reproduce the average as a sum over nodes") {
 TEST_CASE("the Gram matrix of a part is its rigid mass matrix") {
   const Eigen::Vector3d size(0.2, 0.1, 0.3);
   const mesher::Mesh mesh = testing::box({2, 1, 2}, size, kSteel).make();
-  const RigidAverage part(mesh, mesh.blocks.front());
+  const RigidAverage part(mesh, "block");
   CHECK((part.point_m() - Eigen::Vector3d(0, 0, 0.15)).norm() < kRounding);
   const double mass = kSteel.density_kg_m3 * size.prod();
   const Eigen::Vector3d squares = size.array().square();

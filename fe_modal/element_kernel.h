@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fe_modal/formulation.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Matrices of one element with n nodes. Degree of freedom a n + i is direction a of node i.
+struct ElementMatrices {
+  Eigen::MatrixXd stiffness;  ///< (3n, 3n), N/m, symmetric
+  Eigen::MatrixXd mass;       ///< (n, n), consistent, kg, the same in each direction
+};
+
+/// Stiffness and consistent mass of an element of any kind, linear isotropic elasticity; what kinds
+/// differ in is tables. The strain energy is mu dev(eps):dev(eps) + kappa/2 p(div u)^2 with the
+/// bulk modulus kappa; in the mixed formulation p is the L2 projection to the element's pressures,
+/// so that the stiffness stays symmetric and positive.
+///
+/// The split is that into deviator and bulk, not into mu and lambda: on the 26k-DOF neck, set A,
+/// the first bending frequency is 0.03 % from the converged one instead of 0.4 %. The mixed
+/// formulation serves every material: with it in the aluminium plates as well the same frequency is
+/// nearer by 0.02 %.
+///
+/// All integrals of products are products of matrices (nodes x points), left to the BLAS: of a
+/// 27-node element 0.4 of 0.5 million operations. Holds its workspace: one kernel a thread.
+class ElementKernel {
+ public:
+  explicit ElementKernel(const ElementScheme& scheme);
+
+  /// @param nodes_m (3, n) positions of the nodes
+  /// @throws ComputationError if the element is inverted at an integration point.
+  void compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+               ElementMatrices& result);
+
+ private:
+  /// Shape functions at the points of a rule.
+  struct Points {
+    Points(mesher::ElementKind kind, int strength);
+
+    Eigen::MatrixXd derivatives;  ///< (n, 3q), point by point d/dxi, d/deta, d/dzeta
+    Eigen::MatrixXd values;       ///< (n, q)
+    Eigen::Matrix3Xd reference;   ///< (3, q)
+    Eigen::VectorXd weights;      ///< (q)
+    Eigen::Matrix3Xd jacobians;   ///< workspace: (3, 3q), dx_a / dxi_b
+    Eigen::VectorXd roots;        ///< workspace: (q), root of the volume that a point stands for
+  };
+
+  static void map(const Eigen::Matrix3Xd& nodes_m, Points& points);
+  void differentiate();
+  void project_divergence(const Eigen::Matrix3Xd& nodes_m);
+  void add_displacement_part(double mu, double square, Eigen::MatrixXd& stiffness) const;
+
+  ElementScheme scheme_;
+  Points points_;       ///< of the stiffness
+  Points mass_points_;  ///< of the mass
+  /// Row a n + i, column q: dN_i / dx_a at point q, times the point's root: integrals of products
+  /// are products of matrices.
+  Eigen::MatrixXd gradients_;
+  Eigen::MatrixXd pressures_;   ///< (q, p) basis of the pressures, times the roots, orthonormal
+  Eigen::MatrixXd divergence_;  ///< (3n, p) of the shape functions, projected
+  Eigen::MatrixXd products_;    ///< (3n, 3n) int dN_i/dx_a dN_j/dx_b
+  Eigen::MatrixXd weighted_;    ///< (n, q) shape functions times the roots
+};
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/formulation.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+using mesher::ElementKind;
+
+struct NamedFormulation {
+  Formulation formulation;
+  std::string_view name;
+};
+
+constexpr std::array<NamedFormulation, 3> kFormulations = {{
+    {Formulation::mixed_pressure, "mixed_pressure"},
+    {Formulation::displacement, "displacement"},
+    {Formulation::reduced, "reduced"},
+}};
+
+// Full integration has the strength at which a constant strain is exact in curved elements too.
+// Of the pressures that an element could have, those it does best with on a bonded rubber pad
+// (tests/benchmarks/fe_locking_benchmark): fewer make the 20-node hexahedron and the prisms as much
+// too soft as displacements alone make them too stiff, more make the 15-node prism lock.
+constexpr std::array<ElementScheme, 13> kSchemes = {{
+    {ElementKind::hex8, Formulation::mixed_pressure, 2, PressureSpace::constant},  // B-bar
+    {ElementKind::hex8, Formulation::displacement, 2, PressureSpace::none},
+    {ElementKind::hex20, Formulation::mixed_pressure, 3, PressureSpace::linear},
+    {ElementKind::hex20, Formulation::displacement, 3, PressureSpace::none},
+    {ElementKind::hex20, Formulation::reduced, 2, PressureSpace::none},
+    {ElementKind::hex27, Formulation::mixed_pressure, 3, PressureSpace::linear},
+    {ElementKind::hex27, Formulation::displacement, 3, PressureSpace::none},
+    {ElementKind::prism15, Formulation::mixed_pressure, 3, PressureSpace::along_axis},
+    {ElementKind::prism15, Formulation::displacement, 3, PressureSpace::none},
+    {ElementKind::prism18, Formulation::mixed_pressure, 3, PressureSpace::linear},
+    {ElementKind::prism18, Formulation::displacement, 3, PressureSpace::none},
+    {ElementKind::tet10, Formulation::mixed_pressure, 3, PressureSpace::constant},
+    {ElementKind::tet10, Formulation::displacement, 3, PressureSpace::none},
+}};
+
+}  // namespace
+
+std::string_view name_of(Formulation formulation) {
+  return kFormulations.at(static_cast<std::size_t>(formulation)).name;
+}
+
+Formulation formulation_from(std::string_view name) {
+  std::string known;
+  for (const NamedFormulation& row : kFormulations) {
+    if (row.name == name) return row.formulation;
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+  }
+  throw InputError("unknown formulation '" + std::string(name) + "', expected one of " + known);
+}
+
+const ElementScheme& element_scheme(mesher::ElementKind kind, Formulation formulation) {
+  std::string offered;
+  for (const ElementScheme& scheme : kSchemes) {
+    if (scheme.kind != kind) continue;
+    if (scheme.formulation == formulation) return scheme;
+    offered += (offered.empty() ? "" : ", ") + std::string(name_of(scheme.formulation));
+  }
+  throw InputError("elements of kind " + std::string(mesher::name_of(kind)) +
+                   " have no formulation '" + std::string(name_of(formulation)) + "', " +
+                   (offered.empty() ? "nor any other" : "expected one of " + offered));
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+#include "mesher/mesh/element_kind.h"
+
+namespace flexneck::fe_modal {
+
+/// How an element's strain energy mu dev(eps):dev(eps) + kappa/2 p(div u)^2 is formed.
+enum class Formulation {
+  mixed_pressure,  ///< p projects to pressures of the element's own, condensed: does not lock
+  displacement,    ///< p is the identity, full integration; locks when nu comes near 1/2
+  reduced          ///< the same at fewer points, by which it locks less
+};
+
+/// "mixed_pressure", "displacement", "reduced".
+std::string_view name_of(Formulation formulation);
+/// @throws InputError if no formulation has this name.
+Formulation formulation_from(std::string_view name);
+
+/// Pressures of the mixed formulation, one set for each element.
+enum class PressureSpace {
+  none,        ///< p is the identity
+  constant,    ///< {1}
+  along_axis,  ///< {1, zeta}: constant on the triangles of a prism
+  linear       ///< {1, x, y, z} in physical coordinates: mapped ones lose an order on elements that
+               ///< are no parallelepipeds (Boffi and Gastaldi, Numer. Math. 93 (2002))
+};
+
+/// All that the kernel must know of an element beside its shape functions: a row of the table.
+struct ElementScheme {
+  mesher::ElementKind kind;
+  Formulation formulation;
+  int strength;  ///< of the quadrature of the stiffness, as in mesher::gauss_rule
+  PressureSpace pressures;
+};
+
+/// @throws InputError if the kind is not offered in this formulation; the message lists those it
+/// is.
+const ElementScheme& element_scheme(mesher::ElementKind kind, Formulation formulation);
+
+}  // namespace flexneck::fe_modal
