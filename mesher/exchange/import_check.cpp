@@ -9,17 +9,16 @@
 #include <set>
 #include <span>
 
-#include <Eigen/LU>
-
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh_measures.h"
-#include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::mesher {
 namespace {
 
 /// Of the mesh's size: rounding of the numbers in a text file, far below any element.
 constexpr double kSamePlace = 1e-9;
+/// Below this a scaled Jacobian is rounding.
+constexpr double kDegenerate = 1e-6;
 
 using Point = std::array<double, 3>;
 
@@ -145,44 +144,20 @@ void refuse_unconnected(const Mesh& mesh) {
                    "; join them, or take a mesh of one piece");
 }
 
-/// Elements whose Jacobian is not positive at all of their nodes.
-std::size_t count_inverted(const Mesh& mesh, const ElementBlock& block) {
-  const auto nodes = reference_nodes(block.kind);
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(nodes.size()));
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    points.col(static_cast<Eigen::Index>(n)) = Eigen::Vector3d(nodes[n].data());
-  }
-  const ShapeTable table = tabulate(block.kind, points);
-  const auto is_inverted = [&](const Eigen::Matrix3Xd& x) {
-    for (Eigen::Index q = 0; q < points.cols(); ++q) {
-      Eigen::Matrix3d jacobian;
-      for (std::size_t d = 0; d < 3; ++d) {
-        jacobian.col(static_cast<Eigen::Index>(d)) = x * table.derivatives[d].col(q);
-      }
-      if (!(jacobian.determinant() > 0)) return true;
-    }
-    return false;
-  };
-  std::size_t count = 0;
-  for (std::size_t e = 0; e < block.size(); ++e) {
-    const auto element = std::span(block.nodes).subspan(e * nodes.size(), nodes.size());
-    if (is_inverted(positions_of(mesh, element))) ++count;
-  }
-  return count;
-}
-
 void refuse_inverted(const Mesh& mesh) {
   for (const ElementBlock& block : mesh.blocks) {
-    const BlockMeasure measured = measure(mesh, block);
-    if (measured.smallest_scaled_jacobian > 1e-6) continue;
-    const std::size_t count = count_inverted(mesh, block);
+    const std::vector<double> scaled = scaled_jacobians(mesh, block);
+    const auto count = static_cast<std::size_t>(std::count_if(
+        scaled.begin(), scaled.end(), [](double value) { return !(value > kDegenerate); }));
+    if (count == 0) continue;
+    const auto worst_element =
+        static_cast<std::size_t>(std::min_element(scaled.begin(), scaled.end()) - scaled.begin());
     const std::size_t n = nodes_per_element(block.kind);
-    const Point worst =
-        centre_of(mesh, std::span(block.nodes).subspan(measured.worst_element * n, n));
+    const Point worst = centre_of(mesh, std::span(block.nodes).subspan(worst_element * n, n));
     throw InputError(
         "part '" + block.part + "': " + std::to_string(count) + " of " +
         std::to_string(block.size()) + " elements (" + std::string(name_of(block.kind)) +
-        ") are inverted, the worst round " + place(worst) +
+        ") are inverted or degenerate, the worst round " + place(worst) +
         (count == block.size()
              ? "; all are: the mesh is a mirror image, or its nodes are in another order"
              : "; repair the mesh"));

@@ -156,6 +156,19 @@ BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
   return result;
 }
 
+std::vector<double> scaled_jacobians(const Mesh& mesh, const ElementBlock& block) {
+  const ShapeTable at_rule = tabulate(block.kind, gauss_rule(block.kind, 3).points);
+  const ShapeTable at_nodes = tabulate(block.kind, node_points(block.kind));
+  const CornerEdges corners = corner_edges(block.kind);
+  std::vector<double> scaled(block.size());
+  for (std::size_t e = 0; e < scaled.size(); ++e) {
+    const Eigen::Matrix3Xd x = positions_of(mesh, nodes_of(block.nodes, block.kind, e));
+    scaled[e] =
+        std::min(smallest_scaled(x, at_rule, corners), smallest_scaled(x, at_nodes, corners));
+  }
+  return scaled;
+}
+
 double area_m2(const Mesh& mesh, const FaceBlock& faces) {
   // The length of the normal is no polynomial on a curved face: use the finest rule there is.
   const Quadrature rule = gauss_rule(faces.kind, 4);

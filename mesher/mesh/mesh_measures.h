@@ -26,6 +26,8 @@ struct BlockMeasure {
 };
 
 BlockMeasure measure(const Mesh& mesh, const ElementBlock& block);
+/// The scaled Jacobian of each element of a block.
+std::vector<double> scaled_jacobians(const Mesh& mesh, const ElementBlock& block);
 
 /// Area of curved faces in m^2.
 double area_m2(const Mesh& mesh, const FaceBlock& faces);
