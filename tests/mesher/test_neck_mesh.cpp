@@ -183,10 +183,12 @@ TEST_CASE("base and top are the whole end faces and look away from the neck") {
       for (const std::int32_t node : mesh.node_set(name).nodes) {
         CHECK(mesh.nodes[static_cast<std::size_t>(node)][2] == Approx(z).margin(1e-12));
       }
-      for (std::size_t f = 0; f < faces.nodes.size(); f += 9) {
-        const auto& a = mesh.nodes[static_cast<std::size_t>(faces.nodes[f])];
-        const auto& b = mesh.nodes[static_cast<std::size_t>(faces.nodes[f + 1])];
-        const auto& c = mesh.nodes[static_cast<std::size_t>(faces.nodes[f + 2])];
+      REQUIRE(faces.blocks.size() == 1);
+      const std::vector<std::int32_t>& nodes = faces.blocks[0].nodes;
+      for (std::size_t f = 0; f < nodes.size(); f += 9) {
+        const auto& a = mesh.nodes[static_cast<std::size_t>(nodes[f])];
+        const auto& b = mesh.nodes[static_cast<std::size_t>(nodes[f + 1])];
+        const auto& c = mesh.nodes[static_cast<std::size_t>(nodes[f + 2])];
         const double normal_z = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
         CHECK(up * normal_z > 0);
       }

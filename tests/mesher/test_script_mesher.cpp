@@ -21,7 +21,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 /// Gauss: the flux of x / 3 through a closed surface is the volume inside, if normals point out.
-double enclosed_volume(const Mesh& mesh, const FaceSet& faces) {
+double enclosed_volume(const Mesh& mesh, const FaceBlock& faces) {
   const Quadrature rule = gauss_rule(faces.kind, 4);
   const ShapeTable table = tabulate(faces.kind, rule.points);
   const std::size_t n = nodes_per_element(faces.kind);
@@ -65,7 +65,8 @@ TEST_CASE("constants override the script's values by the last part of their name
 
 TEST_CASE("faces point outwards, on plane and on curved surfaces") {
   const Mesh brick = ScriptFixture(kBrick).mesh();
-  CHECK(enclosed_volume(brick, brick.face_set("skin")) == Approx(6).epsilon(kRounding));
+  CHECK(enclosed_volume(brick, brick.face_set("skin").blocks.at(0)) ==
+        Approx(6).epsilon(kRounding));
 
   // A quarter turn of the square [1, 2] x [0, 1] about the z axis.
   const Mesh bend = ScriptFixture(R"(
@@ -79,7 +80,8 @@ Physical Surface("skin") = {f[1], v[0], v[2], v[3], v[4], v[5]};
 )")
                         .mesh();
   const double volume = measure(bend, bend.blocks[0]).volume_m3;
-  CHECK(enclosed_volume(bend, bend.face_set("skin")) == Approx(volume).epsilon(kRounding));
+  CHECK(enclosed_volume(bend, bend.face_set("skin").blocks.at(0)) ==
+        Approx(volume).epsilon(kRounding));
   CHECK(volume == Approx(M_PI / 4 * (4 - 1)).epsilon(2e-4));  // four parabolas for a quarter circle
 }
 
@@ -141,17 +143,52 @@ TEST_CASE("every part needs a material and every material's part must exist") {
   CHECK_THROWS_WITH(script.mesh(), Contains("no part 'brik'"));
 }
 
-TEST_CASE("elements of another kind are refused with their number and type") {
-  const ScriptFixture tetrahedra(R"(
+TEST_CASE("the kind asked for is what the mesh is made of") {
+  for (const auto& [kind, faces, nodes] : {std::tuple(ElementKind::hex27, ElementKind::quad9, 125U),
+                                           {ElementKind::hex20, ElementKind::quad8, 81U},
+                                           {ElementKind::hex8, ElementKind::quad4, 27U}}) {
+    INFO(name_of(kind));
+    ScriptFixture script(kBrick);
+    script.options.element = kind;
+    const Mesh mesh = script.mesh();
+    CHECK(mesh.blocks[0].kind == kind);
+    CHECK(mesh.nodes.size() == nodes);
+    CHECK(mesh.face_set("skin").blocks.at(0).kind == faces);
+    CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(6).epsilon(kRounding));
+  }
+}
+
+TEST_CASE("a script decides whether there are hexahedra") {
+  ScriptFixture script(R"(
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};
 Mesh.MeshSizeMin = 1;
 Physical Volume("brick") = {1};
 )");
+  CHECK(script.mesh().blocks[0].kind == ElementKind::tet10);  // no wish: what there is
+  script.options.element = ElementKind::tet10;
+  const Mesh mesh = script.mesh();
+  CHECK(mesh.blocks[0].kind == ElementKind::tet10);
+  CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(1).epsilon(kRounding));
+  script.options.element = ElementKind::hex20;
+  CHECK_THROWS_AS(script.mesh(), InputError);
+  CHECK_THROWS_WITH(script.mesh(), Contains("its elements are tet10, asked for are hex20"));
+  script.options.element = ElementKind::prism18;
+  CHECK_THROWS_WITH(script.mesh(), Contains("hex27, hex20, hex8 or tet10, found prism18"));
+}
+
+TEST_CASE("elements that a mesh cannot hold are refused with their number and type") {
+  ScriptFixture tetrahedra(R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Mesh.MeshSizeMin = 1;
+Physical Volume("brick") = {1};
+)");
+  tetrahedra.options.element = ElementKind::hex8;  // first order
   CHECK_THROWS_AS(tetrahedra.mesh(), InputError);
   CHECK_THROWS_WITH(tetrahedra.mesh(), Contains("physical volume 'brick'") &&
-                                           Contains("27-node hexahedra, found ") &&
-                                           Contains("of type 'Tetrahedron 10'"));
+                                           Contains(", found ") &&
+                                           Contains("of type 'Tetrahedron 4'"));
 }
 
 TEST_CASE("volumes outside every part, unnamed parts and scripts without parts are refused") {
