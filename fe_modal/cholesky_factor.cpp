@@ -56,4 +56,20 @@ void CholeskyFactor::solve(Vec right_hand_side, Vec solution) const {
   require(MatSolve(factor_.get(), right_hand_side, solution), "solving with the factor");
 }
 
+Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  constexpr const char* kSolving = "solving with the factor";
+  Eigen::MatrixXd solutions(right_hand_sides.rows(), right_hand_sides.cols());
+  const auto rows = static_cast<PetscInt>(right_hand_sides.rows());
+  const auto columns = static_cast<PetscInt>(right_hand_sides.cols());
+  MatHandle in;
+  MatHandle out;
+  // PETSc takes memory that is not const; it only reads this.
+  require(MatCreateSeqDense(PETSC_COMM_SELF, rows, columns,
+                            const_cast<double*>(right_hand_sides.data()), in.out()),
+          kSolving);
+  require(MatCreateSeqDense(PETSC_COMM_SELF, rows, columns, solutions.data(), out.out()), kSolving);
+  require(MatMatSolve(factor_.get(), in.get(), out.get()), kSolving);
+  return solutions;
+}
+
 }  // namespace flexneck::fe_modal

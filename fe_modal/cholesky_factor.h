@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include <Eigen/Core>
+
 #include "fe_modal/petsc_handles.h"
 
 namespace flexneck::fe_modal {
@@ -24,6 +26,8 @@ class CholeskyFactor {
   /// Entries of the factor, as CHOLMOD counts them.
   double nonzeros() const { return nonzeros_; }
   void solve(Vec right_hand_side, Vec solution) const;
+  /// For each column, all at once: the factor, which no cache holds, is read once for many.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
 
  private:
   double shift_;
