@@ -24,6 +24,8 @@ struct Arguments {
   bool quiet = false;
   bool verbose = false;
   bool show = false;
+  std::string target;
+  bool is_binary = false;
 
   Verbosity verbosity() const {
     return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
@@ -50,6 +52,9 @@ void describe(CLI::App& app, Arguments& arguments) {
          "Cut every element in N + 1 in each direction; as --set mesh.refine=N")
       ->option_text("N");
   app.add_flag("--show", arguments.show, "With mesh: print dimensions and a section, mesh nothing");
+  app.add_option("--to", arguments.target, "With export: the file to write")
+      ->option_text("FILE.msh|FILE.inp");
+  app.add_flag("--binary", arguments.is_binary, "With export: a .msh in bytes instead of text");
   CLI::Option* const quiet = app.add_flag("-q,--quiet", arguments.quiet, "Print errors only");
   app.add_flag("-v,--verbose", arguments.verbose, "Print what each stage does")->excludes(quiet);
   std::string footer = "Commands:\n";
@@ -74,7 +79,8 @@ bool execute(const Arguments& arguments, const Console& console) {
       arguments.study.empty() ? built_in_study() : std::filesystem::path(arguments.study),
       arguments.settings);
   const ResultsFolder folder(arguments.folder);
-  return (arguments.show ? show_command : list[which].run)({study, folder, console});
+  return (arguments.show ? show_command : list[which].run)(
+      {study, folder, console, arguments.target, arguments.is_binary});
 }
 
 int exit_code_of(const Arguments& arguments) {

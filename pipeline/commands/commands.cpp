@@ -15,6 +15,7 @@ const std::vector<Command>& commands() {
       {"static", "static neck tester: static-<case>.h5", static_command},
       {"pendulum", "head/neck pendulum: pendulum-<case>.h5", pendulum_command},
       {"verify", "compare with published figures: verification.json", verify_command},
+      {"export", "write the mesh for gmsh or CalculiX: --to FILE.msh or FILE.inp", export_command},
       {"study", "print every input with its origin", study_command},
   };
   return list;
@@ -47,6 +48,9 @@ std::string origin_table(const Study& study) {
 }  // namespace
 
 bool run_command(const CommandInput& input) {
+  if (input.study.structure) {  // the experiments below are the neck's
+    return mesh_command(input) && modes_command(input);
+  }
   input.console.result("Inputs by origin: " + origin_counts(input.study) +
                        "; 'flexneck study' lists them with their sources.\n" +
                        origin_table(input.study));

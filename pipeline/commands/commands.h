@@ -15,6 +15,8 @@ struct CommandInput {
   const Study& study;
   const ResultsFolder& folder;
   const Console& console;
+  std::filesystem::path target = {};  ///< of export
+  bool is_binary = false;             ///< likewise
 };
 
 /// A command returns true unless a verification failed; everything else is an exception.
@@ -32,6 +34,7 @@ bool mesh_command(const CommandInput& input);
 /// Of `mesh --show`: the neck's dimensions, what follows from them, and a drawing; meshes nothing.
 bool show_command(const CommandInput& input);
 bool modes_command(const CommandInput& input);
+bool export_command(const CommandInput& input);
 bool static_command(const CommandInput& input);
 bool pendulum_command(const CommandInput& input);
 bool verify_command(const CommandInput& input);

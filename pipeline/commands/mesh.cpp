@@ -9,6 +9,7 @@
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/script_mesher.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/mesh_structure.h"
 
 namespace flexneck::pipeline {
 
@@ -19,19 +20,18 @@ mesher::ScriptMeshOptions mesh_options(const GeometrySection& geometry) {
   options.script = geometry.script;
   options.constants = geometry::script_constants(geometry.neck, geometry.divisions);
   options.materials = geometry.materials;
-  options.material_of_part = geometry.material_of_part;
   options.constants.merge(geometry::script_constants(geometry.slits));
   if (geometry.element == mesher::ElementKind::tet10) options.constants["recombine"] = 0;
   options.element = geometry.element;
   options.slits = geometry::slit_face_sets(geometry.slits);
   options.slits_tied = geometry.slits.state == geometry::SlitState::closed;
+  options.material_of_part = geometry.material_of_part;
   const auto centres = geometry::bolt_centres(geometry.neck);
   options.patches = {
       {"bolts", "base", {centres.begin(), centres.end()}, geometry.neck.bolt_patch_radius}};
   return options;
 }
 
-}  // namespace
 void warn_if_implausible(const geometry::NeckParameters& neck, double mass_kg,
                          const Console& console) {
   const double extent_m = std::max(neck.length, neck.plate_diameter);
@@ -40,8 +40,10 @@ void warn_if_implausible(const geometry::NeckParameters& neck, double mass_kg,
   }
 }
 
+}  // namespace
 
 bool mesh_command(const CommandInput& input) {
+  if (input.study.structure) return mesh_structure(input);
   if (!input.study.geometry) {
     throw InputError(input.study.file.string() + ": there is no [geometry], so nothing to mesh");
   }
@@ -55,9 +57,9 @@ bool mesh_command(const CommandInput& input) {
       {geometry.script.filename().string(), hash_of_file(geometry.script.string())});
   file.provenance.libraries["gmsh"] = mesher::gmsh_version();
   mesher::write_mesh(input.folder.mesh(), file);
+  warn_if_implausible(geometry.neck, mesher::summarise(file.mesh).mass_kg, input.console);
 
   std::size_t elements = 0;
-  warn_if_implausible(geometry.neck, mesher::summarise(file.mesh).mass_kg, input.console);
   for (const mesher::ElementBlock& block : file.mesh.blocks) elements += block.size();
   input.console.result(fmt::format("\nMesh: {} elements, {} nodes  ({})", elements,
                                    file.mesh.nodes.size(), input.folder.mesh().string()));

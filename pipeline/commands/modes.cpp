@@ -7,29 +7,39 @@
 #include "geometry/foundation/units.h"
 #include "mesher/mesh/mesh_file.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/structure_options.h"
 #include "pipeline/text_table.h"
 
 namespace flexneck::pipeline {
 
 namespace {
 
-fe_modal::ModalOptions modal_options(const Study& study) {
+/// Attaches the study's body to an interface. Its frame has the axes of the structure and its
+/// origin at the interface.
+void attach_body(const Study& study, const fe_modal::InterfaceDefinition& interface,
+                 fe_modal::ModalOptions& options) {
+  const multibody::RigidBody& body = study.body(study.modes.attached_body).rigid;
+  options.attachments = {{study.modes.attached_body, interface.name, body.mass_kg,
+                          interface.position_m + body.center_m, body.inertia_kg_m2}};
+}
+
+fe_modal::ModalOptions neck_options(const Study& study) {
   const GeometrySection& geometry = *study.geometry;
   fe_modal::ModalOptions options;
   options.mode_count = study.modes.count;
+  options.formulation = study.modes.formulation;
   options.held_set = "bolts";
   options.held_interface = "base";
   options.interfaces = {{"top", "top", geometry.joint_point_m}};
   options.rigid_parts = {"base_plate", "plate_1", "plate_2", "plate_3", "top_plate"};
   options.length_m = geometry.neck.length;
   options.sign_interface = "top";
-  if (!study.modes.attached_body.empty()) {
-    // The body's frame has the axes of the neck and its origin at the joint point.
-    const multibody::RigidBody& body = study.body(study.modes.attached_body).rigid;
-    options.attachments = {{study.modes.attached_body, "top", body.mass_kg,
-                            geometry.joint_point_m + body.center_m, body.inertia_kg_m2}};
-  }
+  if (!study.modes.attached_body.empty()) attach_body(study, options.interfaces.front(), options);
   return options;
+}
+
+fe_modal::ModalOptions modal_options(const Study& study, mesher::Mesh& mesh) {
+  return study.geometry ? neck_options(study) : structure_options(study, mesh);
 }
 
 std::string mode_table(const fe_modal::ModalBody& body) {
@@ -45,31 +55,50 @@ std::string mode_table(const fe_modal::ModalBody& body) {
   return text_table(rows);
 }
 
+/// The neck's paper weighs in pounds.
+std::string mass_text(const Study& study, double mass_kg) {
+  return study.geometry ? fmt::format("{:.3f} lb", mass_kg * factor_from_si("kg", "lb"))
+                        : fmt::format("{:.4g} kg", mass_kg);
+}
+
+/// "With head on top: 5.0, 5.3 … Hz", a line for each body.
+std::string attached_text(const fe_modal::ModalBody& body) {
+  std::string text;
+  for (const fe_modal::AttachedFrequencies& attached : body.attached) {
+    text += "\nWith " + attached.body + " on " + attached.interface + ":";
+    for (const double frequency : attached.frequencies_Hz)
+      text += fmt::format(" {:.3f}", frequency);
+    text += " Hz";
+  }
+  return text;
+}
+
 }  // namespace
 
 bool modes_command(const CommandInput& input) {
-  const mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
+  mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, "flexneck mesh");
-  if (!input.study.geometry) {
+  if (!input.study.geometry && !input.study.structure) {
     throw InputError(input.study.file.string() +
                      ": there is no [geometry] that names the interfaces");
   }
   input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
   const fe_modal::PetscSession session;
   fe_modal::ModalBodyFile file;
-  file.body =
-      fe_modal::analyse_modes(mesh.mesh, modal_options(input.study), input.console.detail());
+  const fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
+  file.body = fe_modal::analyse_modes(mesh.mesh, options, input.console.detail());
   const std::string attached = "body." + input.study.modes.attached_body + ".";
-  file.provenance = provenance_of(input.study, {"geometry.", "mesh.", "modes.", attached});
+  file.provenance =
+      provenance_of(input.study, {"geometry.", "mesh.", "modes.", "interface.", attached});
   file.provenance.inputs.push_back(
       {input.folder.mesh().filename().string(), hash_of_file(input.folder.mesh().string())});
   file.provenance.libraries = fe_modal::library_versions();
   fe_modal::write_modal_body(input.folder.modes(), file);
 
-  const double mass_lb = file.body.invariants.mass * factor_from_si("kg", "lb");
-  input.console.result(fmt::format("\nModes: {}, {}; mass {:.3f} lb  ({})\n{}", file.body.boundary,
-                                   file.body.certificate, mass_lb, input.folder.modes().string(),
-                                   mode_table(file.body)));
+  input.console.result(
+      fmt::format("\nModes: {}, {}; mass {}  ({})\n{}{}", file.body.boundary, file.body.certificate,
+                  mass_text(input.study, file.body.invariants.mass), input.folder.modes().string(),
+                  mode_table(file.body), input.study.structure ? attached_text(file.body) : ""));
   return true;
 }
 

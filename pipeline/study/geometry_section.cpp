@@ -41,22 +41,6 @@ mesher::ElementKind read_element(const StudyTable& table) {
   return kKinds.at(choice(table, "element", {"hex27", "hex20", "hex8", "tet10"}));
 }
 
-void read_materials(const StudyTable& table, GeometrySection& section) {
-  const StudyTable materials = table.table("materials");
-  for (const std::string& name : materials.keys()) {
-    const StudyTable material = materials.table(name);
-    section.materials.push_back({name, material.quantity("youngs_modulus", "Pa"),
-                                 material.number("poissons_ratio"),
-                                 material.quantity("density", "kg/m^3")});
-    for (const std::string& part : material.texts("parts")) {
-      if (!section.material_of_part.emplace(part, name).second) {
-        material.refuse("parts", "the part '" + part + "' has another material already");
-      }
-    }
-    material.finish();
-  }
-}
-
 geometry::NeckDivisions read_divisions(const StudyTable& table) {
   geometry::NeckDivisions divisions;
   if (table.has("preset")) {
@@ -83,6 +67,23 @@ geometry::NeckDivisions read_divisions(const StudyTable& table) {
 
 }  // namespace
 
+void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
+                    std::map<std::string, std::string>& material_of_part) {
+  const StudyTable table = geometry.table("materials");
+  for (const std::string& name : table.keys()) {
+    const StudyTable material = table.table(name);
+    materials.push_back({name, material.quantity("youngs_modulus", "Pa"),
+                         material.number("poissons_ratio"),
+                         material.quantity("density", "kg/m^3")});
+    for (const std::string& part : material.texts("parts")) {
+      if (!material_of_part.emplace(part, name).second) {
+        material.refuse("parts", "the part '" + part + "' has another material already");
+      }
+    }
+    material.finish();
+  }
+}
+
 GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh) {
   GeometrySection section;
   section.script = geometry.folder_of("script") / geometry.text("script");
@@ -91,7 +92,7 @@ GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh
   const std::vector<double> point = geometry.quantities("joint_point", "m", 3);
   section.joint_point_m = Eigen::Map<const Eigen::Vector3d>(point.data());
   if (geometry.has("fitted_to")) section.fitted_to = geometry.texts("fitted_to");
-  read_materials(geometry, section);
+  read_materials(geometry, section.materials, section.material_of_part);
   geometry.finish();
   section.divisions = read_divisions(mesh);
   section.element = read_element(mesh);

@@ -7,10 +7,27 @@
 
 namespace flexneck::pipeline {
 
+namespace {
+
+fe_modal::Formulation read_formulation(const StudyTable& table, fe_modal::Formulation fallback) {
+  if (!table.has("formulation")) return fallback;
+  try {
+    return fe_modal::formulation_from(table.text("formulation"));
+  } catch (const InputError& error) {
+    table.refuse("formulation", error.what());
+  }
+}
+
+}  // namespace
+
 ModesSection read_modes(const StudyTable& table) {
   ModesSection modes;
   modes.count = table.count_or("count", 1, modes.count);
+  modes.formulation = read_formulation(table, modes.formulation);
+  if (table.has("held")) modes.held = table.texts("held");
+  if (table.has("rigid_parts")) modes.rigid_parts = table.texts("rigid_parts");
   modes.attached_body = table.text_or("attached_body", "");
+  modes.attached_to = table.text_or("attached_to", "");
   table.finish();
   return modes;
 }
@@ -69,11 +86,20 @@ void forget_fit_of_changed_neck(Study& study) {
   }
 }
 
+void read_what_is_meshed(const StudyTable& geometry, const StudyTable& mesh, Study& study) {
+  if (is_structure(geometry)) {
+    study.structure = read_structure(geometry, mesh);
+  } else {
+    study.geometry = read_geometry(geometry, mesh);
+  }
+}
+
 void check_geometry(const Study& study) {
   if (!study.geometry) return;
   try {
     geometry::check(study.geometry->neck);
     geometry::check(study.geometry->divisions);
+    geometry::check(study.geometry->slits, study.geometry->divisions);
   } catch (const InputError& error) {
     throw InputError(study.file.string() + ": " + error.what());
   }
@@ -99,7 +125,6 @@ void check_references(const Study& study) {
     for (const std::string& force : experiment.forces) {
       require(who, names_of(study.forces), force, "force");
     }
-    geometry::check(study.geometry->slits, study.geometry->divisions);
   }
   if (!study.modes.attached_body.empty()) {
     require("modes.attached_body", bodies, study.modes.attached_body, "body");
@@ -123,8 +148,9 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   Study study;
   study.file = path;
   const StudyTable mesh = root.table("mesh");
-  if (root.has("geometry")) study.geometry = read_geometry(root.table("geometry"), mesh);
+  if (root.has("geometry")) read_what_is_meshed(root.table("geometry"), mesh, study);
   study.modes = read_modes(root.table("modes"));
+  study.interfaces = read_all(root, "interface", read_interface);
   study.bodies = read_all(root, "body", read_body);
   study.markers = read_all(root, "marker", read_marker);
   study.joints = read_all(root, "joint", read_joint);

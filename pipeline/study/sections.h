@@ -6,6 +6,14 @@
 
 namespace flexneck::pipeline {
 
+/// True if [geometry] describes something else than the neck: a file, or a script without the
+/// neck's dimensions.
+bool is_structure(const StudyTable& geometry);
+StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh);
+InterfaceSection read_interface(const StudyTable& interface);
+/// [geometry.materials]
+void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
+                    std::map<std::string, std::string>& material_of_part);
 GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh);
 ModesSection read_modes(const StudyTable& modes);
 BodySection read_body(const StudyTable& body);

@@ -9,11 +9,13 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/formulation.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/neck_slits.h"
 #include "mesher/mesh/mesh.h"
 #include "multibody/model.h"
 #include "multibody/simulation.h"
+#include "pipeline/study/structure_section.h"
 
 namespace flexneck::pipeline {
 
@@ -22,10 +24,10 @@ struct GeometrySection {
   std::filesystem::path script;
   geometry::NeckParameters neck;
   geometry::NeckDivisions divisions;
-  std::vector<mesher::Material> materials;
-  std::map<std::string, std::string> material_of_part;
   geometry::NeckSlits slits;
   mesher::ElementKind element = mesher::ElementKind::hex27;
+  std::vector<mesher::Material> materials;
+  std::map<std::string, std::string> material_of_part;
   Eigen::Vector3d joint_point_m = Eigen::Vector3d::Zero();
   std::vector<std::string> fitted_to;  ///< published figures that the dimensions were fitted to
 };
@@ -33,7 +35,11 @@ struct GeometrySection {
 /// [modes]
 struct ModesSection {
   int count = 10;
-  std::string attached_body;  ///< rigid body set on the top interface for the loaded frequencies
+  fe_modal::Formulation formulation = fe_modal::Formulation::mixed_pressure;
+  std::vector<std::string> held;         ///< node sets held in all directions; empty: a free body
+  std::vector<std::string> rigid_parts;  ///< parts whose motion names the modes
+  std::string attached_body;  ///< rigid body set on an interface for the loaded frequencies
+  std::string attached_to;    ///< that interface; empty: the first
 };
 
 /// [[body]]
@@ -89,7 +95,9 @@ struct CaseSection {
 /// Everything that a study file says, checked and in SI units.
 struct Study {
   std::filesystem::path file;
-  std::optional<GeometrySection> geometry;
+  std::optional<GeometrySection> geometry;    ///< the neck, or …
+  std::optional<StructureSection> structure;  ///< … another structure
+  std::vector<InterfaceSection> interfaces;   ///< of another structure; the neck has its own
   ModesSection modes;
   std::vector<BodySection> bodies;
   std::vector<MarkerSection> markers;

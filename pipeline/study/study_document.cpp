@@ -156,6 +156,8 @@ StudyTable::StudyTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
 
 bool StudyTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
 
+bool StudyTable::is_text(const std::string& key) const { return node_->value(key).is_string(); }
+
 std::string StudyTable::text(const std::string& key) const {
   return node_->scalar<std::string>(key, "a text in quotes");
 }

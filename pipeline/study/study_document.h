@@ -20,6 +20,8 @@ class StudyTable {
   explicit StudyTable(std::shared_ptr<Node> node);
 
   bool has(const std::string& key) const;
+  /// True if the value is a text in quotes.
+  bool is_text(const std::string& key) const;
   std::string text(const std::string& key) const;
   std::string text_or(const std::string& key, const std::string& fallback) const;
   std::vector<std::string> texts(const std::string& key) const;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/structure_options.h"
+
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+double diagonal_m(const mesher::Mesh& mesh) {
+  Eigen::Vector3d low(mesh.nodes.front().data());
+  Eigen::Vector3d high = low;
+  for (const auto& node : mesh.nodes) {
+    low = low.cwiseMin(Eigen::Vector3d(node.data()));
+    high = high.cwiseMax(Eigen::Vector3d(node.data()));
+  }
+  return (high - low).norm();
+}
+
+/// The name of the one held set, or of the union of several.
+std::string held_set(const std::vector<std::string>& held, mesher::Mesh& mesh) {
+  if (held.empty()) return {};
+  if (held.size() == 1) return mesh.node_set(held.front()).name;
+  mesher::NodeSet all{"held", {}};
+  for (const std::string& name : held) {
+    const std::vector<std::int32_t>& nodes = mesh.node_set(name).nodes;
+    all.nodes.insert(all.nodes.end(), nodes.begin(), nodes.end());
+  }
+  std::sort(all.nodes.begin(), all.nodes.end());
+  all.nodes.erase(std::unique(all.nodes.begin(), all.nodes.end()), all.nodes.end());
+  std::erase_if(mesh.node_sets, [](const mesher::NodeSet& set) { return set.name == "held"; });
+  mesh.node_sets.push_back(std::move(all));
+  return "held";
+}
+
+void add_interfaces(const Study& study, fe_modal::ModalOptions& options) {
+  const std::vector<std::string>& held = study.modes.held;
+  for (const InterfaceSection& interface : study.interfaces) {
+    if (std::find(held.begin(), held.end(), interface.set) == held.end()) {
+      options.interfaces.push_back({interface.name, interface.set, interface.position_m});
+      continue;
+    }
+    if (!options.held_interface.empty()) {
+      throw InputError("interface." + interface.name + ": interface '" + options.held_interface +
+                       "' lies on the held nodes already; one can");
+    }
+    options.held_interface = interface.name;
+    options.held_position_m = interface.position_m;
+  }
+  if (!options.interfaces.empty()) options.sign_interface = options.interfaces.front().name;
+}
+
+void attach_body(const Study& study, fe_modal::ModalOptions& options) {
+  const ModesSection& modes = study.modes;
+  if (modes.attached_body.empty()) return;
+  if (options.interfaces.empty()) {
+    throw InputError("modes.attached_body: there is no [[interface]] to attach it to");
+  }
+  const std::size_t where = modes.attached_to.empty() ? 0
+                                                      : find_name(names_of(options.interfaces),
+                                                                  modes.attached_to, "interface");
+  const fe_modal::InterfaceDefinition& interface = options.interfaces[where];
+  const multibody::RigidBody& body = study.body(modes.attached_body).rigid;
+  options.attachments = {{modes.attached_body, interface.name, body.mass_kg,
+                          interface.position_m + body.center_m, body.inertia_kg_m2}};
+}
+
+}  // namespace
+
+fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh) {
+  fe_modal::ModalOptions options;
+  options.mode_count = study.modes.count;
+  options.formulation = study.modes.formulation;
+  options.rigid_parts = study.modes.rigid_parts;
+  options.length_m = diagonal_m(mesh);
+  try {
+    options.held_set = held_set(study.modes.held, mesh);
+    add_interfaces(study, options);
+    attach_body(study, options);
+  } catch (const InputError& error) {
+    throw InputError(study.file.string() + ": " + error.what());
+  }
+  return options;
+}
+
+}  // namespace flexneck::pipeline

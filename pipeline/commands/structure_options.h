@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fe_modal/modal_analysis.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// What `flexneck modes` computes of a structure that is not the neck: [modes] and [[interface]].
+/// An interface on a set that is held is the held interface. If several sets are held, their union
+/// joins the mesh as the node set "held". Signs follow the first other interface.
+/// @pre study.structure
+/// @throws InputError naming study and key, with the nearest set where one is unknown.
+fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh);
+
+}  // namespace flexneck::pipeline
