@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include <gmsh.h>
 
@@ -13,6 +14,9 @@
 namespace flexneck::mesher {
 namespace {
 
+/// What OpenCASCADE calls a shape in a STEP file that has no name.
+constexpr std::string_view kNoName = "Open CASCADE STEP translator";
+
 /// Part names of volumes: the last piece of the label if no other volume has it, else the tag.
 std::map<int, std::string> volume_names(const gmsh::vectorpair& volumes) {
   std::map<int, std::string> names;
@@ -21,6 +25,7 @@ std::map<int, std::string> volume_names(const gmsh::vectorpair& volumes) {
     std::string label;
     gmsh::model::getEntityName(dim, tag, label);
     names[tag] = label.substr(label.rfind('/') + 1);
+    if (names[tag].starts_with(kNoName)) names[tag].clear();
     all.insert(names[tag]);
   }
   for (auto& [tag, name] : names) {
@@ -66,9 +71,11 @@ void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double si
   const std::map<int, std::string> names = volume_names(volumes);
   glue(volumes);
   name_groups(names);
-  if (size > 0) {
+  if (size > 0) {  // without a size at its points gmsh takes a tenth of the shape
+    gmsh::vectorpair points;
+    gmsh::model::getEntities(points, 0);
+    gmsh::model::mesh::setSize(points, size);
     gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-    gmsh::option::setNumber("Mesh.MeshSizeMin", size / 100);
   }
   gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // the one that repeats itself from run to run
   gmsh::option::setNumber("Mesh.ElementOrder", 2);

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "geometry/foundation/error.h"
+#include "mesher/exchange/mesh_import.h"
+#include "tests/support/temporary_folder.h"
+
+namespace flexneck::testing {
+
+/// Files in a folder of their own.
+class Files {
+ public:
+  std::filesystem::path write(const std::string& name, const std::string& contents) const {
+    std::ofstream(folder_ / name, std::ios::binary) << contents;
+    return folder_ / name;
+  }
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// What an import says when it refuses, or "accepted".
+inline std::string refusal(const mesher::ImportOptions& options) {
+  try {
+    mesher::import_mesh(options, {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// All parts named of one material, "stuff".
+inline mesher::ImportOptions import_options(const std::filesystem::path& file,
+                                            const std::vector<std::string>& parts) {
+  mesher::ImportOptions options;
+  options.file = file;
+  options.materials = {
+      {.name = "stuff", .youngs_modulus_Pa = 1e6, .poissons_ratio = 0.3, .density_kg_m3 = 1000}};
+  for (const std::string& part : parts) options.material_of_part[part] = "stuff";
+  return options;
+}
+
+/// A tetrahedron with straight edges of 1 in .msh 2.2, of the part "corner".
+inline const char* const kTetrahedronMsh = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+3 7 "corner"
+$EndPhysicalNames
+$Nodes
+10
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 0.5 0 0
+6 0.5 0.5 0
+7 0 0.5 0
+8 0 0 0.5
+9 0 0.5 0.5
+10 0.5 0 0.5
+$EndNodes
+$Elements
+1
+1 11 2 7 1 1 2 3 4 5 6 7 8 9 10
+$EndElements
+)";
+
+}  // namespace flexneck::testing

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <gmsh.h>
+
+#include "mesher/gmsh_session.h"
+#include "mesher/mesh/mesh_measures.h"
+#include "tests/mesher/exchange/files.h"
+
+namespace flexneck::mesher {
+namespace {
+
+using Catch::Matchers::Contains;
+using testing::Files;
+using testing::import_options;
+
+constexpr double kRounding = 1e-12;
+
+/// Two boxes of 2 x 1 x 1 on one another with a common face, tetrahedra of second order, in every
+/// format that gmsh writes; lengths in `unit`s.
+void write_boxes(const Files& files, const std::vector<std::string>& names, double unit = 1) {
+  const GmshSession session;
+  gmsh::model::occ::addBox(0, 0, 0, 2 * unit, unit, unit, 1);
+  gmsh::model::occ::addBox(0, 0, unit, 2 * unit, unit, unit, 2);
+  gmsh::vectorpair pieces;
+  std::vector<gmsh::vectorpair> piece_of;
+  gmsh::model::occ::fragment({{3, 1}, {3, 2}}, {}, pieces, piece_of);
+  gmsh::model::occ::synchronize();
+  gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {1}, 1), "lower");
+  gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {2}, 2), "upper");
+  gmsh::vectorpair floor;
+  gmsh::model::getEntitiesInBoundingBox(-unit, -unit, -unit / 9, 3 * unit, 3 * unit, unit / 9,
+                                        floor, 2);
+  gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {floor[0].second}, 3), "floor");
+  gmsh::option::setNumber("Mesh.MeshSizeMin", unit);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", unit);
+  gmsh::option::setNumber("Mesh.ElementOrder", 2);
+  gmsh::option::setNumber("Mesh.BdfFieldFormat", 1);
+  gmsh::model::mesh::generate(3);
+  for (const std::string& name : names) {
+    const bool is_old = name.find("2") != std::string::npos;
+    gmsh::option::setNumber("Mesh.MshFileVersion", is_old ? 2.2 : 4.1);
+    gmsh::option::setNumber("Mesh.Binary", name.find("binary") != std::string::npos ? 1 : 0);
+    gmsh::write(files / name);
+  }
+}
+
+/// Volume and area are exact whatever the order of nodes in the file; a wrong one folds elements.
+void check_boxes(const Mesh& mesh, const std::string& lower, const std::string& floor) {
+  REQUIRE(mesh.blocks.size() == 2);
+  CHECK(mesh.blocks[0].part == lower);
+  CHECK(mesh.blocks[0].kind == ElementKind::tet10);
+  CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(2).epsilon(kRounding));
+  CHECK(measure(mesh, mesh.blocks[1]).volume_m3 == Approx(2).epsilon(kRounding));
+  CHECK(area_m2(mesh, mesh.face_set(floor)) == Approx(2).epsilon(kRounding));
+  for (const std::int32_t node : mesh.node_set(floor).nodes) {
+    CHECK(std::abs(mesh.nodes[static_cast<std::size_t>(node)][2]) < 1e-12);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a mesh comes over from every version of .msh, and from .unv, with its groups") {
+  const Files files;
+  const std::vector<std::string> names = {"text4.msh", "text2.msh", "binary4.msh", "binary2.msh",
+                                          "mesh.unv"};
+  write_boxes(files, names);
+  for (const std::string& name : names) {
+    INFO(name);
+    check_boxes(import_mesh(import_options(files / name, {"lower", "upper"}), {}), "lower",
+                "floor");
+  }
+}
+
+TEST_CASE("a .bdf has no names: parts and sets are called by their properties") {
+  const Files files;
+  write_boxes(files, {"mesh.bdf"});
+  const Mesh mesh = import_mesh(import_options(files / "mesh.bdf", {"volume_1", "volume_2"}), {});
+  REQUIRE(mesh.face_sets.size() == 1);
+  check_boxes(mesh, "volume_1", mesh.face_sets[0].name);
+  CHECK_THAT(mesh.face_sets[0].name, Contains("surface_"));
+}
+
+TEST_CASE("a shape is meshed with tetrahedra of the size asked for, its volumes glued") {
+  const Files files;
+  write_boxes(files, {"shape.brep", "shape.step"});
+  SECTION("BREP in centimetres") {
+    ImportOptions options = import_options(files / "shape.brep", {"volume_1", "volume_2"});
+    options.length_unit_m = 0.01;
+    options.element_size_m = 0.005;
+    options.box_sets = {{"roof", {-1, -1, 0.0199}, {1, 1, 0.0201}}};
+    const Mesh mesh = import_mesh(options, {});
+    REQUIRE(mesh.blocks.size() == 2);
+    CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(2e-6).epsilon(1e-9));
+    CHECK(area_m2(mesh, mesh.face_set("roof")) == Approx(2e-4).epsilon(1e-9));
+    // 4 x 2 x 2 cells of half the edge hold some five tetrahedra each.
+    CHECK(mesh.blocks[0].size() > 40);
+    CHECK(mesh.blocks[0].size() < 400);
+    // The same file twice gives the same mesh.
+    CHECK(import_mesh(options, {}).nodes == mesh.nodes);
+  }
+  SECTION("STEP knows its unit: gmsh writes millimetres") {
+    ImportOptions options = import_options(files / "shape.step", {"volume_1", "volume_2"});
+    options.element_size_m = 1e-3;
+    const Mesh mesh = import_mesh(options, {});
+    REQUIRE(mesh.blocks.size() == 2);
+    CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(2e-9).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a length unit scales positions, and parts need materials that exist") {
+  const Files files;
+  write_boxes(files, {"mm.msh"}, 1000);
+  ImportOptions options = import_options(files / "mm.msh", {"lower", "upper"});
+  options.length_unit_m = 1e-3;
+  check_boxes(import_mesh(options, {}), "lower", "floor");
+
+  CHECK_THAT(testing::refusal(import_options(files / "mm.msh", {"lower"})),
+             Contains("mm.msh") && Contains("part 'upper' has no material"));
+  CHECK_THAT(testing::refusal(import_options(files / "mm.msh", {"lower", "upper", "uper"})),
+             Contains("there is no part 'uper'") && Contains("did you mean 'upper'"));
+  options.box_sets = {{"nowhere", {5, 5, 5}, {6, 6, 6}}};
+  CHECK_THAT(testing::refusal(options), Contains("set 'nowhere': no face of the surface"));
+}
+
+TEST_CASE("elements that a mesh cannot hold are refused with their number and type") {
+  const Files files;
+  const std::string mesh = testing::kTetrahedronMsh;
+  const std::string linear = "1 4 2 7 1 1 2 3 4\n2 4 2 7 1 2 3 4 6\n";
+  const std::size_t begin = mesh.find("1\n1 11 2");
+  const auto file =
+      files.write("linear.msh", mesh.substr(0, begin) + "2\n" + linear + "$EndElements\n");
+  CHECK_THAT(testing::refusal(import_options(file, {"corner"})),
+             Contains("physical volume 'corner'") && Contains("2 of type 'Tetrahedron 4'"));
+}
+
+TEST_CASE("points and curves in groups become node sets") {
+  const Files files;
+  std::string mesh = testing::kTetrahedronMsh;
+  const std::size_t begin = mesh.find("1\n1 11 2");
+  mesh = mesh.substr(0, begin) +
+         "3\n1 11 2 7 1 1 2 3 4 5 6 7 8 9 10\n2 8 2 8 1 1 2 5\n3 15 2 9 1 4\n$EndElements\n";
+  mesh.replace(mesh.find("1\n3 7"), 2, "3\n1 8 \"edge\"\n0 9 \"apex\"\n");
+  const Mesh read = import_mesh(import_options(files.write("sets.msh", mesh), {"corner"}), {});
+  CHECK(read.node_set("edge").nodes == std::vector<std::int32_t>{0, 1, 4});
+  CHECK(read.node_set("apex").nodes == std::vector<std::int32_t>{3});
+}
+
+}  // namespace flexneck::mesher

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sstream>
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "mesher/mesh/mesh_measures.h"
+#include "tests/mesher/exchange/files.h"
+
+namespace flexneck::mesher {
+namespace {
+
+using Catch::Matchers::Contains;
+using testing::Files;
+using testing::import_options;
+
+constexpr double kRounding = 1e-13;
+
+/// An element as the Abaqus manual draws it (6.14, Elements, "Three-dimensional solid element
+/// library"): corners in reference coordinates, then the corners that each midside node lies
+/// between, then the corners of the sides S1, S2, …; all counted from 1.
+struct ManualElement {
+  std::string type;
+  ElementKind kind;
+  std::vector<std::array<double, 3>> corners;
+  std::vector<std::pair<int, int>> midsides;
+  std::vector<std::vector<int>> sides;
+};
+
+const std::vector<ManualElement>& manual() {
+  static const std::vector<std::array<double, 3>> kCube = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},
+                                                           {-1, 1, -1},  {-1, -1, 1}, {1, -1, 1},
+                                                           {1, 1, 1},    {-1, 1, 1}};
+  static const std::vector<std::vector<int>> kCubeSides = {
+      {1, 2, 3, 4}, {5, 8, 7, 6}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}};
+  static const std::vector<ManualElement> kManual = {
+      {"C3D8I", ElementKind::hex8, kCube, {}, kCubeSides},
+      {"C3D20R",
+       ElementKind::hex20,
+       kCube,
+       {{1, 2},
+        {2, 3},
+        {3, 4},
+        {4, 1},
+        {5, 6},
+        {6, 7},
+        {7, 8},
+        {8, 5},
+        {1, 5},
+        {2, 6},
+        {3, 7},
+        {4, 8}},
+       kCubeSides},
+      {"c3d10",
+       ElementKind::tet10,
+       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+       {{1, 2}, {2, 3}, {3, 1}, {1, 4}, {2, 4}, {3, 4}},
+       {{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}}},
+      {"C3D15",
+       ElementKind::prism15,
+       {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+       {{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}, {1, 4}, {2, 5}, {3, 6}},
+       {{1, 2, 3}, {4, 6, 5}, {1, 4, 5, 2}, {2, 5, 6, 3}, {3, 6, 4, 1}}}};
+  return kManual;
+}
+
+/// A skew map, so that no two directions can be mistaken for one another.
+Eigen::Vector3d skewed(const std::array<double, 3>& x) {
+  Eigen::Matrix3d map;
+  map << 2, 0.3, 0.1, -0.2, 3, 0.4, 0.5, -0.6, 5;
+  return map * Eigen::Vector3d(x.data()) + Eigen::Vector3d(7, 8, 9);
+}
+
+std::array<double, 3> middle(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+}
+
+/// A file with this element alone, nodes numbered 10, 20, …, and a surface for each side.
+std::string inp_of(const ManualElement& element) {
+  std::vector<std::array<double, 3>> nodes = element.corners;
+  for (const auto& [a, b] : element.midsides) {
+    nodes.push_back(middle(element.corners[static_cast<std::size_t>(a - 1)],
+                           element.corners[static_cast<std::size_t>(b - 1)]));
+  }
+  std::ostringstream text;
+  text.precision(17);
+  text << "*NODE\n";
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Eigen::Vector3d x = skewed(nodes[n]);
+    text << 10 * (n + 1) << ", " << x[0] << ", " << x[1] << ", " << x[2] << "\n";
+  }
+  text << "*ELEMENT, TYPE=" << element.type << ", ELSET=only\n5";
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    text << (n == 11 ? ",\n" : ", ") << 10 * (n + 1);  // long elements go on in the next line
+  }
+  text << "\n";
+  for (std::size_t s = 1; s <= element.sides.size(); ++s) {
+    text << "*SURFACE, NAME=side" << s << ", TYPE=ELEMENT\nonly, S" << s << "\n";
+  }
+  return text.str();
+}
+
+/// A box of 1 x 2 x 3 as C3D8, two on one another, with everything a small deck has. In mm, N, s:
+/// steel.
+const char* const kDeck = R"(** a comment
+*Heading
+ two bricks
+*Node, nset=All
+1, 0, 0, 0
+2, 1., 0, 0
+3, 1.0E0, 2, 0
+4, 0, 2.D0, 0
+5, 0, 0, 3
+6, 1, 0, 3
+7, 1, 2, 3
+8, 0, 2, 3
+9, 0, 0, 6
+10, 1, 0, 6
+11, 1, 2, 6
+12, 0, 2, 6
+99, 5, 5, 5
+*Element, type=C3D8,
+  elset=Lower
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*Element, type=C3D8I, elset=Upper
+2, 5, 6, 7, 8, 9, 10, 11, 12
+*Elset, elset=Both
+LOWER, upper
+*Nset, nset=Foot, generate
+1, 4, 1
+*Nset, nset=Ring
+Foot, 9, 10,
+11, 12
+*Nset, nset=Reference
+99
+*Surface, name=Roof, type=element
+2, s2
+*Material, name=Steel
+*Elastic
+210000., 0.3
+*Density
+7.85e-9
+*Solid Section, elset=Both, material=steel
+*Boundary
+Foot, 1, 2
+foot, 3
+*Step
+*Frequency
+5
+*End Step
+)";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+std::string refusal_of(const std::string& deck, const std::vector<std::string>& parts = {}) {
+  const Files files;
+  ImportOptions options = import_options(files.write("deck.inp", deck), parts);
+  return testing::refusal(options);
+}
+
+}  // namespace
+
+TEST_CASE("every node of an Abaqus element comes to its place in ours, and every side") {
+  for (const ManualElement& element : manual()) {
+    INFO(element.type);
+    const Files files;
+    const Mesh mesh =
+        import_mesh(import_options(files.write("one.inp", inp_of(element)), {"only"}), {});
+    REQUIRE(mesh.blocks.size() == 1);
+    REQUIRE(mesh.blocks[0].kind == element.kind);
+    const auto reference = reference_nodes(element.kind);
+    for (std::size_t n = 0; n < reference.size(); ++n) {
+      const auto& x = mesh.nodes[static_cast<std::size_t>(mesh.blocks[0].nodes[n])];
+      CHECK((Eigen::Vector3d(x.data()) - skewed(reference[n])).norm() < 1e-13);
+    }
+    const Eigen::Vector3d inside = positions_of(mesh, mesh.blocks[0].nodes).rowwise().mean();
+    for (std::size_t s = 1; s <= element.sides.size(); ++s) {
+      INFO("S" << s);
+      const FaceBlock& face = mesh.face_set("side" + std::to_string(s)).blocks.at(0);
+      const auto corners = corners_per_element(face.kind);
+      REQUIRE(corners == element.sides[s - 1].size());
+      Eigen::Vector3d expected = Eigen::Vector3d::Zero();
+      for (const int corner : element.sides[s - 1]) {
+        expected += skewed(element.corners[static_cast<std::size_t>(corner - 1)]) /
+                    static_cast<double>(corners);
+      }
+      const Eigen::Matrix3Xd x = positions_of(mesh, std::span(face.nodes).first(corners));
+      CHECK((x.rowwise().mean() - expected).norm() < 1e-13);
+      const Eigen::Vector3d normal = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(1));
+      CHECK(normal.dot(expected - inside) > 0);
+    }
+  }
+}
+
+TEST_CASE("a deck gives parts, sets and materials in consistent units") {
+  const Files files;
+  ImportOptions options;
+  options.file = files.write("deck.inp", kDeck);
+  options.length_unit_m = 1e-3;
+  std::string told;
+  const Mesh mesh = import_mesh(options, [&](const std::string& line) { told += line + "\n"; });
+  CHECK_THAT(told, Contains("passed over in deck.inp: *HEADING *STEP *FREQUENCY *END STEP"));
+
+  REQUIRE(mesh.blocks.size() == 1);
+  CHECK(mesh.blocks[0].part == "Both");
+  CHECK(mesh.nodes.size() == 12);  // without the reference point
+  CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(12e-9).epsilon(kRounding));
+  REQUIRE(mesh.materials.size() == 1);
+  CHECK(mesh.materials[0].name == "Steel");
+  CHECK(mesh.materials[0].youngs_modulus_Pa == Approx(210e9).epsilon(kRounding));
+  CHECK(mesh.materials[0].density_kg_m3 == Approx(7850).epsilon(kRounding));
+
+  CHECK(mesh.node_set("Foot").nodes == std::vector<std::int32_t>{0, 1, 2, 3});
+  CHECK(mesh.node_set("boundary").nodes == mesh.node_set("Foot").nodes);
+  CHECK(area_m2(mesh, mesh.face_set("Foot")) == Approx(2e-6).epsilon(kRounding));
+  CHECK(mesh.node_set("Ring").nodes.size() == 8);
+  CHECK(area_m2(mesh, mesh.face_set("Ring")) == Approx(4e-6).epsilon(kRounding));
+  CHECK(area_m2(mesh, mesh.face_set("All")) == Approx((4 + 12 + 24) * 1e-6).epsilon(kRounding));
+  CHECK(mesh.node_set("Roof").nodes == std::vector<std::int32_t>{8, 9, 10, 11});
+  CHECK_THROWS_WITH(mesh.node_set("Reference"), Contains("no node set 'Reference'"));
+}
+
+TEST_CASE("inch and pound-force: a deck of steel in lbf s^2 / in^4") {
+  const Files files;
+  ImportOptions options;
+  std::string deck = with(kDeck, "210000., 0.3", "30.457925e6, 0.3");
+  options.file = files.write("deck.inp", with(deck, "7.85e-9", "7.3455e-4"));
+  options.length_unit_m = 0.0254;
+  options.force_unit_N = 4.4482216152605;
+  const Mesh mesh = import_mesh(options, {});
+  CHECK(mesh.materials[0].youngs_modulus_Pa == Approx(210e9).epsilon(1e-6));
+  CHECK(mesh.materials[0].density_kg_m3 == Approx(7850).epsilon(1e-4));
+}
+
+TEST_CASE("the study's parts and materials go before the file's") {
+  const Files files;
+  const Mesh mesh = import_mesh(import_options(files.write("deck.inp", kDeck), {"upper"}), {});
+  REQUIRE(mesh.blocks.size() == 2);
+  CHECK(mesh.blocks[0].part == "upper");
+  CHECK(mesh.materials[mesh.blocks[0].material].name == "stuff");
+  CHECK(mesh.blocks[1].part == "Both");  // what is left of it
+  CHECK(mesh.blocks[1].size() == 1);
+  CHECK(mesh.materials[mesh.blocks[1].material].name == "Steel");
+}
+
+TEST_CASE("parts that are missing, doubled or without material are refused") {
+  CHECK_THAT(refusal_of(kDeck, {"uper"}),
+             Contains("there is no ELSET 'uper'") && Contains("did you mean 'Upper'"));
+  CHECK_THAT(refusal_of(kDeck, {"upper", "Both"}), Contains("belongs to both parts"));
+  CHECK_THAT(
+      refusal_of(with(kDeck, "elset=Both, material=steel", "elset=Lower, material=steel")),
+      Contains("1 elements belong to no part, the first is element 2") && Contains("'Upper'"));
+  CHECK_THAT(refusal_of(with(kDeck, "material=steel", "material=steal")),
+             Contains("material 'steal' that the file has not") && Contains("mean 'Steel'"));
+  CHECK_THAT(refusal_of(with(kDeck, "*Density\n7.85e-9\n", "")),
+             Contains("material 'Steel' of the file has no *DENSITY"));
+  CHECK_THAT(refusal_of(with(kDeck, "*Elastic\n", "*Elastic, type=ortho\n")),
+             Contains("deck.inp:35: *ELASTIC: only isotropic"));
+}
+
+TEST_CASE("elements of other types are refused with number, type and line") {
+  const std::string deck = with(kDeck, "*Elset, elset=Both",
+                                "*Element, type=S4\n3, 1, 2, 3, 4\n4, 5, 6,\n7, 8\n"
+                                "*Element, type=C3D4\n5, 1, 2, 3, 5\n*Elset, elset=Both");
+  CHECK_THAT(refusal_of(deck), Contains("1 of type C3D4 (first at") &&
+                                   Contains("2 of type S4 (first at") && Contains("deck.inp:23") &&
+                                   Contains("supported are C3D8, C3D8I"));
+}
+
+TEST_CASE("what would change the structure is refused with its line; so is what is misspelt") {
+  const auto plus = [](const std::string& card) { return with(kDeck, "*Step", card + "*Step"); };
+  CHECK_THAT(refusal_of(plus("*Tie, name=t\na, b\n")), Contains("deck.inp:43: *TIE: this keyword"));
+  CHECK_THAT(refusal_of(plus("*Elemant, type=C3D8\n")), Contains("did you mean 'ELEMENT'"));
+  CHECK_THAT(refusal_of(plus("*Instance, name=p, part=q\n")), Contains("noPartsInputFile=ON"));
+  CHECK_THAT(refusal_of(plus("*Boundary\nAll, 1\n")), Contains("in some directions only"));
+  CHECK_THAT(refusal_of(plus("*Boundary\nFoot, 1, 3, 0.1\n")), Contains("displacements of zero"));
+  CHECK_THAT(refusal_of(plus("*Boundary\nFot, 1, 3\n")),
+             Contains("deck.inp:44: there is no NSET 'Fot' (did you mean 'Foot'?)"));
+}
+
+TEST_CASE("broken numbers and references are refused with their line") {
+  CHECK_THAT(refusal_of(with(kDeck, "2, 1., 0, 0", "2, 1.x, 0, 0")),
+             Contains("deck.inp:6: expected a number, found '1.x'"));
+  CHECK_THAT(refusal_of(with(kDeck, "99, 5, 5, 5", "9, 5, 5, 5")),
+             Contains("deck.inp:17: node 9 comes twice"));
+  CHECK_THAT(refusal_of(with(kDeck, "1, 1, 2, 3, 4, 5, 6, 7, 8", "1, 1, 2, 3, 4, 5, 6, 7")),
+             Contains("deck.inp:20: expected a number and 8 nodes of a C3D8"));
+  CHECK_THAT(refusal_of(with(kDeck, "2, 5, 6, 7, 8, 9", "2, 5, 6, 7, 8, 77")),
+             Contains("element 2 has node 77, which *NODE does not give"));
+  CHECK_THAT(refusal_of(with(kDeck, "2, 5, 6, 7, 8, 9", "1, 5, 6, 7, 8, 9")),
+             Contains("element 1 comes twice"));
+  CHECK_THAT(refusal_of(with(kDeck, "2, s2", "2, s7")), Contains("its side S1 … S6"));
+  CHECK_THAT(refusal_of("*ELEMENT, TYPE=C3D8\n"), Contains("deck.inp: it has no *ELEMENT"));
+}
+
+TEST_CASE("included files are followed within the folder only") {
+  const Files files;
+  const std::string deck = kDeck;
+  const std::size_t begin = deck.find("1, 0, 0, 0");
+  const std::size_t end = deck.find("*Element");
+  files.write("nodes.inp", deck.substr(begin, end - begin));
+  const auto include = [&](const std::string& name) {
+    return files.write("main.inp",
+                       deck.substr(0, begin) + "*Include, input=" + name + "\n" + deck.substr(end));
+  };
+  ImportOptions options;
+  options.file = include("nodes.inp");
+  CHECK(import_mesh(options, {}).nodes.size() == 12);
+  for (const char* const name : {"/etc/hostname", "../nodes.inp", "a/../../nodes.inp"}) {
+    INFO(name);
+    options.file = include(name);
+    CHECK_THAT(testing::refusal(options),
+               Contains("main.inp:5: *INCLUDE") && Contains("outside the folder"));
+  }
+  options.file = include("none.inp");
+  CHECK_THAT(testing::refusal(options), Contains("there is no file none.inp"));
+  options.file = include("main.inp");
+  CHECK_THAT(testing::refusal(options), Contains("include each other"));
+}
+
+}  // namespace flexneck::mesher
