@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/partition/node_order.h"
 
+#include <algorithm>
+#include <limits>
+#include <numeric>
 #include <type_traits>
+#include <utility>
 
 #include "mesher/partition/metis.h"
 
@@ -20,6 +24,112 @@ std::vector<std::int32_t> order_without_loops(idx_t vertices, idx_t* offsets, id
                 "ordering by nested dissection");
   return order;
 }
+
+/// Each node, but the lower node of a tied pair for its upper one.
+std::vector<std::int32_t> representatives(const Mesh& mesh) {
+  std::vector<std::int32_t> stand_in(mesh.nodes.size());
+  std::iota(stand_in.begin(), stand_in.end(), 0);
+  for (const Slit& slit : mesh.slits) {
+    if (!slit.tied) continue;
+    for (std::size_t p = 0; p < slit.lower.size(); ++p) {
+      stand_in[static_cast<std::size_t>(slit.upper[p])] = slit.lower[p];
+    }
+  }
+  return stand_in;
+}
+
+/// Elements by their corners, which are numbered without gaps.
+class CornerGraph {
+ public:
+  CornerGraph(const Mesh& mesh, std::vector<std::int32_t> stand_in)
+      : stand_in_(std::move(stand_in)), number_(mesh.nodes.size(), -1) {
+    for (const ElementBlock& block : mesh.blocks) {
+      const std::size_t width = nodes_per_element(block.kind);
+      const std::size_t corners = corners_per_element(block.kind);
+      for (std::size_t first = 0; first < block.nodes.size(); first += width) {
+        for (std::size_t c = 0; c < corners; ++c) add(block.nodes[first + c]);
+        offsets_.push_back(static_cast<idx_t>(corners_.size()));
+      }
+    }
+  }
+
+  idx_t corner_count() const { return count_; }
+  /// Number of a node that is a corner.
+  std::int32_t corner(std::int32_t node) const {
+    return number_[static_cast<std::size_t>(stand_in_[static_cast<std::size_t>(node)])];
+  }
+  const std::vector<idx_t>& offsets() const { return offsets_; }
+  const std::vector<idx_t>& corners() const { return corners_; }
+
+ private:
+  void add(std::int32_t node) {
+    std::int32_t& number =
+        number_[static_cast<std::size_t>(stand_in_[static_cast<std::size_t>(node)])];
+    if (number < 0) number = count_++;
+    corners_.push_back(number);
+  }
+
+  std::vector<std::int32_t> stand_in_;
+  std::vector<std::int32_t> number_;
+  idx_t count_ = 0;
+  std::vector<idx_t> offsets_ = {0};
+  std::vector<idx_t> corners_;
+};
+
+/// When each corner is eliminated among the corners.
+std::vector<std::int32_t> places_of_corners(const CornerGraph& graph) {
+  auto element_count = static_cast<idx_t>(graph.offsets().size()) - 1;
+  idx_t corner_count = graph.corner_count();
+  std::vector<idx_t> offsets = graph.offsets();
+  std::vector<idx_t> corners = graph.corners();
+  idx_t from_zero = 0;
+  idx_t* graph_offsets = nullptr;
+  idx_t* graph_columns = nullptr;
+  require_metis(METIS_MeshToNodal(&element_count, &corner_count, offsets.data(), corners.data(),
+                                  &from_zero, &graph_offsets, &graph_columns),
+                "finding the neighbours of the corners");
+  const MetisArray own_offsets(graph_offsets);
+  const MetisArray own_columns(graph_columns);
+  const std::vector<std::int32_t> order =
+      order_without_loops(corner_count, own_offsets.get(), own_columns.get());
+  std::vector<std::int32_t> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    place[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
+  }
+  return place;
+}
+
+/// For each node of an element the corners of the edge, face or body in whose middle it lies; of a
+/// corner itself.
+std::vector<std::vector<std::size_t>> defining_corners(ElementKind kind) {
+  const std::size_t corner_count = corners_per_element(kind);
+  std::vector<std::vector<std::size_t>> result(nodes_per_element(kind));
+  for (std::size_t node = 0; node < result.size(); ++node) {
+    // The corners that lie on every side on which the node lies.
+    std::vector<bool> on_all(corner_count, true);
+    for (const Side& side : sides_of(kind)) {
+      const auto has = [&](std::size_t other) {
+        return std::find(side.nodes.begin(), side.nodes.end(), other) != side.nodes.end();
+      };
+      if (!has(node)) continue;
+      for (std::size_t c = 0; c < corner_count; ++c) on_all[c] = on_all[c] && has(c);
+    }
+    for (std::size_t c = 0; c < corner_count; ++c) {
+      if (on_all[c]) result[node].push_back(c);
+    }
+  }
+  return result;
+}
+
+/// When a node is eliminated: in the order of these members.
+struct Turn {
+  std::int32_t first_place = 0;
+  std::int32_t fewer_corners = 0;
+  std::int32_t representative = 0;
+  std::int32_t node = 0;
+
+  auto operator<=>(const Turn&) const = default;
+};
 
 }  // namespace
 
@@ -41,24 +151,34 @@ std::vector<std::int32_t> nested_dissection(std::span<const std::int32_t> offset
 }
 
 std::vector<std::int32_t> nested_dissection(const Mesh& mesh) {
-  std::vector<idx_t> offsets = {0};
-  std::vector<idx_t> nodes;
+  const std::vector<std::int32_t> stand_in = representatives(mesh);
+  const CornerGraph graph(mesh, stand_in);
+  const std::vector<std::int32_t> place = places_of_corners(graph);
+
+  // A node's turn: the first of its corners, and within that the node with the most corners first.
+  std::vector<Turn> turns(mesh.nodes.size());
   for (const ElementBlock& block : mesh.blocks) {
-    const auto width = static_cast<idx_t>(nodes_per_element(block.kind));
-    for (std::size_t e = 0; e < block.size(); ++e) offsets.push_back(offsets.back() + width);
-    nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
+    const auto corners = defining_corners(block.kind);
+    for (std::size_t first = 0; first < block.nodes.size(); first += corners.size()) {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto node = static_cast<std::size_t>(block.nodes[first + i]);
+        Turn& turn = turns[node];
+        turn.first_place = std::numeric_limits<std::int32_t>::max();
+        for (const std::size_t c : corners[i]) {
+          const std::int32_t corner = graph.corner(block.nodes[first + c]);
+          turn.first_place = std::min(turn.first_place, place[static_cast<std::size_t>(corner)]);
+        }
+        turn.fewer_corners = -static_cast<std::int32_t>(corners[i].size());
+        turn.representative = stand_in[node];
+        turn.node = block.nodes[first + i];
+      }
+    }
   }
-  auto element_count = static_cast<idx_t>(offsets.size()) - 1;
-  auto node_count = static_cast<idx_t>(mesh.nodes.size());
-  idx_t from_zero = 0;
-  idx_t* graph_offsets = nullptr;
-  idx_t* graph_columns = nullptr;
-  require_metis(METIS_MeshToNodal(&element_count, &node_count, offsets.data(), nodes.data(),
-                                  &from_zero, &graph_offsets, &graph_columns),
-                "finding the neighbours of the nodes");
-  const MetisArray own_offsets(graph_offsets);
-  const MetisArray own_columns(graph_columns);
-  return order_without_loops(node_count, own_offsets.get(), own_columns.get());
+  std::sort(turns.begin(), turns.end());
+  std::vector<std::int32_t> order;
+  order.reserve(turns.size());
+  for (const Turn& turn : turns) order.push_back(turn.node);
+  return order;
 }
 
 }  // namespace flexneck::mesher

@@ -18,7 +18,12 @@ namespace flexneck::mesher {
 std::vector<std::int32_t> nested_dissection(std::span<const std::int32_t> offsets,
                                             std::span<const std::int32_t> columns);
 
-/// The same for the nodes of a mesh: those of one element are neighbours.
+/// An order for the nodes of a mesh, where those of one element are neighbours, by its corners
+/// alone: a separator of corners, with the nodes all of whose corners it holds, separates all
+/// nodes, so each other node is eliminated with the first of its corners. For meshes too large to
+/// wait for the whole graph: on 69 000 nodes of 27-node hexahedra it takes a sixteenth of the time
+/// and leaves 7 % more fill. The nodes of a tied pair count as one and follow each other.
+/// @throws ComputationError if METIS fails.
 std::vector<std::int32_t> nested_dissection(const Mesh& mesh);
 
 }  // namespace flexneck::mesher
