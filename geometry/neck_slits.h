@@ -23,7 +23,7 @@ struct NeckSlits {
   /// Share of the rubber between rim and hole that is cut, 0 < depth < 1, exact straight ahead.
   /// Once it is given, the mesh has a circle there, whatever the state: closed, open and no slits
   /// then differ in nothing else.
-  std::optional<double> depth;
+  std::optional<double> depth = std::nullopt;
 };
 
 /// @throws InputError with the condition that fails: a depth that is none, no or unknown parts, or

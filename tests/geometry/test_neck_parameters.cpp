@@ -136,10 +136,28 @@ TEST_CASE("divisions below one and gradings that are not positive are refused by
                     Contains("inner_ring must be 1 or more, found 0"));
   CHECK_THROWS_WITH(check(NeckDivisions{.end_plate_layers = -2}),
                     Contains("end_plate_layers must be 1 or more, found -2"));
+  CHECK_THROWS_WITH(check(NeckDivisions{.refine = -1}), Contains("refine must be 0 or more"));
   CHECK_THROWS_WITH(check(NeckDivisions{.rubber_grading = 0}),
                     Contains("rubber_grading must be > 0"));
   CHECK_THROWS_WITH(check(NeckDivisions{.ring_grading = std::numeric_limits<double>::quiet_NaN()}),
                     Contains("ring_grading must be > 0"));
+}
+
+TEST_CASE("presets are known by name, and refinement multiplies their hexahedra") {
+  CHECK(hexahedra(divisions_preset("default")) == 896);
+  NeckDivisions paper = divisions_preset("paper");
+  CHECK(hexahedra(paper) == 2400);  // the paper: 2386
+  paper.refine = 2;
+  CHECK(hexahedra(paper) == 2400 * 27);
+  CHECK_THROWS_WITH(divisions_preset("papr"), Contains("did you mean 'paper'?"));
+}
+
+TEST_CASE("the script is told of refinement only where there is any") {
+  const NeckParameters neck = neck_parameters("C");
+  CHECK(script_constants(neck, {}).count("refine") == 0);
+  CHECK(script_constants(neck, {.refine = 2}).at("refine") == 3);
+  CHECK(script_constants(neck, {}).at("plate_diameter") == neck.plate_diameter);
+  CHECK(script_constants(neck, {}).count("bolt_circle_radius") == 0);
 }
 
 }  // namespace flexneck::geometry
