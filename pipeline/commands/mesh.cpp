@@ -5,6 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/plausibility.h"
+#include "mesher/exchange/xdmf_writer.h"
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/script_mesher.h"
@@ -57,6 +58,7 @@ bool mesh_command(const CommandInput& input) {
       {geometry.script.filename().string(), hash_of_file(geometry.script.string())});
   file.provenance.libraries["gmsh"] = mesher::gmsh_version();
   mesher::write_mesh(input.folder.mesh(), file);
+  mesher::write_xdmf(input.folder.mesh(), file);
   warn_if_implausible(geometry.neck, mesher::summarise(file.mesh).mass_kg, input.console);
 
   std::size_t elements = 0;

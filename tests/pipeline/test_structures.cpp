@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "mesher/mesh/mesh_file.h"
+#include "mesher/mesh/mesh_summary.h"
+#include "tests/support/calculix.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using testing::CommandOutcome;
+using testing::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kExamples = std::string(FLEXNECK_SOURCE_DIR) + "/geometry/examples/";
+
+CommandOutcome run_flexneck(const std::string& arguments) {
+  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
+}
+
+/// Runs a study into `folder`; whatever goes wrong fails the test with what was printed.
+void run_study(const std::string& study, const fs::path& folder, const std::string& more = "") {
+  const CommandOutcome outcome = run_flexneck("run " + study + " -o " + folder.string() + more);
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+}
+
+Eigen::VectorXd frequencies_in(const fs::path& folder) {
+  return fe_modal::read_modal_body(folder / "modes.h5").body.frequencies_Hz;
+}
+
+mesher::MeshSummary summary_of(const fs::path& folder) {
+  return mesher::summarise(mesher::read_mesh(folder / "mesh.h5").mesh);
+}
+
+double largest_error(const Eigen::VectorXd& computed, const std::vector<double>& truth) {
+  REQUIRE(computed.size() <= static_cast<Eigen::Index>(truth.size()));
+  double largest = 0;
+  for (Eigen::Index k = 0; k < computed.size(); ++k) {
+    const double expected = truth[static_cast<std::size_t>(k)];
+    largest = std::max(largest, std::abs(computed[k] - expected) / expected);
+  }
+  return largest;
+}
+
+/// A study of a mesh that was exported, with the bar's material.
+std::string imported_bar(const fs::path& folder, const std::string& file) {
+  std::ofstream(folder / "again.toml") << "[geometry]\nfile = \"" << file << R"("
+[geometry.materials.aluminium]
+youngs_modulus = "70 GPa"
+poissons_ratio = 0.33
+density = "2700 kg/m^3"
+parts = ["bar"]
+[modes]
+count = 6
+held = ["clamp"]
+[[interface]]
+name = "tip"
+position = ["0.5 m", "0 m", "0 m"]
+)";
+  return (folder / "again.toml").string();
+}
+
+void check_refused(const CommandOutcome& outcome, const std::string& reason) {
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.text, Contains(reason));
+}
+
+}  // namespace
+
+TEST_CASE("a cantilever from a script, an .inp and a .msh has the frequencies of a beam") {
+  // Euler and Bernoulli: w = (b / L)^2 sqrt(E I / m'), b = 1.8751, 4.6941. L / h = 25: shear and
+  // rotary inertia lower the second pair by up to 1.5 %, coarse elements raise it by about as much.
+  const auto beam = [](double root, double height) {
+    return root * root / (2 * std::numbers::pi * 0.25) * height * std::sqrt(70e9 / 12 / 2700);
+  };
+  for (const char* const study : {"cantilever", "cantilever_inp", "cantilever_msh"}) {
+    INFO(study);
+    const TemporaryFolder folder;
+    run_study(kExamples + study + ".toml", folder.path());
+    const Eigen::VectorXd computed = frequencies_in(folder.path());
+    CHECK(computed[0] == Approx(beam(1.87510407, 0.02)).epsilon(0.015));
+    CHECK(computed[1] == Approx(beam(1.87510407, 0.03)).epsilon(0.015));
+    CHECK(computed[2] == Approx(beam(4.69409113, 0.02)).epsilon(0.015));
+    CHECK(computed[3] == Approx(beam(4.69409113, 0.03)).epsilon(0.025));
+    CHECK(summary_of(folder.path()).mass_kg == Approx(0.81).epsilon(1e-9));
+    const auto modes = fe_modal::read_modal_body(folder / "modes.h5");
+    CHECK(modes.body.interfaces.size() == 1);
+    // A cantilever of mass m moves at its tip with 2 / sqrt(m) in every bending mode.
+    CHECK(modes.body.interface("tip").translation.col(0).norm() ==
+          Approx(2 / std::sqrt(0.81)).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("a seat back's frame weighs what it must and swings slower with a head restraint") {
+  const TemporaryFolder folder;
+  run_study(kExamples + "seat_back.toml", folder.path());
+  CHECK(summary_of(folder.path()).mass_kg ==
+        Approx(7850 * 0.025 * 0.025 * (2 * 0.6 + 2 * 0.4)).epsilon(1e-9));
+  const auto modes = fe_modal::read_modal_body(folder / "modes.h5").body;
+  REQUIRE(modes.attached.size() == 1);
+  CHECK(modes.attached[0].frequencies_Hz[0] < modes.frequencies_Hz[0]);
+  // Fore-aft, two clamped posts bend with the mass of the upper rail and half of themselves: the
+  // frame cannot be stiffer than with rigid rails, nor as slow as without the lower rail's mass.
+  const double post = 7850 * 0.025 * 0.025 * 0.6;
+  const double stiffness = 2 * 3 * 210e9 * std::pow(0.025, 4) / 12 / std::pow(0.6, 3);
+  const double tip_mass = post / 0.6 * 0.4 + 2 * 0.2427 * post;
+  const double rayleigh = std::sqrt(stiffness / tip_mass) / (2 * std::numbers::pi);
+  CHECK(modes.frequencies_Hz[0] == Approx(rayleigh).epsilon(0.05));
+}
+
+TEST_CASE("a mesh comes back from its export with the same frequencies") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const std::string study = kExamples + "cantilever.toml";
+  run_study(study, out);
+  const Eigen::VectorXd before = frequencies_in(out);
+  for (const char* const how : {"", " --binary"}) {
+    REQUIRE(run_flexneck("export " + study + " -o " + out.string() + " --to " +
+                         (folder / "bar.msh").string() + how)
+                .exit_code == 0);
+    run_study(imported_bar(folder.path(), "bar.msh"), folder / "again");
+    CHECK((frequencies_in(folder / "again") - before).cwiseQuotient(before).cwiseAbs().maxCoeff() <
+          1e-10);
+  }
+  check_refused(run_flexneck("export " + study + " -o " + out.string() + " --to " +
+                             (folder / "bar.inp").string()),
+                "no element of kind hex27");
+  check_refused(run_flexneck("export " + study + " -o " + out.string() + " --to bar.stl"),
+                "expected a file with the ending .msh or .inp");
+}
+
+TEST_CASE("an .inp comes back from its export with the same frequencies, and CalculiX agrees") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const std::string study = kExamples + "cantilever_inp.toml";
+  const std::string displacement = " --set modes.formulation=displacement";
+  run_study(study, out, displacement);
+  const Eigen::VectorXd before = frequencies_in(out);
+  REQUIRE(run_flexneck("export " + study + displacement + " -o " + out.string() + " --to " +
+                       (folder / "bar.inp").string())
+              .exit_code == 0);
+  std::ofstream(folder / "again.toml")
+      << "[geometry]\nfile = \"bar.inp\"\n[modes]\ncount = 6\nheld = [\"boundary\"]\n";
+  run_study((folder / "again.toml").string(), folder / "again", displacement);
+  const Eigen::VectorXd after = frequencies_in(folder / "again");
+  CHECK((after - before).cwiseQuotient(before).cwiseAbs().maxCoeff() < 1e-10);
+  // CalculiX prints seven digits.
+  CHECK(largest_error(before, testing::calculix_frequencies(folder / "bar.inp")) < 1e-6);
+}
+
+TEST_CASE("CalculiX finds the neck's frequencies on the deck exported of 20-node elements") {
+  const TemporaryFolder folder;
+  const std::string neck =
+      " --set mesh.element=hex20 --set mesh.quadrant=2 --set mesh.inner_ring=2"
+      " --set mesh.outer_ring=1 --set mesh.rubber_layers=1"
+      " --set geometry.bolt_patch_radius='0.4 in' -q -o " +
+      folder.path().string();
+  REQUIRE(run_flexneck("mesh" + neck).exit_code == 0);
+  const auto errors = [&](const std::string& formulation) {
+    const std::string with = neck + " --set modes.formulation=" + formulation;
+    REQUIRE(run_flexneck("modes" + with).exit_code == 0);
+    const fs::path deck = folder / (formulation + ".inp");
+    REQUIRE(run_flexneck("export" + with + " --to " + deck.string()).exit_code == 0);
+    return largest_error(frequencies_in(folder.path()), testing::calculix_frequencies(deck));
+  };
+  CHECK(errors("displacement") < 1e-6);
+  // For C3D20R CalculiX integrates the mass at eight points too, we in full: that shows in the
+  // short waves of so coarse a mesh.
+  CHECK(errors("reduced") < 1e-3);
+}
+
+TEST_CASE("hexahedra, prisms and tetrahedra in one mesh: CalculiX agrees") {
+  const TemporaryFolder folder;
+  const std::string study = kExamples + "mixed.toml";
+  run_study(study, folder.path());
+  const mesher::Mesh mesh = mesher::read_mesh(folder / "mesh.h5").mesh;
+  CHECK(mesh.blocks.size() == 3);
+  CHECK(mesh.face_set("end").blocks.size() == 1);
+  CHECK(summary_of(folder.path()).mass_kg ==
+        Approx(7850 * 0.26 * 0.03 * 0.02 + 1360 * 0.06 * 0.03 * 0.04).epsilon(1e-9));
+  REQUIRE(run_flexneck("export " + study + " -o " + folder.path().string() + " --to " +
+                       (folder / "mixed.inp").string())
+              .exit_code == 0);
+  // Prisms and tetrahedra are integrated at fewer points there.
+  CHECK(largest_error(frequencies_in(folder.path()),
+                      testing::calculix_frequencies(folder / "mixed.inp")) < 1e-3);
+}
+
+TEST_CASE("a wrong unit is noticed, and wrong names are refused with near ones") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  const std::string study = kExamples + "cantilever_msh.toml" + out;
+  const CommandOutcome metres = run_flexneck("mesh --set geometry.unit=m " + study);
+  CHECK(metres.exit_code == 0);
+  CHECK_THAT(metres.text,
+             Contains("Warning: the structure is 500 m long") && Contains("geometry.unit"));
+  CHECK_THAT(run_flexneck("mesh " + study).text, !Contains("Warning"));
+  check_refused(run_flexneck("modes --set 'modes.held=[\"clmp\"]' " + study),
+                "did you mean 'clamp'");
+  check_refused(run_flexneck("mesh --set geometry.unit=kg " + study), "geometry.unit");
+  check_refused(run_flexneck("mesh --set geometry.file=cantilever.stl " + study),
+                "expected a file with one of the endings");
+  check_refused(run_flexneck("mesh --set geometry.file=part.step " + study),
+                "a STEP file says its unit itself");
+  check_refused(run_flexneck("mesh --set geometry.script=a.geo " + study),
+                "expected file or script, found both");
+  check_refused(run_flexneck("mesh --set geometry.constants.lengh='1 m' " + kExamples +
+                             "cantilever.toml" + out),
+                "did you mean 'length'");
+}
