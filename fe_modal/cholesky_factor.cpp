@@ -40,12 +40,15 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
   require(MatFactorInfoInitialize(&settings), kFactorising);
   require(MatCholeskyFactorSymbolic(factor_.get(), shifted_stiffness, order.get(), &settings),
           kFactorising);
-  require(MatCholeskyFactorNumeric(factor_.get(), shifted_stiffness, &settings), kFactorising);
+  const PetscErrorCode code = MatCholeskyFactorNumeric(factor_.get(), shifted_stiffness, &settings);
+  if (code != PETSC_ERR_MAT_CH_ZRPVT) require(code, kFactorising);
   MatFactorError error = MAT_FACTOR_NOERROR;
   require(MatFactorGetError(factor_.get(), &error), kFactorising);
-  if (error != MAT_FACTOR_NOERROR) {
+  if (code != 0 || error != MAT_FACTOR_NOERROR) {
     throw ComputationError(
-        "the stiffness matrix is not positive definite: a part of the body is not held");
+        "the stiffness matrix is not positive definite: a part of the body is not held, or "
+        "elements "
+        "with reduced integration stand in a single row");
   }
   MatInfo info;
   require(MatGetInfo(factor_.get(), MAT_LOCAL, &info), kFactorising);

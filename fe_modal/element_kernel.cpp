@@ -123,21 +123,24 @@ void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Mater
   const double nu = material.poissons_ratio;
   const double mu = material.youngs_modulus_Pa / (2 * (1 + nu));
   const double kappa = material.youngs_modulus_Pa / (3 * (1 - 2 * nu));
+  const double lambda = kappa - 2 * mu / 3;
 
   map(nodes_m, points_);
   differentiate();
   // H_ia,jb = int N_i,a N_j,b holds all that the displacements contribute.
   multiply_by_transpose(1, gradients_, gradients_, 0, products_);
   result.stiffness.resize(products_.rows(), products_.cols());
-  const bool mixed = scheme_.pressures != PressureSpace::none;
-  if (mixed) {
+  // 2 mu dev:dev + kappa div^2 = 2 mu eps:eps + lambda div^2
+  double square = lambda;
+  if (scheme_.pressures != PressureSpace::none) {
     project_divergence(nodes_m);
-    multiply_by_transpose(kappa, divergence_, divergence_, 0, result.stiffness);
+    const double projected = scheme_.projected == VolumetricPart::bulk ? kappa : lambda;
+    multiply_by_transpose(projected, divergence_, divergence_, 0, result.stiffness);
+    square -= projected;
   } else {
     result.stiffness.setZero();
   }
-  // 2 mu dev:dev = 2 mu eps:eps - 2/3 mu div^2
-  add_displacement_part(mu, (mixed ? 0 : kappa) - 2 * mu / 3, result.stiffness);
+  add_displacement_part(mu, square, result.stiffness);
 
   const bool shared = scheme_.strength == kMassStrength;
   if (!shared) map(nodes_m, mass_points_);

@@ -24,23 +24,36 @@ constexpr std::array<NamedFormulation, 3> kFormulations = {{
 }};
 
 // Full integration has the strength at which a constant strain is exact in curved elements too.
+//
 // Of the pressures that an element could have, those it does best with on a bonded rubber pad
 // (tests/benchmarks/fe_locking_benchmark): fewer make the 20-node hexahedron and the prisms as much
 // too soft as displacements alone make them too stiff, more make the 15-node prism lock.
+//
+// Where pressures are linear the bulk part is projected: on the 26k-DOF neck, set A, of 27-node
+// hexahedra the first bending frequency is 0.03 % from the converged one instead of 0.4 %. Constant
+// pressures know no bending: with the bulk part a slender beam of steel, two elements of tet10
+// thick, is 5 % too soft, with the other part 0.02 % too stiff; a bonded pad loses 0.3 %. The
+// 8-node hexahedron with constant pressure and bulk part is the well-known B-bar element.
 constexpr std::array<ElementScheme, 13> kSchemes = {{
-    {ElementKind::hex8, Formulation::mixed_pressure, 2, PressureSpace::constant},  // B-bar
-    {ElementKind::hex8, Formulation::displacement, 2, PressureSpace::none},
-    {ElementKind::hex20, Formulation::mixed_pressure, 3, PressureSpace::linear},
-    {ElementKind::hex20, Formulation::displacement, 3, PressureSpace::none},
-    {ElementKind::hex20, Formulation::reduced, 2, PressureSpace::none},
-    {ElementKind::hex27, Formulation::mixed_pressure, 3, PressureSpace::linear},
-    {ElementKind::hex27, Formulation::displacement, 3, PressureSpace::none},
-    {ElementKind::prism15, Formulation::mixed_pressure, 3, PressureSpace::along_axis},
-    {ElementKind::prism15, Formulation::displacement, 3, PressureSpace::none},
-    {ElementKind::prism18, Formulation::mixed_pressure, 3, PressureSpace::linear},
-    {ElementKind::prism18, Formulation::displacement, 3, PressureSpace::none},
-    {ElementKind::tet10, Formulation::mixed_pressure, 3, PressureSpace::constant},
-    {ElementKind::tet10, Formulation::displacement, 3, PressureSpace::none},
+    {ElementKind::hex8, Formulation::mixed_pressure, 2, PressureSpace::constant,
+     VolumetricPart::bulk},  // B-bar
+    {ElementKind::hex8, Formulation::displacement, 2, PressureSpace::none, VolumetricPart::bulk},
+    {ElementKind::hex20, Formulation::mixed_pressure, 3, PressureSpace::linear,
+     VolumetricPart::bulk},
+    {ElementKind::hex20, Formulation::displacement, 3, PressureSpace::none, VolumetricPart::bulk},
+    {ElementKind::hex20, Formulation::reduced, 2, PressureSpace::none, VolumetricPart::bulk},
+    {ElementKind::hex27, Formulation::mixed_pressure, 3, PressureSpace::linear,
+     VolumetricPart::bulk},
+    {ElementKind::hex27, Formulation::displacement, 3, PressureSpace::none, VolumetricPart::bulk},
+    {ElementKind::prism15, Formulation::mixed_pressure, 3, PressureSpace::along_axis,
+     VolumetricPart::lame},
+    {ElementKind::prism15, Formulation::displacement, 3, PressureSpace::none, VolumetricPart::bulk},
+    {ElementKind::prism18, Formulation::mixed_pressure, 3, PressureSpace::linear,
+     VolumetricPart::bulk},
+    {ElementKind::prism18, Formulation::displacement, 3, PressureSpace::none, VolumetricPart::bulk},
+    {ElementKind::tet10, Formulation::mixed_pressure, 3, PressureSpace::constant,
+     VolumetricPart::lame},
+    {ElementKind::tet10, Formulation::displacement, 3, PressureSpace::none, VolumetricPart::bulk},
 }};
 
 }  // namespace

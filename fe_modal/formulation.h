@@ -7,7 +7,7 @@
 
 namespace flexneck::fe_modal {
 
-/// How an element's strain energy mu dev(eps):dev(eps) + kappa/2 p(div u)^2 is formed.
+/// How the volumetric part of an element's strain energy is formed.
 enum class Formulation {
   mixed_pressure,  ///< p projects to pressures of the element's own, condensed: does not lock
   displacement,    ///< p is the identity, full integration; locks when nu comes near 1/2
@@ -28,12 +28,19 @@ enum class PressureSpace {
                ///< are no parallelepipeds (Boffi and Gastaldi, Numer. Math. 93 (2002))
 };
 
+/// What of the strain energy the projection p acts on.
+enum class VolumetricPart {
+  bulk,  ///< kappa/2 p(div u)^2 beside mu dev(eps):dev(eps)
+  lame   ///< lambda/2 p(div u)^2 beside mu eps:eps: nothing where nu = 0
+};
+
 /// All that the kernel must know of an element beside its shape functions: a row of the table.
 struct ElementScheme {
   mesher::ElementKind kind;
   Formulation formulation;
   int strength;  ///< of the quadrature of the stiffness, as in mesher::gauss_rule
   PressureSpace pressures;
+  VolumetricPart projected;
 };
 
 /// @throws InputError if the kind is not offered in this formulation; the message lists those it
