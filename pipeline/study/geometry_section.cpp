@@ -16,13 +16,16 @@ geometry::NeckParameters read_neck(const StudyTable& table) {
   return neck;
 }
 
-geometry::NeckSlits read_slits(const StudyTable& table) {
+geometry::SlitState read_slit_state(const StudyTable& table) {
   using geometry::SlitState;
+  if (!table.has("slits")) return SlitState::none;
+  constexpr std::array kStates = {SlitState::none, SlitState::closed, SlitState::open};
+  return kStates.at(choice(table, "slits", {"none", "closed", "open"}));
+}
+
+geometry::NeckSlits read_slits(const StudyTable& table) {
   geometry::NeckSlits slits;
-  if (table.has("slits")) {
-    constexpr std::array kStates = {SlitState::none, SlitState::closed, SlitState::open};
-    slits.state = kStates.at(choice(table, "slits", {"none", "closed", "open"}));
-  }
+  slits.state = read_slit_state(table);
   if (table.has("slit_parts")) slits.parts = table.texts("slit_parts");
   if (table.has("slit_edge") && choice(table, "slit_edge", {"ring", "chord"}) == 1) {
     table.refuse("slit_edge",
@@ -82,6 +85,21 @@ void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& m
     }
     material.finish();
   }
+}
+
+void read_script_options(const StudyTable& geometry, const StudyTable& mesh,
+                         mesher::ScriptMeshOptions& options) {
+  if (mesh.has("element")) options.element = read_element(mesh);
+  const geometry::SlitState state = read_slit_state(geometry);
+  std::vector<std::string> faces;
+  if (geometry.has("slit_faces")) faces = geometry.texts("slit_faces");
+  if (state == geometry::SlitState::none) return;
+  if (faces.empty()) {
+    geometry.refuse("slit_faces",
+                    "slits need the script's physical surfaces that they lie on, found none");
+  }
+  options.slits = faces;
+  options.slits_tied = state == geometry::SlitState::closed;
 }
 
 GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh) {

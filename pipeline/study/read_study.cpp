@@ -79,9 +79,12 @@ void forget_fit_of_changed_neck(Study& study) {
   const auto is_changed = [](const Parameter& parameter) {
     return parameter.key.starts_with("geometry.") && parameter.origin == Origin::synthetic &&
            !parameter.key.ends_with(".script") && !parameter.key.ends_with(".fitted_to") &&
-           !parameter.key.ends_with(".parts");
+           !parameter.key.ends_with(".parts") && !parameter.key.starts_with("geometry.slit");
   };
-  if (study.geometry && std::any_of(study.parameters.begin(), study.parameters.end(), is_changed)) {
+  if (!study.geometry) return;
+  // Slits change the neck only when they are open.
+  if (study.geometry->slits.state == geometry::SlitState::open ||
+      std::any_of(study.parameters.begin(), study.parameters.end(), is_changed)) {
     study.geometry->fitted_to.clear();
   }
 }

@@ -11,6 +11,9 @@ namespace flexneck::pipeline {
 bool is_structure(const StudyTable& geometry);
 StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh);
 InterfaceSection read_interface(const StudyTable& interface);
+/// What [geometry] and [mesh] say of a script that is not the neck's: element, slits, slit_faces.
+void read_script_options(const StudyTable& geometry, const StudyTable& mesh,
+                         mesher::ScriptMeshOptions& options);
 /// [geometry.materials]
 void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
                     std::map<std::string, std::string>& material_of_part);

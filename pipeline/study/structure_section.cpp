@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
@@ -107,7 +108,9 @@ StructureSection read_structure(const StudyTable& geometry, const StudyTable& me
     if (geometry.has("script")) geometry.refuse("file", "expected file or script, found both");
     section.source = read_file(geometry, mesh);
   } else {
-    section.source = read_script(geometry);
+    mesher::ScriptMeshOptions options = read_script(geometry);
+    read_script_options(geometry, mesh, options);
+    section.source = std::move(options);
   }
   std::visit(
       [&](auto& options) { read_materials(geometry, options.materials, options.material_of_part); },

@@ -173,6 +173,28 @@ TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no 
   CHECK(run_flexneck("--version").exit_code == 0);
 }
 
+TEST_CASE("mesh --show tells dimensions, mass and section of the neck and makes nothing") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  const CommandOutcome outcome = run_flexneck("mesh --show --preset paper" + out);
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 0);
+  CHECK_FALSE(fs::exists(folder / "out"));
+  for (const char* shown :
+       {"plate_diameter", "3.4 in", "published", "calibrated", "height of each rubber section",
+        "0.7548 in", "2.726 lb", "centre of gravity", "inertia about the c.g.", "front",
+        "2400 elements"}) {
+    CHECK_THAT(outcome.text, Contains(shown));
+  }
+  CHECK_THAT(outcome.text, Contains("####") && Contains("::::"));
+  // The neck in mm taken for m: a remark, no refusal.
+  const CommandOutcome giant = run_flexneck("mesh --show --set geometry.length='143 m'" + out);
+  CHECK(giant.exit_code == 0);
+  CHECK_THAT(giant.text, Contains("Warning: the largest extent is 143 m"));
+  check_refused(run_flexneck("modes --show" + out), "--show belongs to the command mesh");
+  check_refused(run_flexneck("mesh --refine=-1" + out), "a whole number of at least 0");
+}
+
 TEST_CASE("a folder that cannot be made or written is refused") {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "in the way";

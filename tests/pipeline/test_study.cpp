@@ -49,6 +49,52 @@ TEST_CASE("a neck with a dimension of the user's own no longer counts as fitted"
   CHECK(built_in().geometry->fitted_to.size() == 3);
   CHECK(built_in({"geometry.plate_thickness=0.33 in"}).geometry->fitted_to.empty());
   CHECK(built_in({"mesh.quadrant=6"}).geometry->fitted_to.size() == 3);
+  const auto fits_with_slits = [](const std::string& state) {
+    return built_in({"geometry.slits=" + state, "geometry.slit_depth=0.5", "mesh.rubber_layers=4"})
+        .geometry->fitted_to.size();
+  };
+  CHECK(fits_with_slits("none") == 3);
+  CHECK(fits_with_slits("closed") == 3);  // tied shut: the same neck
+  CHECK(fits_with_slits("open") == 0);
+}
+
+TEST_CASE("a preset gives the divisions that are not given otherwise") {
+  const auto divisions = [](const std::vector<std::string>& settings) {
+    return built_in(settings).geometry->divisions;
+  };
+  CHECK(geometry::hexahedra(divisions({})) == 896);
+  CHECK(geometry::hexahedra(divisions({"mesh.preset=paper"})) == 2400);
+  CHECK(divisions({"mesh.preset=paper"}).ring_grading == 1);
+  const geometry::NeckDivisions mixed =
+      divisions({"mesh.preset=paper", "mesh.rubber_layers=4", "mesh.refine=1"});
+  CHECK(mixed.quadrant == 6);
+  CHECK(mixed.rubber_layers == 4);
+  CHECK(mixed.refine == 1);
+  CHECK_THROWS_WITH(built_in({"mesh.preset=papr"}), Contains("did you mean 'paper'?"));
+}
+
+TEST_CASE("elements and slits are read, or refused with what there is") {
+  using geometry::SlitState;
+  using mesher::ElementKind;
+  CHECK(built_in().geometry->element == ElementKind::hex27);
+  CHECK(built_in({"mesh.element=tet10"}).geometry->element == ElementKind::tet10);
+  CHECK_THROWS_WITH(built_in({"mesh.element=hex21"}), Contains("did you mean 'hex2"));
+  CHECK(built_in().geometry->slits.state == SlitState::none);
+  CHECK_FALSE(built_in().geometry->slits.depth);
+
+  const std::vector<std::string> open = {"geometry.slits=open", "mesh.rubber_layers=4",
+                                         "geometry.slit_parts=[\"rubber_1\"]"};
+  const auto with = [&](const std::string& setting) {
+    std::vector<std::string> settings = open;
+    settings.push_back(setting);
+    return built_in(settings).geometry->slits;
+  };
+  CHECK(with("geometry.slit_depth=0.25").state == SlitState::open);
+  CHECK(with("geometry.slit_depth=0.25").depth == 0.25);
+  CHECK(with("geometry.slit_depth=0.25").parts == std::vector<std::string>{"rubber_1"});
+  CHECK_THROWS_WITH(built_in(open), Contains("slits need slit_depth"));
+  CHECK_THROWS_WITH(with("geometry.slit_depth=1.25"), Contains("0 < slit_depth < 1, found 1.25"));
+  CHECK_THROWS_WITH(with("geometry.slit_edge=chord"), Contains("no straight chord"));
 }
 
 TEST_CASE("the head's inertia is the published principal one, turned") {
