@@ -47,6 +47,8 @@ BodyConstants::BodyConstants(const DeformableBody& body) {
   const VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
   omega_squared = omega.cwiseAbs2();
   damping = 2 * body.damping_ratio.cwiseProduct(omega);
+  offset = body.offset;
+  if (offset.size() == 0) offset.setZero(m);
 }
 
 double BodyConstants::radius_m() const { return std::sqrt(J0.trace() / (2 * mass)); }
@@ -116,7 +118,8 @@ void update_right_hand_side(const BodyConstants& body, const Vector3d& gravity_m
   for (Index l = 0; l < m; ++l) {
     const double centrifugal = w.dot(ConstMatrix3Map(terms.G.data() + 9 * l) * w);
     const double coriolis = -2 * w.dot(terms.work_modes.segment<3>(3 * l));
-    terms.u[6 + l] = centrifugal + coriolis - body.omega_squared[l] * terms.a[l] -
+    terms.u[6 + l] = centrifugal + coriolis -
+                     body.omega_squared[l] * (terms.a[l] - body.offset[l]) -
                      body.damping[l] * adot[l] + body.S2.col(l).dot(gravity);
   }
 }
@@ -131,7 +134,12 @@ double gravitational_energy_J(const BodyConstants& body, const Vector3d& gravity
 }
 
 double strain_energy_J(const BodyConstants& body, const BodyTerms& terms) {
-  return 0.5 * terms.a.dot(body.omega_squared.cwiseProduct(terms.a));
+  double energy = 0;
+  for (Index l = 0; l < terms.a.size(); ++l) {
+    const double stretch = terms.a[l] - body.offset[l];
+    energy += 0.5 * body.omega_squared[l] * stretch * stretch;
+  }
+  return energy;
 }
 
 }  // namespace flexneck::multibody

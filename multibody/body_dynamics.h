@@ -29,6 +29,7 @@ struct BodyConstants {
   Eigen::MatrixXd Maa;
   Eigen::VectorXd omega_squared;  ///< (m): diagonal of the stiffness
   Eigen::VectorXd damping;        ///< (m): 2 zeta omega
+  Eigen::VectorXd offset;         ///< (m): modal coordinates without load
 };
 
 /// What depends on a body's state. V = [xdot (world); w (body axes); adot].

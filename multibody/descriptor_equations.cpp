@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/LU>
+
 #include "multibody/equations.h"
 #include "multibody/equations_of_motion.h"
 #include "multibody/equilibrium.h"
 #include "multibody/initial_state.h"
 #include "multibody/projection.h"
+#include "multibody/reduced_dynamics.h"
 #include "multibody/state_error.h"
 #include "multibody/system.h"
 
@@ -41,6 +44,7 @@ Energies energies_of(const EquationsOfMotion& equations, const VectorXd& state) 
     sum.gravitational_J += gravitational_energy_J(body.constants, system.gravity_m_s2, terms);
     sum.strain_J += strain_energy_J(body.constants, terms);
   }
+  sum.strain_J += equations.forces().stored_J();
   return sum;
 }
 
@@ -69,9 +73,6 @@ class DescriptorEquations final : public Equations {
     return state;
   }
 
-  std::vector<double> breakpoints(double end_s) const override {
-    return system_.breakpoints(end_s);
-  }
   void set_interval(double begin_s, double end_s) override {
     equations_.set_interval(begin_s, end_s);
   }
@@ -88,9 +89,22 @@ class DescriptorEquations final : public Equations {
   }
   std::string name_of(std::size_t component) const override { return error_.name_of(component); }
   int evaluations() const override { return equations_.evaluations(); }
+  std::vector<std::string> redundant_constraints() const override {
+    std::vector<std::string> names;
+    for (const KktSolver::RedundantRow& each : equations_.solver().redundant_rows()) {
+      const JointRows& joint = equations_.joint(each.joint);
+      const bool moves = each.row < joint.translation_rows;
+      const Index row = moves ? each.row : each.row - joint.translation_rows;
+      names.push_back("joint '" + system_.joints[each.joint].name + "', " +
+                      (moves ? "position" : "orientation") + " row " + std::to_string(row + 1));
+    }
+    return names;
+  }
 
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
-    projection_.apply(time_s, state);
+    // The correction is of the size of the interpolation's error: with the factors from before it,
+    // velocities and accelerations are as exact as the interpolated state.
+    projection_.apply(time_s, state, false);
     equations_.solve();
     equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
     recorder.residuals(largest(equations_.position_residual()),
@@ -102,12 +116,37 @@ class DescriptorEquations final : public Equations {
                      equations_.marker(system_.joints[k].marker_i).R);
     for (std::size_t b = 0; b < system_.bodies.size(); ++b)
       recorder.modal(column, system_.bodies[b].index, equations_.body(b).a);
+    if (!equations_.solver().redundant_rows().empty()) record_undetermined(recorder);
     const Index quadratures = system_.position_count + system_.velocity_count;
     recorder.energy(column, energies_of(equations_, state), state[quadratures],
                     state[quadratures + 1]);
   }
 
  private:
+  /// A reaction's component is left open if some multipliers that move nothing, B^T lambda = 0,
+  /// have it.
+  void record_undetermined(Recorder& recorder) const {
+    Eigen::FullPivLU<Eigen::MatrixXd> factors;
+    factors.setThreshold(1e-9);
+    factors.compute(assembled_rows_transposed(equations_));
+    const Eigen::MatrixXd free = factors.kernel();
+    for (std::size_t k = 0; k < system_.joints.size(); ++k) {
+      const JointRows& joint = equations_.joint(k);
+      const Eigen::Matrix3d& R_i = equations_.marker(system_.joints[k].marker_i).R;
+      Eigen::Array<bool, 6, 1> open = Eigen::Array<bool, 6, 1>::Constant(false);
+      for (Index c = 0; c < free.cols(); ++c) {
+        RowVector multipliers = RowVector::Zero();
+        multipliers.head(joint.rows) =
+            free.col(c).segment(equations_.solver().joint_offset(k), joint.rows);
+        const Reaction found = reaction(joint, multipliers);
+        Eigen::Matrix<double, 6, 1> components;
+        components << R_i.transpose() * found.force_N, R_i.transpose() * found.moment_Nm;
+        open = open || components.array().abs() > 1e-7 * free.col(c).norm();
+      }
+      recorder.undetermined(k, open);
+    }
+  }
+
   const Model& model_;
   System system_;
   EquationsOfMotion equations_;

@@ -59,6 +59,10 @@ class DormandPrince {
   const Vector& state() const { return y_; }
   int accepted() const { return accepted_; }
   int rejected() const { return rejected_; }
+  /// Of the last step tried.
+  std::string limiting_component() const {
+    return problem_.name_of_component(last_estimate_.component);
+  }
 
  private:
   static constexpr int kStages = 7;

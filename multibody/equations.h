@@ -26,8 +26,6 @@ class Equations {
   /// @throws InputError, ComputationError as simulate_from_equilibrium().
   virtual Vector equilibrium_state() = 0;
 
-  /// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
-  virtual std::vector<double> breakpoints(double end_s) const = 0;
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
   virtual void set_interval(double begin_s, double end_s) = 0;
   virtual void derivative(double time_s, const Vector& state, Vector& rate) = 0;
@@ -40,6 +38,8 @@ class Equations {
   /// Records an interpolated state, put onto the joints first.
   virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;
   virtual int evaluations() const = 0;
+  /// Constraints that others hold already, as of the last evaluation.
+  virtual std::vector<std::string> redundant_constraints() const { return {}; }
 };
 
 /// The paper's form with multipliers: positions of all bodies, joints as constraints.

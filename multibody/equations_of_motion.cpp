@@ -32,7 +32,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, Drive drive)
       driven_positions_(system.driven.size(), Vector3d::Zero()),
       driven_velocities_(system.driven.size(), Vector3d::Zero()),
       driven_accelerations_(system.driven.size(), Vector3d::Zero()),
-      force_values_(system.forces.size(), 0.0),
+      forces_(system.model),
       solver_(system.body_sizes(), system.places),
       right_hand_side_(VectorXd::Zero(system.velocity_count)),
       gamma_(VectorXd::Zero(system.constraint_count)),
@@ -48,7 +48,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, Drive drive)
     joints_.emplace_back(joint, velocity_count_of(system, joint.marker_i),
                          velocity_count_of(system, joint.marker_j));
   }
-  for (const PointForce& force : system.forces) active[force.marker] = true;
+  for (const std::size_t marker : forces_.markers()) active[marker] = true;
   for (std::size_t k = 0; k < system.markers.size(); ++k) {
     markers_.emplace_back(velocity_count_of(system, k));
     (active[k] ? active_markers_ : idle_markers_).push_back(k);
@@ -104,6 +104,17 @@ void EquationsOfMotion::update_marker_velocities(std::size_t index, const ConstV
 }
 
 void EquationsOfMotion::set_positions(double time_s, const ConstVector& positions) {
+  update_positions(time_s, positions);
+  factorise();
+}
+
+void EquationsOfMotion::factorise() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) solver_.set_mass(b, bodies_[b].mass);
+  for (std::size_t k = 0; k < joints_.size(); ++k) solver_.set_rows(k, joints_[k]);
+  solver_.factorise();
+}
+
+void EquationsOfMotion::update_positions(double time_s, const ConstVector& positions) {
   time_s_ = time_s;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const FreeBody& body = system_.bodies[b];
@@ -113,7 +124,6 @@ void EquationsOfMotion::set_positions(double time_s, const ConstVector& position
     terms.A = Eigen::Quaterniond(Q[3], Q[4], Q[5], Q[6]).normalized().toRotationMatrix();
     terms.a = Q.tail(body.constants.mode_count());
     update_configuration(body.constants, terms);
-    solver_.set_mass(b, terms.mass);
   }
   update_driven_bodies();
   for (const std::size_t marker : active_markers_) update_marker_configuration(marker);
@@ -123,9 +133,7 @@ void EquationsOfMotion::set_positions(double time_s, const ConstVector& position
     update_configuration(markers_[joint.marker_i], markers_[joint.marker_j], rows);
     position_residual_.segment(solver_.joint_offset(k), rows.rows) =
         rows.position_residual.head(rows.rows);
-    solver_.set_rows(k, rows);
   }
-  solver_.factorise();
 }
 
 void EquationsOfMotion::set_velocities(const ConstVector& velocities) {
@@ -149,15 +157,25 @@ void EquationsOfMotion::set_velocities(const ConstVector& velocities) {
 }
 
 void EquationsOfMotion::apply_forces() {
-  for (std::size_t k = 0; k < system_.forces.size(); ++k) {
-    const PointForce& force = system_.forces[k];
-    force_values_[k] = force.magnitude_N.value(table_time(time_s_));
-    const std::size_t b = system_.markers[force.marker].free_body;
+  const std::vector<std::size_t>& touched = forces_.markers();
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const NodeKinematics& motion = markers_[touched[k]];
+    ForceMarker& slot = forces_.slot(k);
+    slot.p = motion.p;
+    slot.v = motion.pd;
+    slot.R = motion.R;
+    slot.w = motion.Om;
+  }
+  forces_.evaluate(table_time(time_s_));
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const std::size_t b = system_.markers[touched[k]].free_body;
     if (b == kNone) continue;
-    // P^T F is section 3's F, ~s A^T F, psi^T A^T F.
+    // P^T F + W^T T is section 3's F, ~s A^T F + A^T T, psi^T A^T F + mu^T J_l^T A^T T.
     const FreeBody& body = system_.bodies[b];
-    right_hand_side_.segment(body.velocity, body.constants.velocity_count()).noalias() +=
-        markers_[force.marker].P.transpose() * (force_values_[k] * force.direction);
+    const NodeKinematics& motion = markers_[touched[k]];
+    auto load = right_hand_side_.segment(body.velocity, body.constants.velocity_count());
+    load.noalias() += motion.P.transpose() * forces_.slot(k).force_N;
+    load.noalias() += motion.W.transpose() * forces_.slot(k).moment_Nm;
   }
 }
 
@@ -213,7 +231,7 @@ Reaction EquationsOfMotion::joint_reaction(std::size_t joint) const {
 }
 
 double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {
-  double power = 0;
+  double power = forces_.lost_W();
   for (const FreeBody& body : system_.bodies) {
     const Index m = body.constants.mode_count();
     for (Index l = 0; l < m; ++l) {
@@ -225,12 +243,7 @@ double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {
 }
 
 double EquationsOfMotion::work_W() const {
-  double power = 0;
-  for (std::size_t k = 0; k < system_.forces.size(); ++k) {
-    const PointForce& force = system_.forces[k];
-    if (system_.markers[force.marker].free_body == kNone) continue;
-    power += force_values_[k] * force.direction.dot(markers_[force.marker].pd);
-  }
+  double power = forces_.work_W();
   // A driven body only translates: through a joint it does the force's work. Body i bears -f, j +f.
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& joint = system_.joints[k];

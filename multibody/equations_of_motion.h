@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "multibody/forces/force_set.h"
 #include "multibody/joints.h"
 #include "multibody/kkt_solver.h"
 #include "multibody/node_kinematics.h"
@@ -27,6 +28,10 @@ class EquationsOfMotion {
 
   /// Configuration, mass matrices, constraint rows and their factors.
   void set_positions(double time_s, const ConstVector& positions);
+  /// The same without the factors: what is solved next uses those of the last configuration that
+  /// was factorised.
+  void update_positions(double time_s, const ConstVector& positions);
+  void factorise();
   /// Right-hand sides and velocity residuals.
   void set_velocities(const ConstVector& velocities);
   /// Accelerations and multipliers.
@@ -52,7 +57,7 @@ class EquationsOfMotion {
   const JointRows& joint(std::size_t index) const { return joints_[index]; }
   const KktSolver& solver() const { return solver_; }
   Reaction joint_reaction(std::size_t joint) const;
-  double force_N(std::size_t force) const { return force_values_[force]; }
+  const ForceSet& forces() const { return forces_; }
   /// The multipliers are known only after solve().
   double dissipation_W(const ConstVector& velocities) const;
   double work_W() const;
@@ -75,7 +80,7 @@ class EquationsOfMotion {
   std::vector<NodeKinematics> markers_;
   std::vector<std::size_t> active_markers_, idle_markers_;
   std::vector<JointRows> joints_;
-  std::vector<double> force_values_;
+  ForceSet forces_;
   KktSolver solver_;
   Eigen::VectorXd right_hand_side_, gamma_;
   Eigen::VectorXd position_residual_, velocity_residual_;

@@ -28,11 +28,7 @@ double potential_energy(const EquationsOfMotion& equations) {
     energy += gravitational_energy_J(constants, system.gravity_m_s2, equations.body(b)) +
               strain_energy_J(constants, equations.body(b));
   }
-  for (std::size_t k = 0; k < system.forces.size(); ++k) {
-    const PointForce& force = system.forces[k];
-    energy -= equations.force_N(k) * force.direction.dot(equations.marker(force.marker).p);
-  }
-  return energy;
+  return energy + equations.forces().potential_J();
 }
 
 /// The descriptor form's coordinates of the search.

@@ -24,6 +24,10 @@ struct JointHistory {
   std::string name;
   Eigen::Matrix3Xd force_N;
   Eigen::Matrix3Xd moment_Nm;
+  /// Components that the equations of motion leave open because joints hold the same more than
+  /// once, such as "force y, moment x"; what is recorded of them is one of many solutions. Empty as
+  /// a rule.
+  std::string undetermined = {};
 };
 
 /// Modal coordinates of a deformable body, one row per mode.
@@ -34,9 +38,11 @@ struct ModalHistory {
 };
 
 struct EnergyHistory {
-  Eigen::VectorXd kinetic_J, gravitational_J, strain_J;
-  Eigen::VectorXd dissipated_J;  ///< by modal damping, since the start
-  Eigen::VectorXd work_J;        ///< done by forces and driven bodies, since the start
+  Eigen::VectorXd kinetic_J, gravitational_J;
+  Eigen::VectorXd strain_J;  ///< of bodies, springs and bushings
+  /// By the damping of modes, dampers, friction and hysteresis, since the start.
+  Eigen::VectorXd dissipated_J;
+  Eigen::VectorXd work_J;  ///< done by forces and driven bodies, since the start
 };
 
 struct StepStatistics {
@@ -55,6 +61,9 @@ struct History {
   std::vector<ModalHistory> modal;
   EnergyHistory energy;
   StepStatistics statistics;
+  /// Constraints left out at the start because others hold the same, such as "joint 'a', row 4".
+  std::vector<std::string> redundant_constraints;
+  std::string incomplete;  ///< why the run ended early; empty as a rule
 
   /// @throws InputError if there is none of that name.
   const MarkerHistory& marker(const std::string& name) const;

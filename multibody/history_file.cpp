@@ -17,6 +17,9 @@ constexpr const char* kEnergy = "/energy";
 constexpr const char* kStatistics = "/statistics";
 /// Position of a group in the model's list: HDF5 itself lists them by name.
 constexpr const char* kIndex = "index";
+constexpr const char* kUndetermined = "undetermined";
+constexpr const char* kIncomplete = "incomplete";
+constexpr const char* kRedundant = "/statistics/redundant_constraints";
 constexpr const char* kModalUnit = "kg^(1/2) m";
 
 /// The vectors of a marker and the fixed-size arrays of a joint with their datasets' names and
@@ -95,6 +98,8 @@ void write_joints(Hdf5Writer& file, const std::vector<JointHistory>& joints) {
     visit_reactions(joints[k], [&](const char* name, const auto& values, const char* unit) {
       write_columns(file, path_of(group, name), values, unit);
     });
+    if (!joints[k].undetermined.empty())
+      file.write_attribute(group, kUndetermined, std::string_view(joints[k].undetermined));
   }
 }
 
@@ -134,6 +139,11 @@ std::vector<std::string> ordered_members(const Hdf5Reader& file, const std::stri
   return ordered;
 }
 
+bool has_attribute(const Hdf5Reader& file, const std::string& object, const std::string& name) {
+  const std::vector<std::string> names = file.attributes(object);
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 MarkerHistory read_marker(const Hdf5Reader& file, const std::string& name, std::size_t times) {
   MarkerHistory marker;
   marker.name = name;
@@ -152,6 +162,8 @@ JointHistory read_joint(const Hdf5Reader& file, const std::string& name, std::si
     values = read_columns<Eigen::Matrix3Xd>(file, path_of(path_of(kJoints, name), dataset), times,
                                             3, unit);
   });
+  if (has_attribute(file, path_of(kJoints, name), kUndetermined))
+    joint.undetermined = file.string_attribute(path_of(kJoints, name), kUndetermined);
   return joint;
 }
 
@@ -212,6 +224,10 @@ void write_history(const std::filesystem::path& path, const HistoryFile& file) {
     write_vector(writer, path_of(kEnergy, name), values, "J");
   });
   write_statistics(writer, history.statistics);
+  if (!history.redundant_constraints.empty())
+    writer.write(kRedundant, history.redundant_constraints);
+  if (!history.incomplete.empty())
+    writer.write_attribute(kStatistics, kIncomplete, std::string_view(history.incomplete));
   write_provenance(writer, file.provenance);
   writer.commit();
 }
@@ -235,6 +251,9 @@ HistoryFile read_history(const std::filesystem::path& path) {
     values = read_vector(reader, path_of(kEnergy, name), times, "J");
   });
   history.statistics = read_statistics(reader);
+  if (reader.has(kRedundant)) history.redundant_constraints = reader.read_strings(kRedundant);
+  if (has_attribute(reader, kStatistics, kIncomplete))
+    history.incomplete = reader.string_attribute(kStatistics, kIncomplete);
   file.provenance = read_provenance(reader);
   return file;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "geometry/foundation/error.h"
 #include "multibody/projection.h"
 
 namespace flexneck::multibody {
@@ -42,6 +41,7 @@ VectorXd given_state(const Model& model, const System& system) {
     const Eigen::Quaterniond& q = body.initial_pose.rotation;
     state.segment<3>(free.position) = body.initial_pose.position_m;
     state.segment<4>(free.position + 3) << q.w(), q.x(), q.y(), q.z();
+    state.segment(free.position + 7, free.constants.mode_count()) = free.constants.offset;
     const Index velocity = system.position_count + free.velocity;
     state.segment<3>(velocity) = body.initial_velocity_m_s;
     state.segment<3>(velocity + 3) = body.initial_angular_velocity_rad_s;
@@ -50,20 +50,11 @@ VectorXd given_state(const Model& model, const System& system) {
   return state;
 }
 
-void check_independent_joints(const EquationsOfMotion& equations) {
-  const auto joint = equations.solver().redundant_joint();
-  if (!joint) return;
-  throw InputError("joint '" + equations.system().joints[*joint].name +
-                   "' holds again what the joints before it hold already (a closed loop of "
-                   "joints?); use a joint with fewer constraints");
-}
-
 void join(const Model& model, EquationsOfMotion& equations, VectorXd& state, Check check) {
   const System& system = equations.system();
   const auto velocities = state.segment(system.position_count, system.velocity_count);
   equations.set_positions(0, state.head(system.position_count));
   check_all_positions(model, equations);
-  check_independent_joints(equations);
   equations.set_velocities(velocities);
   if (check == Check::positions_and_velocities) check_all_velocities(model, equations);
   Projection(equations).apply(0, state);

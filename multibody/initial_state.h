@@ -17,10 +17,7 @@ enum class Check { positions, positions_and_velocities };
 /// Puts the state at time zero onto the joints.
 /// @throws InputError if a joint is violated by more than rounded input explains: its markers apart
 /// by over 1e-6 of the system's size or turned by over 1e-6 rad, or parting faster than 1e-6 of the
-/// system's largest speed; or if a joint repeats what others hold. The message names the joint.
+/// system's largest speed. The message names the joint.
 void join(const Model& model, EquationsOfMotion& equations, Eigen::VectorXd& state, Check check);
-
-/// @throws InputError naming the joint, if the equations as updated hold one that repeats others.
-void check_independent_joints(const EquationsOfMotion& equations);
 
 }  // namespace flexneck::multibody

@@ -36,21 +36,20 @@ Vector3d same_orientation(const NodeKinematics& i, const NodeKinematics& j, Join
 }
 
 /// Two unit vectors that make a right-handed frame with the unit vector h, as rows.
-Eigen::Matrix<double, 2, 3> across(const Vector3d& h) {
+TwoRows across(const Vector3d& h) {
   Index smallest = 0;
   h.cwiseAbs().minCoeff(&smallest);
   const Vector3d first = h.cross(Vector3d::Unit(smallest)).normalized();
-  Eigen::Matrix<double, 2, 3> rows;
+  TwoRows rows;
   rows.row(0) = first.transpose();
   rows.row(1) = h.cross(first).transpose();
   return rows;
 }
 
-/// Phi = T (h_j x h_i) with T perpendicular to h_j; equivalent to eq. (12).
+/// Phi = T (h_j x h_i) with T perpendicular to h_j, fixed in j; equivalent to eq. (12).
 Vector3d common_axis(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
-  const Vector3d h = j.R * joint.axis_j;
-  joint.T.topRows<2>() = across(h);
-  return joint.T * h.cross(i.R * joint.axis_i);
+  joint.T.topRows<2>().noalias() = joint.across_j * j.R.transpose();
+  return joint.T * Vector3d(j.R * joint.axis_j).cross(i.R * joint.axis_i);
 }
 
 /// T (-c_i + c_j) with c_k = h x (Om_k x (Om_k x h_k)).
@@ -127,6 +126,8 @@ JointRows::JointRows(const Joint& joint, Index velocity_count_i, Index velocity_
     : law(&law_of(joint.kind)),
       axis_i(joint.axis),
       axis_j(joint.kind == JointKind::universal ? joint.second_axis : joint.axis),
+      across_i(across(axis_i)),
+      across_j(across(axis_j)),
       translation_rows(law->translation_rows),
       rows(law->translation_rows + law->angular_rows),
       B_i(TransposedRows::Zero(velocity_count_i, kMaxRows)),
@@ -137,7 +138,7 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
   const Vector3d gap = i.p - j.p;
   if (slides(joint)) {
     // D turns with marker i.
-    joint.D.topRows<2>() = across(joint.axis_i) * i.R.transpose();
+    joint.D.topRows<2>().noalias() = joint.across_i * i.R.transpose();
     for (Index r = 0; r < 2; ++r) joint.L.row(r) = Vector3d(joint.D.row(r)).cross(gap).transpose();
   }
   joint.position_residual.head(n) = joint.D.topRows(n) * gap;

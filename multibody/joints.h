@@ -17,6 +17,8 @@ using RowVector = Eigen::Matrix<double, kMaxRows, 1>;
 /// rows.
 using TransposedRows = Eigen::Matrix<double, Eigen::Dynamic, kMaxRows, Eigen::RowMajor>;
 
+using TwoRows = Eigen::Matrix<double, 2, 3>;
+
 /// What tells one kind of joint from another: how many rows hold the positions together, and how
 /// orientations are held.
 struct JointLaw;
@@ -32,6 +34,7 @@ struct JointRows {
   const JointLaw* law;            ///< of static storage
   Eigen::Vector3d axis_i;         ///< in the axes of marker i
   Eigen::Vector3d axis_j;         ///< in the axes of marker j
+  TwoRows across_i, across_j;     ///< unit vectors across these axes, in the same axes
   Eigen::Index translation_rows;  ///< of D
   Eigen::Index rows;
   Eigen::Matrix3d D = Eigen::Matrix3d::Identity();  ///< world; unused rows do not count

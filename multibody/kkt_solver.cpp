@@ -2,6 +2,7 @@
 #include "multibody/kkt_solver.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "multibody/cholesky.h"
 
@@ -11,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Rows whose pivot falls below this share of its diagonal depend on those before.
+/// A row whose pivot falls below this share of its diagonal depends on those before.
 constexpr double kRedundant = 1e-11;
 
 }  // namespace
@@ -27,8 +28,14 @@ KktSolver::KktSolver(const std::vector<Index>& body_sizes, const std::vector<Joi
   };
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const JointPlace& place = joints[k];
-    joints_.push_back({place, constraint_count_, rows_on(place.body_i), rows_on(place.body_j), k, 0,
-                       RowVector::Zero(), RowVector::Ones()});
+    joints_.push_back({place,
+                       constraint_count_,
+                       rows_on(place.body_i),
+                       rows_on(place.body_j),
+                       k,
+                       0,
+                       RowVector::Zero(),
+                       {}});
     constraint_count_ += place.rows;
     add_meetings(k);
   }
@@ -100,7 +107,7 @@ void KktSolver::assemble_schur_complement() {
 void KktSolver::factorise_schur_complement() {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     Block& diagonal = block(i, i);
-    for (Index r = 0; r < kMaxRows; ++r) joints_[i].pivot_ratio[r] = diagonal(r, r);
+    const RowVector before = diagonal.diagonal();
     for (std::size_t j = joints_[i].first; j < i; ++j) {
       // L_ij = (S_ij - sum_k L_ik L_jk^T) L_jj^-T.
       Block& L_ij = block(i, j);
@@ -114,11 +121,23 @@ void KktSolver::factorise_schur_complement() {
       }
       diagonal.noalias() -= L_ij.lazyProduct(L_ij.transpose());
     }
-    // Padding: rows that the joint lacks are zero.
-    for (Index r = joints_[i].place.rows; r < kMaxRows; ++r) diagonal(r, r) = 1;
-    factorise_cholesky(diagonal);
-    for (Index r = 0; r < joints_[i].place.rows; ++r)
-      joints_[i].pivot_ratio[r] = 1 / (diagonal(r, r) * diagonal(r, r) * joints_[i].pivot_ratio[r]);
+    factorise_diagonal(joints_[i], before, diagonal);
+  }
+}
+
+/// As factorise_cholesky, but a row whose pivot is rounding of what it was before is left out: with
+/// a zero in place of the pivot's inverse and of its column, solving gives it a zero.
+void KktSolver::factorise_diagonal(JointBlock& joint, const RowVector& before, Block& diagonal) {
+  // Padding: rows that the joint lacks are zero.
+  for (Index r = joint.place.rows; r < kMaxRows; ++r) diagonal(r, r) = 1;
+  for (Index k = 0; k < kMaxRows; ++k) {
+    const bool left_out = k < joint.place.rows && diagonal(k, k) <= kRedundant * before[k];
+    joint.left_out[static_cast<std::size_t>(k)] = left_out;
+    const double scale = left_out ? 0 : 1 / std::sqrt(diagonal(k, k));
+    diagonal(k, k) = scale;
+    for (Index i = k + 1; i < kMaxRows; ++i) diagonal(i, k) *= scale;
+    for (Index j = k + 1; j < kMaxRows; ++j)
+      for (Index i = j; i < kMaxRows; ++i) diagonal(i, j) -= diagonal(j, k) * diagonal(i, k);
   }
 }
 
@@ -171,11 +190,12 @@ void KktSolver::solve(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) solve_upper(bodies_[b].factor, segment(b));
 }
 
-std::optional<std::size_t> KktSolver::redundant_joint() const {
+std::vector<KktSolver::RedundantRow> KktSolver::redundant_rows() const {
+  std::vector<RedundantRow> rows;
   for (std::size_t joint = 0; joint < joints_.size(); ++joint)
     for (Index r = 0; r < joints_[joint].place.rows; ++r)
-      if (!(joints_[joint].pivot_ratio[r] > kRedundant)) return joint;
-  return std::nullopt;
+      if (joints_[joint].left_out[static_cast<std::size_t>(r)]) rows.push_back({joint, r});
+  return rows;
 }
 
 }  // namespace flexneck::multibody

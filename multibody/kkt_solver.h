@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,7 +22,8 @@ struct JointPlace {
 /// a body and rows of one or two blocks a joint. Elimination in the order bodies, then joints: with
 /// M = L L^T the joints are left with S = Y^T Y, Y = L^-1 B^T, which is factorised inside its
 /// envelope in blocks of a joint by a joint, padded to full size. This is LDL^T without pivoting,
-/// safe because the matrix is quasi-definite.
+/// safe because the matrix is quasi-definite. A row that depends on those before it is left out:
+/// its multiplier is zero.
 class KktSolver {
  public:
   KktSolver(const std::vector<Eigen::Index>& body_sizes, const std::vector<JointPlace>& joints);
@@ -40,9 +41,13 @@ class KktSolver {
   /// @param s  (constraint_count), becomes lambda
   void solve(Eigen::Ref<Eigen::VectorXd> r, Eigen::Ref<Eigen::VectorXd> s);
 
-  /// The first joint whose rows repeat what those before it hold already, by the pivots of the last
-  /// factorisation.
-  std::optional<std::size_t> redundant_joint() const;
+  /// A row of a joint that those before it hold already.
+  struct RedundantRow {
+    std::size_t joint;
+    Eigen::Index row;
+  };
+  /// Those that the last factorisation left out.
+  std::vector<RedundantRow> redundant_rows() const;
 
  private:
   using Block = Eigen::Matrix<double, kMaxRows, kMaxRows>;
@@ -58,7 +63,7 @@ class KktSolver {
     std::size_t first;   ///< first joint in this one's row of S's envelope
     std::size_t blocks;  ///< where that row's blocks start
     RowVector lambda;    ///< padded with zeros
-    RowVector pivot_ratio;
+    std::array<bool, kMaxRows> left_out;
   };
   /// Two joints' rows that meet on a body: a contribution to a block of S.
   struct Meeting {
@@ -70,6 +75,7 @@ class KktSolver {
   Block& block(std::size_t row_joint, std::size_t column_joint);
   void assemble_schur_complement();
   void factorise_schur_complement();
+  static void factorise_diagonal(JointBlock& joint, const RowVector& before, Block& diagonal);
   void solve_schur_complement();
 
   std::vector<BodyBlock> bodies_;

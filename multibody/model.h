@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "fe_modal/body/modal_body.h"
+#include "multibody/forces/forces.h"
 #include "multibody/time_table.h"
 
 namespace flexneck::multibody {
@@ -28,6 +29,9 @@ struct RigidBody {
 struct DeformableBody {
   fe_modal::ModalBody modes;      ///< the chosen modes only
   Eigen::VectorXd damping_ratio;  ///< zeta of each mode
+  /// Modal coordinates of the body without load, a permanent set, kg^(1/2) m; empty for none. The
+  /// body starts there.
+  Eigen::VectorXd offset = {};
 };
 
 /// A body that translates in a given way, whatever acts on it. With an empty table and no velocity
@@ -81,19 +85,15 @@ struct Joint {
   Eigen::Vector3d second_axis = Eigen::Vector3d::UnitX();  ///< universal: axes of marker j
 };
 
-/// A force on a marker's origin, fixed in the world's axes.
-struct PointForce {
-  std::string name;
-  std::size_t marker = 0;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
-  TimeTable magnitude_N;
-};
-
 struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
   std::vector<Joint> joints;
   std::vector<PointForce> forces;
+  std::vector<Torque> torques;
+  std::vector<MarkerSpring> springs;
+  std::vector<Bushing> bushings;
+  std::vector<JointResistance> resistances;
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< world
 
   /// @throws InputError if there is none of that name; the message lists those there are.

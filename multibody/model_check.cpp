@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "multibody/forces/forces_check.h"
 #include "multibody/model.h"
 
 namespace flexneck::multibody {
@@ -145,6 +146,10 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
     refuse(who, "there must be one damping ratio per mode, " + std::to_string(m) +
                     ", but there are " + std::to_string(deformable.damping_ratio.size()));
   }
+  if (deformable.offset.size() != 0 && deformable.offset.size() != m)
+    refuse(who, "its offset must have one coordinate per mode, " + std::to_string(m) +
+                    ", but has " + std::to_string(deformable.offset.size()));
+  check_finite(who, "offset", deformable.offset);
   for (Eigen::Index k = 0; k < m; ++k) {
     const double zeta = deformable.damping_ratio[k];
     if (!(zeta >= 0) || !std::isfinite(zeta)) {
@@ -220,24 +225,17 @@ void check_joint(const Joint& joint, const Model& model) {
   check_unit_vector(who, "second axis", joint.second_axis);
 }
 
-void check_force(const PointForce& force, const Model& model) {
-  const std::string who = "force '" + force.name + "'";
-  check_index(who, "marker", force.marker, model.markers.size());
-  check_unit_vector(who, "direction", force.direction);
-}
-
 }  // namespace
 
 void check(const Model& model) {
   check_names(names_of(model.bodies), "body");
   check_names(names_of(model.markers), "marker");
   check_names(names_of(model.joints), "joint");
-  check_names(names_of(model.forces), "force");
   check_finite("model", "gravity", model.gravity_m_s2);
   for (const Body& body : model.bodies) check_body(body);
   for (const Marker& marker : model.markers) check_marker(marker, model);
   for (const Joint& joint : model.joints) check_joint(joint, model);
-  for (const PointForce& force : model.forces) check_force(force, model);
+  check_forces(model);
 }
 
 }  // namespace flexneck::multibody

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/motion.h"
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
+#include "geometry/foundation/error.h"
 #include "multibody/dormand_prince.h"
+#include "multibody/forces/force_set.h"
 #include "multibody/recorder.h"
 
 namespace flexneck::multibody {
@@ -24,12 +28,29 @@ VectorXd output_times(const OutputOptions& output) {
   return times;
 }
 
+/// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
+std::vector<double> breakpoints(const Model& model, double end_s) {
+  std::vector<double> times;
+  for (const Body& body : model.bodies) {
+    const auto* driven = std::get_if<DrivenBody>(&body.kind);
+    if (driven == nullptr) continue;
+    const std::vector<double>& rows = driven->acceleration_m_s2.times_s();
+    times.insert(times.end(), rows.begin(), rows.end());
+  }
+  ForceSet(model).add_breakpoints(times);
+  std::erase_if(times, [&](double time) { return !(time > 0 && time < end_s); });
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
 /// One run: the integrator, and the recorder behind it.
 class Run {
  public:
   Run(const Model& model, Equations& equations, const VectorXd& state, const SolverOptions& solver,
       const OutputOptions& output)
       : equations_(equations),
+        most_steps_(solver.most_steps),
         recorder_(model, output_times(output)),
         integrator_(problem(), {solver.largest_step_s, solver.smallest_step_s}, 0, state),
         output_state_(state) {}
@@ -39,20 +60,34 @@ class Run {
     equations_.set_interval(begin_s, end_s);
     integrator_.restart();
     while (integrator_.time_s() < end_s) {
+      if (integrator_.accepted() + integrator_.rejected() >= most_steps_) give_up();
       integrator_.step(end_s);
       record_until(integrator_.time_s());
     }
   }
 
   History finish() {
+    count_steps();
+    return recorder_.take();
+  }
+  History finish_early(const std::string& why) {
+    count_steps();
+    return recorder_.take_incomplete(next_, why);
+  }
+
+ private:
+  void count_steps() {
     StepStatistics& statistics = recorder_.statistics();
     statistics.accepted = integrator_.accepted();
     statistics.rejected = integrator_.rejected();
     statistics.evaluations = equations_.evaluations();
-    return recorder_.take();
+  }
+  [[noreturn]] void give_up() const {
+    throw ComputationError("the run was given up at " + std::to_string(integrator_.time_s()) +
+                           " s after " + std::to_string(most_steps_) +
+                           " steps; what limits them is the " + integrator_.limiting_component());
   }
 
- private:
   InitialValueProblem problem() {
     return {
         [this](double t, const VectorXd& y, VectorXd& rate) { equations_.derivative(t, y, rate); },
@@ -68,11 +103,13 @@ class Run {
       const double at = recorder_.time_s(next_);
       integrator_.interpolate(at, output_state_);
       equations_.record(at, output_state_, recorder_, next_);
+      if (next_ == 0) recorder_.redundant(equations_.redundant_constraints());
       ++next_;
     }
   }
 
   Equations& equations_;
+  int most_steps_;
   Recorder recorder_;
   DormandPrince integrator_;
   VectorXd output_state_;
@@ -84,12 +121,16 @@ class Run {
 History integrate(const Model& model, Equations& equations, const VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output) {
   Run run(model, equations, state, solver, output);
-  std::vector<double> ends = equations.breakpoints(output.end_time_s);
+  std::vector<double> ends = breakpoints(model, output.end_time_s);
   ends.push_back(output.end_time_s);
-  double begin = 0;
-  for (const double end : ends) {
-    run.advance(begin, end);
-    begin = end;
+  try {
+    double begin = 0;
+    for (const double end : ends) {
+      run.advance(begin, end);
+      begin = end;
+    }
+  } catch (const ComputationError& error) {
+    throw IncompleteRun(error.what(), run.finish_early(error.what()));
   }
   return run.finish();
 }

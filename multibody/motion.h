@@ -11,7 +11,7 @@
 namespace flexneck::multibody {
 
 /// Integrates from a state at time zero that keeps the joints, and records at the output times.
-/// @throws ComputationError as simulate().
+/// @throws IncompleteRun as simulate().
 History integrate(const Model& model, Equations& equations, const Eigen::VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output);
 

@@ -15,7 +15,7 @@ void Projection::correct_positions(Eigen::Ref<VectorXd>& positions) {
   equations_.system().retract(positions, change_);
 }
 
-void Projection::apply(double time_s, Eigen::Ref<VectorXd> state) {
+void Projection::apply(double time_s, Eigen::Ref<VectorXd> state, bool refactorise) {
   const System& system = equations_.system();
   Eigen::Ref<VectorXd> positions = state.head(system.position_count);
   auto velocities = state.segment(system.position_count, system.velocity_count);
@@ -23,7 +23,8 @@ void Projection::apply(double time_s, Eigen::Ref<VectorXd> state) {
   equations_.set_positions(time_s, positions);
   if (system.constraint_count > 0) {
     correct_positions(positions);
-    equations_.set_positions(time_s, positions);
+    equations_.update_positions(time_s, positions);
+    if (refactorise) equations_.factorise();
     equations_.set_velocities(velocities);
     equations_.remove_residual(equations_.velocity_residual(), change_);
     velocities += change_;

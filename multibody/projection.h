@@ -16,7 +16,9 @@ class Projection {
 
   /// One Newton step for the positions, enough behind an integrator's step, then the velocities.
   /// Leaves `equations` updated for positions and velocities: solve() gives the accelerations.
-  void apply(double time_s, Eigen::Ref<Eigen::VectorXd> state);
+  /// @param refactorise  if not, velocities and accelerations are solved for with the factors of
+  ///     the state before: they then miss by the size of the correction, relative
+  void apply(double time_s, Eigen::Ref<Eigen::VectorXd> state, bool refactorise = true);
 
   /// Newton steps for the positions only until the residual no longer falls, at most ten.
   /// Leaves `equations` updated for the positions. @return the largest residual left, m and rad.

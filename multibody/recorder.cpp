@@ -2,6 +2,9 @@
 #include "multibody/recorder.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -11,7 +14,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 Recorder::Recorder(const Model& model, const VectorXd& times_s)
-    : modal_of_body_(model.bodies.size(), 0) {
+    : modal_of_body_(model.bodies.size(), 0),
+      undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {
   const Index n = times_s.size();
   history_.time_s = times_s;
   for (const Marker& marker : model.markers) {
@@ -75,6 +79,48 @@ void Recorder::residuals(double position, double velocity) {
   StepStatistics& statistics = history_.statistics;
   statistics.largest_position_residual = std::max(statistics.largest_position_residual, position);
   statistics.largest_velocity_residual = std::max(statistics.largest_velocity_residual, velocity);
+}
+
+void Recorder::undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& components) {
+  undetermined_[joint] = undetermined_[joint] || components;
+}
+
+void Recorder::redundant(std::vector<std::string> constraints) {
+  history_.redundant_constraints = std::move(constraints);
+}
+
+History Recorder::take() {
+  constexpr std::array<const char*, 6> kNames = {"force x",  "force y",  "force z",
+                                                 "moment x", "moment y", "moment z"};
+  for (std::size_t k = 0; k < undetermined_.size(); ++k)
+    for (std::size_t c = 0; c < kNames.size(); ++c) {
+      if (!undetermined_[k][static_cast<Index>(c)]) continue;
+      std::string& text = history_.joints[k].undetermined;
+      text += (text.empty() ? "" : ", ") + std::string(kNames[c]);
+    }
+  return std::move(history_);
+}
+
+History Recorder::take_incomplete(Index columns, const std::string& why) {
+  const auto cut = [columns](auto& values) { values.conservativeResize(Eigen::NoChange, columns); };
+  history_.incomplete = why;
+  history_.time_s.conservativeResize(columns);
+  for (MarkerHistory& marker : history_.markers) {
+    for (Eigen::Matrix3Xd* each : {&marker.position_m, &marker.velocity_m_s,
+                                   &marker.acceleration_m_s2, &marker.angular_velocity_rad_s})
+      cut(*each);
+    cut(marker.rotation);
+  }
+  for (JointHistory& joint : history_.joints) {
+    cut(joint.force_N);
+    cut(joint.moment_Nm);
+  }
+  for (ModalHistory& modal : history_.modal) cut(modal.coordinates);
+  EnergyHistory& energy = history_.energy;
+  for (VectorXd* part : {&energy.kinetic_J, &energy.gravitational_J, &energy.strain_J,
+                         &energy.dissipated_J, &energy.work_J})
+    part->conservativeResize(columns);
+  return take();
 }
 
 }  // namespace flexneck::multibody

@@ -28,11 +28,18 @@ class Recorder {
   void residuals(double position, double velocity);
 
   StepStatistics& statistics() { return history_.statistics; }
-  History take() { return std::move(history_); }
+  /// Adds to what is undetermined of a joint's reaction.
+  /// @param components  of force and moment in marker i's axes
+  void undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& components);
+  void redundant(std::vector<std::string> constraints);
+  History take();
+  /// The first columns only, for a run that ended early.
+  History take_incomplete(Eigen::Index columns, const std::string& why);
 
  private:
   History history_;
   std::vector<std::size_t> modal_of_body_;
+  std::vector<Eigen::Array<bool, 6, 1>> undetermined_;
 };
 
 }  // namespace flexneck::multibody

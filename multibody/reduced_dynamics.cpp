@@ -17,6 +17,8 @@ using Eigen::VectorXd;
 /// Extent of the displacements that differences are taken over: their error, of second order in it,
 /// and rounding are then both about 1e-11 of the result.
 constexpr double kDifference = 1e-5;
+/// Rows that depend on others leave pivots below this share of the largest.
+constexpr double kRank = 1e-9;
 
 MatrixXd assembled_mass(const EquationsOfMotion& equations) {
   const System& system = equations.system();
@@ -28,6 +30,8 @@ MatrixXd assembled_mass(const EquationsOfMotion& equations) {
   }
   return M;
 }
+
+}  // namespace
 
 MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations) {
   const System& system = equations.system();
@@ -46,8 +50,6 @@ MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations) {
   return B_transposed;
 }
 
-}  // namespace
-
 ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& positions)
     : equations_(equations), projection_(equations), origin_(positions) {
   equations_.set_positions(0, origin_);
@@ -55,10 +57,13 @@ ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& p
   const MatrixXd M = assembled_mass(equations_);
   const Eigen::LLT<MatrixXd> cholesky(M);
   const MatrixXd rows = cholesky.matrixL().solve(assembled_rows_transposed(equations_));
-  const Index free = M.rows() - rows.cols();
+  Eigen::ColPivHouseholderQR<MatrixXd> factors;
+  factors.setThreshold(kRank);
+  if (rows.cols() > 0) factors.compute(rows);
+  const Index free = M.rows() - (rows.cols() > 0 ? factors.rank() : 0);
   MatrixXd rest = MatrixXd::Zero(M.rows(), free);
   rest.bottomRows(free).setIdentity();
-  if (rows.cols() > 0) rest.applyOnTheLeft(Eigen::HouseholderQR<MatrixXd>(rows).householderQ());
+  if (rows.cols() > 0) rest.applyOnTheLeft(factors.householderQ());
   N_ = cholesky.matrixU().solve(rest);
   MN_ = M * N_;
 }

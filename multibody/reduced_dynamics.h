@@ -8,6 +8,9 @@
 
 namespace flexneck::multibody {
 
+/// B^T, (velocity_count, constraint_count), of equations whose positions are updated.
+Eigen::MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations);
+
 /// The system seen in k independent coordinates about a configuration that keeps the joints: xi
 /// displaces along the columns of N, a basis of the null space of B that is orthonormal in M
 /// (B N = 0, N^T M N = I), and the joints are closed again behind it. Driven bodies are held. Since

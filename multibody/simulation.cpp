@@ -29,6 +29,7 @@ void check_options(const SolverOptions& solver, const OutputOptions& output) {
   check_positive(solver.largest_step_s, "the largest step");
   if (solver.largest_step_s < solver.smallest_step_s)
     throw InputError("the largest step must not be below the smallest");
+  if (solver.most_steps < 1) throw InputError("the largest number of steps must be positive");
   check_positive(output.end_time_s, "the end time");
   check_positive(output.interval_s, "the output interval");
   if (output.end_time_s / output.interval_s > 1e8)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "geometry/foundation/error.h"
 #include "multibody/history.h"
 #include "multibody/model.h"
 
@@ -23,6 +26,15 @@ struct SolverOptions {
   double largest_step_s = 0.05;
   double smallest_step_s = 1e-10;
   Formulation formulation = Formulation::automatic;
+  int most_steps = 10'000'000;  ///< tried; a run that needs more is given up
+};
+
+/// A run that could not go on: when and why, and what was computed until then.
+class IncompleteRun : public ComputationError {
+ public:
+  IncompleteRun(const std::string& why, History computed)
+      : ComputationError(why), history(std::move(computed)) {}
+  History history;  ///< with `incomplete` set
 };
 
 struct OutputOptions {
@@ -37,12 +49,12 @@ struct SystemMode {
   double damping_ratio = 0;
 };
 
-/// Runs a model from the state its bodies are given; constraints are projected first.
+/// Runs a model from the state its bodies are given; constraints are projected first. Joints that
+/// repeat what others hold are treated: see History::redundant_constraints.
 /// @throws InputError if the model is not sound, an option makes no sense, a joint is violated at
 /// the start in position or velocity by more than rounding (1e-6 of the system's size or speed,
-/// 1e-6 rad), or a joint repeats what others hold; or if the recursive
-/// formulation is asked for and a joint closes a loop.
-/// @throws ComputationError if the step collapses: time and what limited it.
+/// 1e-6 rad), or if the recursive formulation is asked for and a joint closes a loop.
+/// @throws IncompleteRun if the step collapses or the steps are used up: time and what limited it.
 History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output);
 
 /// Runs a model from the static equilibrium of its free bodies relative to the driven ones under

@@ -27,8 +27,7 @@ struct ConstantsOf {
 
 }  // namespace
 
-System::System(const Model& model)
-    : joints(model.joints), forces(model.forces), gravity_m_s2(model.gravity_m_s2) {
+System::System(const Model& of) : model(of), joints(of.joints), gravity_m_s2(of.gravity_m_s2) {
   std::vector<std::size_t> free_index(model.bodies.size(), kNone);
   std::vector<std::size_t> driven_index(model.bodies.size(), kNone);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -63,19 +62,6 @@ std::vector<Index> System::body_sizes() const {
   std::vector<Index> sizes;
   for (const FreeBody& body : bodies) sizes.push_back(body.constants.velocity_count());
   return sizes;
-}
-
-std::vector<double> System::breakpoints(double end_s) const {
-  std::vector<double> times;
-  const auto add = [&](const TimeTable& table) {
-    for (const double time : table.times_s())
-      if (time > 0 && time < end_s) times.push_back(time);
-  };
-  for (const DrivenPath& path : driven) add(path.body.acceleration_m_s2);
-  for (const PointForce& force : forces) add(force.magnitude_N);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
 }
 
 void System::retract(Eigen::Ref<VectorXd> positions,

@@ -36,14 +36,14 @@ struct SystemMarker {
 struct System {
   static constexpr Eigen::Index kQuadratures = 2;
 
-  /// @param model  sound (see check())
+  /// @param model  sound (see check()); must outlive this
   explicit System(const Model& model);
 
+  const Model& model;
   std::vector<FreeBody> bodies;
   std::vector<DrivenPath> driven;
   std::vector<SystemMarker> markers;
   std::vector<Joint> joints;
-  std::vector<PointForce> forces;
   std::vector<JointPlace> places;  ///< of the joints
   Eigen::Vector3d gravity_m_s2;
 
@@ -54,8 +54,6 @@ struct System {
 
   Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
   std::vector<Eigen::Index> body_sizes() const;
-  /// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
-  std::vector<double> breakpoints(double end_s) const;
 
   /// Q (+) dQ, equations.md section 5, with the exact exponential.
   void retract(Eigen::Ref<Eigen::VectorXd> positions,

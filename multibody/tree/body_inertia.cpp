@@ -66,6 +66,8 @@ BodyInertia::BodyInertia(const DeformableBody& body) {
   const VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
   stiffness = omega.cwiseAbs2();
   damping = 2 * body.damping_ratio.cwiseProduct(omega);
+  offset = body.offset;
+  if (offset.size() == 0) offset.setZero(m);
 }
 
 InertiaTerms::InertiaTerms(const BodyInertia& body)
@@ -83,16 +85,16 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
   terms.S = body.S1;
   Vector6d J = body.J0;
   if (m > 0) {
-    terms.S.noalias() += body.S2 * a;
+    for (Index j = 0; j < m; ++j) terms.S += a[j] * body.S2.col(j);
     Eigen::Map<VectorXd> slopes(terms.J_rate.data(), 6 * m);
     slopes = Eigen::Map<const VectorXd>(body.D.data(), 6 * m);
-    slopes.noalias() += body.E * a;
+    for (Index j = 0; j < m; ++j) slopes += a[j] * body.E.col(j);
     // J = J0 + D a + E a a / 2 = J0 + (D + dJ/da) a / 2.
     for (Index l = 0; l < m; ++l) J += (0.5 * a[l]) * (body.D.col(l) + terms.J_rate.col(l));
     terms.M_aa = body.Maa;
     terms.M_ra.topRows<3>() = body.S2;
     terms.packed = Eigen::Map<const VectorXd>(body.N0.data(), 3 * m);
-    terms.packed.noalias() += body.N * a;
+    for (Index j = 0; j < m; ++j) terms.packed += a[j] * body.N.col(j);
     for (Index l = 0; l < m; ++l) terms.M_ra.block<3, 1>(3, l) = terms.packed.segment<3>(3 * l);
   }
   const Matrix3d inertia = unpacked(J);
@@ -116,12 +118,13 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
       J_dot += a_rate[l] * terms.J_rate.col(l);
     }
     change = unpacked(J_dot) * w;
-    terms.packed.noalias() = body.N * a_rate;
+    terms.packed = a_rate[0] * body.N.col(0);
+    for (Index j = 1; j < m; ++j) terms.packed += a_rate[j] * body.N.col(j);
     const Vector6d form = quadratic_form(w);
     for (Index l = 0; l < m; ++l)
       terms.bias_a[l] = 2 * w.dot(terms.packed.segment<3>(3 * l)) -
-                        0.5 * form.dot(terms.J_rate.col(l)) + body.stiffness[l] * a[l] +
-                        body.damping[l] * a_rate[l];
+                        0.5 * form.dot(terms.J_rate.col(l)) +
+                        body.stiffness[l] * (a[l] - body.offset[l]) + body.damping[l] * a_rate[l];
   }
   terms.bias_r.head<3>() = w.cross(momentum);
   terms.bias_r.tail<3>() = change + w.cross(angular);

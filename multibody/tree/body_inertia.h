@@ -31,6 +31,7 @@ struct BodyInertia {
   Eigen::MatrixXd Maa;
   Eigen::VectorXd stiffness;  ///< (m): omega^2
   Eigen::VectorXd damping;    ///< (m): 2 zeta omega
+  Eigen::VectorXd offset;     ///< (m): modal coordinates without load
 };
 
 /// Inertia of a body in its own axes, and what is left of its equations when its accelerations

@@ -30,7 +30,6 @@ class RecursiveEquations final : public Equations {
     return rest.state();
   }
 
-  std::vector<double> breakpoints(double end_s) const override { return tree_.breakpoints(end_s); }
   void set_interval(double begin_s, double end_s) override {
     dynamics_.set_interval(begin_s, end_s);
   }

@@ -141,17 +141,4 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
     markers.push_back({TreeNode(model.bodies[marker.body], marker), carriers[marker.body]});
 }
 
-std::vector<double> Tree::breakpoints(double end_s) const {
-  std::vector<double> times;
-  const auto add = [&](const TimeTable& table) {
-    for (const double time : table.times_s())
-      if (time > 0 && time < end_s) times.push_back(time);
-  };
-  for (const DrivenPath& path : driven) add(path.body.acceleration_m_s2);
-  for (const PointForce& force : model.forces) add(force.magnitude_N);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
-}
-
 }  // namespace flexneck::multibody::tree

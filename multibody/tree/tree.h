@@ -63,8 +63,6 @@ struct Tree {
   double size_m = 0;  ///< largest distance in a body: from its origin to a joint, or its radius
 
   Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
-  /// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
-  std::vector<double> breakpoints(double end_s) const;
 };
 
 /// Whether the joints of a model make trees.

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Z^T I Z with Z = [1, -~r; 0, 1]: an inertia that acts at r, seen from the origin.
-Matrix6d shifted(const Matrix6d& inertia, const Vector3d& r) {
+[[gnu::always_inline]] inline Matrix6d shifted(const Matrix6d& inertia, const Vector3d& r) {
   const Matrix3d cross = skew(r);
   Matrix6d result;
   const Matrix3d tr = inertia.topRightCorner<3, 3>() - inertia.topLeftCorner<3, 3>() * cross;
@@ -33,27 +33,27 @@ Matrix6d shifted(const Matrix6d& inertia, const Vector3d& r) {
 }
 
 /// Z^T f: a load that acts at r, seen from the origin.
-Vector6d shifted(const Vector6d& load, const Vector3d& r) {
+[[gnu::always_inline]] inline Vector6d shifted(const Vector6d& load, const Vector3d& r) {
   Vector6d result = load;
   result.tail<3>() += r.cross(load.head<3>());
   return result;
 }
 
 /// Z a: an acceleration of the origin, seen at r.
-Vector6d carried(const Vector6d& acceleration, const Vector3d& r) {
+[[gnu::always_inline]] inline Vector6d carried(const Vector6d& acceleration, const Vector3d& r) {
   Vector6d result = acceleration;
   result.head<3>() += acceleration.tail<3>().cross(r);
   return result;
 }
 
-Vector6d rotated(const Matrix3d& R, const Vector6d& v) {
+[[gnu::always_inline]] inline Vector6d rotated(const Matrix3d& R, const Vector6d& v) {
   Vector6d result;
   result.head<3>().noalias() = R * v.head<3>();
   result.tail<3>().noalias() = R * v.tail<3>();
   return result;
 }
 
-Matrix6d rotated(const Matrix3d& R, const Matrix6d& inertia) {
+[[gnu::always_inline]] inline Matrix6d rotated(const Matrix3d& R, const Matrix6d& inertia) {
   Matrix6d result;
   const Matrix3d tt = R * inertia.topLeftCorner<3, 3>();
   const Matrix3d tr = R * inertia.topRightCorner<3, 3>();
@@ -66,7 +66,7 @@ Matrix6d rotated(const Matrix3d& R, const Matrix6d& inertia) {
 }
 
 /// What a node's acceleration has besides [acc + wdot x s + psi a''; wdot + jm a''].
-Vector6d node_bias(const NodeMotion& node, const Vector3d& w) {
+[[gnu::always_inline]] inline Vector6d node_bias(const NodeMotion& node, const Vector3d& w) {
   Vector6d bias;
   bias.head<3>() = w.cross(w.cross(node.s) + 2 * node.s_dot);
   bias.tail<3>() = w.cross(node.turn) + node.turn_rate;
@@ -115,7 +115,7 @@ TreeDynamics::TreeDynamics(const Tree& tree, Drive drive)
       interval_begin_s_(-kInfinity),
       interval_end_s_(kInfinity),
       driven_(tree.driven.size()),
-      force_values_(tree.model.forces.size(), 0.0),
+      forces_(tree.model),
       extra_forces_(VectorXd::Zero(tree.velocity_count)),
       accelerations_(VectorXd::Zero(tree.velocity_count)) {
   world_.acceleration.head<3>() = -gravity_;
@@ -209,19 +209,31 @@ void TreeDynamics::update(double time_s, const ConstVector& state) {
 }
 
 void TreeDynamics::apply_forces() {
-  for (std::size_t k = 0; k < force_values_.size(); ++k) {
-    const PointForce& force = tree_.model.forces[k];
-    force_values_[k] = force.magnitude_N.value(table_time(time_s_));
-    apply(tree_.markers[force.marker], marker_nodes_[force.marker],
-          force_values_[k] * force.direction, Vector3d::Zero());
+  const std::vector<std::size_t>& touched = forces_.markers();
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const TreeMarker& marker = tree_.markers[touched[k]];
+    NodeMotion& node = marker_nodes_[touched[k]];
+    if (marker.carrier.body != kNone) {
+      const Work& work = work_[marker.carrier.body];
+      tree::update(marker.node, work.a, work.a_rate, node);
+    }
+    const Frame& frame = frame_of(marker.carrier);
+    ForceMarker& slot = forces_.slot(k);
+    slot.p = frame.x + frame.A * node.s;
+    slot.v = frame.A * (frame.v + frame.w.cross(node.s) + node.s_dot);
+    slot.R = frame.A * node.R;
+    slot.w = frame.A * (frame.w + node.turn);
   }
+  forces_.evaluate(table_time(time_s_));
+  for (std::size_t k = 0; k < touched.size(); ++k)
+    apply(tree_.markers[touched[k]], marker_nodes_[touched[k]], forces_.slot(k).force_N,
+          forces_.slot(k).moment_Nm);
 }
 
-void TreeDynamics::apply(const TreeMarker& marker, NodeMotion& node, const Vector3d& force,
+void TreeDynamics::apply(const TreeMarker& marker, const NodeMotion& node, const Vector3d& force,
                          const Vector3d& torque) {
   if (marker.carrier.body == kNone) return;
   Work& work = work_[marker.carrier.body];
-  tree::update(marker.node, work.a, work.a_rate, node);
   const Vector3d f = work.frame.A.transpose() * force;
   const Vector3d t = work.frame.A.transpose() * torque;
   work.terms.bias_r.head<3>() -= f;
@@ -235,14 +247,17 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
   // In terms of M's acceleration: [acc; wdot] = X (a_M - outer_bias - Phi a''), X = [1, ~s; 0, 1].
   const Index m = body.inertia.mode_count();
   const Vector3d back = -work.outer.s;
+  const bool shifts = !body.outer.at_origin;
   InertiaTerms& terms = work.terms;
-  work.inertia = shifted(terms.M_rr, back);
-  work.bias = shifted(terms.bias_r, back);
-  work.bias.noalias() -= work.inertia * work.outer_bias;
+  work.inertia = shifts ? shifted(terms.M_rr, back) : terms.M_rr;
+  work.bias = shifts ? shifted(terms.bias_r, back) : terms.bias_r;
+  // Where M is the origin, the bias of its acceleration is zero.
+  if (shifts) work.bias.noalias() -= work.inertia * work.outer_bias;
   if (m == 0) return;
   Matrix6Xd& coupling = work.coupling;
   for (Index l = 0; l < m; ++l) {
-    coupling.col(l) = shifted(Vector6d(terms.M_ra.col(l)), back);
+    coupling.col(l) = terms.M_ra.col(l);
+    if (shifts) coupling.col(l) = shifted(Vector6d(coupling.col(l)), back);
     // The body's own modal forces and those of the extra kind.
     work.z[l] = terms.bias_a[l] - coupling.col(l).dot(work.outer_bias) -
                 extra_forces_[body.velocity + body.joint.velocity_count() + l];

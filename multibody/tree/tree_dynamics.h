@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "multibody/forces/force_set.h"
 #include "multibody/motion_state.h"
 #include "multibody/tree/tree.h"
 
@@ -44,8 +45,7 @@ class TreeDynamics {
   Eigen::Matrix3d joint_axes(std::size_t joint) const;
   const Eigen::VectorXd& modal(std::size_t body) const { return work_[body].a; }
   Energies energies() const;
-  /// Potential energy of the forces as they are now, if they stayed.
-  double load_energy_J() const;
+  const ForceSet& forces() const { return forces_; }
   double dissipation_W() const;
   /// After solve().
   double work_W() const;
@@ -86,7 +86,7 @@ class TreeDynamics {
   void update_driven_bodies();
   void update_body(const TreeBody& body, Work& work, const ConstVector& state);
   void apply_forces();
-  void apply(const TreeMarker& marker, NodeMotion& node, const Eigen::Vector3d& force,
+  void apply(const TreeMarker& marker, const NodeMotion& node, const Eigen::Vector3d& force,
              const Eigen::Vector3d& torque);
   void eliminate_modes(const TreeBody& body, Work& work);
   void eliminate_joint(const TreeBody& body, Work& work);
@@ -103,7 +103,7 @@ class TreeDynamics {
   std::vector<Frame> driven_;
   std::vector<Work> work_;
   std::vector<NodeMotion> marker_nodes_;
-  std::vector<double> force_values_;
+  ForceSet forces_;
   Eigen::VectorXd extra_forces_, accelerations_;
   int evaluations_ = 0;
 };

@@ -10,13 +10,14 @@ using Eigen::Vector3d;
 
 TreeNode::TreeNode(const Body& body, const Marker& marker)
     : s0(marker.position_m), R0(marker.rotation.normalized()) {
-  const auto* deformable = std::get_if<DeformableBody>(&body.kind);
-  if (deformable == nullptr) return;
-  const fe_modal::Interface& place = deformable->modes.interface(marker.interface);
-  s0 = place.position_m;
-  psi = place.translation;
-  mu = place.rotation;
-  moves = !(psi.isZero(0) && mu.isZero(0));
+  if (const auto* deformable = std::get_if<DeformableBody>(&body.kind)) {
+    const fe_modal::Interface& place = deformable->modes.interface(marker.interface);
+    s0 = place.position_m;
+    psi = place.translation;
+    mu = place.rotation;
+    moves = !(psi.isZero(0) && mu.isZero(0));
+  }
+  at_origin = !moves && s0.isZero(0);
 }
 
 NodeMotion::NodeMotion(const TreeNode& node)

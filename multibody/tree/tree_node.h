@@ -17,6 +17,7 @@ struct TreeNode {
   Eigen::Matrix3Xd mu{3, 0};
   Eigen::Matrix3d R0 = Eigen::Matrix3d::Identity();  ///< marker axes to body axes, undeformed
   bool moves = false;                                ///< with the modes
+  bool at_origin = true;                             ///< of the body, whatever its modes do
 };
 
 /// Its place and motion seen from the body, in body axes (equations.md section 7).

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is read off a tree once its equations are solved.
+#include <cmath>
+
 #include "multibody/tree/tree_dynamics.h"
 
 namespace flexneck::multibody::tree {
@@ -64,6 +66,7 @@ Matrix3d TreeDynamics::joint_axes(std::size_t joint) const {
 
 Energies TreeDynamics::energies() const {
   Energies sum;
+  sum.strain_J = forces_.stored_J();
   for (std::size_t b = 0; b < work_.size(); ++b) {
     const BodyInertia& body = tree_.bodies[b].inertia;
     const Work& work = work_[b];
@@ -71,7 +74,7 @@ Energies TreeDynamics::energies() const {
     Vector3d S = body.S1;
     for (Index l = 0; l < work.a.size(); ++l) {
       S += work.a[l] * body.S2.col(l);
-      sum.strain_J += 0.5 * body.stiffness[l] * work.a[l] * work.a[l];
+      sum.strain_J += 0.5 * body.stiffness[l] * std::pow(work.a[l] - body.offset[l], 2);
     }
     sum.kinetic_J += kinetic_energy_J(body, work.a, work.a_rate, frame.v, frame.w);
     sum.gravitational_J -= gravity_.dot(body.mass * frame.x + frame.A * S);
@@ -79,19 +82,8 @@ Energies TreeDynamics::energies() const {
   return sum;
 }
 
-double TreeDynamics::load_energy_J() const {
-  double energy = 0;
-  for (std::size_t k = 0; k < force_values_.size(); ++k) {
-    const PointForce& force = tree_.model.forces[k];
-    const Frame& frame = frame_of(tree_.markers[force.marker].carrier);
-    const Vector3d place = frame.x + frame.A * marker_nodes_[force.marker].s;
-    energy -= force_values_[k] * force.direction.dot(place);
-  }
-  return energy;
-}
-
 double TreeDynamics::dissipation_W() const {
-  double power = 0;
+  double power = forces_.lost_W();
   for (std::size_t b = 0; b < work_.size(); ++b) {
     const Eigen::VectorXd& damping = tree_.bodies[b].inertia.damping;
     const Eigen::VectorXd& rate = work_[b].a_rate;
@@ -101,16 +93,7 @@ double TreeDynamics::dissipation_W() const {
 }
 
 double TreeDynamics::work_W() const {
-  double power = 0;
-  for (std::size_t k = 0; k < force_values_.size(); ++k) {
-    const PointForce& force = tree_.model.forces[k];
-    const TreeMarker& marker = tree_.markers[force.marker];
-    if (marker.carrier.body == kNone) continue;
-    const Frame& frame = work_[marker.carrier.body].frame;
-    const NodeMotion& node = marker_nodes_[force.marker];
-    power += force_values_[k] *
-             force.direction.dot(frame.A * (frame.v + frame.w.cross(node.s) + node.s_dot));
-  }
+  double power = forces_.work_W();
   // A driven body only translates: through a joint it does the force's work.
   for (std::size_t b = 0; b < work_.size(); ++b) {
     const Carrier& carrier = tree_.bodies[b].carrier;

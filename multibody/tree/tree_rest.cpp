@@ -78,7 +78,9 @@ VectorXd TreeRest::forces_at(const VectorXd& xi) {
 
 double TreeRest::energy() const {
   const Energies stored = dynamics_.energies();
-  return stored.gravitational_J + stored.strain_J + dynamics_.load_energy_J();
+  const ForceSet& forces = dynamics_.forces();
+  // Springs are in both.
+  return stored.gravitational_J + stored.strain_J + forces.potential_J() - forces.stored_J();
 }
 
 MatrixXd TreeRest::stiffness() {

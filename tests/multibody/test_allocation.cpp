@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <atomic>
 #include <cstdlib>
+#include <functional>
 
 #include <catch2/catch.hpp>
 
@@ -9,6 +10,9 @@
 #include "multibody/initial_state.h"
 #include "multibody/projection.h"
 #include "multibody/state_error.h"
+#include "multibody/tree/tree_dynamics.h"
+#include "multibody/tree/tree_error.h"
+#include "multibody/tree/tree_start.h"
 #include "tests/support/point_mass_body.h"
 
 // The linker sends every call of malloc in our objects, Eigen's included, through here
@@ -30,7 +34,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using namespace flexneck::multibody;
 
-TEST_CASE("a step allocates nothing") {
+namespace {
+
+Model neck_and_head() {
   const auto body = flexneck::testing::make_point_mass_body(71, 4).body;
   Model model;
   model.gravity_m_s2 = {0, 0, -9.81};
@@ -46,6 +52,33 @@ TEST_CASE("a step allocates nothing") {
   model.forces.push_back(
       {"push", 3, Vector3d::UnitX(), TimeTable({0, 1}, {0, 9}, TimeTable::Outside::constant)});
 
+  return model;
+}
+
+/// Steps and outputs of a run whose equations are given.
+void check_no_allocation(const InitialValueProblem& problem, VectorXd state,
+                         const std::function<void(double, VectorXd&)>& output) {
+  DormandPrince integrator(problem, {0.05, 1e-10}, 0, state);
+  // That the count works at all: a copy that the compiler cannot do away with.
+  const long before_control = allocations;
+  const VectorXd control = state;
+  const long control_count = allocations - before_control;
+  const long before = allocations;
+  for (int k = 0; k < 20; ++k) {
+    integrator.step(1.0);
+    integrator.interpolate(integrator.time_s() - 1e-6, state);
+    output(integrator.time_s() - 1e-6, state);
+  }
+  const long during_steps = allocations - before;
+  REQUIRE(control_count == 1);
+  REQUIRE(control.size() == state.size());
+  CHECK(during_steps == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a step of the descriptor form allocates nothing") {
+  const Model model = neck_and_head();
   const System system(model);
   EquationsOfMotion equations(system);
   Projection projection(equations);
@@ -63,21 +96,31 @@ TEST_CASE("a step allocates nothing") {
   problem.measure = [&](const VectorXd& begin, const VectorXd& end, const VectorXd& difference) {
     return error(begin, end, difference);
   };
-  DormandPrince integrator(problem, {0.05, 1e-10}, 0, state);
-
-  // That the count works at all: a copy that the compiler cannot do away with.
-  const long before_control = allocations;
-  const VectorXd control = state;
-  const long control_count = allocations - before_control;
-  const long before = allocations;
-  for (int k = 0; k < 20; ++k) {
-    integrator.step(1.0);
-    integrator.interpolate(integrator.time_s() - 1e-6, state);
-    projection.apply(integrator.time_s() - 1e-6, state);
+  check_no_allocation(problem, state, [&](double t, VectorXd& y) {
+    projection.apply(t, y, false);
     equations.solve();
-  }
-  const long during_steps = allocations - before;
-  REQUIRE(control_count == 1);
-  REQUIRE(control.size() == state.size());
-  CHECK(during_steps == 0);
+  });
+}
+
+TEST_CASE("a step of the recursive form allocates nothing") {
+  const Model model = neck_and_head();
+  const tree::Tree tree(model);
+  tree::TreeDynamics dynamics(tree);
+  const tree::TreeError error(tree, 1e-6, 1e-9);
+  InitialValueProblem problem;
+  problem.derivative = [&](double t, const VectorXd& y, VectorXd& rate) {
+    dynamics.evaluate(t, y, rate);
+  };
+  problem.finish_step = [&](double t, VectorXd& y, VectorXd& rate) {
+    dynamics.evaluate(t, y, rate);
+  };
+  problem.measure = [&](const VectorXd& begin, const VectorXd& end, const VectorXd& difference) {
+    return error(begin, end, difference);
+  };
+  check_no_allocation(problem, tree::given_state(tree), [&](double t, VectorXd& y) {
+    dynamics.update(t, y);
+    dynamics.solve();
+    for (std::size_t k = 0; k < model.markers.size(); ++k) dynamics.marker_state(k);
+    dynamics.energies();
+  });
 }

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "multibody/simulation.h"
+#include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
@@ -16,8 +17,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-SolverOptions solver_of(double tolerance) {
-  return {.relative_tolerance = tolerance, .absolute_tolerance = 1e-3 * tolerance};
+SolverOptions solver_of(double tolerance, Formulation formulation) {
+  return {.relative_tolerance = tolerance,
+          .absolute_tolerance = 1e-3 * tolerance,
+          .formulation = formulation};
 }
 
 Beam soft_beam() {
@@ -72,6 +75,28 @@ ModelBuilder mixed_chain(const DrivenBody& base, double zeta, const Quaterniond&
   return build;
 }
 
+/// Springs, bushings, a torque and resistances of the joints.
+void add_all_forces(Model& model) {
+  const auto marker = [&](const char* name) { return model.marker_index(name); };
+  Resistance stiff;
+  stiff.positive.curve = LoadCurve::cubic(4, 1, 30);
+  stiff.positive.stop = 0.2;
+  stiff.positive.beyond_stop = LoadCurve::cubic(20, 40);
+  stiff.positive.unloading_ratio = 0.5;
+  stiff.negative.curve = LoadCurve::table({0, 0.2, 0.5}, {0, 2, 3});
+  stiff.damping = 0.05;
+  stiff.friction = 0.3;
+  stiff.full_rate = 0.5;
+  model.torques.push_back({"twist", marker("bar top"), Vector3d::UnitZ(),
+                           TimeTable({0, 0.3, 0.6}, {0, 3, 0}, TimeTable::Outside::zero)});
+  model.springs.push_back({"spring", marker("ground"), marker("head joint"), 0.9, stiff});
+  model.bushings.push_back({"bushing", marker("eye"), marker("bar base"),
+                            40 * Eigen::Matrix<double, 6, 6>::Identity(),
+                            0.2 * Eigen::Matrix<double, 6, 6>::Identity()});
+  model.resistances = {{"hinge", model.joint_index("pivot"), JointCoordinate::angle, stiff},
+                       {"shoulder", model.joint_index("ball"), JointCoordinate::flexion, stiff}};
+}
+
 VectorXd balance(const EnergyHistory& energy) {
   return energy.kinetic_J + energy.gravitational_J + energy.strain_J + energy.dissipated_J -
          energy.work_J;
@@ -85,10 +110,11 @@ double largest_imbalance(const History& history) {
 }  // namespace
 
 TEST_CASE("An undamped flexible chain keeps its energy, and better so the finer the tolerance") {
+  const Formulation formulation = either_formulation();
   const ModelBuilder build = mixed_chain({}, 0, Quaterniond::Identity());
   const OutputOptions output{.end_time_s = 1, .interval_s = 0.05};
-  const History coarse = simulate(build.model, solver_of(1e-6), output);
-  const History fine = simulate(build.model, solver_of(1e-10), output);
+  const History coarse = simulate(build.model, solver_of(1e-6, formulation), output);
+  const History fine = simulate(build.model, solver_of(1e-10, formulation), output);
   const double exchanged = coarse.energy.kinetic_J.maxCoeff() - coarse.energy.kinetic_J.minCoeff();
   CHECK(exchanged > 10);
   CHECK(fine.energy.strain_J.maxCoeff() > 1);
@@ -100,14 +126,16 @@ TEST_CASE("An undamped flexible chain keeps its energy, and better so the finer 
 }
 
 TEST_CASE("What damping takes and forces and a driven base give closes the balance of energy") {
+  const Formulation formulation = either_formulation();
   const TimeTable pulse({0.1, 0.2, 0.4}, {0, -30, 0}, TimeTable::Outside::zero);
   const DrivenBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
   ModelBuilder build = mixed_chain(base, 0.3, Quaterniond::Identity());
+  add_all_forces(build.model);
   const TimeTable push({0.05, 0.3, 0.7}, {20, 60, 10}, TimeTable::Outside::zero);
   build.force("push", build.model.marker_index("lump tip"), {1, 1, 0}, push);
   build.force("pull", build.model.marker_index("head cg"), {0, 1, -2}, constant_table(15));
   const History history =
-      simulate(build.model, solver_of(1e-10), {.end_time_s = 1, .interval_s = 0.05});
+      simulate(build.model, solver_of(1e-10, formulation), {.end_time_s = 1, .interval_s = 0.05});
   const double work = history.energy.work_J.cwiseAbs().maxCoeff();
   CHECK(work > 10);
   CHECK(history.energy.dissipated_J[20] > 1);
@@ -118,6 +146,7 @@ TEST_CASE("What damping takes and forces and a driven base give closes the balan
 }
 
 TEST_CASE("A model that is turned with its gravity by an odd angle moves the same") {
+  const Formulation formulation = either_formulation();
   const Quaterniond world = Quaterniond(0.3, -0.8, 0.41, 0.77).normalized();
   const TimeTable pulse({0.0, 0.1, 0.2}, {0, -30, 0}, TimeTable::Outside::zero);
   const DrivenBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
@@ -125,7 +154,8 @@ TEST_CASE("A model that is turned with its gravity by an odd angle moves the sam
     ModelBuilder build = mixed_chain(base, 0.1, turn);
     build.force("push", build.model.marker_index("bar top"), turn * Vector3d(1, 0, 2),
                 constant_table(20));
-    return simulate(build.model, solver_of(1e-11), {.end_time_s = 0.4, .interval_s = 0.1});
+    return simulate(build.model, solver_of(1e-11, formulation),
+                    {.end_time_s = 0.4, .interval_s = 0.1});
   };
   const History upright = run(Quaterniond::Identity());
   const History turned = run(world);
@@ -148,13 +178,45 @@ TEST_CASE("A model that is turned with its gravity by an odd angle moves the sam
 }
 
 TEST_CASE("The same run gives the same numbers to the last bit") {
-  const auto run = [] {
-    return simulate(mixed_chain({}, 0.1, Quaterniond::Identity()).model, solver_of(1e-6),
-                    {.end_time_s = 0.2, .interval_s = 0.05});
+  const Formulation formulation = either_formulation();
+  const auto run = [&] {
+    return simulate(mixed_chain({}, 0.1, Quaterniond::Identity()).model,
+                    solver_of(1e-6, formulation), {.end_time_s = 0.2, .interval_s = 0.05});
   };
   const History first = run();
   const History second = run();
   CHECK(first.marker("head cg").position_m == second.marker("head cg").position_m);
   CHECK(first.joint("OC").moment_Nm == second.joint("OC").moment_Nm);
   CHECK(first.statistics.evaluations == second.statistics.evaluations);
+}
+
+TEST_CASE("Both formulations follow the same path, of markers, modes, reactions and energies") {
+  const TimeTable pulse({0.0, 0.1, 0.2}, {0, -30, 0}, TimeTable::Outside::zero);
+  const DrivenBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
+  ModelBuilder build = mixed_chain(base, 0.1, Quaterniond::Identity());
+  build.force("push", build.model.marker_index("bar top"), {1, 0, 2}, constant_table(20));
+  const auto run = [&](Formulation formulation) {
+    return simulate(build.model, solver_of(1e-11, formulation),
+                    {.end_time_s = 0.4, .interval_s = 0.1});
+  };
+  const History a = run(Formulation::descriptor);
+  const History b = run(Formulation::recursive);
+  constexpr double kAgreement = 1e-9;
+  for (std::size_t k = 0; k < a.markers.size(); ++k) {
+    CAPTURE(a.markers[k].name);
+    CHECK((a.markers[k].position_m - b.markers[k].position_m).cwiseAbs().maxCoeff() < kAgreement);
+    CHECK((a.markers[k].rotation - b.markers[k].rotation).cwiseAbs().maxCoeff() < kAgreement);
+    // Rates are larger by the bar's highest frequency, 2 pi 80 / s, accelerations by its square.
+    CHECK((a.markers[k].velocity_m_s - b.markers[k].velocity_m_s).cwiseAbs().maxCoeff() <
+          1e3 * kAgreement);
+    CHECK((a.markers[k].acceleration_m_s2 - b.markers[k].acceleration_m_s2).cwiseAbs().maxCoeff() <
+          1e5 * kAgreement);
+  }
+  for (std::size_t k = 0; k < a.joints.size(); ++k) {
+    CHECK((a.joints[k].force_N - b.joints[k].force_N).cwiseAbs().maxCoeff() < 1e5 * kAgreement);
+    CHECK((a.joints[k].moment_Nm - b.joints[k].moment_Nm).cwiseAbs().maxCoeff() < 1e5 * kAgreement);
+  }
+  for (std::size_t k = 0; k < a.modal.size(); ++k)
+    CHECK((a.modal[k].coordinates - b.modal[k].coordinates).cwiseAbs().maxCoeff() < kAgreement);
+  CHECK((balance(a.energy) - balance(b.energy)).cwiseAbs().maxCoeff() < 1e3 * kAgreement);
 }

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "multibody/simulation.h"
+#include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
@@ -18,7 +19,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-const SolverOptions kTight{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-13};
+SolverOptions tight() { return flexneck::testing::solver_of(1e-11, 1e-13); }
 
 Matrix3d skew(const Vector3d& v) {
   Matrix3d result;
@@ -133,7 +134,7 @@ TEST_CASE("Driven base, neck and head move as the modal coordinates alone do") {
   const DrivenBody base{pose.rotation * direction_N, 7, strong_pulse()};
   ModelBuilder build = head_on_neck(base, pose, beam, 0.9, head);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
-  const History history = simulate(build.model, kTight, {.end_time_s = 0.1, .interval_s = 0.01});
+  const History history = simulate(build.model, tight(), {.end_time_s = 0.1, .interval_s = 0.01});
 
   const MinimalModel minimal{make_beam_body(beam),
                              0.9,
@@ -168,7 +169,7 @@ TEST_CASE("A pulse at 45 degrees on equal bending modes and a centred head makes
   ModelBuilder build =
       head_on_neck({pose.rotation * diagonal_N, 7, strong_pulse()}, pose, beam, 0.9, head);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
-  const History history = simulate(build.model, kTight, {.end_time_s = 0.25, .interval_s = 0.005});
+  const History history = simulate(build.model, tight(), {.end_time_s = 0.25, .interval_s = 0.005});
   double largest_turn = 0;
   for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
     const Eigen::AngleAxisd turned(pose.rotation.conjugate() *

@@ -129,6 +129,7 @@ TEST_CASE("a tree's markers and energies are those of the descriptor form") {
     CHECK((found.acceleration_m_s2 - acceleration).norm() < kAgreement * 1e3);
   }
   Energies expected;
+  expected.strain_J = equations.forces().stored_J();
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const FreeBody& body = system.bodies[b];
     const auto V = velocities.segment(body.velocity, body.constants.velocity_count());

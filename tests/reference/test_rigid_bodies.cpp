@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "multibody/simulation.h"
+#include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
@@ -16,7 +17,7 @@ using flexneck::testing::rotation_at;
 
 namespace {
 
-const SolverOptions kTight{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
+SolverOptions tight() { return flexneck::testing::solver_of(1e-11, 1e-12); }
 
 RigidBody rigid(double mass_kg, const Vector3d& center_m, const Vector3d& moments_kg_m2) {
   return {mass_kg, center_m, moments_kg_m2.asDiagonal()};
@@ -38,7 +39,7 @@ TEST_CASE("A pendulum released from horizontal has the period of the elliptic in
   build.joint("pin", JointKind::pin, pivot, eye);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   const History history =
-      simulate(build.model, kTight, {.end_time_s = 2 * kPeriod_s, .interval_s = kPeriod_s / 4});
+      simulate(build.model, tight(), {.end_time_s = 2 * kPeriod_s, .interval_s = kPeriod_s / 4});
   REQUIRE(history.time_s.size() == 9);
   const Eigen::Matrix3Xd& end = history.marker("end").position_m;
   // Gravity lets the end fall: horizontal at +x, down, horizontal at -x, down, and back.
@@ -62,7 +63,7 @@ TEST_CASE("A free body flips about its intermediate axis with the period of Jaco
   const auto body =
       build.body("body", rigid(1, Vector3d::Zero(), moments), {}, Vector3d::Zero(), start);
   build.marker("frame", body);
-  const SolverOptions solver{.relative_tolerance = 1e-12, .absolute_tolerance = 1e-14};
+  const SolverOptions solver = flexneck::testing::solver_of(1e-12, 1e-14);
   const History history =
       simulate(build.model, solver, {.end_time_s = kPeriod_s, .interval_s = kPeriod_s / 4});
   REQUIRE(history.time_s.size() == 5);
@@ -94,7 +95,7 @@ TEST_CASE("The heavy top of Bruels, Cardona and Arnold is where it must be after
   build.marker("cg", top, center);
   build.joint("ball", JointKind::ball, pivot, tip);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
-  const History history = simulate(build.model, kTight, {.end_time_s = 2, .interval_s = 1});
+  const History history = simulate(build.model, tight(), {.end_time_s = 2, .interval_s = 1});
   const Vector3d published(-0.15041682, -0.72416559, -0.67302227);
   // Eight decimals are published.
   CHECK((history.marker("cg").position_m.col(2) - published).norm() < 2e-8);
@@ -112,7 +113,7 @@ TEST_CASE("A body thrown without gravity goes straight on, and with it along a p
       build.body("body", rigid(2, Vector3d::Zero(), {1, 2, 2.5}), {}, velocity, {1, 2, 3});
   build.marker("frame", body);
   build.model.gravity_m_s2 = {0, 0, -gravity};
-  const History history = simulate(build.model, kTight, {.end_time_s = 1.3, .interval_s = 0.1});
+  const History history = simulate(build.model, tight(), {.end_time_s = 1.3, .interval_s = 0.1});
   for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
     const double t = history.time_s[k];
     const Vector3d expected = t * velocity + 0.5 * t * t * build.model.gravity_m_s2;

@@ -6,6 +6,7 @@
 
 #include "multibody/response.h"
 #include "multibody/simulation.h"
+#include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
@@ -45,7 +46,7 @@ History spinning_beam(const Vector3d& axis, double spin_Hz, const Vector3d& blow
   const auto tip = build.interface_marker("tip", arm, "top");
   const TimeTable force({0, 0.001, 0.002}, {0, 1, 0}, TimeTable::Outside::zero);
   build.force("strike", tip, blow, force);
-  const SolverOptions solver{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-13};
+  const SolverOptions solver = solver_of(1e-10, 1e-13);
   return simulate(build.model, solver, {.end_time_s = 2.0, .interval_s = 1e-3});
 }
 

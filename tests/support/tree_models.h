@@ -20,6 +20,41 @@ inline multibody::RigidBody random_rigid_body(RandomNumbers& random) {
   return body;
 }
 
+/// Every kind of force, between and across the trees of forest().
+inline void add_forces(ModelBuilder& build, RandomNumbers& random) {
+  using multibody::LoadCurve;
+  multibody::Model& model = build.model;
+  multibody::Resistance resistance;
+  resistance.positive.curve = LoadCurve::cubic(20, 5, 30);
+  resistance.positive.stop = 0.3;
+  resistance.positive.beyond_stop = LoadCurve::cubic(0, 200, 50);
+  resistance.positive.unloading_ratio = 0.4;
+  resistance.negative.curve = LoadCurve::table({0, 0.2, 0.5}, {0, 10, 12});
+  resistance.negative.unloading_ratio = 0.8;
+  resistance.damping = 0.7;
+  resistance.friction = 1.5;
+  resistance.full_rate = 3;  // random rates are below it: no kink is near
+  multibody::Resistance rope;
+  rope.positive.curve = LoadCurve::cubic(40);
+  rope.damping = 2;
+  rope.tension_only = true;
+  model.torques.push_back(
+      {"twist", model.marker_index("c e"), random.vector().normalized(), constant_table(4)});
+  model.springs = {
+      {"spring", model.marker_index("d end"), model.marker_index("k g"), 0.4, resistance},
+      {"rope", model.marker_index("sled a"), model.marker_index("g h"), 0.1, rope}};
+  Eigen::Matrix<double, 6, 6> root;
+  random.fill(root);
+  model.bushings.push_back({"bushing", model.marker_index("a b"), model.marker_index("h g"),
+                            10 * root * root.transpose(), root.transpose() * root});
+  using multibody::JointCoordinate;
+  model.resistances = {{"hinge", 0, JointCoordinate::angle, resistance},
+                       {"flexion", 1, JointCoordinate::flexion, resistance},
+                       {"slide", 3, JointCoordinate::distance, resistance},
+                       {"turn", 3, JointCoordinate::angle, resistance},
+                       {"rail", 4, JointCoordinate::distance, resistance}};
+}
+
 /// A forest with every kind of joint between rigid, deformable and driven bodies: branches, joints
 /// given from either end, deformable bodies that hang on nodes that move, a floating root, a free
 /// joint, forces. Where the bodies are at the start is left open.
@@ -73,6 +108,7 @@ inline multibody::Model forest() {
   build.force("pull", build.marker("d end", d, {0.1, 0.2, 0.3}), random.vector(),
               constant_table(-20));
   build.interface_marker("idle", g, "tip");
+  add_forces(build, random);
   return build.model;
 }
 

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/forces/force_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "multibody/rotation.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Below this distance or angle a direction is not defined, and nothing acts.
+constexpr double kSmallest = 1e-12;
+
+}  // namespace
+
+ForceSet::ForceSet(const Model& model) : model_(model) {
+  for (const PointForce& force : model.forces) force_slots_.push_back(slot_of(force.marker));
+  for (const Torque& torque : model.torques) torque_slots_.push_back(slot_of(torque.marker));
+  for (const MarkerSpring& spring : model.springs)
+    spring_pairs_.push_back(pair_of(spring.marker_i, spring.marker_j));
+  for (const Bushing& bushing : model.bushings)
+    bushing_pairs_.push_back(pair_of(bushing.marker_i, bushing.marker_j));
+  for (const JointResistance& resistance : model.resistances) {
+    const Joint& joint = model.joints[resistance.joint];
+    resistance_pairs_.push_back(pair_of(joint.marker_i, joint.marker_j));
+  }
+}
+
+std::size_t ForceSet::slot_of(std::size_t marker) {
+  const auto found = std::find(markers_.begin(), markers_.end(), marker);
+  if (found != markers_.end()) return static_cast<std::size_t>(found - markers_.begin());
+  const Body& body = model_.bodies[model_.markers[marker].body];
+  markers_.push_back(marker);
+  slots_.emplace_back();
+  driven_.push_back(std::holds_alternative<DrivenBody>(body.kind));
+  return markers_.size() - 1;
+}
+
+ForceSet::Pair ForceSet::pair_of(std::size_t marker_i, std::size_t marker_j) {
+  const std::size_t i = slot_of(marker_i);
+  return {i, slot_of(marker_j)};
+}
+
+void ForceSet::evaluate(double time_s) {
+  stored_J_ = lost_W_ = work_W_ = potential_J_ = 0;
+  for (ForceMarker& slot : slots_) {
+    slot.force_N.setZero();
+    slot.moment_Nm.setZero();
+  }
+  for (std::size_t k = 0; k < spring_pairs_.size(); ++k) apply(model_.springs[k], spring_pairs_[k]);
+  for (std::size_t k = 0; k < bushing_pairs_.size(); ++k)
+    apply(model_.bushings[k], bushing_pairs_[k]);
+  for (std::size_t k = 0; k < resistance_pairs_.size(); ++k)
+    apply(model_.resistances[k], resistance_pairs_[k]);
+  // So far only loads between markers: what they take from driven bodies is these bodies' work.
+  for (std::size_t k = 0; k < slots_.size(); ++k)
+    if (driven_[k]) work_W_ -= slots_[k].force_N.dot(slots_[k].v);
+  for (std::size_t k = 0; k < force_slots_.size(); ++k) {
+    ForceMarker& slot = slots_[force_slots_[k]];
+    if (driven_[force_slots_[k]]) continue;
+    const Vector3d force = model_.forces[k].magnitude_N.value(time_s) * model_.forces[k].direction;
+    slot.force_N += force;
+    work_W_ += force.dot(slot.v);
+    potential_J_ -= force.dot(slot.p);
+  }
+  for (std::size_t k = 0; k < torque_slots_.size(); ++k) {
+    ForceMarker& slot = slots_[torque_slots_[k]];
+    if (driven_[torque_slots_[k]]) continue;
+    const Vector3d torque =
+        model_.torques[k].magnitude_Nm.value(time_s) * model_.torques[k].direction;
+    slot.moment_Nm += torque;
+    work_W_ += torque.dot(slot.w);
+  }
+}
+
+void ForceSet::apply_pair(const Pair& pair, const Vector3d& force_on_j,
+                          const Vector3d& moment_on_j) {
+  ForceMarker& i = slots_[pair.i];
+  ForceMarker& j = slots_[pair.j];
+  j.force_N += force_on_j;
+  j.moment_Nm += moment_on_j;
+  // The opposite acts on i's body, at the same point.
+  i.force_N -= force_on_j;
+  i.moment_Nm -= moment_on_j + (j.p - i.p).cross(force_on_j);
+}
+
+void ForceSet::apply(const MarkerSpring& spring, const Pair& pair) {
+  const ForceMarker& i = slots_[pair.i];
+  const ForceMarker& j = slots_[pair.j];
+  const Vector3d line = j.p - i.p;
+  const double length = line.norm();
+  if (!(length > kSmallest)) return;
+  const Vector3d direction = line / length;
+  const ResistanceLoad found = multibody::evaluate(spring.resistance, length - spring.free_length_m,
+                                                   direction.dot(j.v - i.v));
+  stored_J_ += found.stored_J;
+  lost_W_ += found.lost_W;
+  apply_pair(pair, -found.load * direction, Vector3d::Zero());
+}
+
+void ForceSet::apply(const Bushing& bushing, const Pair& pair) {
+  const ForceMarker& i = slots_[pair.i];
+  const ForceMarker& j = slots_[pair.j];
+  const Vector3d line = j.p - i.p;
+  Vector6d e;
+  e.head<3>() = i.R.transpose() * line;
+  e.tail<3>() = rotation_log(i.R.transpose() * j.R);
+  Vector6d rate;
+  rate.head<3>() = i.R.transpose() * (j.v - i.v - i.w.cross(line));
+  rate.tail<3>() = i.R.transpose() * (j.w - i.w);
+  const Vector6d elastic = bushing.stiffness * e;
+  const Vector6d viscous = bushing.damping * rate;
+  stored_J_ += 0.5 * e.dot(elastic);
+  lost_W_ += rate.dot(viscous);
+  // The angular velocity is J_l theta', and moment . J_l theta' = elastic . theta'.
+  const Matrix3d J = left_jacobian(e.tail<3>());
+  const Vector3d moment = J.transpose().inverse() * elastic.tail<3>() + viscous.tail<3>();
+  apply_pair(pair, -(i.R * (elastic.head<3>() + viscous.head<3>())), -(i.R * moment));
+}
+
+void ForceSet::apply(const JointResistance& resistance, const Pair& pair) {
+  const ForceMarker& i = slots_[pair.i];
+  const ForceMarker& j = slots_[pair.j];
+  const Joint& joint = model_.joints[resistance.joint];
+  const Vector3d h = i.R * joint.axis;
+  const auto record = [&](const ResistanceLoad& found) {
+    stored_J_ += found.stored_J;
+    lost_W_ += found.lost_W;
+    return found.load;
+  };
+  switch (resistance.coordinate) {
+    case JointCoordinate::distance: {
+      const Vector3d line = j.p - i.p;
+      const double rate = h.dot(j.v - i.v - i.w.cross(line));
+      const double load = record(multibody::evaluate(resistance.resistance, h.dot(line), rate));
+      apply_pair(pair, -load * h, Vector3d::Zero());
+      return;
+    }
+    case JointCoordinate::angle: {
+      const Eigen::Quaterniond q(Matrix3d(i.R.transpose() * j.R));
+      const double sign = q.w() < 0 ? -1 : 1;
+      const double angle = 2 * std::atan2(sign * q.vec().dot(joint.axis), sign * q.w());
+      const double load =
+          record(multibody::evaluate(resistance.resistance, angle, h.dot(j.w - i.w)));
+      apply_pair(pair, Vector3d::Zero(), -load * h);
+      return;
+    }
+    case JointCoordinate::flexion:
+      apply_flexion(resistance, pair, h);
+      return;
+  }
+}
+
+void ForceSet::apply_flexion(const JointResistance& flexion, const Pair& pair, const Vector3d& h) {
+  const ForceMarker& i = slots_[pair.i];
+  const ForceMarker& j = slots_[pair.j];
+  const Resistance& resistance = flexion.resistance;
+  const Vector3d h_j = j.R * model_.joints[flexion.joint].axis;
+  const Vector3d rate = j.w - i.w;
+  Vector3d moment = Vector3d::Zero();
+  const auto record = [&](const ResistanceLoad& found, double sign) {
+    stored_J_ += found.stored_J;
+    lost_W_ += sign * found.lost_W;
+    return sign * found.load;
+  };
+  // The curve bends back about the normal of both axes, which straight axes have not; there it
+  // vanishes.
+  const Vector3d across = h.cross(h_j);
+  const double sine = across.norm();
+  if (sine > kSmallest) {
+    const Vector3d normal = across / sine;
+    const double angle = std::atan2(sine, h.dot(h_j));
+    const double bending = normal.dot(rate);
+    moment -= record(multibody::evaluate(resistance, angle, bending), 1) * normal;
+    moment -= record(multibody::evaluate(resistance, 0, bending), -1) * normal;
+  }
+  // Damping and friction, what is left without deflection, act against the whole rate across the
+  // axis: about the normal alone they would jump where the axes are straight.
+  const Vector3d swinging = rate - h.dot(rate) * h;
+  const double speed = swinging.norm();
+  if (speed > kSmallest)
+    moment -= record(multibody::evaluate(resistance, 0, speed), 1) / speed * swinging;
+  apply_pair(pair, Vector3d::Zero(), moment);
+}
+
+void ForceSet::add_breakpoints(std::vector<double>& times_s) const {
+  const auto add = [&](const TimeTable& table) {
+    times_s.insert(times_s.end(), table.times_s().begin(), table.times_s().end());
+  };
+  for (const PointForce& force : model_.forces) add(force.magnitude_N);
+  for (const Torque& torque : model_.torques) add(torque.magnitude_Nm);
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/forces/load_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+
+LoadCurve LoadCurve::cubic(double c1, double c2, double c3) {
+  if (!(std::isfinite(c1) && std::isfinite(c2) && std::isfinite(c3)))
+    throw InputError("load curve: its coefficients must be finite");
+  LoadCurve curve;
+  curve.c1_ = c1;
+  curve.c2_ = c2;
+  curve.c3_ = c3;
+  return curve;
+}
+
+LoadCurve LoadCurve::table(std::vector<double> x, std::vector<double> load) {
+  if (x.size() != load.size() || x.size() < 2)
+    throw InputError("load curve: expected a load for each of at least two deflections, found " +
+                     std::to_string(x.size()) + " deflections and " + std::to_string(load.size()) +
+                     " loads");
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (!std::isfinite(x[k]) || !std::isfinite(load[k]))
+      throw InputError("load curve: row " + std::to_string(k + 1) + " is not finite");
+    if (k > 0 && !(x[k] > x[k - 1]))
+      throw InputError("load curve: deflections must increase strictly, but row " +
+                       std::to_string(k + 1) + " has " + std::to_string(x[k]) + " after " +
+                       std::to_string(x[k - 1]));
+  }
+  if (x[0] != 0 || load[0] != 0)
+    throw InputError("load curve: the first row must be 0, 0, but is " + std::to_string(x[0]) +
+                     ", " + std::to_string(load[0]));
+  LoadCurve curve;
+  curve.energy_.assign(x.size(), 0);
+  for (std::size_t k = 1; k < x.size(); ++k)
+    curve.energy_[k] = curve.energy_[k - 1] + (x[k] - x[k - 1]) * (load[k] + load[k - 1]) / 2;
+  curve.x_ = std::move(x);
+  curve.load_ = std::move(load);
+  return curve;
+}
+
+namespace {
+
+/// The row from which the piece at x starts; the last piece goes on.
+std::size_t piece(const std::vector<double>& rows, double x) {
+  const auto after = std::upper_bound(rows.begin(), rows.end() - 1, x);
+  const auto k = static_cast<std::size_t>(after - rows.begin());
+  return std::min(k == 0 ? 0 : k - 1, rows.size() - 2);
+}
+
+}  // namespace
+
+double LoadCurve::value(double x) const {
+  if (x_.empty()) return x * (c1_ + x * (c2_ + x * c3_));
+  const std::size_t k = piece(x_, x);
+  const double slope = (load_[k + 1] - load_[k]) / (x_[k + 1] - x_[k]);
+  return load_[k] + slope * (x - x_[k]);
+}
+
+double LoadCurve::energy(double x) const {
+  if (x_.empty()) return x * x * (c1_ / 2 + x * (c2_ / 3 + x * c3_ / 4));
+  const std::size_t k = piece(x_, x);
+  return energy_[k] + (x - x_[k]) * (load_[k] + value(x)) / 2;
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+namespace flexneck::multibody {
+
+/// A load over a deflection x >= 0 from (0, 0) on, N or N m over m or rad: a cubic, or a table that
+/// is linear between its rows and goes on beyond the last with the last slope. By default none.
+class LoadCurve {
+ public:
+  LoadCurve() = default;
+  /// c1 x + c2 x^2 + c3 x^3. @throws InputError if a coefficient is not finite.
+  static LoadCurve cubic(double c1, double c2 = 0, double c3 = 0);
+  /// @param x     from 0 on, strictly increasing, at least two rows
+  /// @param load  the first is 0
+  /// @throws InputError otherwise, or for values that are not finite.
+  static LoadCurve table(std::vector<double> x, std::vector<double> load);
+
+  double value(double x) const;
+  double energy(double x) const;  ///< integral of the load from 0 to x, J
+
+ private:
+  double c1_ = 0, c2_ = 0, c3_ = 0;
+  std::vector<double> x_, load_, energy_;
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+
+#include "multibody/forces/load_curve.h"
+
+namespace flexneck::multibody {
+
+/// One direction of a joint's or spring's resistance, after the ATB model's joint cards: a curve,
+/// and beyond a stop another on top of it.
+struct ResistanceSide {
+  LoadCurve curve;                                        ///< over the deflection
+  double stop = std::numeric_limits<double>::infinity();  ///< deflection, m or rad
+  LoadCurve beyond_stop;                                  ///< over what exceeds the stop
+  /// Load of unloading over that of loading, in [0, 1]: 1 gives all energy back.
+  double unloading_ratio = 1;
+
+  double load(double x) const;
+  double energy(double x) const;
+};
+
+/// Resistance against a deflection x of either sign and its rate: curves different in the two
+/// directions, viscous damping and Coulomb friction. What depends on the sign of the rate, friction
+/// and hysteresis, grows linearly up to `full_rate`, as in ATB: the law is continuous.
+struct Resistance {
+  ResistanceSide positive, negative;
+  double damping = 0;    ///< N s/m or N m s/rad
+  double friction = 0;   ///< N or N m
+  double full_rate = 0;  ///< m/s or rad/s; positive where there is friction or hysteresis
+  /// Pulls only: nothing at x <= 0, never a push.
+  bool tension_only = false;
+};
+
+/// A resistance at a deflection x and rate v: the load against growing x, and of its power load * v
+/// what is stored, d(stored)/dt, and what is lost.
+struct ResistanceLoad {
+  double load = 0;
+  double stored_J = 0;
+  double lost_W = 0;
+};
+ResistanceLoad evaluate(const Resistance& resistance, double x, double v);
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include "multibody/simulation.h"
+
+namespace flexneck::testing {
+
+/// Runs the test case that calls it once with each formulation.
+inline multibody::Formulation either_formulation() {
+  return GENERATE(multibody::Formulation::descriptor, multibody::Formulation::recursive);
+}
+
+inline multibody::SolverOptions solver_of(double relative, double absolute) {
+  return {.relative_tolerance = relative,
+          .absolute_tolerance = absolute,
+          .formulation = either_formulation()};
+}
+
+}  // namespace flexneck::testing
