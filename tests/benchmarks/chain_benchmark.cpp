@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Times chains of bodies. README.md says what is compared.
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include "multibody/equations.h"
+#include "multibody/simulation.h"
+#include "tests/benchmarks/timing.h"
+#include "tests/support/test_models.h"
+
+namespace {
+
+using namespace flexneck::multibody;
+using namespace flexneck::testing;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using flexneck::benchmarks::measure;
+using flexneck::benchmarks::Timing;
+
+const char* name_of(Formulation formulation) {
+  return formulation == Formulation::recursive ? "recursive" : "descriptor";
+}
+
+RigidBody rod(double mass_kg, double length_m, const Vector3d& moments_kg_m2) {
+  return {mass_kg, {0, 0, -length_m / 2}, moments_kg_m2.asDiagonal()};
+}
+
+/// Links of 0.1 m on pins with axes in turn along x and y, hanging straight.
+Model hanging_chain(int links) {
+  ModelBuilder build;
+  constexpr double kLength_m = 0.1;
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  std::size_t above = build.marker("ground", build.ground());
+  for (int k = 0; k < links; ++k) {
+    const std::string name = std::to_string(k);
+    const auto link = build.body("link " + name, rod(0.2, kLength_m, {2e-4, 2e-4, 2e-5}),
+                                 {{0, 0, -kLength_m * k}});
+    build.joint("pin " + name, JointKind::pin, above, build.marker("top " + name, link),
+                k % 2 == 0 ? Vector3d::UnitX() : Vector3d::UnitY());
+    above = build.marker("bottom " + name, link, {0, 0, -kLength_m});
+  }
+  return build.model;
+}
+
+/// One evaluation of the equations of motion.
+double evaluation_us(const Model& model, Formulation formulation, int repetitions) {
+  SolverOptions solver;
+  const auto equations = formulation == Formulation::recursive
+                             ? recursive_equations(model, solver)
+                             : descriptor_equations(model, solver);
+  const Eigen::VectorXd state = equations->given_state();
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(state.size());
+  const Timing timing = measure(5, [&] {
+    for (int k = 0; k < repetitions; ++k) equations->derivative(0, state, rate);
+  });
+  return 1e3 * timing.median_ms / repetitions;
+}
+
+void report_growth() {
+  std::printf("one evaluation of a hanging chain, in us and in us a body\n");
+  std::printf("%8s %24s %24s\n", "bodies", "recursive", "descriptor");
+  for (const int links : {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000}) {
+    const Model model = hanging_chain(links);
+    const int repetitions = 20000 / links + 1;
+    const double recursive = evaluation_us(model, Formulation::recursive, repetitions);
+    const double descriptor = evaluation_us(model, Formulation::descriptor, repetitions);
+    std::printf("%8d %12.2f %11.3f %12.2f %11.3f\n", links, recursive, recursive / links,
+                descriptor, descriptor / links);
+  }
+}
+
+/// ground - pin - arm - ball - neck - fixed - head, released at 60 degrees.
+Model rigid_chain() {
+  ModelBuilder build;
+  constexpr double kArm_m = 1.657;
+  constexpr double kNeck_m = 0.1438;
+  const Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 3, Vector3d::UnitY()));
+  const Vector3d arm_end = turn * Vector3d(0, 0, -kArm_m);
+  const Vector3d neck_end = arm_end + turn * Vector3d(0, 0, -kNeck_m);
+  const double moment = 29.57 * kArm_m * kArm_m / 12;
+  const auto ground = build.ground();
+  const auto arm =
+      build.body("arm", rod(29.57, kArm_m, {moment, moment, 0.1}), {Vector3d::Zero(), turn});
+  const auto neck = build.body("neck", rod(1, kNeck_m, {2e-3, 2e-3, 1e-3}), {arm_end, turn});
+  const Vector3d head_center(0.01, 0, -0.1);
+  const auto head =
+      build.body("head", RigidBody{4.5, head_center, Vector3d(0.016, 0.024, 0.022).asDiagonal()},
+                 {neck_end, turn});
+  build.joint("pivot", JointKind::pin, build.marker("ground", ground), build.marker("eye", arm));
+  build.joint("shoulder", JointKind::ball, build.marker("arm end", arm, {0, 0, -kArm_m}),
+              build.marker("neck base", neck));
+  build.joint("OC", JointKind::fixed, build.marker("neck top", neck, {0, 0, -kNeck_m}),
+              build.marker("head joint", head));
+  build.marker("head cg", head, head_center);
+  build.model.gravity_m_s2 = {0, 0.5, -9.81};
+  return build.model;
+}
+
+/// ground - pin - arm - fixed - flexible bar - fixed - head; the ground is jerked for 0.05 s. The
+/// bar is Euler and Bernoulli's with its bending and torsion modes below 2 kHz; the half sine is a
+/// table of 20 pieces.
+Model flexible_chain() {
+  ModelBuilder build;
+  constexpr double kArm_m = 1.5;
+  Beam bar;
+  bar.length_m = 0.5;
+  bar.mass_kg = 0.2;
+  bar.gyration_m = 0.02 / std::sqrt(12.0);
+  bar.fore_aft_Hz = bar.lateral_Hz = 40.86;
+  bar.fore_aft_modes = bar.lateral_modes = 4;
+  bar.twist_Hz = 900;
+  bar.twist_modes = 1;
+  std::vector<double> times_s;
+  std::vector<double> values;
+  for (int k = 0; k <= 20; ++k) {
+    times_s.push_back(0.05 * k / 20);
+    values.push_back(-50 * std::sin(std::numbers::pi * k / 20));
+  }
+  const DrivenBody ground{Vector3d::UnitX(), 0,
+                          TimeTable(times_s, values, TimeTable::Outside::zero)};
+  // The beam's z is along the bar, away from the arm.
+  const Quaterniond down(0, 1, 0, 0);
+  const double moment = 30 * kArm_m * kArm_m / 12;
+  const auto base = build.body("ground", ground);
+  const auto arm = build.body("arm", rod(30, kArm_m, {moment, moment, 0.1}));
+  const auto flexible =
+      build.body("bar", deformable(make_beam_body(bar), 0), {{0, 0, -kArm_m}, down});
+  const auto head =
+      build.body("head", rod(1, 0, {2e-3, 2e-3, 2e-3}), {{0, 0, -kArm_m - bar.length_m}, down});
+  build.joint("pivot", JointKind::pin, build.marker("ground", base), build.marker("eye", arm));
+  build.joint("root", JointKind::fixed, build.marker("arm end", arm, {0, 0, -kArm_m}, down),
+              build.interface_marker("bar base", flexible, "base"));
+  build.joint("tip", JointKind::fixed, build.interface_marker("bar top", flexible, "top"),
+              build.marker("head cg", head));
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  return build.model;
+}
+
+/// Runs of 1 s: their time, and the error of the head's centre at the end against a run at 1e-12.
+void report_run(const char* name, const Model& model, std::initializer_list<double> tolerances,
+                int runs) {
+  const OutputOptions output{.end_time_s = 1, .interval_s = 0.01};
+  const auto run = [&](double tolerance, Formulation formulation) {
+    const SolverOptions solver{.relative_tolerance = tolerance,
+                               .absolute_tolerance = 1e-3 * tolerance,
+                               .formulation = formulation};
+    return simulate(model, solver, output);
+  };
+  const auto path = [](const History& history) { return history.marker("head cg").position_m; };
+  const Eigen::Matrix3Xd exact = path(run(1e-12, Formulation::recursive));
+  const double peak = (exact.colwise() - exact.col(0)).colwise().norm().maxCoeff();
+  std::printf("%s, 1 s: CPU time, error of the head at 1 s in m and of its largest displacement\n",
+              name);
+  for (const Formulation formulation : {Formulation::recursive, Formulation::descriptor})
+    for (const double tolerance : tolerances) {
+      History history;
+      const Timing timing = measure(runs, [&] { history = run(tolerance, formulation); });
+      const double error = (path(history).rightCols<1>() - exact.rightCols<1>()).norm();
+      std::printf("%-12s %8.0e %10.3f ms %12.2e %12.2e %8d right-hand sides\n",
+                  name_of(formulation), tolerance, timing.median_ms, error, error / peak,
+                  history.statistics.evaluations);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int runs = argc > 1 ? std::atoi(argv[1]) : 11;
+  if (runs < 1) {
+    std::fprintf(stderr, "usage: %s [RUNS]\n", argv[0]);
+    return 2;
+  }
+  report_growth();
+  report_run("rigid chain", rigid_chain(), {1e-5, 1e-6, 1e-7}, runs);
+  report_run("flexible chain", flexible_chain(), {1e-4, 1e-5, 1e-6}, runs);
+  return 0;
+}
