@@ -29,6 +29,7 @@ NeckDivisions divisions_preset(const std::string& name) {
                                                                         .ring_grading = 1,
                                                                         .rubber_grading = 1}}};
   std::vector<std::string> names;
+  names.reserve(presets.size());
   for (const auto& [known, unused] : presets) names.push_back(known);
   return presets[find_name(names, name, "preset of mesh divisions")].second;
 }

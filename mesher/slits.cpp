@@ -42,6 +42,7 @@ std::vector<std::int32_t> nodes_of_side(const CutSurroundings& near,
   const ElementBlock& block = near.mesh.blocks[element.block];
   const std::size_t first = element.number * nodes_per_element(block.kind);
   std::vector<std::int32_t> nodes;
+  nodes.reserve(near.side_of(side).nodes.size());
   for (const std::size_t local : near.side_of(side).nodes) {
     nodes.push_back(block.nodes[first + local]);
   }
@@ -207,6 +208,7 @@ std::vector<Slit> slits_of(const CutSurroundings& near, const CutTopology& topol
 std::vector<const FaceSet*> sets_named(const Mesh& mesh, const std::vector<std::string>& names) {
   check_names(names, "slit");
   std::vector<const FaceSet*> sets;
+  sets.reserve(names.size());
   for (const std::string& name : names) sets.push_back(&mesh.face_set(name));
   return sets;
 }
