@@ -10,6 +10,7 @@
 #include <span>
 
 #include "geometry/foundation/error.h"
+#include "mesher/exchange/bounding_box.h"
 #include "mesher/mesh/mesh_measures.h"
 
 namespace flexneck::mesher {
@@ -61,20 +62,10 @@ void refuse_doubled_elements(const Mesh& mesh) {
                    first + "; remove the copies");
 }
 
-double size_of(const Mesh& mesh) {
-  Eigen::Vector3d low(mesh.nodes.front().data());
-  Eigen::Vector3d high = low;
-  for (const Point& x : mesh.nodes) {
-    low = low.cwiseMin(Eigen::Vector3d(x.data()));
-    high = high.cwiseMax(Eigen::Vector3d(x.data()));
-  }
-  return (high - low).norm();
-}
-
 /// Nodes that lie where another of smaller index does, ascending. Sorted along a direction in which
 /// no mesh has planes, nodes in the same place are neighbours.
 std::vector<std::int32_t> doubled_nodes(const Mesh& mesh) {
-  const double tolerance = kSamePlace * size_of(mesh);
+  const double tolerance = kSamePlace * bounding_box(mesh).extent_m().norm();
   const Eigen::Vector3d direction = Eigen::Vector3d(0.8191, 0.5013, 0.2789).normalized();
   const auto at = [&](std::int32_t node) {
     return Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data());

@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/boundary_faces.h"
+#include "mesher/exchange/bounding_box.h"
 #include "mesher/exchange/output_file.h"
 #include "mesher/gmsh_groups.h"
 
@@ -153,23 +154,7 @@ void write_names(MshStream& out, const std::vector<Entity>& entities) {
   out.text("$EndPhysicalNames");
 }
 
-struct Box {
-  std::array<double, 3> low{};
-  std::array<double, 3> high{};
-};
-
-Box bounding_box(const Mesh& mesh) {
-  Box box{mesh.nodes.front(), mesh.nodes.front()};
-  for (const auto& x : mesh.nodes) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      box.low[d] = std::min(box.low[d], x[d]);
-      box.high[d] = std::max(box.high[d], x[d]);
-    }
-  }
-  return box;
-}
-
-void write_entities(MshStream& out, const std::vector<Entity>& entities, const Box& box) {
+void write_entities(MshStream& out, const std::vector<Entity>& entities, const BoundingBox& box) {
   out.begin("Entities");
   for (int dimension = 0; dimension <= 3; ++dimension) {
     out.size(static_cast<std::size_t>(
@@ -179,9 +164,9 @@ void write_entities(MshStream& out, const std::vector<Entity>& entities, const B
   out.end_line();
   for (const Entity& entity : entities) {
     out.integer(entity.tag);
-    for (const double x : box.low) out.number(x);
+    for (const double x : box.low_m) out.number(x);
     if (entity.dimension > 0) {
-      for (const double x : box.high) out.number(x);
+      for (const double x : box.high_m) out.number(x);
     }
     out.size(1).integer(entity.tag);
     if (entity.dimension > 0) out.size(0);  // no bounding entities

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/mesh_structure.h"
 
-#include <algorithm>
-
-#include <Eigen/Core>
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/plausibility.h"
+#include "mesher/exchange/bounding_box.h"
+#include "mesher/exchange/import_check.h"
 #include "mesher/exchange/mesh_import.h"
 #include "mesher/exchange/xdmf_writer.h"
 #include "mesher/mesh/mesh_file.h"
@@ -19,19 +19,15 @@ namespace {
 
 mesher::Mesh make_mesh(const StructureSection& structure, const Progress& progress) {
   if (const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&structure.source)) {
-    return mesher::mesh_script(*script, progress);
+    mesher::Mesh mesh = mesher::mesh_script(*script, progress);
+    try {  // a script may leave bodies apart, or lay them over one another
+      mesher::check_import(mesh, !script->slits.empty());
+    } catch (const InputError& error) {
+      throw InputError(script->script.string() + ": " + error.what());
+    }
+    return mesh;
   }
   return mesher::import_mesh(std::get<mesher::ImportOptions>(structure.source), progress);
-}
-
-Eigen::Vector3d extent_m(const mesher::Mesh& mesh) {
-  Eigen::Vector3d low(mesh.nodes.front().data());
-  Eigen::Vector3d high = low;
-  for (const auto& node : mesh.nodes) {
-    low = low.cwiseMin(Eigen::Vector3d(node.data()));
-    high = high.cwiseMax(Eigen::Vector3d(node.data()));
-  }
-  return high - low;
 }
 
 std::string part_table(const mesher::MeshSummary& summary) {
@@ -44,20 +40,6 @@ std::string part_table(const mesher::MeshSummary& summary) {
                     fmt::format("{:.3f}", part.smallest_scaled_jacobian)});
   }
   return text_table(rows, {0, 1, 2});
-}
-
-/// Parts of seats, dummies and test rigs lie between a millimetre and ten metres, and weigh less
-/// than ten tonnes. What lies outside was most likely declared in the wrong unit.
-void warn_if_implausible(const mesher::MeshSummary& summary, double largest_m,
-                         const Console& console) {
-  constexpr double kSmall_m = 1e-3;
-  constexpr double kLarge_m = 10;
-  constexpr double kHeavy_kg = 1e4;
-  if (largest_m > kSmall_m && largest_m < kLarge_m && summary.mass_kg < kHeavy_kg) return;
-  console.step(
-      fmt::format("Warning: the structure is {:.3g} m long and weighs {:.3g} kg; is geometry.unit "
-                  "what the file counts in?",
-                  largest_m, summary.mass_kg));
 }
 
 }  // namespace
@@ -76,12 +58,14 @@ bool mesh_structure(const CommandInput& input) {
   mesher::write_xdmf(input.folder.mesh(), file);
 
   const mesher::MeshSummary summary = mesher::summarise(file.mesh);
-  const Eigen::Vector3d extent = extent_m(file.mesh);
+  const Eigen::Vector3d extent = mesher::bounding_box(file.mesh).extent_m();
   input.console.result(
       fmt::format("\nMesh: {} elements, {} nodes, {:.4g} x {:.4g} x {:.4g} m, {:.4g} kg  ({})\n{}",
                   summary.elements, summary.nodes, extent[0], extent[1], extent[2], summary.mass_kg,
                   input.folder.mesh().string(), part_table(summary)));
-  warn_if_implausible(summary, extent.maxCoeff(), input.console);
+  for (const std::string& remark : geometry::implausibilities(extent.maxCoeff(), summary.mass_kg)) {
+    input.console.step("Warning: " + remark);
+  }
   return true;
 }
 

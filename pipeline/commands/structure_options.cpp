@@ -5,20 +5,11 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/exchange/bounding_box.h"
 
 namespace flexneck::pipeline {
 
 namespace {
-
-double diagonal_m(const mesher::Mesh& mesh) {
-  Eigen::Vector3d low(mesh.nodes.front().data());
-  Eigen::Vector3d high = low;
-  for (const auto& node : mesh.nodes) {
-    low = low.cwiseMin(Eigen::Vector3d(node.data()));
-    high = high.cwiseMax(Eigen::Vector3d(node.data()));
-  }
-  return (high - low).norm();
-}
 
 /// The name of the one held set, or of the union of several.
 std::string held_set(const std::vector<std::string>& held, mesher::Mesh& mesh) {
@@ -75,7 +66,7 @@ fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh)
   options.mode_count = study.modes.count;
   options.formulation = study.modes.formulation;
   options.rigid_parts = study.modes.rigid_parts;
-  options.length_m = diagonal_m(mesh);
+  options.length_m = mesher::bounding_box(mesh).extent_m().norm();
   try {
     options.held_set = held_set(study.modes.held, mesh);
     add_interfaces(study, options);

@@ -204,11 +204,21 @@ TEST_CASE("a wrong unit is noticed, and wrong names are refused with near ones")
   const std::string study = kExamples + "cantilever_msh.toml" + out;
   const CommandOutcome metres = run_flexneck("mesh --set geometry.unit=m " + study);
   CHECK(metres.exit_code == 0);
-  CHECK_THAT(metres.text,
-             Contains("Warning: the structure is 500 m long") && Contains("geometry.unit"));
+  CHECK_THAT(metres.text, Contains("Warning: the largest extent is 500 m; were millimetres"));
   CHECK_THAT(run_flexneck("mesh " + study).text, !Contains("Warning"));
   check_refused(run_flexneck("modes --set 'modes.held=[\"clmp\"]' " + study),
                 "did you mean 'clamp'");
+  std::ofstream(folder / "apart.geo") << R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Box(2) = {1, 0, 0, 1, 1, 1};
+MeshSize {:} = 1;
+Physical Volume("bar") = {1, 2};
+)";
+  check_refused(
+      run_flexneck("mesh --set geometry.script=" + (folder / "apart.geo").string() +
+                   " --set 'geometry.constants={}' " + kExamples + "cantilever.toml" + out),
+      "nodes lie in the place of others");
   check_refused(run_flexneck("mesh --set geometry.unit=kg " + study), "geometry.unit");
   check_refused(run_flexneck("mesh --set geometry.file=cantilever.stl " + study),
                 "expected a file with one of the endings");
