@@ -10,6 +10,7 @@
 #include "fe_modal/assembly.h"
 #include "fe_modal/attached_mass.h"
 #include "fe_modal/cholesky_factor.h"
+#include "fe_modal/completeness.h"
 #include "fe_modal/eigensolver.h"
 #include "fe_modal/free_nodes.h"
 #include "fe_modal/invariants.h"
@@ -144,7 +145,11 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   const CholeskyFactor factor = factorise(system, shift);
   report(describe(factor));
   report("solving for " + std::to_string(options.mode_count) + " modes");
-  EigenPairs pairs = lowest_eigenpairs(system.mass.get(), factor, options.mode_count);
+  auto [pairs, certificate] =
+      options.certify
+          ? certified_modes(system, factor, options.mode_count)
+          : CertifiedModes{lowest_eigenpairs(system.mass.get(), factor, options.mode_count),
+                           "not certified"};
   for (double& value : pairs.values) {
     if (value < kRigidBody * -shift) value = 0;
   }
@@ -164,7 +169,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
   body.boundary = held ? "fixed: " + options.held_set : "free";
-  body.certificate = "not certified";
+  body.certificate = certificate;
   body.nodes_m.resize(3, free_nodes.node_count());
   for (Eigen::Index k = 0; k < free_nodes.node_count(); ++k) {
     body.nodes_m.col(k) =

@@ -48,6 +48,7 @@ struct RigidAttachment {
 struct ModalOptions {
   int mode_count = 10;
   Formulation formulation = Formulation::mixed_pressure;
+  bool certify = false;        ///< count the modes by inertia too; costs a factorisation by MUMPS
   std::string held_set;        ///< node set held in all directions; empty: a free body
   std::string held_interface;  ///< name of the interface on the held nodes, modes zero there
   Eigen::Vector3d held_position_m = Eigen::Vector3d::Zero();
@@ -61,7 +62,7 @@ struct ModalOptions {
 /// Normal modes by shift-invert, reduced to a modal body.
 /// @throws InputError for unknown sets, parts or interfaces, elements that have no such
 /// formulation, or more modes than degrees of freedom.
-/// @throws ComputationError if the factorisation or the eigensolver fails.
+/// @throws ComputationError if the factorisation or the eigensolver fails, or if a mode is missing.
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                         const Progress& progress);
 
