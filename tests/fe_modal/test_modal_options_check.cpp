@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <functional>
+
 #include <catch2/catch.hpp>
 
 #include "fe_modal/modal_analysis.h"
@@ -41,6 +44,9 @@ TEST_CASE("sound options are accepted and progress is told") {
   REQUIRE_FALSE(lines.empty());
   CHECK_THAT(lines[0], Catch::Contains("108 degrees of freedom"));
   for (const std::string& line : lines) CHECK(line.find('\n') == std::string::npos);
+  CHECK(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.find("the factor has") != std::string::npos;
+  }));
 }
 
 TEST_CASE("unknown names are refused with what there is") {
@@ -52,6 +58,9 @@ TEST_CASE("unknown names are refused with what there is") {
 }
 
 TEST_CASE("impossible options are refused") {
+  check_refused([](ModalOptions& o) { o.formulation = Formulation::reduced; },
+                "part 'block': elements of kind hex27 have no formulation 'reduced', expected one "
+                "of mixed_pressure, displacement");
   check_refused([](ModalOptions& o) { o.mode_count = 0; }, "number of modes");
   check_refused([](ModalOptions& o) { o.mode_count = 109; }, "108 degrees of freedom");
   check_refused([](ModalOptions& o) { o.length_m = 0; }, "length");
