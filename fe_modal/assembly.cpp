@@ -121,7 +121,9 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
     add_block(mesh, block, free_nodes, formulation, stiffness, nodal_mass);
   }
   MassMatrix mass(nodal_mass, graph, free_nodes);
-  return {std::move(graph), std::move(stiffness), std::move(nodal_mass), std::move(mass)};
+  SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass)};
+  system.nodal_mass.swap(nodal_mass);  // this version of Eigen moves by copying
+  return system;
 }
 
 SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift) {

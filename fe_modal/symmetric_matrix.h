@@ -30,8 +30,8 @@ class SymmetricMatrix {
   /// Entry (3 node + a, 3 other + b) with b >= a in the diagonal block (place = -1), or in that of
   /// later(node)[place].
   double& entry(std::int32_t node, int a, std::ptrdiff_t place, int b) {
-    const auto row =
-        static_cast<std::size_t>(arrays_->offsets[static_cast<std::size_t>(3 * node + a)]);
+    const auto first = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(a);
+    const auto row = static_cast<std::size_t>(arrays_->offsets[first]);
     return arrays_->values[row + static_cast<std::size_t>(3 * (place + 1) + b - a)];
   }
 
