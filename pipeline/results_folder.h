@@ -19,6 +19,8 @@ class ResultsFolder {
   void make() const;
   std::filesystem::path mesh() const { return path_ / "mesh.h5"; }
   std::filesystem::path modes() const { return path_ / "modes.h5"; }
+  std::filesystem::path mesh_picture() const { return path_ / "mesh.png"; }
+  std::filesystem::path modes_picture() const { return path_ / "modes.png"; }
   std::filesystem::path history(const CaseSection& experiment) const;
   std::filesystem::path verification() const { return path_ / "verification.json"; }
 

@@ -12,6 +12,7 @@ const std::vector<Command>& commands() {
       {"run", "everything below in order (the default)", run_command},
       {"mesh", "mesh the geometry: mesh.h5", mesh_command},
       {"modes", "modes of the mesh: modes.h5", modes_command},
+      {"pictures", "draw mesh and modes: mesh.png, modes.png", pictures_command},
       {"static", "static neck tester: static-<case>.h5", static_command},
       {"pendulum", "head/neck pendulum: pendulum-<case>.h5", pendulum_command},
       {"verify", "compare with published figures: verification.json", verify_command},
@@ -49,13 +50,14 @@ std::string origin_table(const Study& study) {
 
 bool run_command(const CommandInput& input) {
   if (input.study.structure) {  // the experiments below are the neck's
-    return mesh_command(input) && modes_command(input);
+    return mesh_command(input) && modes_command(input) && pictures_command(input);
   }
   input.console.result("Inputs by origin: " + origin_counts(input.study) +
                        "; 'flexneck study' lists them with their sources.\n" +
                        origin_table(input.study));
   mesh_command(input);
   modes_command(input);
+  pictures_command(input);
   static_command(input);
   pendulum_command(input);
   return verify_command(input);

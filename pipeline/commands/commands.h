@@ -35,6 +35,7 @@ bool mesh_command(const CommandInput& input);
 bool show_command(const CommandInput& input);
 bool modes_command(const CommandInput& input);
 bool export_command(const CommandInput& input);
+bool pictures_command(const CommandInput& input);
 bool static_command(const CommandInput& input);
 bool pendulum_command(const CommandInput& input);
 bool verify_command(const CommandInput& input);

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-
-#include <fmt/core.h>
+#include <utility>
 
 #include "geometry/foundation/error.h"
-#include "geometry/plausibility.h"
-#include "mesher/exchange/xdmf_writer.h"
-#include "mesher/mesh/mesh_file.h"
-#include "mesher/mesh/mesh_summary.h"
+#include "geometry/neck_measures.h"
 #include "mesher/script_mesher.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/mesh_result.h"
 #include "pipeline/commands/mesh_structure.h"
 
 namespace flexneck::pipeline {
@@ -33,12 +30,18 @@ mesher::ScriptMeshOptions mesh_options(const GeometrySection& geometry) {
   return options;
 }
 
-void warn_if_implausible(const geometry::NeckParameters& neck, double mass_kg,
-                         const Console& console) {
-  const double extent_m = std::max(neck.length, neck.plate_diameter);
-  for (const std::string& remark : geometry::implausibilities(extent_m, mass_kg)) {
-    console.step("Warning: " + remark);
+ExactVolumes exact_volumes(const GeometrySection& geometry) {
+  std::map<std::string, double> density_kg_m3;
+  for (const auto& [part, material] : geometry.material_of_part) {
+    const auto found = std::find_if(geometry.materials.begin(), geometry.materials.end(),
+                                    [&](const auto& m) { return m.name == material; });
+    density_kg_m3[part] = found->density_kg_m3;
   }
+  ExactVolumes volumes;
+  for (const auto& part : geometry::measure(geometry.neck, density_kg_m3).parts) {
+    volumes[part.part] = part.volume_m3;
+  }
+  return volumes;
 }
 
 }  // namespace
@@ -56,15 +59,7 @@ bool mesh_command(const CommandInput& input) {
   file.provenance = provenance_of(input.study, {"geometry.", "mesh."});
   file.provenance.inputs.push_back(
       {geometry.script.filename().string(), hash_of_file(geometry.script.string())});
-  file.provenance.libraries["gmsh"] = mesher::gmsh_version();
-  mesher::write_mesh(input.folder.mesh(), file);
-  mesher::write_xdmf(input.folder.mesh(), file);
-  warn_if_implausible(geometry.neck, mesher::summarise(file.mesh).mass_kg, input.console);
-
-  std::size_t elements = 0;
-  for (const mesher::ElementBlock& block : file.mesh.blocks) elements += block.size();
-  input.console.result(fmt::format("\nMesh: {} elements, {} nodes  ({})", elements,
-                                   file.mesh.nodes.size(), input.folder.mesh().string()));
+  finish_mesh(input, std::move(file), exact_volumes(geometry));
   return true;
 }
 

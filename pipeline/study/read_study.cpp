@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -19,6 +20,22 @@ fe_modal::Formulation read_formulation(const StudyTable& table, fe_modal::Formul
 }
 
 }  // namespace
+
+MeshOrders read_mesh_orders(const StudyTable& mesh) {
+  MeshOrders orders;
+  if (mesh.has("partitions")) {
+    for (const double count : mesh.numbers("partitions", 0)) {
+      if (!(count >= 1 && count <= 4096 && count == std::floor(count))) {
+        mesh.refuse("partitions", "expected numbers of processes, such as [2, 4]");
+      }
+      orders.partitions.push_back(static_cast<int>(count));
+    }
+  }
+  if (mesh.has("node_order")) {
+    orders.node_order = choice(mesh, "node_order", {"none", "nested-dissection"}) == 1;
+  }
+  return orders;
+}
 
 ModesSection read_modes(const StudyTable& table) {
   ModesSection modes;
@@ -151,6 +168,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   Study study;
   study.file = path;
   const StudyTable mesh = root.table("mesh");
+  study.mesh_orders = read_mesh_orders(mesh);
   if (root.has("geometry")) read_what_is_meshed(root.table("geometry"), mesh, study);
   study.modes = read_modes(root.table("modes"));
   study.interfaces = read_all(root, "interface", read_interface);

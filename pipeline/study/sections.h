@@ -18,6 +18,8 @@ void read_script_options(const StudyTable& geometry, const StudyTable& mesh,
 void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
                     std::map<std::string, std::string>& material_of_part);
 GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh);
+/// The keys partitions and node_order of [mesh].
+MeshOrders read_mesh_orders(const StudyTable& mesh);
 ModesSection read_modes(const StudyTable& modes);
 BodySection read_body(const StudyTable& body);
 MarkerSection read_marker(const StudyTable& marker);

@@ -32,6 +32,12 @@ struct GeometrySection {
   std::vector<std::string> fitted_to;  ///< published figures that the dimensions were fitted to
 };
 
+/// [mesh]: what is stored with the mesh for those who solve on it.
+struct MeshOrders {
+  std::vector<int> partitions;  ///< numbers of processes to share the elements out to
+  bool node_order = false;      ///< an order of elimination by nested dissection
+};
+
 /// [modes]
 struct ModesSection {
   int count = 10;
@@ -98,6 +104,7 @@ struct Study {
   std::optional<GeometrySection> geometry;    ///< the neck, or …
   std::optional<StructureSection> structure;  ///< … another structure
   std::vector<InterfaceSection> interfaces;   ///< of another structure; the neck has its own
+  MeshOrders mesh_orders;
   ModesSection modes;
   std::vector<BodySection> bodies;
   std::vector<MarkerSection> markers;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "mesher/mesh/mesh_file.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -62,9 +63,11 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
   REQUIRE((outcome.exit_code == 0 || outcome.exit_code == 1));  // coarse: may miss a frequency
   CHECK_THAT(outcome.text, Contains("bending 1") && Contains("torsion 2") && Contains("published"));
   const std::vector<std::string> expected = {"mesh.h5",
+                                             "mesh.png",
                                              "mesh.xdmf",
                                              "mesh_view.h5",
                                              "modes.h5",
+                                             "modes.png",
                                              "pendulum-flexion-120.h5",
                                              "pendulum-flexion-20.h5",
                                              "pendulum-flexion-60.h5",
@@ -104,6 +107,23 @@ effective_damping = 1
     INFO(name);
     CHECK(bytes_of(folder / ("first/" + name)) == bytes_of(folder / ("second/" + name)));
   }
+}
+
+TEST_CASE("the mesh file holds the partitions and the order that the study asks for") {
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+  const CommandOutcome outcome =
+      run_flexneck("mesh -o " + out + kCoarse +
+                   " --set mesh.partitions='[2, 3]' --set mesh.node_order=nested-dissection");
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("Partition for 2 processes: edge cut") &&
+                               Contains("Partition for 3 processes: edge cut"));
+  const mesher::MeshFile file = mesher::read_mesh(folder / "mesh.h5");
+  CHECK(file.partitions.size() == 2);
+  CHECK(file.node_order.size() == file.mesh.nodes.size());
+  check_refused(run_flexneck("mesh -o " + out + kCoarse + " --set mesh.partitions='[0]'"),
+                "mesh.partitions: expected numbers of processes");
 }
 
 TEST_CASE("what a stage leaves is read by the next one, or refused in one line") {

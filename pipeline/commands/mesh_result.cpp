@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/mesh_result.h"
+
+#include <fmt/core.h>
+
+#include "geometry/plausibility.h"
+#include "mesher/exchange/bounding_box.h"
+#include "mesher/exchange/xdmf_writer.h"
+#include "mesher/mesh/mesh_summary.h"
+#include "mesher/partition/element_partition.h"
+#include "mesher/partition/node_order.h"
+#include "mesher/script_mesher.h"
+#include "pipeline/text_table.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+std::string part_table(const mesher::MeshSummary& summary, const ExactVolumes& exact) {
+  std::vector<std::vector<std::string>> rows = {{"part", "element", "material", "elements",
+                                                 "volume m^3", "mass kg", "scaled Jacobian",
+                                                 "aspect ratio"}};
+  if (!exact.empty()) rows[0].emplace_back("volume error");
+  for (const mesher::PartSummary& part : summary.parts) {
+    rows.push_back({part.part, std::string(name_of(part.kind)), part.material,
+                    std::to_string(part.elements), fmt::format("{:.4g}", part.volume_m3),
+                    fmt::format("{:.4g}", part.mass_kg),
+                    fmt::format("{:.3f}", part.smallest_scaled_jacobian),
+                    fmt::format("{:.1f}", part.largest_aspect_ratio)});
+    if (exact.empty()) continue;
+    const double volume_m3 = exact.at(part.part);
+    rows.back().push_back(fmt::format("{:+.1e}", (part.volume_m3 - volume_m3) / volume_m3));
+  }
+  return text_table(rows, {0, 1, 2});
+}
+
+/// Adds what the study asks for; returns a line for each partition.
+std::string add_orders(const MeshOrders& orders, mesher::MeshFile& file) {
+  std::string lines;
+  for (const int count : orders.partitions) {
+    const mesher::ElementPartition partition = mesher::partition_elements(file.mesh, count);
+    const mesher::PartitionQuality quality = mesher::quality_of(file.mesh, partition);
+    lines += fmt::format("\nPartition for {} processes: edge cut {}, balance {:.3f}", count,
+                         quality.edge_cut, quality.balance);
+    file.partitions[count] = partition.processes;
+  }
+  if (orders.node_order) file.node_order = mesher::nested_dissection(file.mesh);
+  return lines;
+}
+
+}  // namespace
+
+void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVolumes& exact) {
+  file.provenance.libraries["gmsh"] = mesher::gmsh_version();
+  const std::string partition_lines = add_orders(input.study.mesh_orders, file);
+  mesher::write_mesh(input.folder.mesh(), file);
+  mesher::write_xdmf(input.folder.mesh(), file);
+
+  const mesher::MeshSummary summary = mesher::summarise(file.mesh);
+  const Eigen::Vector3d extent = mesher::bounding_box(file.mesh).extent_m();
+  input.console.result(fmt::format(
+      "\nMesh: {} elements, {} nodes, {:.4g} x {:.4g} x {:.4g} m, {:.4g} kg  ({})\n{}{}",
+      summary.elements, summary.nodes, extent[0], extent[1], extent[2], summary.mass_kg,
+      input.folder.mesh().string(), part_table(summary, exact), partition_lines));
+  for (const std::string& remark : geometry::implausibilities(extent.maxCoeff(), summary.mass_kg)) {
+    input.console.step("Warning: " + remark);
+  }
+}
+
+}  // namespace flexneck::pipeline
