@@ -91,6 +91,7 @@ std::vector<ModeRecord> describe_modes(const mesher::Mesh& mesh, const ModalOpti
   std::vector<RigidAverage> parts;
   for (const std::string& name : options.rigid_parts) parts.emplace_back(mesh, name);
   std::vector<Shares> shares;
+  shares.reserve(shapes.size());
   for (const Eigen::Matrix3Xd& shape : shapes) shares.push_back(motion_shares(parts, shape));
   const std::vector<std::string> names = mode_names(shares);
   std::vector<ModeRecord> records;

@@ -61,6 +61,7 @@ mesher::Mesh cube_of(ElementKind kind, const Field& position, const mesher::Mate
 
 std::vector<NamedMesh> patches(const Field& position, const mesher::Material& material) {
   std::vector<NamedMesh> meshes;
+  meshes.reserve(kVolumes.size() + 2);
   for (const ElementKind kind : kVolumes) {
     meshes.push_back({std::string(mesher::name_of(kind)), cube_of(kind, position, material)});
   }
