@@ -50,7 +50,8 @@ CertifiedModes certified_modes(const SystemMatrices& system, const CholeskyFacto
   const Eigen::Index size = 3 * static_cast<Eigen::Index>(system.graph.node_count());
   for (Eigen::Index more = 1;; more *= 2) {
     const Eigen::Index asked = std::min(count + more, size);
-    const EigenPairs pairs = lowest_eigenpairs(system.mass.get(), factor, asked);
+    const EigenPairs pairs =
+        lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, asked);
     auto certificate = prove_complete(system, pairs.values, count, factor.shift());
     if (!certificate && asked == size) certificate = "certified: all modes that there are";
     if (certificate)

@@ -14,14 +14,16 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;  ///< (dofs, m), x^T M x = 1
 };
 
-/// Block Lanczos on the shift-inverted problem (K - shift M)^-1 M, in which the lowest eigenvalues
-/// are the largest.
+/// Krylov-Schur on the shift-inverted problem (K - shift M)^-1 M. Multiple eigenvalues are found by
+/// a second search, M-orthogonal to what the first has found, until it yields none that belongs
+/// among the lowest.
+/// @param factor of K - shift M, with a shift below all eigenvalues
 /// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
 /// factor if the shift is zero
-/// @param factor of K - shift M, with a shift below all eigenvalues
 /// @param count at most the number of degrees of freedom
 /// @throws ComputationError if the iteration does not converge.
-EigenPairs lowest_eigenpairs(Mat mass, const CholeskyFactor& factor, Eigen::Index count);
+EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const CholeskyFactor& factor,
+                             Eigen::Index count);
 
 /// ||K x - lambda M x|| / ||K x|| of each pair; of a rigid-body motion, lambda = 0, where that is
 /// not defined, ||K x|| / ||shift M x||.

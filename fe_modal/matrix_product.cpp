@@ -22,36 +22,6 @@ void multiply_by_transpose(double factor, const Eigen::MatrixXd& a, const Eigen:
             result.data(), &rows);
 }
 
-Eigen::MatrixXd transpose_times(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                const Eigen::Ref<const Eigen::MatrixXd>& b) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
-  if (a.cols() == 0 || b.cols() == 0) return result;
-  const PetscBLASInt rows = extent(a.cols());
-  const PetscBLASInt columns = extent(b.cols());
-  const PetscBLASInt inner = extent(a.rows());
-  const PetscBLASInt a_stride = extent(a.outerStride());
-  const PetscBLASInt b_stride = extent(b.outerStride());
-  const double one = 1;
-  const double zero = 0;
-  BLASgemm_("T", "N", &rows, &columns, &inner, &one, a.data(), &a_stride, b.data(), &b_stride,
-            &zero, result.data(), &rows);
-  return result;
-}
-
-void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                      const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& result) {
-  if (a.cols() == 0 || b.cols() == 0) return;
-  const PetscBLASInt rows = extent(a.rows());
-  const PetscBLASInt columns = extent(b.cols());
-  const PetscBLASInt inner = extent(a.cols());
-  const PetscBLASInt a_stride = extent(a.outerStride());
-  const PetscBLASInt b_stride = extent(b.outerStride());
-  const double minus_one = -1;
-  const double one = 1;
-  BLASgemm_("N", "N", &rows, &columns, &inner, &minus_one, a.data(), &a_stride, b.data(), &b_stride,
-            &one, result.data(), &rows);
-}
-
 void multiply(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& result) {
   const PetscBLASInt rows = extent(a.rows());
   const PetscBLASInt columns = extent(b.cols());

@@ -11,14 +11,6 @@ namespace flexneck::fe_modal {
 void multiply_by_transpose(double factor, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                            double keep, Eigen::MatrixXd& result);
 
-/// a^T b
-Eigen::MatrixXd transpose_times(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                const Eigen::Ref<const Eigen::MatrixXd>& b);
-
-/// result -= a b
-void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                      const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& result);
-
 /// result = a b
 void multiply(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& result);
 

@@ -119,8 +119,8 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
     const AttachedMass mass(
         system.mass.get(), free_nodes, region,
         rigid_mass_matrix(body.mass_kg, body.center_m - region.point_m(), body.inertia_kg_m2));
-    const EigenPairs pairs =
-        lowest_eigenpairs(mass.matrix(), factor, std::min(kAttachedCount, free_nodes.dof_count()));
+    const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), mass.matrix(), factor,
+                                               std::min(kAttachedCount, free_nodes.dof_count()));
     result.push_back({body.name, body.interface, frequencies_Hz(pairs.values)});
   }
   return result;
@@ -147,10 +147,10 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   report(describe(factor));
   report("solving for " + std::to_string(options.mode_count) + " modes");
   auto [pairs, certificate] =
-      options.certify
-          ? certified_modes(system, factor, options.mode_count)
-          : CertifiedModes{lowest_eigenpairs(system.mass.get(), factor, options.mode_count),
-                           "not certified"};
+      options.certify ? certified_modes(system, factor, options.mode_count)
+                      : CertifiedModes{lowest_eigenpairs(system.stiffness.get(), system.mass.get(),
+                                                         factor, options.mode_count),
+                                       "not certified"};
   for (double& value : pairs.values) {
     if (value < kRigidBody * -shift) value = 0;
   }
