@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -21,7 +22,10 @@ struct SidePlace {
   std::array<std::int32_t, 3> corners;
   std::size_t block, element, side;
 
-  auto operator<=>(const SidePlace&) const = default;
+  friend bool operator<(const SidePlace& a, const SidePlace& b) {
+    return std::tie(a.corners, a.block, a.element, a.side) <
+           std::tie(b.corners, b.block, b.element, b.side);
+  }
 };
 
 std::vector<SidePlace> all_sides(const Mesh& mesh) {
@@ -150,7 +154,8 @@ class OutlineFinder {
     for (std::size_t e = 0; e < chains.size(); ++e) {
       const std::int32_t a = side.nodes[e];
       const std::int32_t b = side.nodes[(e + 1) % chains.size()];
-      const auto [owner, is_new] = owners_.try_emplace(std::minmax(a, b), side.block, normal);
+      const auto [owner, is_new] =
+          owners_.try_emplace(std::minmax(a, b), EdgeOwner{side.block, normal});
       if (is_new) continue;
       if (owner->second.block != side.block || owner->second.normal.dot(normal) < kSharpCosine) {
         surface.outlines.push_back(chains[e]);

@@ -72,9 +72,10 @@ void draw_scale(cairo_t* canvas, const ScaleBar& scale, double right, double bas
 
 void draw_legend(cairo_t* canvas, const std::vector<LegendEntry>& legend, double right,
                  double baseline) {
-  for (auto entry = legend.rbegin(); entry != legend.rend(); ++entry) {
-    right -= write(canvas, entry->label, right, baseline, kTextSize, Anchor::right) + 6;
-    use(canvas, entry->colour);
+  for (std::size_t k = legend.size(); k-- > 0;) {
+    const LegendEntry& entry = legend[k];
+    right -= write(canvas, entry.label, right, baseline, kTextSize, Anchor::right) + 6;
+    use(canvas, entry.colour);
     cairo_rectangle(canvas, right - 13, baseline - 11, 13, 13);
     cairo_fill(canvas);
     right -= 13 + 18;

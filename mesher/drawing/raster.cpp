@@ -89,9 +89,11 @@ std::vector<std::uint32_t> Raster::pixels() const {
     for (int x = 0; x < width_; ++x) {
       Colour mean = Colour::Zero();
       for (int j = 0; j < kFineness; ++j) {
-        const auto row = static_cast<std::size_t>(y * kFineness + j);
+        const int row = y * kFineness + j;
+        const int column = x * kFineness;
         const std::size_t first =
-            row * static_cast<std::size_t>(fine_width_) + static_cast<std::size_t>(x * kFineness);
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(fine_width_) +
+            static_cast<std::size_t>(column);
         for (std::size_t i = 0; i < kFineness; ++i) mean += colours_[first + i];
       }
       mean = (mean / (kFineness * kFineness)).cwiseMax(0).cwiseMin(1);

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "geometry/foundation/error.h"
 #include "mesher/partition/metis.h"
@@ -41,7 +42,9 @@ struct OwnedSide {
   std::array<std::int32_t, 3> corners;
   std::int32_t process;
 
-  auto operator<=>(const OwnedSide&) const = default;
+  friend bool operator<(const OwnedSide& a, const OwnedSide& b) {
+    return std::tie(a.corners, a.process) < std::tie(b.corners, b.process);
+  }
 };
 
 std::vector<OwnedSide> owned_sides(const Mesh& mesh, const ElementPartition& partition) {

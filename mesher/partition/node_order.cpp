@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -128,7 +129,10 @@ struct Turn {
   std::int32_t representative = 0;
   std::int32_t node = 0;
 
-  auto operator<=>(const Turn&) const = default;
+  friend bool operator<(const Turn& a, const Turn& b) {
+    return std::tie(a.first_place, a.fewer_corners, a.representative, a.node) <
+           std::tie(b.first_place, b.fewer_corners, b.representative, b.node);
+  }
 };
 
 }  // namespace

@@ -32,10 +32,10 @@ mesher::ScriptMeshOptions mesh_options(const GeometrySection& geometry) {
 
 ExactVolumes exact_volumes(const GeometrySection& geometry) {
   std::map<std::string, double> density_kg_m3;
-  for (const auto& [part, material] : geometry.material_of_part) {
+  for (const auto& entry : geometry.material_of_part) {  // part and material
     const auto found = std::find_if(geometry.materials.begin(), geometry.materials.end(),
-                                    [&](const auto& m) { return m.name == material; });
-    density_kg_m3[part] = found->density_kg_m3;
+                                    [&](const auto& m) { return m.name == entry.second; });
+    density_kg_m3[entry.first] = found->density_kg_m3;
   }
   ExactVolumes volumes;
   for (const auto& part : geometry::measure(geometry.neck, density_kg_m3).parts) {

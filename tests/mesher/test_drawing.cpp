@@ -35,7 +35,8 @@ std::ptrdiff_t covered(const Raster& picture) {
 }
 
 std::uint32_t pixel_at(const Raster& picture, int x, int y) {
-  return picture.pixels()[static_cast<std::size_t>(y * picture.width() + x)];
+  const int place = y * picture.width() + x;
+  return picture.pixels()[static_cast<std::size_t>(place)];
 }
 
 std::string bytes_of(const fs::path& path) {
