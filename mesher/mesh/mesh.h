@@ -57,7 +57,7 @@ struct Slit {
   std::vector<std::int32_t> lower;             ///< (p) nodes of the face that the normals leave
   std::vector<std::int32_t> upper;             ///< (p) their partners on the other face
   std::vector<std::array<double, 3>> normals;  ///< (p) unit, from the lower side to the upper
-  std::vector<double> areas_m2;                ///< (p) int N dA of each node; the tip has the rest of the cut
+  std::vector<double> areas_m2;  ///< (p) int N dA of each node; the tip has the rest of the cut
 };
 
 /// A conforming mesh with its materials and sets. Lengths in m, in the frame of the geometry.
