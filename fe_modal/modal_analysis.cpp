@@ -18,6 +18,7 @@
 #include "fe_modal/mode_conventions.h"
 #include "fe_modal/mode_naming.h"
 #include "fe_modal/rigid_average.h"
+#include "mesher/mesh/bounding_box.h"
 #include "mesher/partition/node_order.h"
 
 namespace flexneck::fe_modal {
@@ -31,19 +32,12 @@ constexpr double kRigidBody = 1e-6;
 /// its first eigenvalue, (c / L)^2 of the slowest material.
 double shift_for(const mesher::Mesh& mesh, const ModalOptions& options) {
   if (!options.held_set.empty()) return 0;
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL);
-  Eigen::Vector3d high = -low;
-  for (const auto& node : mesh.nodes) {
-    const Eigen::Map<const Eigen::Vector3d> x(node.data());
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
   double slowest = HUGE_VAL;
   for (const mesher::ElementBlock& block : mesh.blocks) {
     const mesher::Material& material = mesh.materials.at(block.material);
     slowest = std::min(slowest, material.youngs_modulus_Pa / material.density_kg_m3);
   }
-  return -slowest / (high - low).squaredNorm();
+  return -slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
 }
 
 CholeskyFactor factorise(const SystemMatrices& system, double shift) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/mesh/mesh.h"
-#include "mesher/side_key.h"
+#include "mesher/mesh/side_key.h"
 
 namespace flexneck::mesher {
 

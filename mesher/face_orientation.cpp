@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "mesher/side_key.h"
+#include "mesher/mesh/side_key.h"
 
 namespace flexneck::mesher {
 namespace {

@@ -99,16 +99,6 @@ void require_known_parts(const std::vector<GmshGroup>& volumes,
   }
 }
 
-NodeSet node_set_of(const FaceSet& faces) {
-  NodeSet set{.name = faces.name, .nodes = {}};
-  for (const FaceBlock& block : faces.blocks) {
-    set.nodes.insert(set.nodes.end(), block.nodes.begin(), block.nodes.end());
-  }
-  std::sort(set.nodes.begin(), set.nodes.end());
-  set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
-  return set;
-}
-
 void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source) {
   for (const GmshGroup& surface : gmsh_groups(2, source)) {
     FaceSet set{.name = surface.name, .blocks = {}};
@@ -117,7 +107,7 @@ void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source
       orient_outwards(mesh, surface.name, faces);
       set.blocks.push_back(std::move(faces));
     }
-    mesh.node_sets.push_back(node_set_of(set));
+    mesh.node_sets.push_back(nodes_of(set));
     mesh.face_sets.push_back(std::move(set));
   }
 }

@@ -55,14 +55,4 @@ FaceSet boundary_faces(const Mesh& mesh, const std::string& name,
   return set;
 }
 
-NodeSet nodes_of(const FaceSet& faces) {
-  NodeSet set{.name = faces.name, .nodes = {}};
-  for (const FaceBlock& block : faces.blocks) {
-    set.nodes.insert(set.nodes.end(), block.nodes.begin(), block.nodes.end());
-  }
-  std::sort(set.nodes.begin(), set.nodes.end());
-  set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
-  return set;
-}
-
 }  // namespace flexneck::mesher

@@ -13,7 +13,4 @@ namespace flexneck::mesher {
 FaceSet boundary_faces(const Mesh& mesh, const std::string& name,
                        const std::function<bool(std::int32_t)>& is_wanted);
 
-/// The nodes of a face set under its name, ascending.
-NodeSet nodes_of(const FaceSet& faces);
-
 }  // namespace flexneck::mesher

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "geometry/foundation/error.h"
-#include "mesher/exchange/bounding_box.h"
+#include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/mesh_measures.h"
 
 namespace flexneck::mesher {

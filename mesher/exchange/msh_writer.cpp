@@ -7,9 +7,9 @@
 
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/boundary_faces.h"
-#include "mesher/exchange/bounding_box.h"
 #include "mesher/exchange/output_file.h"
 #include "mesher/gmsh_groups.h"
+#include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::mesher {
 namespace {

@@ -141,6 +141,16 @@ const FaceSet& Mesh::face_set(const std::string& name) const {
   return face_sets[find_name(names_of(face_sets), name, "face set")];
 }
 
+NodeSet nodes_of(const FaceSet& faces) {
+  NodeSet set{.name = faces.name, .nodes = {}};
+  for (const FaceBlock& block : faces.blocks) {
+    set.nodes.insert(set.nodes.end(), block.nodes.begin(), block.nodes.end());
+  }
+  std::sort(set.nodes.begin(), set.nodes.end());
+  set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+  return set;
+}
+
 void check(const Mesh& mesh) {
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     for (const double x : mesh.nodes[n]) {

@@ -74,6 +74,9 @@ struct Mesh {
   const FaceSet& face_set(const std::string& name) const;
 };
 
+/// The nodes of a face set under its name, ascending.
+NodeSet nodes_of(const FaceSet& faces);
+
 /// Checks what every consumer relies on: indices in range, no loose node, no empty block or set,
 /// unique names, one material a part, paired nodes in the same place, materials physical (E > 0,
 /// -1 < nu < 0.5, density > 0).

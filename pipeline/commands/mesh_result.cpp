@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include "geometry/plausibility.h"
-#include "mesher/exchange/bounding_box.h"
 #include "mesher/exchange/xdmf_writer.h"
+#include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/partition/element_partition.h"
 #include "mesher/partition/node_order.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
-
 #include <fmt/core.h>
 
 #include "fe_modal/body/modal_body_file.h"
 #include "mesher/drawing/body_picture.h"
 #include "mesher/drawing/colours.h"
 #include "mesher/drawing/picture_sheet.h"
+#include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "pipeline/commands/commands.h"
@@ -31,17 +30,6 @@ std::vector<mesher::LegendEntry> legend_of(const mesher::Mesh& mesh) {
   return legend;
 }
 
-double size_of(const mesher::Mesh& mesh) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL);
-  Eigen::Vector3d high = -low;
-  for (const auto& node : mesh.nodes) {
-    const Eigen::Map<const Eigen::Vector3d> x(node.data());
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  return (high - low).maxCoeff();
-}
-
 mesher::PictureSheet mesh_sheet(const mesher::Mesh& mesh, const mesher::Surface& surface) {
   const mesher::MeshSummary summary = mesher::summarise(mesh);
   mesher::BodyPicture parts;
@@ -57,7 +45,7 @@ mesher::PictureSheet mesh_sheet(const mesher::Mesh& mesh, const mesher::Surface&
 
 mesher::PictureSheet modes_sheet(const mesher::Mesh& mesh, const mesher::Surface& surface,
                                  const fe_modal::ModalBody& body) {
-  const double amplitude_m = kModeAmplitude * size_of(mesh);
+  const double amplitude_m = kModeAmplitude * mesher::bounding_box(mesh).extent_m().maxCoeff();
   mesher::PictureSheet sheet;
   sheet.columns = kModeColumns;
   for (std::size_t k = 0; k < body.shapes.size(); ++k) {

@@ -5,7 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "mesher/exchange/bounding_box.h"
+#include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::pipeline {
 

@@ -10,7 +10,7 @@
 
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh_measures.h"
-#include "mesher/side_key.h"
+#include "mesher/mesh/side_key.h"
 #include "mesher/slits.h"
 #include "tests/mesher/scripts.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/exchange/bounding_box.h"
+#include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::mesher {
 
