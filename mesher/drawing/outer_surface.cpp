@@ -4,50 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/shape_functions.h"
+#include "mesher/mesh/skin.h"
 
 namespace flexneck::mesher {
 namespace {
-
-/// Where an element has a side, by the three lowest of its corner nodes.
-struct SidePlace {
-  std::array<std::int32_t, 3> corners;
-  std::size_t block, element, side;
-
-  friend bool operator<(const SidePlace& a, const SidePlace& b) {
-    return std::tie(a.corners, a.block, a.element, a.side) <
-           std::tie(b.corners, b.block, b.element, b.side);
-  }
-};
-
-std::vector<SidePlace> all_sides(const Mesh& mesh) {
-  std::vector<SidePlace> places;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const ElementBlock& block = mesh.blocks[b];
-    const std::size_t width = nodes_per_element(block.kind);
-    const auto sides = sides_of(block.kind);
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      for (std::size_t s = 0; s < sides.size(); ++s) {
-        std::array<std::int32_t, 4> nodes{};
-        nodes.fill(std::numeric_limits<std::int32_t>::max());
-        for (std::size_t c = 0; c < corners_per_element(sides[s].kind); ++c) {
-          nodes[c] = block.nodes[e * width + sides[s].nodes[c]];
-        }
-        std::sort(nodes.begin(), nodes.end());
-        places.push_back({{nodes[0], nodes[1], nodes[2]}, b, e, s});
-      }
-    }
-  }
-  return places;
-}
 
 /// A face divided evenly: points of its reference element, triangles between them, and the chain of
 /// points along each of its edges.
@@ -175,32 +142,6 @@ int division_for(std::size_t sides, std::size_t most) {
 }
 
 }  // namespace
-
-std::vector<OuterSide> outer_sides(const Mesh& mesh) {
-  std::vector<SidePlace> places = all_sides(mesh);
-  std::sort(places.begin(), places.end());
-  std::vector<SidePlace> single;
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    const bool as_before = p > 0 && places[p].corners == places[p - 1].corners;
-    const bool as_after = p + 1 < places.size() && places[p].corners == places[p + 1].corners;
-    if (!as_before && !as_after) single.push_back(places[p]);
-  }
-  std::sort(single.begin(), single.end(), [](const SidePlace& a, const SidePlace& b) {
-    return std::tie(a.block, a.element, a.side) < std::tie(b.block, b.element, b.side);
-  });
-  std::vector<OuterSide> result;
-  result.reserve(single.size());
-  for (const SidePlace& place : single) {
-    const ElementBlock& block = mesh.blocks[place.block];
-    const Side& side = sides_of(block.kind)[place.side];
-    OuterSide outer{place.block, side.kind, {}};
-    for (const std::size_t local : side.nodes) {
-      outer.nodes.push_back(block.nodes[place.element * nodes_per_element(block.kind) + local]);
-    }
-    result.push_back(std::move(outer));
-  }
-  return result;
-}
 
 Surface surface_of(const Mesh& mesh, std::size_t most_triangles) {
   const std::vector<OuterSide> sides = outer_sides(mesh);

@@ -11,17 +11,6 @@
 
 namespace flexneck::mesher {
 
-/// A side of one volume element.
-struct OuterSide {
-  std::size_t block = 0;
-  ElementKind kind = ElementKind::quad9;
-  std::vector<std::int32_t> nodes;
-};
-
-/// The sides that belong to one element only, block by block: the skin of the body, open slits
-/// included.
-std::vector<OuterSide> outer_sides(const Mesh& mesh);
-
 /// The skin as triangles, fine enough to show curved faces. Fields on the nodes, (n) rows, come to
 /// the vertices by the shape functions: `value * field`.
 struct Surface {

@@ -7,9 +7,9 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "mesher/exchange/abaqus_elements.h"
-#include "mesher/exchange/boundary_faces.h"
 #include "mesher/exchange/inp_model.h"
 #include "mesher/exchange/outside_file.h"
+#include "mesher/mesh/skin.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -185,12 +185,13 @@ NodeSet node_set_of(const std::string& name, const std::vector<std::int64_t>& nu
 
 void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int32_t>& index_of,
                    Mesh& mesh) {
+  const std::vector<OuterSide> skin = outer_sides(mesh);
   const auto add = [&](NodeSet set) {
     if (set.nodes.empty()) return;  // of nodes without elements
     std::vector<bool> is_in(mesh.nodes.size(), false);
     for (const std::int32_t node : set.nodes) is_in[static_cast<std::size_t>(node)] = true;
-    FaceSet faces = boundary_faces(
-        mesh, set.name, [&](std::int32_t node) { return is_in[static_cast<std::size_t>(node)]; });
+    FaceSet faces = faces_among(
+        skin, set.name, [&](std::int32_t node) { return is_in[static_cast<std::size_t>(node)]; });
     if (!faces.blocks.empty()) mesh.face_sets.push_back(std::move(faces));
     mesh.node_sets.push_back(std::move(set));
   };

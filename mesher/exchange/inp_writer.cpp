@@ -13,6 +13,7 @@
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/output_file.h"
+#include "mesher/mesh/side_key.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -95,8 +96,8 @@ void write_node_sets(OutputFile& out, const Mesh& mesh) {
   }
 }
 
-/// "<element>,S<n>" of the first element with a side on these nodes, by the sorted nodes.
-using SideNames = std::map<std::vector<std::int32_t>, std::string>;
+/// "<element>,S<n>" of the first element with a side on these nodes, by their key.
+using SideNames = std::map<SideKey, std::string>;
 
 SideNames side_names(const Mesh& mesh) {
   SideNames names;
@@ -109,8 +110,7 @@ SideNames side_names(const Mesh& mesh) {
       for (std::size_t s = 0; s < sides.size(); ++s) {
         std::vector<std::int32_t> corners;
         for (const std::size_t local : sides[s]) corners.push_back(block.nodes[first + local]);
-        std::sort(corners.begin(), corners.end());
-        names.emplace(std::move(corners),
+        names.emplace(key_of_corners(corners),
                       std::to_string(next) + ",S" + std::to_string(s + 1) + "\n");
       }
     }
@@ -125,12 +125,9 @@ void write_surfaces(OutputFile& out, const Mesh& mesh) {
     out.write("*SURFACE,NAME=" + set.name + ",TYPE=ELEMENT\n");
     for (const FaceBlock& block : set.blocks) {
       const std::size_t n = nodes_per_element(block.kind);
-      const auto corner_count = static_cast<std::ptrdiff_t>(corners_per_element(block.kind));
       for (std::size_t first = 0; first < block.nodes.size(); first += n) {
-        const auto begin = block.nodes.begin() + static_cast<std::ptrdiff_t>(first);
-        std::vector<std::int32_t> corners(begin, begin + corner_count);
-        std::sort(corners.begin(), corners.end());
-        const auto found = names.find(corners);
+        const auto nodes = std::span(block.nodes).subspan(first, n);
+        const auto found = names.find(key_of_face(block.kind, nodes));
         if (found == names.end()) {
           throw InputError("a face of set '" + set.name + "' bounds no element");
         }

@@ -5,11 +5,11 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "mesher/exchange/boundary_faces.h"
 #include "mesher/exchange/gmsh_import.h"
 #include "mesher/exchange/import_check.h"
 #include "mesher/exchange/inp_import.h"
 #include "mesher/exchange/outside_file.h"
+#include "mesher/mesh/skin.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -22,8 +22,10 @@ bool is_inside(const std::array<double, 3>& x, const BoxSet& box) {
 }
 
 void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
+  if (boxes.empty()) return;
+  const std::vector<OuterSide> skin = outer_sides(mesh);
   for (const BoxSet& box : boxes) {
-    FaceSet faces = boundary_faces(mesh, box.name, [&](std::int32_t node) {
+    FaceSet faces = faces_among(skin, box.name, [&](std::int32_t node) {
       return is_inside(mesh.nodes[static_cast<std::size_t>(node)], box);
     });
     if (faces.blocks.empty()) {

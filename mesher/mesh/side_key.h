@@ -14,23 +14,26 @@ namespace flexneck::mesher {
 /// it. A triangle's key begins with -1.
 using SideKey = std::array<std::int32_t, 4>;
 
-/// @param nodes of the face, the corners first
-inline SideKey key_of_face(ElementKind face_kind, std::span<const std::int32_t> nodes) {
+/// @param corners three or four, in any order
+inline SideKey key_of_corners(std::span<const std::int32_t> corners) {
   SideKey key;
   key.fill(-1);
-  std::copy_n(nodes.begin(), corners_per_element(face_kind), key.begin());
+  std::copy(corners.begin(), corners.end(), key.begin());
   std::sort(key.begin(), key.end());
   return key;
 }
 
+/// @param nodes of the face, the corners first
+inline SideKey key_of_face(ElementKind face_kind, std::span<const std::int32_t> nodes) {
+  return key_of_corners(nodes.first(corners_per_element(face_kind)));
+}
+
 /// @param nodes of the whole element
 inline SideKey key_of_side(const Side& side, std::span<const std::int32_t> nodes) {
-  SideKey key;
-  key.fill(-1);
-  const std::size_t corners = corners_per_element(side.kind);
-  for (std::size_t c = 0; c < corners; ++c) key[c] = nodes[side.nodes[c]];
-  std::sort(key.begin(), key.end());
-  return key;
+  std::array<std::int32_t, 4> corners{};
+  const std::size_t count = corners_per_element(side.kind);
+  for (std::size_t c = 0; c < count; ++c) corners[c] = nodes[side.nodes[c]];
+  return key_of_corners(std::span(corners).first(count));
 }
 
 }  // namespace flexneck::mesher

@@ -2,12 +2,11 @@
 #include "mesher/partition/element_partition.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <string>
-#include <tuple>
 
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/skin.h"
+#include "mesher/partition/corner_lists.h"
 #include "mesher/partition/metis.h"
 
 namespace flexneck::mesher {
@@ -16,56 +15,11 @@ namespace {
 /// Elements with three common corners have a common side.
 constexpr idx_t kCornersOfASide = 3;
 
-/// Elements by their corners, in compressed rows.
-struct CornerLists {
-  std::vector<idx_t> offsets = {0};
-  std::vector<idx_t> corners;
-};
-
-CornerLists corner_lists(const Mesh& mesh) {
-  CornerLists lists;
-  for (const ElementBlock& block : mesh.blocks) {
-    const std::size_t width = nodes_per_element(block.kind);
-    const auto corners = static_cast<std::ptrdiff_t>(corners_per_element(block.kind));
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(e * width);
-      lists.corners.insert(lists.corners.end(), first, first + corners);
-      lists.offsets.push_back(static_cast<idx_t>(lists.corners.size()));
-    }
-  }
-  return lists;
-}
-
-/// A side by its three lowest corner nodes, which no other side of a conforming mesh has, and the
-/// process of an element behind it.
-struct OwnedSide {
-  std::array<std::int32_t, 3> corners;
-  std::int32_t process;
-
-  friend bool operator<(const OwnedSide& a, const OwnedSide& b) {
-    return std::tie(a.corners, a.process) < std::tie(b.corners, b.process);
-  }
-};
-
-std::vector<OwnedSide> owned_sides(const Mesh& mesh, const ElementPartition& partition) {
-  std::vector<OwnedSide> sides;
-  std::size_t element = 0;
-  for (const ElementBlock& block : mesh.blocks) {
-    const std::size_t width = nodes_per_element(block.kind);
-    for (std::size_t e = 0; e < block.size(); ++e, ++element) {
-      for (const Side& side : sides_of(block.kind)) {
-        const std::size_t corners = corners_per_element(side.kind);
-        std::array<std::int32_t, 4> nodes{};
-        nodes.fill(std::numeric_limits<std::int32_t>::max());
-        for (std::size_t c = 0; c < corners; ++c) {
-          nodes[c] = block.nodes[e * width + side.nodes[c]];
-        }
-        std::sort(nodes.begin(), nodes.end());
-        sides.push_back({{nodes[0], nodes[1], nodes[2]}, partition.processes[element]});
-      }
-    }
-  }
-  return sides;
+/// Of each block its first element among all.
+std::vector<std::size_t> first_elements(const Mesh& mesh) {
+  std::vector<std::size_t> first = {0};
+  for (const ElementBlock& block : mesh.blocks) first.push_back(first.back() + block.size());
+  return first;
 }
 
 }  // namespace
@@ -97,10 +51,13 @@ ElementPartition partition_elements(const Mesh& mesh, int count) {
 
 PartitionQuality quality_of(const Mesh& mesh, const ElementPartition& partition) {
   PartitionQuality quality;
-  std::vector<OwnedSide> sides = owned_sides(mesh, partition);
-  std::sort(sides.begin(), sides.end());
+  const std::vector<SidePlace> sides = sides_by_key(mesh);
+  const std::vector<std::size_t> first = first_elements(mesh);
+  const auto process_of = [&](const SidePlace& side) {
+    return partition.processes[first[side.block] + side.element];
+  };
   for (std::size_t s = 1; s < sides.size(); ++s) {
-    if (sides[s].corners == sides[s - 1].corners && sides[s].process != sides[s - 1].process) {
+    if (sides[s].key == sides[s - 1].key && process_of(sides[s]) != process_of(sides[s - 1])) {
       ++quality.edge_cut;
     }
   }

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "mesher/partition/corner_lists.h"
 #include "mesher/partition/metis.h"
 
 namespace flexneck::mesher {
@@ -43,14 +44,11 @@ std::vector<std::int32_t> representatives(const Mesh& mesh) {
 class CornerGraph {
  public:
   CornerGraph(const Mesh& mesh, std::vector<std::int32_t> stand_in)
-      : stand_in_(std::move(stand_in)), number_(mesh.nodes.size(), -1) {
-    for (const ElementBlock& block : mesh.blocks) {
-      const std::size_t width = nodes_per_element(block.kind);
-      const std::size_t corners = corners_per_element(block.kind);
-      for (std::size_t first = 0; first < block.nodes.size(); first += width) {
-        for (std::size_t c = 0; c < corners; ++c) add(block.nodes[first + c]);
-        offsets_.push_back(static_cast<idx_t>(corners_.size()));
-      }
+      : stand_in_(std::move(stand_in)), number_(mesh.nodes.size(), -1), lists_(corner_lists(mesh)) {
+    for (idx_t& node : lists_.corners) {
+      std::int32_t& number = number_of(node);
+      if (number < 0) number = count_++;
+      node = number;
     }
   }
 
@@ -59,35 +57,29 @@ class CornerGraph {
   std::int32_t corner(std::int32_t node) const {
     return number_[static_cast<std::size_t>(stand_in_[static_cast<std::size_t>(node)])];
   }
-  const std::vector<idx_t>& offsets() const { return offsets_; }
-  const std::vector<idx_t>& corners() const { return corners_; }
+  const CornerLists& elements() const { return lists_; }
 
  private:
-  void add(std::int32_t node) {
-    std::int32_t& number =
-        number_[static_cast<std::size_t>(stand_in_[static_cast<std::size_t>(node)])];
-    if (number < 0) number = count_++;
-    corners_.push_back(number);
+  std::int32_t& number_of(std::int32_t node) {
+    return number_[static_cast<std::size_t>(stand_in_[static_cast<std::size_t>(node)])];
   }
 
   std::vector<std::int32_t> stand_in_;
   std::vector<std::int32_t> number_;
+  CornerLists lists_;
   idx_t count_ = 0;
-  std::vector<idx_t> offsets_ = {0};
-  std::vector<idx_t> corners_;
 };
 
 /// When each corner is eliminated among the corners.
 std::vector<std::int32_t> places_of_corners(const CornerGraph& graph) {
-  auto element_count = static_cast<idx_t>(graph.offsets().size()) - 1;
+  CornerLists lists = graph.elements();
+  auto element_count = static_cast<idx_t>(lists.offsets.size()) - 1;
   idx_t corner_count = graph.corner_count();
-  std::vector<idx_t> offsets = graph.offsets();
-  std::vector<idx_t> corners = graph.corners();
   idx_t from_zero = 0;
   idx_t* graph_offsets = nullptr;
   idx_t* graph_columns = nullptr;
-  require_metis(METIS_MeshToNodal(&element_count, &corner_count, offsets.data(), corners.data(),
-                                  &from_zero, &graph_offsets, &graph_columns),
+  require_metis(METIS_MeshToNodal(&element_count, &corner_count, lists.offsets.data(),
+                                  lists.corners.data(), &from_zero, &graph_offsets, &graph_columns),
                 "finding the neighbours of the corners");
   const MetisArray own_offsets(graph_offsets);
   const MetisArray own_columns(graph_columns);

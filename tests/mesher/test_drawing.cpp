@@ -11,6 +11,7 @@
 #include "mesher/drawing/body_picture.h"
 #include "mesher/drawing/colours.h"
 #include "mesher/drawing/picture_sheet.h"
+#include "mesher/mesh/skin.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/mesh/skin.h"
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace flexneck::mesher {
+namespace {
+
+FaceBlock& block_of(FaceSet& set, ElementKind kind) {
+  const auto found = std::find_if(set.blocks.begin(), set.blocks.end(),
+                                  [&](const FaceBlock& block) { return block.kind == kind; });
+  if (found != set.blocks.end()) return *found;
+  return set.blocks.emplace_back(FaceBlock{kind, {}});
+}
+
+}  // namespace
+
+std::vector<SidePlace> sides_by_key(const Mesh& mesh) {
+  std::vector<SidePlace> places;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const ElementBlock& block = mesh.blocks[b];
+    const std::size_t width = nodes_per_element(block.kind);
+    const auto sides = sides_of(block.kind);
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      const auto nodes = std::span(block.nodes).subspan(e * width, width);
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        places.push_back({key_of_side(sides[s], nodes), b, e, s});
+      }
+    }
+  }
+  std::sort(places.begin(), places.end(), [](const SidePlace& a, const SidePlace& b) {
+    return std::tie(a.key, a.block, a.element, a.side) <
+           std::tie(b.key, b.block, b.element, b.side);
+  });
+  return places;
+}
+
+std::vector<OuterSide> outer_sides(const Mesh& mesh) {
+  const std::vector<SidePlace> places = sides_by_key(mesh);
+  std::vector<SidePlace> single;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const bool as_before = p > 0 && places[p].key == places[p - 1].key;
+    const bool as_after = p + 1 < places.size() && places[p].key == places[p + 1].key;
+    if (!as_before && !as_after) single.push_back(places[p]);
+  }
+  std::sort(single.begin(), single.end(), [](const SidePlace& a, const SidePlace& b) {
+    return std::tie(a.block, a.element, a.side) < std::tie(b.block, b.element, b.side);
+  });
+  std::vector<OuterSide> result;
+  result.reserve(single.size());
+  for (const SidePlace& place : single) {
+    const ElementBlock& block = mesh.blocks[place.block];
+    const Side& side = sides_of(block.kind)[place.side];
+    OuterSide outer{place.block, side.kind, {}};
+    for (const std::size_t local : side.nodes) {
+      outer.nodes.push_back(block.nodes[place.element * nodes_per_element(block.kind) + local]);
+    }
+    result.push_back(std::move(outer));
+  }
+  return result;
+}
+
+FaceSet faces_among(const std::vector<OuterSide>& sides, const std::string& name,
+                    const std::function<bool(std::int32_t)>& is_wanted) {
+  FaceSet set{.name = name, .blocks = {}};
+  for (const OuterSide& side : sides) {
+    if (!std::all_of(side.nodes.begin(), side.nodes.end(), is_wanted)) continue;
+    std::vector<std::int32_t>& nodes = block_of(set, side.kind).nodes;
+    nodes.insert(nodes.end(), side.nodes.begin(), side.nodes.end());
+  }
+  return set;
+}
+
+}  // namespace flexneck::mesher

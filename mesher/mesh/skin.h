@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mesher/mesh/mesh.h"
+#include "mesher/mesh/side_key.h"
+
+namespace flexneck::mesher {
+
+/// Where an element has a side.
+struct SidePlace {
+  SideKey key{};
+  std::size_t block = 0;
+  std::size_t element = 0;  ///< of the block
+  std::size_t side = 0;     ///< of sides_of(the block's kind)
+};
+
+/// The sides of all elements in the order of their keys, so that those that meet are neighbours.
+std::vector<SidePlace> sides_by_key(const Mesh& mesh);
+
+/// A side of one volume element, its normal outwards.
+struct OuterSide {
+  std::size_t block = 0;
+  ElementKind kind = ElementKind::quad9;
+  std::vector<std::int32_t> nodes;
+};
+
+/// The sides that belong to one element only, in the order of the elements: the skin of the body,
+/// open slits included.
+std::vector<OuterSide> outer_sides(const Mesh& mesh);
+
+/// The sides whose nodes all satisfy `is_wanted`, in their order. Without any, no blocks.
+FaceSet faces_among(const std::vector<OuterSide>& sides, const std::string& name,
+                    const std::function<bool(std::int32_t)>& is_wanted);
+
+}  // namespace flexneck::mesher
