@@ -77,7 +77,7 @@ struct DividedKind {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-void append(const Eigen::MatrixXd& values, const OuterSide& side, std::int32_t first_vertex,
+void append(const Eigen::MatrixXd& values, const ElementSide& side, std::int32_t first_vertex,
             Triplets& triplets) {
   for (Eigen::Index v = 0; v < values.cols(); ++v) {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
@@ -98,7 +98,7 @@ struct EdgeOwner {
   Eigen::Vector3d normal;
 };
 
-Eigen::Vector3d centre_normal(const Mesh& mesh, const OuterSide& side) {
+Eigen::Vector3d centre_normal(const Mesh& mesh, const ElementSide& side) {
   const bool triangle = shape_of(side.kind) == ReferenceShape::triangle;
   const Eigen::Vector3d centre =
       triangle ? Eigen::Vector3d(1.0 / 3, 1.0 / 3, 0) : Eigen::Vector3d(0, 0, 0);
@@ -115,7 +115,7 @@ class OutlineFinder {
   /// Faces whose normals differ by more than 40 degrees meet at an edge that one sees.
   static constexpr double kSharpCosine = 0.77;
 
-  void add(const Mesh& mesh, const OuterSide& side,
+  void add(const Mesh& mesh, const ElementSide& side,
            const std::vector<std::vector<std::int32_t>>& chains, Surface& surface) {
     const Eigen::Vector3d normal = centre_normal(mesh, side);
     for (std::size_t e = 0; e < chains.size(); ++e) {
@@ -144,14 +144,14 @@ int division_for(std::size_t sides, std::size_t most) {
 }  // namespace
 
 Surface surface_of(const Mesh& mesh, std::size_t most_triangles) {
-  const std::vector<OuterSide> sides = outer_sides(mesh);
+  const std::vector<ElementSide> sides = outer_sides(mesh);
   const int n = division_for(sides.size(), most_triangles);
   std::map<ElementKind, DividedKind> kinds;
   Surface surface;
   OutlineFinder outlines;
   Triplets value, along_xi, along_eta;
   std::int32_t vertices = 0;
-  for (const OuterSide& side : sides) {
+  for (const ElementSide& side : sides) {
     const DividedKind& kind = kinds.try_emplace(side.kind, side.kind, n).first->second;
     append(kind.table.values, side, vertices, value);
     append(kind.table.derivatives[0], side, vertices, along_xi);

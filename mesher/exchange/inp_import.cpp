@@ -185,7 +185,7 @@ NodeSet node_set_of(const std::string& name, const std::vector<std::int64_t>& nu
 
 void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int32_t>& index_of,
                    Mesh& mesh) {
-  const std::vector<OuterSide> skin = outer_sides(mesh);
+  const std::vector<ElementSide> skin = outer_sides(mesh);
   const auto add = [&](NodeSet set) {
     if (set.nodes.empty()) return;  // of nodes without elements
     std::vector<bool> is_in(mesh.nodes.size(), false);

@@ -42,16 +42,6 @@ void check_inp_names(const std::vector<std::string>& names, const std::string& k
   }
 }
 
-std::vector<std::string> parts_of(const Mesh& mesh) {
-  std::vector<std::string> parts;
-  for (const ElementBlock& block : mesh.blocks) {
-    if (std::find(parts.begin(), parts.end(), block.part) == parts.end()) {
-      parts.push_back(block.part);
-    }
-  }
-  return parts;
-}
-
 /// Whole numbers, sixteen a line; a comma at the end says that there are more.
 void write_list(OutputFile& out, std::span<const std::int64_t> values) {
   std::string text;

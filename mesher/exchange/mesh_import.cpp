@@ -23,7 +23,7 @@ bool is_inside(const std::array<double, 3>& x, const BoxSet& box) {
 
 void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
   if (boxes.empty()) return;
-  const std::vector<OuterSide> skin = outer_sides(mesh);
+  const std::vector<ElementSide> skin = outer_sides(mesh);
   for (const BoxSet& box : boxes) {
     FaceSet faces = faces_among(skin, box.name, [&](std::int32_t node) {
       return is_inside(mesh.nodes[static_cast<std::size_t>(node)], box);

@@ -141,6 +141,16 @@ const FaceSet& Mesh::face_set(const std::string& name) const {
   return face_sets[find_name(names_of(face_sets), name, "face set")];
 }
 
+std::vector<std::string> parts_of(const Mesh& mesh) {
+  std::vector<std::string> parts;
+  for (const ElementBlock& block : mesh.blocks) {
+    if (std::find(parts.begin(), parts.end(), block.part) == parts.end()) {
+      parts.push_back(block.part);
+    }
+  }
+  return parts;
+}
+
 NodeSet nodes_of(const FaceSet& faces) {
   NodeSet set{.name = faces.name, .nodes = {}};
   for (const FaceBlock& block : faces.blocks) {

@@ -74,6 +74,9 @@ struct Mesh {
   const FaceSet& face_set(const std::string& name) const;
 };
 
+/// The names of the parts, each once, in the order of the blocks.
+std::vector<std::string> parts_of(const Mesh& mesh);
+
 /// The nodes of a face set under its name, ascending.
 NodeSet nodes_of(const FaceSet& faces);
 

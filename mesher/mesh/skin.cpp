@@ -20,14 +20,15 @@ FaceBlock& block_of(FaceSet& set, ElementKind kind) {
 
 std::vector<SidePlace> sides_by_key(const Mesh& mesh) {
   std::vector<SidePlace> places;
+  std::size_t number = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const ElementBlock& block = mesh.blocks[b];
     const std::size_t width = nodes_per_element(block.kind);
     const auto sides = sides_of(block.kind);
-    for (std::size_t e = 0; e < block.size(); ++e) {
+    for (std::size_t e = 0; e < block.size(); ++e, ++number) {
       const auto nodes = std::span(block.nodes).subspan(e * width, width);
       for (std::size_t s = 0; s < sides.size(); ++s) {
-        places.push_back({key_of_side(sides[s], nodes), b, e, s});
+        places.push_back({key_of_side(sides[s], nodes), b, e, s, number});
       }
     }
   }
@@ -38,7 +39,17 @@ std::vector<SidePlace> sides_by_key(const Mesh& mesh) {
   return places;
 }
 
-std::vector<OuterSide> outer_sides(const Mesh& mesh) {
+ElementSide side_at(const Mesh& mesh, const SidePlace& place) {
+  const ElementBlock& block = mesh.blocks[place.block];
+  const Side& side = sides_of(block.kind)[place.side];
+  ElementSide result{place.block, side.kind, {}};
+  for (const std::size_t local : side.nodes) {
+    result.nodes.push_back(block.nodes[place.element * nodes_per_element(block.kind) + local]);
+  }
+  return result;
+}
+
+std::vector<ElementSide> outer_sides(const Mesh& mesh) {
   const std::vector<SidePlace> places = sides_by_key(mesh);
   std::vector<SidePlace> single;
   for (std::size_t p = 0; p < places.size(); ++p) {
@@ -49,24 +60,16 @@ std::vector<OuterSide> outer_sides(const Mesh& mesh) {
   std::sort(single.begin(), single.end(), [](const SidePlace& a, const SidePlace& b) {
     return std::tie(a.block, a.element, a.side) < std::tie(b.block, b.element, b.side);
   });
-  std::vector<OuterSide> result;
+  std::vector<ElementSide> result;
   result.reserve(single.size());
-  for (const SidePlace& place : single) {
-    const ElementBlock& block = mesh.blocks[place.block];
-    const Side& side = sides_of(block.kind)[place.side];
-    OuterSide outer{place.block, side.kind, {}};
-    for (const std::size_t local : side.nodes) {
-      outer.nodes.push_back(block.nodes[place.element * nodes_per_element(block.kind) + local]);
-    }
-    result.push_back(std::move(outer));
-  }
+  for (const SidePlace& place : single) result.push_back(side_at(mesh, place));
   return result;
 }
 
-FaceSet faces_among(const std::vector<OuterSide>& sides, const std::string& name,
+FaceSet faces_among(const std::vector<ElementSide>& sides, const std::string& name,
                     const std::function<bool(std::int32_t)>& is_wanted) {
   FaceSet set{.name = name, .blocks = {}};
-  for (const OuterSide& side : sides) {
+  for (const ElementSide& side : sides) {
     if (!std::all_of(side.nodes.begin(), side.nodes.end(), is_wanted)) continue;
     std::vector<std::int32_t>& nodes = block_of(set, side.kind).nodes;
     nodes.insert(nodes.end(), side.nodes.begin(), side.nodes.end());

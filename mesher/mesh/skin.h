@@ -17,24 +17,26 @@ struct SidePlace {
   std::size_t block = 0;
   std::size_t element = 0;  ///< of the block
   std::size_t side = 0;     ///< of sides_of(the block's kind)
+  std::size_t number = 0;   ///< of the element among those of all blocks
 };
 
 /// The sides of all elements in the order of their keys, so that those that meet are neighbours.
 std::vector<SidePlace> sides_by_key(const Mesh& mesh);
 
 /// A side of one volume element, its normal outwards.
-struct OuterSide {
+struct ElementSide {
   std::size_t block = 0;
   ElementKind kind = ElementKind::quad9;
   std::vector<std::int32_t> nodes;
 };
+ElementSide side_at(const Mesh& mesh, const SidePlace& place);
 
 /// The sides that belong to one element only, in the order of the elements: the skin of the body,
 /// open slits included.
-std::vector<OuterSide> outer_sides(const Mesh& mesh);
+std::vector<ElementSide> outer_sides(const Mesh& mesh);
 
 /// The sides whose nodes all satisfy `is_wanted`, in their order. Without any, no blocks.
-FaceSet faces_among(const std::vector<OuterSide>& sides, const std::string& name,
+FaceSet faces_among(const std::vector<ElementSide>& sides, const std::string& name,
                     const std::function<bool(std::int32_t)>& is_wanted);
 
 }  // namespace flexneck::mesher

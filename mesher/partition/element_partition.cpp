@@ -15,13 +15,6 @@ namespace {
 /// Elements with three common corners have a common side.
 constexpr idx_t kCornersOfASide = 3;
 
-/// Of each block its first element among all.
-std::vector<std::size_t> first_elements(const Mesh& mesh) {
-  std::vector<std::size_t> first = {0};
-  for (const ElementBlock& block : mesh.blocks) first.push_back(first.back() + block.size());
-  return first;
-}
-
 }  // namespace
 
 ElementPartition partition_elements(const Mesh& mesh, int count) {
@@ -52,10 +45,7 @@ ElementPartition partition_elements(const Mesh& mesh, int count) {
 PartitionQuality quality_of(const Mesh& mesh, const ElementPartition& partition) {
   PartitionQuality quality;
   const std::vector<SidePlace> sides = sides_by_key(mesh);
-  const std::vector<std::size_t> first = first_elements(mesh);
-  const auto process_of = [&](const SidePlace& side) {
-    return partition.processes[first[side.block] + side.element];
-  };
+  const auto process_of = [&](const SidePlace& side) { return partition.processes[side.number]; };
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s].key == sides[s - 1].key && process_of(sides[s]) != process_of(sides[s - 1])) {
       ++quality.edge_cut;

@@ -49,7 +49,7 @@ std::string bytes_of(const fs::path& path) {
 
 TEST_CASE("the skin of a box has its outer sides and the box's area") {
   const Mesh mesh = box_of(2, 3, 4);
-  const std::vector<OuterSide> sides = outer_sides(mesh);
+  const std::vector<ElementSide> sides = outer_sides(mesh);
   CHECK(sides.size() == 2 * (2 * 3 + 3 * 4 + 4 * 2));
 
   const Surface surface = surface_of(mesh);
