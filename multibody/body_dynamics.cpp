@@ -2,7 +2,6 @@
 #include "multibody/body_dynamics.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "multibody/rotation.h"
 
@@ -24,7 +23,7 @@ BodyConstants::BodyConstants(const RigidBody& body)
       J0(body.inertia_kg_m2 - body.mass_kg * skew(body.center_m) * skew(body.center_m)),
       N0(3, 0) {}
 
-BodyConstants::BodyConstants(const DeformableBody& body) {
+BodyConstants::BodyConstants(const DeformableBody& body) : springs(body) {
   const fe_modal::InertiaInvariants& from = body.modes.invariants;
   const Index m = body.modes.mode_count();
   mass = from.mass;
@@ -44,11 +43,6 @@ BodyConstants::BodyConstants(const DeformableBody& body) {
       N.block<3, 1>(3 * l, j) = from.N[jl];
     }
   }
-  const VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
-  omega_squared = omega.cwiseAbs2();
-  damping = 2 * body.damping_ratio.cwiseProduct(omega);
-  offset = body.offset;
-  if (offset.size() == 0) offset.setZero(m);
 }
 
 double BodyConstants::radius_m() const { return std::sqrt(J0.trace() / (2 * mass)); }
@@ -118,9 +112,8 @@ void update_right_hand_side(const BodyConstants& body, const Vector3d& gravity_m
   for (Index l = 0; l < m; ++l) {
     const double centrifugal = w.dot(ConstMatrix3Map(terms.G.data() + 9 * l) * w);
     const double coriolis = -2 * w.dot(terms.work_modes.segment<3>(3 * l));
-    terms.u[6 + l] = centrifugal + coriolis -
-                     body.omega_squared[l] * (terms.a[l] - body.offset[l]) -
-                     body.damping[l] * adot[l] + body.S2.col(l).dot(gravity);
+    terms.u[6 + l] = centrifugal + coriolis - body.springs.load(l, terms.a[l], adot[l]) +
+                     body.S2.col(l).dot(gravity);
   }
 }
 
@@ -131,15 +124,6 @@ double kinetic_energy_J(const BodyTerms& terms, const Eigen::Ref<const VectorXd>
 double gravitational_energy_J(const BodyConstants& body, const Vector3d& gravity_m_s2,
                               const BodyTerms& terms) {
   return -body.mass * gravity_m_s2.dot(terms.x) - gravity_m_s2.dot(terms.A * terms.S);
-}
-
-double strain_energy_J(const BodyConstants& body, const BodyTerms& terms) {
-  double energy = 0;
-  for (Index l = 0; l < terms.a.size(); ++l) {
-    const double stretch = terms.a[l] - body.offset[l];
-    energy += 0.5 * body.omega_squared[l] * stretch * stretch;
-  }
-  return energy;
 }
 
 }  // namespace flexneck::multibody

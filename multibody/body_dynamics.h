@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "multibody/modal_springs.h"
 #include "multibody/model.h"
 
 namespace flexneck::multibody {
@@ -27,9 +28,7 @@ struct BodyConstants {
   Eigen::Matrix3Xd N0;
   Eigen::MatrixXd N;  ///< (3m, m): column j holds N_j1 … N_jm
   Eigen::MatrixXd Maa;
-  Eigen::VectorXd omega_squared;  ///< (m): diagonal of the stiffness
-  Eigen::VectorXd damping;        ///< (m): 2 zeta omega
-  Eigen::VectorXd offset;         ///< (m): modal coordinates without load
+  ModalSprings springs;
 };
 
 /// What depends on a body's state. V = [xdot (world); w (body axes); adot].
@@ -61,6 +60,5 @@ void update_right_hand_side(const BodyConstants& body, const Eigen::Vector3d& gr
 double kinetic_energy_J(const BodyTerms& terms, const Eigen::Ref<const Eigen::VectorXd>& velocity);
 double gravitational_energy_J(const BodyConstants& body, const Eigen::Vector3d& gravity_m_s2,
                               const BodyTerms& terms);
-double strain_energy_J(const BodyConstants& body, const BodyTerms& terms);
 
 }  // namespace flexneck::multibody

@@ -42,7 +42,7 @@ Energies energies_of(const EquationsOfMotion& equations, const VectorXd& state) 
         state.segment(system.position_count + body.velocity, body.constants.velocity_count());
     sum.kinetic_J += kinetic_energy_J(terms, V);
     sum.gravitational_J += gravitational_energy_J(body.constants, system.gravity_m_s2, terms);
-    sum.strain_J += strain_energy_J(body.constants, terms);
+    sum.strain_J += body.constants.springs.energy_J(terms.a);
   }
   sum.strain_J += equations.forces().stored_J();
   return sum;

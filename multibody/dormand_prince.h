@@ -7,13 +7,9 @@
 
 #include <Eigen/Core>
 
-namespace flexneck::multibody {
+#include "multibody/error_estimate.h"
 
-/// Size of a step's error in units of its tolerance, and which component is the worst.
-struct ErrorEstimate {
-  double value = 0;  ///< the step is good below 1; NaN if anything is not a number
-  std::size_t component = 0;
-};
+namespace flexneck::multibody {
 
 /// What DormandPrince integrates. Vectors keep their size; nothing here should allocate.
 struct InitialValueProblem {

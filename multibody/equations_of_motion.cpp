@@ -234,10 +234,7 @@ double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {
   double power = forces_.lost_W();
   for (const FreeBody& body : system_.bodies) {
     const Index m = body.constants.mode_count();
-    for (Index l = 0; l < m; ++l) {
-      const double rate = velocities[body.velocity + 6 + l];
-      power += body.constants.damping[l] * rate * rate;
-    }
+    power += body.constants.springs.lost_W(velocities.segment(body.velocity + 6, m));
   }
   return power;
 }

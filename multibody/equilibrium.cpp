@@ -26,7 +26,7 @@ double potential_energy(const EquationsOfMotion& equations) {
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const BodyConstants& constants = system.bodies[b].constants;
     energy += gravitational_energy_J(constants, system.gravity_m_s2, equations.body(b)) +
-              strain_energy_J(constants, equations.body(b));
+              constants.springs.energy_J(equations.body(b).a);
   }
   return energy + equations.forces().potential_J();
 }

@@ -41,7 +41,7 @@ VectorXd given_state(const Model& model, const System& system) {
     const Eigen::Quaterniond& q = body.initial_pose.rotation;
     state.segment<3>(free.position) = body.initial_pose.position_m;
     state.segment<4>(free.position + 3) << q.w(), q.x(), q.y(), q.z();
-    state.segment(free.position + 7, free.constants.mode_count()) = free.constants.offset;
+    state.segment(free.position + 7, free.constants.mode_count()) = free.constants.springs.offset;
     const Index velocity = system.position_count + free.velocity;
     state.segment<3>(velocity) = body.initial_velocity_m_s;
     state.segment<3>(velocity + 3) = body.initial_angular_velocity_rad_s;

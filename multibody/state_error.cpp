@@ -15,38 +15,16 @@ constexpr std::size_t kComponents = 6;
 constexpr std::array<const char*, kComponents> kNames = {
     "position", "rotation", "deformation", "velocity", "angular velocity", "rate of deformation"};
 
-/// Amplitude of the modes as displacement and as velocity.
-struct Amplitude {
-  double displacement;
-  double velocity;
-};
-
-template <typename Modal>
-Amplitude amplitude(const BodyConstants& body, const Modal& a, const Modal& adot) {
-  double displacement = 0;
-  double velocity = 0;
-  for (Index l = 0; l < a.size(); ++l) {
-    const double a2 = a[l] * a[l];
-    const double v2 = adot[l] * adot[l];
-    displacement += a2 + v2 / body.omega_squared[l];
-    velocity += v2 + a2 * body.omega_squared[l];
-  }
-  return {std::sqrt(displacement), std::sqrt(velocity)};
-}
-
 }  // namespace
 
 StateError::StateError(const System& system, double relative, double absolute)
-    : system_(system), relative_(relative), absolute_(absolute) {}
+    : system_(system), tolerance_{relative, absolute} {}
 
 ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
                                      const VectorXd& error) const {
   ErrorEstimate worst;
   const auto consider = [&](std::size_t component, double size, double reference) {
-    const double ratio = size / (absolute_ + relative_ * reference);
-    // NaN must win and stay.
-    if (std::isnan(worst.value) || ratio <= worst.value) return;
-    worst = {ratio, component};
+    worst.consider(component, tolerance_.ratio(size, reference));
   };
   for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
     const FreeBody& body = system_.bodies[b];
@@ -63,8 +41,8 @@ ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
              std::max(begin.segment<3>(v + 3).norm(), end.segment<3>(v + 3).norm()));
     if (m == 0) continue;
     const double root_mass = std::sqrt(body.constants.mass);
-    const Amplitude present =
-        amplitude(body.constants, end.segment(q + 7, m), end.segment(v + 6, m));
+    const ModalAmplitude present(body.constants.springs.stiffness, end.segment(q + 7, m),
+                                 end.segment(v + 6, m));
     consider(first + 2, error.segment(q + 7, m).norm() / root_mass,
              present.displacement / root_mass);
     consider(first + 5, error.segment(v + 6, m).norm() / root_mass, present.velocity / root_mass);

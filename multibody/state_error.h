@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "multibody/dormand_prince.h"
+#include "multibody/error_estimate.h"
 #include "multibody/system.h"
 
 namespace flexneck::multibody {
@@ -32,8 +32,7 @@ class StateError {
 
  private:
   const System& system_;
-  double relative_;
-  double absolute_;
+  Tolerance tolerance_;
 };
 
 }  // namespace flexneck::multibody

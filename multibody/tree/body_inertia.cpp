@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/tree/body_inertia.h"
 
-#include <numbers>
-
 namespace flexneck::multibody::tree {
 namespace {
 
@@ -42,7 +40,7 @@ BodyInertia::BodyInertia(const RigidBody& body)
               mass * (c.squaredNorm() * Matrix3d::Identity() - c * c.transpose()));
 }
 
-BodyInertia::BodyInertia(const DeformableBody& body) {
+BodyInertia::BodyInertia(const DeformableBody& body) : springs(body) {
   const fe_modal::InertiaInvariants& from = body.modes.invariants;
   const Index m = body.modes.mode_count();
   mass = from.mass;
@@ -63,11 +61,6 @@ BodyInertia::BodyInertia(const DeformableBody& body) {
       N.block<3, 1>(3 * l, j) = from.N[jl];
     }
   }
-  const VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
-  stiffness = omega.cwiseAbs2();
-  damping = 2 * body.damping_ratio.cwiseProduct(omega);
-  offset = body.offset;
-  if (offset.size() == 0) offset.setZero(m);
 }
 
 InertiaTerms::InertiaTerms(const BodyInertia& body)
@@ -123,8 +116,7 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
     const Vector6d form = quadratic_form(w);
     for (Index l = 0; l < m; ++l)
       terms.bias_a[l] = 2 * w.dot(terms.packed.segment<3>(3 * l)) -
-                        0.5 * form.dot(terms.J_rate.col(l)) +
-                        body.stiffness[l] * (a[l] - body.offset[l]) + body.damping[l] * a_rate[l];
+                        0.5 * form.dot(terms.J_rate.col(l)) + body.springs.load(l, a[l], a_rate[l]);
   }
   terms.bias_r.head<3>() = w.cross(momentum);
   terms.bias_r.tail<3>() = change + w.cross(angular);

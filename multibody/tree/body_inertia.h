@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "multibody/modal_springs.h"
 #include "multibody/model.h"
 
 namespace flexneck::multibody::tree {
@@ -11,7 +12,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Inertia, stiffness and damping of a body with m modes (none if it is rigid) in the form that
+/// Inertia and springs of a body with m modes (none if it is rigid) in the form that
 /// equations.md section 7 needs: derivatives of the moment of inertia by the modal coordinates,
 /// symmetric and packed as (xx, yy, zz, xy, xz, yz).
 struct BodyInertia {
@@ -29,9 +30,7 @@ struct BodyInertia {
   Eigen::Matrix3Xd N0;
   Eigen::MatrixXd N;  ///< (3m, m): column j holds N_j1 … N_jm
   Eigen::MatrixXd Maa;
-  Eigen::VectorXd stiffness;  ///< (m): omega^2
-  Eigen::VectorXd damping;    ///< (m): 2 zeta omega
-  Eigen::VectorXd offset;     ///< (m): modal coordinates without load
+  ModalSprings springs;
 };
 
 /// Inertia of a body in its own axes, and what is left of its equations when its accelerations

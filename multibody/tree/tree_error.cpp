@@ -35,7 +35,7 @@ bool has_quaternion(const TreeJoint& joint) {
 }  // namespace
 
 TreeError::TreeError(const Tree& tree, double relative, double absolute)
-    : tree_(tree), relative_(relative), absolute_(absolute) {}
+    : tree_(tree), tolerance_{relative, absolute} {}
 
 double TreeError::fastest_joint(const VectorXd& state) const {
   double squared = 0;
@@ -54,10 +54,7 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
                                     const VectorXd& error) const {
   ErrorEstimate worst;
   const auto consider = [&](std::size_t component, double size, double reference) {
-    const double ratio = size / (absolute_ + relative_ * reference);
-    // NaN must win and stay.
-    if (std::isnan(worst.value) || ratio <= worst.value) return;
-    worst = {ratio, component};
+    worst.consider(component, tolerance_.ratio(size, reference));
   };
   const double speed = std::max(fastest_joint(begin), fastest_joint(end));
   for (std::size_t b = 0; b < tree_.bodies.size(); ++b) {
@@ -80,17 +77,11 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
       consider(first + 1, tree_.size_m * error.segment(u + n, nu - n).norm(), speed);
     }
     if (m == 0) continue;
-    double displacement = 0;
-    double velocity = 0;
-    for (Index l = 0; l < m; ++l) {
-      const double a2 = end[q + nq + l] * end[q + nq + l];
-      const double v2 = end[u + nu + l] * end[u + nu + l];
-      displacement += a2 + v2 / body.inertia.stiffness[l];
-      velocity += v2 + a2 * body.inertia.stiffness[l];
-    }
+    const ModalAmplitude present(body.inertia.springs.stiffness, end.segment(q + nq, m),
+                                 end.segment(u + nu, m));
     const double scale = 1 / std::sqrt(body.inertia.mass);
-    consider(first + 2, scale * error.segment(q + nq, m).norm(), scale * std::sqrt(displacement));
-    consider(first + 3, scale * error.segment(u + nu, m).norm(), scale * std::sqrt(velocity));
+    consider(first + 2, scale * error.segment(q + nq, m).norm(), scale * present.displacement);
+    consider(first + 3, scale * error.segment(u + nu, m).norm(), scale * present.velocity);
   }
   return worst;
 }

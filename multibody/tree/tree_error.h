@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "multibody/dormand_prince.h"
+#include "multibody/error_estimate.h"
 #include "multibody/tree/tree.h"
 
 namespace flexneck::multibody::tree {
@@ -33,8 +33,7 @@ class TreeError {
   double fastest_joint(const Eigen::VectorXd& state) const;
 
   const Tree& tree_;
-  double relative_;
-  double absolute_;
+  Tolerance tolerance_;
 };
 
 }  // namespace flexneck::multibody::tree

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is read off a tree once its equations are solved.
-#include <cmath>
-
 #include "multibody/tree/tree_dynamics.h"
 
 namespace flexneck::multibody::tree {
@@ -72,10 +70,8 @@ Energies TreeDynamics::energies() const {
     const Work& work = work_[b];
     const Frame& frame = work.frame;
     Vector3d S = body.S1;
-    for (Index l = 0; l < work.a.size(); ++l) {
-      S += work.a[l] * body.S2.col(l);
-      sum.strain_J += 0.5 * body.stiffness[l] * std::pow(work.a[l] - body.offset[l], 2);
-    }
+    for (Index l = 0; l < work.a.size(); ++l) S += work.a[l] * body.S2.col(l);
+    sum.strain_J += body.springs.energy_J(work.a);
     sum.kinetic_J += kinetic_energy_J(body, work.a, work.a_rate, frame.v, frame.w);
     sum.gravitational_J -= gravity_.dot(body.mass * frame.x + frame.A * S);
   }
@@ -84,11 +80,8 @@ Energies TreeDynamics::energies() const {
 
 double TreeDynamics::dissipation_W() const {
   double power = forces_.lost_W();
-  for (std::size_t b = 0; b < work_.size(); ++b) {
-    const Eigen::VectorXd& damping = tree_.bodies[b].inertia.damping;
-    const Eigen::VectorXd& rate = work_[b].a_rate;
-    for (Index l = 0; l < rate.size(); ++l) power += damping[l] * rate[l] * rate[l];
-  }
+  for (std::size_t b = 0; b < work_.size(); ++b)
+    power += tree_.bodies[b].inertia.springs.lost_W(work_[b].a_rate);
   return power;
 }
 

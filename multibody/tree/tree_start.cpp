@@ -104,8 +104,8 @@ std::vector<BodyState> given_bodies(const Tree& tree) {
     const Body& body = tree.model.bodies[each.index];
     const Index m = each.inertia.mode_count();
     BodyState state{body.initial_pose.position_m,
-                    body.initial_pose.rotation.normalized().toRotationMatrix(), each.inertia.offset,
-                    VectorXd::Zero(6 + m), VectorXd::Zero(6 + m)};
+                    body.initial_pose.rotation.normalized().toRotationMatrix(),
+                    each.inertia.springs.offset, VectorXd::Zero(6 + m), VectorXd::Zero(6 + m)};
     state.velocities.head<3>() = body.initial_velocity_m_s;
     state.velocities.segment<3>(3) = body.initial_angular_velocity_rad_s;
     bodies.push_back(std::move(state));

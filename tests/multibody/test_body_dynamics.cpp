@@ -151,7 +151,7 @@ TEST_CASE("centrifugal, Coriolis and gyroscopic terms follow from the points' ki
   SECTION("all together") {}
   // Without elastic and gravity terms, which have a case of their own.
   VectorXd elastic = VectorXd::Zero(V.size());
-  elastic.tail(3) = body.constants.omega_squared.cwiseProduct(body.terms.a);
+  elastic.tail(3) = body.constants.springs.stiffness.cwiseProduct(body.terms.a);
   const VectorXd u = body.right_hand_side(V, Vector3d::Zero()) + elastic;
   const VectorXd expected = -lagrange(kinetic, body.z, V, VectorXd::Zero(V.size()));
   const double size = body.terms.mass.norm() * V.squaredNorm();
@@ -225,6 +225,6 @@ TEST_CASE("energies of a moving body are those of its points") {
   CHECK(kinetic_energy_J(body.terms, V) ==
         Approx(body.truth.kinetic_energy(body.z, V)).epsilon(1e-10));
   CHECK(gravitational_energy_J(body.constants, gravity, body.terms) +
-            strain_energy_J(body.constants, body.terms) ==
+            body.constants.springs.energy_J(body.terms.a) ==
         Approx(body.truth.potential_energy(body.z, gravity)).epsilon(1e-12));
 }

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/modal_springs.h"
+
+#include <numbers>
+
+namespace flexneck::multibody {
+
+ModalSprings::ModalSprings(const DeformableBody& body) : offset(body.offset) {
+  const Eigen::VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
+  stiffness = omega.cwiseAbs2();
+  damping = 2 * body.damping_ratio.cwiseProduct(omega);
+  if (offset.size() == 0) offset.setZero(omega.size());
+}
+
+}  // namespace flexneck::multibody
