@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/cholesky_factor.h"
 
+#include <array>
+#include <cstdio>
 #include <vector>
 
 #include "geometry/foundation/error.h"
@@ -29,7 +31,7 @@ IsHandle expand_order(std::span<const std::int32_t> node_order) {
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
                                std::span<const std::int32_t> node_order)
-    : shift_(shift) {
+    : ShiftInverse(shift) {
   const bool given = !node_order.empty();
   require(MatSetOptionsPrefixFactor(shifted_stiffness, given ? kGivenOrderPrefix : nullptr),
           kFactorising);
@@ -45,10 +47,7 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
   MatFactorError error = MAT_FACTOR_NOERROR;
   require(MatFactorGetError(factor_.get(), &error), kFactorising);
   if (code != 0 || error != MAT_FACTOR_NOERROR) {
-    throw ComputationError(
-        "the stiffness matrix is not positive definite: a part of the body is not held, or "
-        "elements "
-        "with reduced integration stand in a single row");
+    throw ComputationError(kNotDefinite);
   }
   MatInfo info;
   require(MatGetInfo(factor_.get(), MAT_LOCAL, &info), kFactorising);
@@ -73,6 +72,12 @@ Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) c
   require(MatCreateSeqDense(PETSC_COMM_SELF, rows, columns, solutions.data(), out.out()), kSolving);
   require(MatMatSolve(factor_.get(), in.get(), out.get()), kSolving);
   return solutions;
+}
+
+std::string CholeskyFactor::describe() const {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "the factor has %.4g million entries", nonzeros_ / 1e6);
+  return text.data();
 }
 
 }  // namespace flexneck::fe_modal

@@ -3,15 +3,22 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include <Eigen/Core>
 
 #include "fe_modal/petsc_handles.h"
+#include "fe_modal/shift_inverse.h"
 
 namespace flexneck::fe_modal {
 
+/// What is said of a matrix that has no Cholesky factor.
+inline constexpr const char* kNotDefinite =
+    "the stiffness matrix is not positive definite: a part of the body is not held, or elements "
+    "with reduced integration stand in a single row";
+
 /// Sparse Cholesky factor of K - shift M, made once and used by every solve, by CHOLMOD.
-class CholeskyFactor {
+class CholeskyFactor : public ShiftInverse {
  public:
   /// @param shifted_stiffness K - shift M, symmetric with the upper half stored, N degrees of
   /// freedom
@@ -22,15 +29,14 @@ class CholeskyFactor {
   CholeskyFactor(Mat shifted_stiffness, double shift,
                  std::span<const std::int32_t> node_order = {});
 
-  double shift() const { return shift_; }
   /// Entries of the factor, as CHOLMOD counts them.
   double nonzeros() const { return nonzeros_; }
-  void solve(Vec right_hand_side, Vec solution) const;
+  void solve(Vec right_hand_side, Vec solution) const override;
   /// For each column, all at once: the factor, which no cache holds, is read once for many.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override;
+  std::string describe() const override;
 
  private:
-  double shift_;
   double nonzeros_ = 0;
   MatHandle factor_;
 };

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "fe_modal/inertia.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -27,14 +26,13 @@ std::string hertz(double eigenvalue) {
 
 }  // namespace
 
-std::optional<std::string> prove_complete(const SystemMatrices& system,
-                                          const Eigen::VectorXd& values, Eigen::Index count,
-                                          double shift) {
+std::optional<std::string> prove_complete(const ModalSystem& system, const Eigen::VectorXd& values,
+                                          Eigen::Index count, double shift) {
   for (Eigen::Index k = count; k < values.size(); ++k) {
     const bool rigid = values[k] <= kRigidBody * std::abs(shift);
     if (rigid || values[k] - values[k - 1] < kGap * values[k]) continue;
     const double sigma = (std::max(values[k - 1], 0.0) + values[k]) / 2;
-    const Eigen::Index counted = eigenvalues_below(system, sigma);
+    const Eigen::Index counted = system.eigenvalues_below(sigma);
     if (counted != k) {
       throw ComputationError("the eigensolver found " + std::to_string(k) + " modes below " +
                              hertz(sigma) + ", but the inertia of the stiffness counts " +
@@ -45,14 +43,14 @@ std::optional<std::string> prove_complete(const SystemMatrices& system,
   return std::nullopt;
 }
 
-CertifiedModes certified_modes(const SystemMatrices& system, const CholeskyFactor& factor,
+CertifiedModes certified_modes(const ModalSystem& system, const ShiftInverse& inverse,
                                Eigen::Index count) {
-  const Eigen::Index size = 3 * static_cast<Eigen::Index>(system.graph.node_count());
+  PetscInt size = 0;
+  require(MatGetSize(system.mass(), &size, nullptr), "asking for the number of modes");
   for (Eigen::Index more = 1;; more *= 2) {
-    const Eigen::Index asked = std::min(count + more, size);
-    const EigenPairs pairs =
-        lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, asked);
-    auto certificate = prove_complete(system, pairs.values, count, factor.shift());
+    const Eigen::Index asked = std::min<Eigen::Index>(count + more, size);
+    const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), system.mass(), inverse, asked);
+    auto certificate = prove_complete(system, pairs.values, count, inverse.shift());
     if (!certificate && asked == size) certificate = "certified: all modes that there are";
     if (certificate)
       return {{pairs.values.head(count), pairs.vectors.leftCols(count)}, *certificate};

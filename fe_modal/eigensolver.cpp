@@ -33,16 +33,16 @@ constexpr double kSameValue = 1e-6;
 struct Problem {
   Mat stiffness;
   Mat mass;
-  const CholeskyFactor* factor;
+  const ShiftInverse* inverse;
 };
 
 /// What SLEPc calls for y = (K - shift M)^-1 x.
 PetscErrorCode apply_inverse(PC preconditioner, Vec x, Vec y) {
-  const CholeskyFactor* factor = nullptr;
-  const PetscErrorCode code = PCShellGetContext(preconditioner, static_cast<void*>(&factor));
+  const ShiftInverse* inverse = nullptr;
+  const PetscErrorCode code = PCShellGetContext(preconditioner, static_cast<void*>(&inverse));
   if (code != 0) return code;
   try {
-    factor->solve(x, y);
+    inverse->solve(x, y);
   } catch (const ComputationError&) {
     return PETSC_ERR_LIB;  // no exception may cross SLEPc
   }
@@ -65,7 +65,7 @@ EpsHandle make_solver(const Problem& problem) {
   require(EPSSetOperators(eps, problem.stiffness, problem.mass), kSolving);
   require(EPSSetProblemType(eps, EPS_GHEP), kSolving);
   require(EPSSetType(eps, EPSKRYLOVSCHUR), kSolving);
-  require(EPSSetTarget(eps, problem.factor->shift()), kSolving);
+  require(EPSSetTarget(eps, problem.inverse->shift()), kSolving);
   require(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE), kSolving);
   ST transform = nullptr;
   require(EPSGetST(eps, &transform), kSolving);
@@ -78,8 +78,8 @@ EpsHandle make_solver(const Problem& problem) {
   PC inverse = nullptr;
   require(KSPGetPC(solver, &inverse), kSolving);
   require(PCSetType(inverse, PCSHELL), kSolving);
-  // PETSc hands the context back as it is; the factor is not changed through it.
-  require(PCShellSetContext(inverse, const_cast<CholeskyFactor*>(problem.factor)), kSolving);
+  // PETSc hands the context back as it is; the operator is not changed through it.
+  require(PCShellSetContext(inverse, const_cast<ShiftInverse*>(problem.inverse)), kSolving);
   require(PCShellSetApply(inverse, apply_inverse), kSolving);
   return handle;
 }
@@ -163,14 +163,14 @@ EigenPairs merge(const EigenPairs& one, const EigenPairs& other) {
 
 }  // namespace
 
-EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const CholeskyFactor& factor,
+EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count) {
-  const Problem problem{stiffness, mass, &factor};
+  const Problem problem{stiffness, mass, &inverse};
   EigenPairs pairs = search(problem, count, kFine, Eigen::MatrixXd());
   const Eigen::Index size = pairs.vectors.rows();
   while (pairs.values.size() < size) {
-    const double highest = pairs.values[count - 1] - factor.shift();
-    const double next = search(problem, 1, kCoarse, pairs.vectors).values[0] - factor.shift();
+    const double highest = pairs.values[count - 1] - inverse.shift();
+    const double next = search(problem, 1, kCoarse, pairs.vectors).values[0] - inverse.shift();
     if (next > highest * (1 - kSameValue)) break;
     pairs = merge(pairs, search(problem, 1, kFine, pairs.vectors));
   }

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/cholesky_factor.h"
 #include "fe_modal/petsc_handles.h"
+#include "fe_modal/shift_inverse.h"
 
 namespace flexneck::fe_modal {
 
@@ -17,12 +17,12 @@ struct EigenPairs {
 /// Krylov-Schur on the shift-inverted problem (K - shift M)^-1 M. Multiple eigenvalues are found by
 /// a second search, M-orthogonal to what the first has found, until it yields none that belongs
 /// among the lowest.
-/// @param factor of K - shift M, with a shift below all eigenvalues
+/// @param inverse of K - shift M, with a shift below all eigenvalues
 /// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
-/// factor if the shift is zero
+/// inverse if the shift is zero
 /// @param count at most the number of degrees of freedom
 /// @throws ComputationError if the iteration does not converge.
-EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const CholeskyFactor& factor,
+EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count);
 
 /// ||K x - lambda M x|| / ||K x|| of each pair; of a rigid-body motion, lambda = 0, where that is

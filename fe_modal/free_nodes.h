@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,6 +23,11 @@ class FreeNodes {
             std::span<const mesher::Slit> slits = {});
   FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held)
       : FreeNodes(mesh.nodes.size(), held, mesh.slits) {}
+
+  /// As numbered elsewhere.
+  /// @param indices what index() is to return
+  FreeNodes(std::vector<std::int32_t> indices, std::int32_t free_count)
+      : indices_(std::move(indices)), free_count_(free_count) {}
 
   Eigen::Index node_count() const { return static_cast<Eigen::Index>(indices_.size()); }
   Eigen::Index free_count() const { return free_count_; }

@@ -2,24 +2,21 @@
 #include "fe_modal/modal_analysis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "fe_modal/assembly.h"
 #include "fe_modal/attached_mass.h"
-#include "fe_modal/cholesky_factor.h"
 #include "fe_modal/completeness.h"
 #include "fe_modal/eigensolver.h"
 #include "fe_modal/free_nodes.h"
 #include "fe_modal/invariants.h"
+#include "fe_modal/make_system.h"
 #include "fe_modal/modal_options_check.h"
 #include "fe_modal/mode_conventions.h"
 #include "fe_modal/mode_naming.h"
 #include "fe_modal/rigid_average.h"
 #include "mesher/mesh/bounding_box.h"
-#include "mesher/partition/node_order.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -38,20 +35,6 @@ double shift_for(const mesher::Mesh& mesh, const ModalOptions& options) {
     slowest = std::min(slowest, material.youngs_modulus_Pa / material.density_kg_m3);
   }
   return -slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
-}
-
-CholeskyFactor factorise(const SystemMatrices& system, double shift) {
-  const std::vector<std::int32_t> order =
-      mesher::nested_dissection(system.graph.offsets(), system.graph.columns());
-  if (shift == 0) return {system.stiffness.get(), shift, order};
-  return {shifted_stiffness(system, shift).get(), shift, order};
-}
-
-std::string describe(const CholeskyFactor& factor) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "the factor has %.4g million entries",
-                factor.nonzeros() / 1e6);
-  return text.data();
 }
 
 Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues) {
@@ -104,16 +87,16 @@ std::size_t interface_index(const ModalOptions& options, const std::string& name
 
 std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
                                                const FreeNodes& free_nodes,
-                                               const SystemMatrices& system,
-                                               const CholeskyFactor& factor,
+                                               const ModalSystem& system,
+                                               const ShiftInverse& inverse,
                                                const std::vector<RigidAverage>& averages) {
   std::vector<AttachedFrequencies> result;
   for (const RigidAttachment& body : options.attachments) {
     const RigidAverage& region = averages[interface_index(options, body.interface)];
     const AttachedMass mass(
-        system.mass.get(), free_nodes, region,
+        system.mass(), free_nodes, region,
         rigid_mass_matrix(body.mass_kg, body.center_m - region.point_m(), body.inertia_kg_m2));
-    const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), mass.matrix(), factor,
+    const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), mass.matrix(), inverse,
                                                std::min(kAttachedCount, free_nodes.dof_count()));
     result.push_back({body.name, body.interface, frequencies_Hz(pairs.values)});
   }
@@ -133,17 +116,18 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
       mesh, held ? mesh.node_set(options.held_set).nodes : std::vector<std::int32_t>{});
   report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
          " degrees of freedom");
-  const SystemMatrices system = assemble(mesh, free_nodes, options.formulation);
+  const std::unique_ptr<const ModalSystem> owned_system = make_system(mesh, free_nodes, options);
+  const ModalSystem& system = *owned_system;
 
   report("factorising the stiffness");
   const double shift = shift_for(mesh, options);
-  const CholeskyFactor factor = factorise(system, shift);
-  report(describe(factor));
+  const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(shift);
+  report(inverse->describe());
   report("solving for " + std::to_string(options.mode_count) + " modes");
   auto [pairs, certificate] =
-      options.certify ? certified_modes(system, factor, options.mode_count)
-                      : CertifiedModes{lowest_eigenpairs(system.stiffness.get(), system.mass.get(),
-                                                         factor, options.mode_count),
+      options.certify ? certified_modes(system, *inverse, options.mode_count)
+                      : CertifiedModes{lowest_eigenpairs(system.stiffness(), system.mass(),
+                                                         *inverse, options.mode_count),
                                        "not certified"};
   for (double& value : pairs.values) {
     if (value < kRigidBody * -shift) value = 0;
@@ -173,18 +157,17 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   for (const auto& vector : pairs.vectors.colwise()) {
     body.shapes.push_back(free_nodes.expand(vector));
   }
-  body.modes =
-      describe_modes(mesh, options, body.shapes,
-                     relative_residuals(system.stiffness.get(), system.mass.get(), pairs, shift));
+  body.modes = describe_modes(mesh, options, body.shapes,
+                              relative_residuals(system.stiffness(), system.mass(), pairs, shift));
   body.interfaces = reduce_interfaces(options, averages, body.shapes);
-  body.invariants = inertia_invariants(system.nodal_mass, mesh.nodes, body.shapes);
+  body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
   body.orthogonality =
       (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
           .cwiseAbs()
           .maxCoeff();
   if (!options.attachments.empty()) report("solving with rigid bodies attached");
-  body.attached = attach_bodies(options, free_nodes, system, factor, averages);
+  body.attached = attach_bodies(options, free_nodes, system, *inverse, averages);
   return body;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -24,6 +25,8 @@ class PetscSession {
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;
 };
+
+class Ranks;
 
 /// Versions of PETSc, SLEPc and MUMPS, for the provenance.
 std::map<std::string, std::string> library_versions();
@@ -57,6 +60,9 @@ struct ModalOptions {
   double length_m = 0;                   ///< turns rotations into lengths for the sign rule
   std::string sign_interface;            ///< interface whose motion fixes the signs
   std::vector<RigidAttachment> attachments;
+  const Ranks* ranks = nullptr;  ///< processes that share the work, see ranks.h; null: this alone
+  std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
+  std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
 };
 
 /// Normal modes by shift-invert, reduced to a modal body.

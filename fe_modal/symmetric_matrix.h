@@ -24,6 +24,11 @@ class SymmetricMatrix {
   /// The matrix for PETSc. Changes of the entries show in it.
   Mat get() const { return handle_.get(); }
 
+  /// The upper half by scalar rows: row i has columns()[offsets()[i]] … and their values.
+  std::span<const PetscInt> offsets() const { return arrays_->offsets; }
+  std::span<const PetscInt> columns() const { return arrays_->columns; }
+  std::span<double> values() { return arrays_->values; }
+
   /// Columns to the right of the diagonal block in the rows of a node, ascending nodes.
   std::span<const std::int32_t> later(std::int32_t node) const;
 

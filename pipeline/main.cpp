@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exception>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
+#include "fe_modal/distributed/ranks.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/commands/commands.h"
@@ -11,6 +13,7 @@
 namespace {
 
 using namespace flexneck::pipeline;
+using flexneck::fe_modal::Ranks;
 
 constexpr int kVerificationFailed = 1;
 constexpr int kUnusableInput = 2;
@@ -67,7 +70,7 @@ void describe(CLI::App& app, Arguments& arguments) {
              "3 a computation failed.");
 }
 
-bool execute(const Arguments& arguments, const Console& console) {
+bool execute(const Arguments& arguments, const Console& console, const Ranks* ranks) {
   const std::vector<Command>& list = commands();
   const std::size_t which =
       flexneck::find_name(flexneck::names_of(list), arguments.command, "command");
@@ -79,14 +82,18 @@ bool execute(const Arguments& arguments, const Console& console) {
       arguments.study.empty() ? built_in_study() : std::filesystem::path(arguments.study),
       arguments.settings);
   const ResultsFolder folder(arguments.folder);
+  if (ranks != nullptr && arguments.command != "modes" && arguments.command != "run") {
+    console.step("Only modes are computed on many ranks: '" + arguments.command +
+                 "' runs on the first");
+  }
   return (arguments.show ? show_command : list[which].run)(
-      {study, folder, console, arguments.target, arguments.is_binary});
+      {study, folder, console, arguments.target, arguments.is_binary, ranks});
 }
 
-int exit_code_of(const Arguments& arguments) {
+int exit_code_of(const Arguments& arguments, const Ranks* ranks) {
   const Console console(arguments.verbosity());
   try {
-    return execute(arguments, console) ? 0 : kVerificationFailed;
+    return execute(arguments, console, ranks) ? 0 : kVerificationFailed;
   } catch (const flexneck::InputError& error) {
     console.error(error.what());
     return kUnusableInput;
@@ -100,6 +107,12 @@ int exit_code_of(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   try {
+    std::optional<Ranks> ranks;
+    if (Ranks::are_many()) ranks.emplace();
+    if (ranks && !ranks->is_leader()) {
+      ranks->serve();
+      return 0;
+    }
     CLI::App app("From the geometry of a manikin's neck to its motion.", "flexneck");
     Arguments arguments;
     describe(app, arguments);
@@ -108,7 +121,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
       return app.exit(error) == 0 ? 0 : kUnusableInput;
     }
-    return exit_code_of(arguments);
+    return exit_code_of(arguments, ranks ? &*ranks : nullptr);
   } catch (...) {
     return kComputationFailed;
   }

@@ -8,6 +8,10 @@
 #include "pipeline/results_folder.h"
 #include "pipeline/study/study.h"
 
+namespace flexneck::fe_modal {
+class Ranks;
+}
+
 namespace flexneck::pipeline {
 
 /// What every command gets.
@@ -15,8 +19,9 @@ struct CommandInput {
   const Study& study;
   const ResultsFolder& folder;
   const Console& console;
-  std::filesystem::path target = {};  ///< of export
-  bool is_binary = false;             ///< likewise
+  std::filesystem::path target = {};       ///< of export
+  bool is_binary = false;                  ///< likewise
+  const fe_modal::Ranks* ranks = nullptr;  ///< that mpirun has started; null: this process alone
 };
 
 /// A command returns true unless a verification failed; everything else is an exception.

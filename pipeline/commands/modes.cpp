@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
+
 #include <fmt/core.h>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "fe_modal/distributed/ranks.h"
 #include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
@@ -73,6 +76,16 @@ std::string attached_text(const fe_modal::ModalBody& body) {
   return text;
 }
 
+/// Tells the analysis what stands in the mesh file for it.
+void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
+                fe_modal::ModalOptions& options) {
+  options.ranks = input.ranks;
+  options.node_order = mesh.node_order;
+  if (input.ranks == nullptr) return;
+  const auto partition = mesh.partitions.find(input.ranks->count());
+  if (partition != mesh.partitions.end()) options.element_ranks = partition->second;
+}
+
 }  // namespace
 
 bool modes_command(const CommandInput& input) {
@@ -83,9 +96,11 @@ bool modes_command(const CommandInput& input) {
                      ": there is no [geometry] that names the interfaces");
   }
   input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
-  const fe_modal::PetscSession session;
+  std::optional<fe_modal::PetscSession> session;
+  if (input.ranks == nullptr) session.emplace();
   fe_modal::ModalBodyFile file;
-  const fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
+  fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
+  share_work(input, mesh, options);
   file.body = fe_modal::analyse_modes(mesh.mesh, options, input.console.detail());
   const std::string attached = "body." + input.study.modes.attached_body + ".";
   file.provenance =

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/assembly.h"
+#include "fe_modal/cholesky_factor.h"
 #include "fe_modal/eigensolver.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"

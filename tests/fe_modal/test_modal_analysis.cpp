@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/assembly.h"
+#include "fe_modal/cholesky_factor.h"
 #include "fe_modal/eigensolver.h"
 #include "fe_modal/modal_analysis.h"
 #include "tests/support/block_mesh.h"

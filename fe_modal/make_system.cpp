@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/make_system.h"
+
+#include <cstdint>
+#include <vector>
+
+#include "fe_modal/distributed/distributed_system.h"
+#include "fe_modal/distributed/ranks.h"
+#include "fe_modal/local_system.h"
+#include "mesher/partition/element_partition.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// The order of all nodes as one of the free ones; of tied nodes the first one counts.
+std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_order,
+                                        const FreeNodes& free_nodes) {
+  std::vector<std::int32_t> order;
+  std::vector<bool> has_come(static_cast<std::size_t>(free_nodes.free_count()));
+  for (const std::int32_t node : node_order) {
+    const std::int32_t index = free_nodes.index(node);
+    if (index < 0 || has_come[static_cast<std::size_t>(index)]) continue;
+    has_come[static_cast<std::size_t>(index)] = true;
+    order.push_back(index);
+  }
+  return order;
+}
+
+}  // namespace
+
+std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                                         const ModalOptions& options) {
+  std::vector<std::int32_t> order = order_of_free(options.node_order, free_nodes);
+  if (options.ranks == nullptr || options.ranks->count() == 1) {
+    return std::make_unique<LocalSystem>(assemble(mesh, free_nodes, options.formulation),
+                                         std::move(order));
+  }
+  const int count = options.ranks->count();
+  const mesher::ElementPartition partition =
+      options.element_ranks.empty() ? mesher::partition_elements(mesh, count)
+                                    : mesher::ElementPartition{count, options.element_ranks};
+  return std::make_unique<DistributedSystem>(MPI_COMM_WORLD, mesh, free_nodes, options.formulation,
+                                             partition, std::move(order));
+}
+
+}  // namespace flexneck::fe_modal

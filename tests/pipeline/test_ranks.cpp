@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "mesher/mesh/mesh_file.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using testing::CommandOutcome;
+using testing::TemporaryFolder;
+
+namespace {
+
+/// The coarsest neck.
+constexpr const char* kCoarse =
+    " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
+    " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in'";
+
+CommandOutcome run_alone(const std::string& arguments) {
+  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
+}
+
+/// Without mpirun's own word on a process that fails.
+CommandOutcome run_on_two_ranks(const std::string& arguments) {
+  return testing::run_shell(
+      "timeout 100 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 "
+      "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_base_warn_component_unused=0 "
+      "mpirun --quiet -n 2 " +
+      std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
+}
+
+void require_success(const CommandOutcome& outcome) {
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+}
+
+void check_refused(const CommandOutcome& outcome, int exit_code, const std::string& reason) {
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == exit_code);
+  CHECK_THAT(outcome.text, Contains(reason));
+  CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
+}
+
+/// The same body but for rounding.
+void check_same(const fe_modal::ModalBody& one, const fe_modal::ModalBody& other) {
+  REQUIRE(one.mode_count() == other.mode_count());
+  for (Eigen::Index k = 0; k < one.mode_count(); ++k) {
+    const auto mode = static_cast<std::size_t>(k);
+    INFO(one.modes[mode].name);
+    CHECK(other.frequencies_Hz[k] == Approx(one.frequencies_Hz[k]).epsilon(1e-9));
+    CHECK(one.modes[mode].name == other.modes[mode].name);
+    // The eigensolver's tolerance over the relative distance of the closest frequencies.
+    CHECK((one.shapes[mode] - other.shapes[mode]).norm() < 1e-6 * one.shapes[mode].norm());
+    CHECK(other.modes[mode].residual < 1e-6);
+  }
+  CHECK(other.invariants.mass == Approx(one.invariants.mass).epsilon(1e-12));
+  CHECK(other.orthogonality < 1e-9);
+}
+
+}  // namespace
+
+TEST_CASE("two ranks find the frequencies, signs and names that one finds") {
+  const TemporaryFolder folder;
+  const std::string arguments = " -o " + folder.path().string() + kCoarse;
+  require_success(run_alone("mesh -q" + arguments));
+  require_success(run_alone("modes -q" + arguments));
+  const auto one = fe_modal::read_modal_body(folder / "modes.h5").body;
+  std::filesystem::remove(folder / "modes.h5");
+  const CommandOutcome outcome = run_on_two_ranks("modes -v" + arguments);
+  require_success(outcome);
+  CHECK_THAT(outcome.text, Contains("on 2 ranks"));
+  const auto first = outcome.text.find("torsion 1");
+  REQUIRE(first != std::string::npos);
+  CHECK(outcome.text.find("torsion 1", first + 1) == std::string::npos);  // rank 0 alone prints
+  check_same(one, fe_modal::read_modal_body(folder / "modes.h5").body);
+}
+
+TEST_CASE("what is wrong is said once on two ranks, and both end") {
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+  check_refused(run_on_two_ranks("modes -q -o " + out), 2, "mesh.h5");
+  check_refused(run_on_two_ranks("nonsense -q -o " + out), 2, "nonsense");
+  require_success(run_on_two_ranks(std::string("mesh -q -o ") + out + kCoarse));
+  check_refused(
+      run_on_two_ranks(std::string("modes -q -o ") + out + kCoarse + " --set modes.count=100000"),
+      2, "100000");
+}
+
+TEST_CASE("what fails on the second rank only is said once by the first, and both end") {
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+  require_success(run_alone("mesh -q -o " + out + kCoarse));
+  // The second rank has the first element, whose centre is far outside.
+  mesher::MeshFile file = mesher::read_mesh(folder / "mesh.h5");
+  file.mesh.nodes[static_cast<std::size_t>(file.mesh.blocks[0].nodes[26])][2] += 1;
+  std::size_t elements = 0;
+  for (const mesher::ElementBlock& block : file.mesh.blocks) elements += block.size();
+  std::vector<std::int32_t>& ranks = file.partitions[2];
+  ranks.assign(elements, 0);
+  std::fill_n(ranks.begin(), elements / 2, 1);
+  mesher::write_mesh(folder / "mesh.h5", file);
+  check_refused(run_on_two_ranks("modes -q -o " + out + kCoarse), 3, "base_plate");
+}
