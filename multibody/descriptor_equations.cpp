@@ -20,15 +20,16 @@ double largest(const VectorXd& residual) {
   return residual.size() == 0 ? 0 : residual.lpNorm<Eigen::Infinity>();
 }
 
-/// pdd = P Vdot + gp.
+/// pdd = P Vdot + gp, Omd = W Vdot + gr.
 MarkerState marker_state(const EquationsOfMotion& equations, std::size_t index) {
   const System& system = equations.system();
   const NodeKinematics& motion = equations.marker(index);
-  MarkerState state{motion.p, motion.pd, motion.gp, motion.R, motion.Om};
+  MarkerState state{motion.p, motion.pd, motion.gp, motion.R, motion.Om, motion.gr};
   const std::size_t b = system.markers[index].free_body;
-  if (b != JointPlace::kNoBody)
-    state.acceleration_m_s2 +=
-        motion.P * equations.accelerations().segment(system.bodies[b].velocity, motion.P.cols());
+  if (b == JointPlace::kNoBody) return state;
+  const auto rates = equations.accelerations().segment(system.bodies[b].velocity, motion.P.cols());
+  state.acceleration_m_s2 += motion.P * rates;
+  state.angular_acceleration_rad_s2 += motion.W * rates;
   return state;
 }
 

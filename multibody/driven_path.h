@@ -7,13 +7,14 @@
 
 namespace flexneck::multibody {
 
-/// The motion of a driven body: exact, by the integrals of its table.
+/// The motion of a driven body: exact, by the integrals of its table and of its function of time.
 struct DrivenPath {
   Pose start;
   DrivenBody body;
 
   Eigen::Vector3d position_m(double time_s) const;
   Eigen::Vector3d velocity_m_s(double time_s) const;
+  Eigen::Vector3d acceleration_m_s2(double time_s) const;
 };
 
 /// How driven bodies move.

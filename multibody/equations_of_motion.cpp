@@ -70,8 +70,7 @@ void EquationsOfMotion::update_driven_bodies() {
     driven_positions_[d] = path.position_m(time_s_);
     if (drive_ == Drive::held) continue;
     driven_velocities_[d] = path.velocity_m_s(time_s_);
-    driven_accelerations_[d] =
-        path.body.acceleration_m_s2.value(table_time(time_s_)) * path.body.direction;
+    driven_accelerations_[d] = path.acceleration_m_s2(table_time(time_s_));
   }
 }
 

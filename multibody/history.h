@@ -11,11 +11,12 @@ namespace flexneck::multibody {
 /// Motion of a marker, one column per output time.
 struct MarkerHistory {
   std::string name;
-  Eigen::Matrix3Xd position_m;              ///< world
-  Eigen::Matrix3Xd velocity_m_s;            ///< world
-  Eigen::Matrix3Xd acceleration_m_s2;       ///< world, kinematic: gravity is not subtracted
-  Eigen::Matrix4Xd rotation;                ///< unit quaternion marker to world: w, x, y, z
-  Eigen::Matrix3Xd angular_velocity_rad_s;  ///< world
+  Eigen::Matrix3Xd position_m;                   ///< world
+  Eigen::Matrix3Xd velocity_m_s;                 ///< world
+  Eigen::Matrix3Xd acceleration_m_s2;            ///< world, kinematic: gravity is not subtracted
+  Eigen::Matrix4Xd rotation;                     ///< unit quaternion marker to world: w, x, y, z
+  Eigen::Matrix3Xd angular_velocity_rad_s;       ///< world
+  Eigen::Matrix3Xd angular_acceleration_rad_s2;  ///< world
 };
 
 /// What body i exerts on body j through a joint, in the axes of marker i (the moving node frame on

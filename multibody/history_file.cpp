@@ -13,6 +13,7 @@ namespace {
 constexpr const char* kMarkers = "/markers";
 constexpr const char* kJoints = "/joints";
 constexpr const char* kModal = "/modal";
+constexpr const char* kChannels = "/channels";
 constexpr const char* kEnergy = "/energy";
 constexpr const char* kStatistics = "/statistics";
 /// Position of a group in the model's list: HDF5 itself lists them by name.
@@ -31,6 +32,7 @@ void visit_vectors(Markers& marker, const Visit& visit) {
   visit("acceleration", marker.acceleration_m_s2, "m/s^2");
   visit("rotation", marker.rotation, "1");
   visit("angular_velocity", marker.angular_velocity_rad_s, "rad/s");
+  visit("angular_acceleration", marker.angular_acceleration_rad_s2, "rad/s^2");
 }
 
 template <class Joints, class Visit>
@@ -112,6 +114,16 @@ void write_modal(Hdf5Writer& file, const std::vector<ModalHistory>& modal) {
   }
 }
 
+void write_channels(Hdf5Writer& file, const std::vector<Channel>& channels) {
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    const std::string group = path_of(kChannels, channels[k].name);
+    file.write_attribute(group, kIndex, static_cast<std::int64_t>(k));
+    file.write_attribute(group, "filter", std::string_view(channels[k].filter));
+    write_columns(file, path_of(group, "values"), channels[k].values, channels[k].unit);
+    file.write(path_of(group, "columns"), channels[k].columns);
+  }
+}
+
 void write_statistics(Hdf5Writer& file, const StepStatistics& statistics) {
   file.write_attribute(kStatistics, "accepted", std::int64_t{statistics.accepted});
   file.write_attribute(kStatistics, "rejected", std::int64_t{statistics.rejected});
@@ -177,6 +189,18 @@ ModalHistory read_modal(const Hdf5Reader& file, const std::string& body, std::si
   return modal;
 }
 
+Channel read_channel(const Hdf5Reader& file, const std::string& name, std::size_t times) {
+  const std::string group = path_of(kChannels, name);
+  Channel channel;
+  channel.name = name;
+  channel.filter = file.string_attribute(group, "filter");
+  channel.unit = file.string_attribute(path_of(group, "values"), "units");
+  channel.columns = file.read_strings(path_of(group, "columns"));
+  channel.values = read_columns<Eigen::MatrixXd>(file, path_of(group, "values"), times,
+                                                 channel.columns.size(), channel.unit);
+  return channel;
+}
+
 StepStatistics read_statistics(const Hdf5Reader& file) {
   const auto count = [&](const char* name) {
     return static_cast<int>(file.integer_attribute(kStatistics, name));
@@ -215,11 +239,13 @@ void check_group_names(const History& history) {
 void write_history(const std::filesystem::path& path, const HistoryFile& file) {
   const History& history = file.history;
   check_group_names(history);
+  check_names(names_of(file.channels), "channel");
   Hdf5Writer writer(path, kHistoryFormat);
   write_vector(writer, "/time", history.time_s, "s");
   write_markers(writer, history.markers);
   write_joints(writer, history.joints);
   write_modal(writer, history.modal);
+  write_channels(writer, file.channels);
   visit_energies(history.energy, [&](const char* name, const Eigen::VectorXd& values) {
     write_vector(writer, path_of(kEnergy, name), values, "J");
   });
@@ -246,6 +272,9 @@ HistoryFile read_history(const std::filesystem::path& path) {
   }
   for (const std::string& name : ordered_members(reader, kModal)) {
     history.modal.push_back(read_modal(reader, name, times));
+  }
+  for (const std::string& name : ordered_members(reader, kChannels)) {
+    file.channels.push_back(read_channel(reader, name, times));
   }
   visit_energies(history.energy, [&](const char* name, Eigen::VectorXd& values) {
     values = read_vector(reader, path_of(kEnergy, name), times, "J");

@@ -2,6 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/provenance.h"
@@ -12,8 +16,18 @@ namespace flexneck::multibody {
 /// The layout is described in multibody/README.md.
 inline constexpr FileFormat kHistoryFormat{"flexneck history", 1, "flexneck pendulum"};
 
+/// Curves that were derived from a history, at its times.
+struct Channel {
+  std::string name;
+  std::string unit;
+  std::vector<std::string> columns;  ///< names of the curves, such as x, y, z
+  Eigen::MatrixXd values;            ///< one row per curve
+  std::string filter;                ///< such as "CFC 600"; empty for none
+};
+
 struct HistoryFile {
   History history;
+  std::vector<Channel> channels = {};
   Provenance provenance;
 };
 

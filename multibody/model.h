@@ -10,6 +10,7 @@
 
 #include "fe_modal/body/modal_body.h"
 #include "multibody/forces/forces.h"
+#include "multibody/smooth_motion.h"
 #include "multibody/time_table.h"
 
 namespace flexneck::multibody {
@@ -34,12 +35,13 @@ struct DeformableBody {
   Eigen::VectorXd offset = {};
 };
 
-/// A body that translates in a given way, whatever acts on it. With an empty table and no velocity
-/// it is the ground.
+/// A body that translates in a given way, whatever acts on it: the sum of an initial velocity, a
+/// table and a function of time. With none of them it is the ground.
 struct DrivenBody {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
   double initial_velocity_m_s = 0;                       ///< along `direction`
   TimeTable acceleration_m_s2;                           ///< along `direction`; zero outside
+  SmoothMotion motion = {};                              ///< along `direction`
 };
 
 struct Body {

@@ -36,6 +36,8 @@ std::vector<double> breakpoints(const Model& model, double end_s) {
     if (driven == nullptr) continue;
     const std::vector<double>& rows = driven->acceleration_m_s2.times_s();
     times.insert(times.end(), rows.begin(), rows.end());
+    const std::vector<double>& cuts = driven->motion.breakpoints_s();
+    times.insert(times.end(), cuts.begin(), cuts.end());
   }
   ForceSet(model).add_breakpoints(times);
   std::erase_if(times, [&](double time) { return !(time > 0 && time < end_s); });

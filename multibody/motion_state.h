@@ -12,6 +12,7 @@ struct MarkerState {
   Eigen::Vector3d acceleration_m_s2;  ///< kinematic
   Eigen::Matrix3d rotation;           ///< marker axes to world
   Eigen::Vector3d angular_velocity_rad_s;
+  Eigen::Vector3d angular_acceleration_rad_s2;
 };
 
 /// Motion of a body's frame: x'' and x' of its origin in world axes, w and its rate in its own.

@@ -21,7 +21,7 @@ Recorder::Recorder(const Model& model, const VectorXd& times_s)
   for (const Marker& marker : model.markers) {
     history_.markers.push_back({marker.name, Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n),
                                 Eigen::Matrix3Xd(3, n), Eigen::Matrix4Xd(4, n),
-                                Eigen::Matrix3Xd(3, n)});
+                                Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)});
   }
   for (const Joint& joint : model.joints)
     history_.joints.push_back({joint.name, Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)});
@@ -48,6 +48,7 @@ void Recorder::marker(Index column, std::size_t index, const MarkerState& motion
   marker.velocity_m_s.col(column) = motion.velocity_m_s;
   marker.angular_velocity_rad_s.col(column) = motion.angular_velocity_rad_s;
   marker.acceleration_m_s2.col(column) = motion.acceleration_m_s2;
+  marker.angular_acceleration_rad_s2.col(column) = motion.angular_acceleration_rad_s2;
   // Of the two quaternions of a rotation, the one near the last.
   const Eigen::Quaterniond q(motion.rotation);
   Eigen::Vector4d rotation(q.w(), q.x(), q.y(), q.z());
@@ -106,8 +107,9 @@ History Recorder::take_incomplete(Index columns, const std::string& why) {
   history_.incomplete = why;
   history_.time_s.conservativeResize(columns);
   for (MarkerHistory& marker : history_.markers) {
-    for (Eigen::Matrix3Xd* each : {&marker.position_m, &marker.velocity_m_s,
-                                   &marker.acceleration_m_s2, &marker.angular_velocity_rad_s})
+    for (Eigen::Matrix3Xd* each :
+         {&marker.position_m, &marker.velocity_m_s, &marker.acceleration_m_s2,
+          &marker.angular_velocity_rad_s, &marker.angular_acceleration_rad_s2})
       cut(*each);
     cut(marker.rotation);
   }

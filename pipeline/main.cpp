@@ -8,6 +8,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/simulate.h"
 #include "pipeline/version.h"
 
 namespace {
@@ -38,9 +39,11 @@ struct Arguments {
 void describe(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", std::string("flexneck ") + kVersion + " (" + kGitHash + ")");
   app.add_option("command", arguments.command, "What to do; see below")->option_text("COMMAND");
-  app.add_option("study", arguments.study, "Study file; default: the built-in Hybrid III study")
+  app.add_option("study", arguments.study,
+                 "Study file (default: the built-in Hybrid III study), or the model of simulate")
       ->option_text("STUDY.toml");
-  app.add_option("-o,--output", arguments.folder, "Folder for results")->option_text("DIR [out]");
+  app.add_option("-o,--out,--output", arguments.folder, "Folder for results")
+      ->option_text("DIR [out]");
   app.add_option("--set", arguments.settings, "Use another value, e.g. modes.count=12")
       ->option_text("KEY=VALUE ...")
       ->allow_extra_args(false);
@@ -78,10 +81,12 @@ bool execute(const Arguments& arguments, const Console& console, const Ranks* ra
     throw flexneck::InputError("--show belongs to the command mesh, found with '" +
                                arguments.command + "'");
   }
+  const ResultsFolder folder(arguments.folder);
+  if (list[which].run == nullptr)
+    return simulate_command({arguments.study, arguments.settings, folder, console});
   const Study study = read_study(
       arguments.study.empty() ? built_in_study() : std::filesystem::path(arguments.study),
       arguments.settings);
-  const ResultsFolder folder(arguments.folder);
   if (ranks != nullptr && arguments.command != "modes" && arguments.command != "run") {
     console.step("Only modes are computed on many ranks: '" + arguments.command +
                  "' runs on the first");

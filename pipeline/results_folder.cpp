@@ -24,11 +24,18 @@ fs::path ResultsFolder::history(const CaseSection& experiment) const {
   return path_ / ((pendulum ? "pendulum-" : "static-") + experiment.name + ".h5");
 }
 
-Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes) {
+Provenance provenance_of(const std::vector<InputFile>& files,
+                         const std::vector<Parameter>& parameters) {
   Provenance provenance;
   provenance.program = std::string("flexneck ") + kVersion;
   provenance.git_hash = kGitHash;
-  provenance.inputs = study.files;
+  provenance.inputs = files;
+  provenance.parameters = parameters;
+  return provenance;
+}
+
+Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes) {
+  Provenance provenance = provenance_of(study.files, {});
   const auto wanted = [&](const Parameter& parameter) {
     return prefixes.empty() ||
            std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {

@@ -23,10 +23,15 @@ class ResultsFolder {
   std::filesystem::path modes_picture() const { return path_ / "modes.png"; }
   std::filesystem::path history(const CaseSection& experiment) const;
   std::filesystem::path verification() const { return path_ / "verification.json"; }
+  std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
  private:
   std::filesystem::path path_;
 };
+
+/// What a result was made from: the program, the files read and all values.
+Provenance provenance_of(const std::vector<InputFile>& files,
+                         const std::vector<Parameter>& parameters);
 
 /// What a result of this study was made from: the program, the study's files, and those of its
 /// values whose key begins with one of the prefixes, such as "geometry." (all if there is none).

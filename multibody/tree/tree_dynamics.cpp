@@ -74,7 +74,7 @@ void TreeDynamics::update_driven_bodies() {
     Vector3d acceleration = -gravity_;
     if (drive_ == Drive::prescribed) {
       frame.v = frame.A.transpose() * path.velocity_m_s(time_s_);
-      acceleration += path.body.acceleration_m_s2.value(table_time(time_s_)) * path.body.direction;
+      acceleration += path.acceleration_m_s2(table_time(time_s_));
     }
     frame.acceleration.head<3>() = frame.A.transpose() * acceleration;
   }

@@ -25,20 +25,26 @@ MarkerState TreeDynamics::marker_state(std::size_t index) {
   const Frame& frame = frame_of(marker.carrier);
   MarkerState state;
   Vector3d acceleration = frame.acceleration.head<3>() + frame.acceleration.tail<3>().cross(node.s);
+  Vector3d turning = frame.acceleration.tail<3>();
   if (marker.carrier.body != kNone) {
     const Work& work = work_[marker.carrier.body];
     tree::update(marker.node, work.a, work.a_rate, node);
     acceleration = frame.acceleration.head<3>() + frame.acceleration.tail<3>().cross(node.s) +
                    frame.w.cross(frame.w.cross(node.s) + 2 * node.s_dot);
-    if (marker.node.moves)
-      for (Index l = 0; l < work.a.size(); ++l)
+    if (marker.node.moves) {
+      turning += frame.w.cross(node.turn) + node.turn_rate;
+      for (Index l = 0; l < work.a.size(); ++l) {
         acceleration += work.a_acceleration[l] * marker.node.psi.col(l);
+        turning += work.a_acceleration[l] * node.jm.col(l);
+      }
+    }
   }
   state.position_m = frame.x + frame.A * node.s;
   state.rotation = frame.A * node.R;
   state.velocity_m_s = frame.A * (frame.v + frame.w.cross(node.s) + node.s_dot);
   state.angular_velocity_rad_s = frame.A * (frame.w + node.turn);
   state.acceleration_m_s2 = frame.A * acceleration + gravity_;
+  state.angular_acceleration_rad_s2 = frame.A * turning;
   return state;
 }
 

@@ -17,6 +17,7 @@ const std::vector<Command>& commands() {
       {"pendulum", "head/neck pendulum: pendulum-<case>.h5", pendulum_command},
       {"verify", "compare with published figures: verification.json", verify_command},
       {"export", "write the mesh for gmsh or CalculiX: --to FILE.msh or FILE.inp", export_command},
+      {"simulate", "run a model file: <model>.h5 and <model>.csv", nullptr},
       {"study", "print every input with its origin", study_command},
   };
   return list;

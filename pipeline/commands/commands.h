@@ -28,7 +28,7 @@ struct CommandInput {
 struct Command {
   std::string name;
   std::string help;
-  bool (*run)(const CommandInput&);
+  bool (*run)(const CommandInput&);  ///< null for simulate, which has no study
 };
 
 /// All commands, in the order of --help.

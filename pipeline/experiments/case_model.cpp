@@ -5,12 +5,12 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/model/placement.h"
 
 namespace flexneck::pipeline {
 
 using multibody::Marker;
 using multibody::Model;
-using multibody::Pose;
 using multibody::TimeTable;
 
 namespace {
@@ -48,47 +48,17 @@ void add_body(Model& model, const BodySection& section, const fe_modal::ModalBod
   model.bodies.push_back(std::move(added));
 }
 
-/// Frame of a marker in its body's frame, undeformed.
-Pose marker_pose(const Model& model, const Marker& marker) {
-  const auto* const deformable =
-      std::get_if<multibody::DeformableBody>(&model.bodies[marker.body].kind);
-  if (deformable == nullptr) return {marker.position_m, marker.rotation};
-  return {deformable->modes.interface(marker.interface).position_m, marker.rotation};
-}
-
-Pose operator*(const Pose& a, const Pose& b) {
-  return {a.position_m + a.rotation * b.position_m, a.rotation * b.rotation};
-}
-
-Pose inverse(const Pose& a) {
-  const Eigen::Quaterniond back = a.rotation.conjugate();
-  return {-(back * a.position_m), back};
-}
-
-/// Walks from the bodies that stand to all that the joints reach.
-void place_bodies(Model& model, const Eigen::Quaterniond& rotation, const std::string& case_name) {
+/// Bodies that stand or are driven are turned, the others placed by the joints.
+void place(Model& model, const Eigen::Quaterniond& rotation, const std::string& case_name) {
   std::vector<bool> placed(model.bodies.size(), false);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     placed[i] = std::holds_alternative<multibody::DrivenBody>(model.bodies[i].kind);
     if (placed[i]) model.bodies[i].initial_pose.rotation = rotation;
   }
-  for (bool progress = true; progress;) {
-    progress = false;
-    for (const multibody::Joint& joint : model.joints) {
-      Marker from = model.markers[joint.marker_i];
-      Marker to = model.markers[joint.marker_j];
-      if (placed[to.body]) std::swap(from, to);
-      if (!placed[from.body] || placed[to.body]) continue;
-      model.bodies[to.body].initial_pose = model.bodies[from.body].initial_pose *
-                                           marker_pose(model, from) *
-                                           inverse(marker_pose(model, to));
-      placed[to.body] = progress = true;
-    }
-  }
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (placed[i]) continue;
-    throw InputError("case." + case_name + ": no joint connects the body '" + model.bodies[i].name +
-                     "' with a ground or driven body of the case");
+  try {
+    place_bodies(model, std::vector<JointStart>(model.joints.size()), std::move(placed));
+  } catch (const InputError& error) {
+    throw InputError("case." + case_name + ": " + error.what());
   }
 }
 
@@ -133,7 +103,7 @@ Model case_model(const Study& study, const CaseSection& experiment, const fe_mod
         TimeTable(section.times_s, section.magnitudes_N, TimeTable::Outside::constant);
     model.forces.push_back(std::move(force));
   }
-  place_bodies(model, rotation, experiment.name);
+  place(model, rotation, experiment.name);
   return model;
 }
 

@@ -6,13 +6,13 @@
 #include "geometry/foundation/error.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
+#include "pipeline/model/pulse.h"
 
 namespace flexneck::pipeline {
 
 using multibody::History;
 using multibody::MarkerHistory;
 using multibody::Model;
-using multibody::TimeTable;
 
 namespace {
 
@@ -21,19 +21,15 @@ Eigen::Quaterniond hanging() { return {0, 1, 0, 0}; }
 
 /// The arm's motion of a case.
 multibody::DrivenBody arm_motion(const BodySection& arm, const CaseSection& experiment) {
-  const TimeTable pulse(arm.pulse_times_s, arm.pulse_m_s2, TimeTable::Outside::zero);
-  const double area = pulse.integral(arm.pulse_times_s.back());
-  if (!(area > 0)) {
-    throw InputError("body." + arm.name + ".pulse_deceleration: expected a pulse that brakes, " +
-                     "found one whose integral is " + std::to_string(area) + " m/s");
-  }
   multibody::DrivenBody driven;
   driven.direction = hanging() * bending_plane(experiment.direction).motion;
   driven.initial_velocity_m_s = experiment.impact_velocity_m_s;
-  std::vector<double> acceleration = arm.pulse_m_s2;
-  for (double& value : acceleration) value *= -experiment.impact_velocity_m_s / area;
-  driven.acceleration_m_s2 =
-      TimeTable(arm.pulse_times_s, std::move(acceleration), TimeTable::Outside::zero);
+  try {
+    driven.acceleration_m_s2 =
+        braking_pulse(arm.pulse_times_s, arm.pulse_m_s2, experiment.impact_velocity_m_s);
+  } catch (const InputError& error) {
+    throw InputError("body." + arm.name + ".pulse_deceleration: " + error.what());
+  }
   return driven;
 }
 

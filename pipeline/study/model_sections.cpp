@@ -24,23 +24,34 @@ Eigen::Vector3d unit_vector(const StudyTable& table, const std::string& key) {
   return vector.normalized();
 }
 
-namespace {
-
-Eigen::Vector3d position(const StudyTable& table, const std::string& key) {
-  const std::vector<double> lengths = table.quantities(key, "m", 3);
-  return Eigen::Map<const Eigen::Vector3d>(lengths.data());
+Eigen::Vector3d quantity_vector(const StudyTable& table, const std::string& key,
+                                const std::string& si_unit) {
+  const std::vector<double> values = table.quantities(key, si_unit, 3);
+  return Eigen::Map<const Eigen::Vector3d>(values.data());
 }
 
-/// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor: the
-/// products carry the tensor's sign, Ixz = -int x z dm.
+namespace {
+
+/// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the
+/// first three: the products carry the tensor's sign, Ixz = -int x z dm.
 Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
-  const std::vector<double> i = table.quantities(key, "kg*m^2", 6);
+  std::vector<double> i = table.quantities(key, "kg*m^2", 0);
+  if (i.size() == 3) i.resize(6, 0);
+  if (i.size() != 6) {
+    table.refuse(key, "expected 3 entries (xx, yy, zz) or 6 (and xy, xz, yz), found " +
+                          std::to_string(i.size()));
+  }
   Eigen::Matrix3d tensor;
   tensor << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
   return tensor;
 }
 
 }  // namespace
+
+multibody::RigidBody read_rigid(const StudyTable& body) {
+  return {body.quantity("mass", "kg"), quantity_vector(body, "center", "m"),
+          inertia(body, "inertia")};
+}
 
 BodySection read_body(const StudyTable& table) {
   BodySection body;
@@ -55,8 +66,7 @@ BodySection read_body(const StudyTable& table) {
       body.pulse_m_s2 = table.quantities("pulse_deceleration", "m/s^2", body.pulse_times_s.size());
       break;
     case BodySection::Kind::rigid:
-      body.rigid = {table.quantity("mass", "kg"), position(table, "center"),
-                    inertia(table, "inertia")};
+      body.rigid = read_rigid(table);
       break;
     case BodySection::Kind::deformable:
       body.modes = table.texts("modes");
@@ -71,7 +81,7 @@ MarkerSection read_marker(const StudyTable& table) {
   MarkerSection marker;
   marker.body = table.text("body");
   marker.name = marker.body + "." + table.text("name");
-  marker.position_m = position(table, "position");
+  marker.position_m = quantity_vector(table, "position", "m");
   table.finish();
   return marker;
 }

@@ -49,25 +49,22 @@ ModesSection read_modes(const StudyTable& table) {
   return modes;
 }
 
-void read_solver(const StudyTable& table, Study& study) {
-  study.solver.relative_tolerance =
-      table.number_or("relative_tolerance", study.solver.relative_tolerance);
-  study.solver.absolute_tolerance =
-      table.number_or("absolute_tolerance", study.solver.absolute_tolerance);
-  study.solver.largest_step_s = table.quantity_or("largest_step", "s", study.solver.largest_step_s);
-  study.solver.smallest_step_s =
-      table.quantity_or("smallest_step", "s", study.solver.smallest_step_s);
-  if (table.has("gravity")) {
-    const std::vector<double> gravity = table.quantities("gravity", "m/s^2", 3);
-    study.gravity_m_s2 = Eigen::Map<const Eigen::Vector3d>(gravity.data());
-  }
-  if (!(study.solver.relative_tolerance > 0) || !(study.solver.absolute_tolerance > 0)) {
+void read_steps(const StudyTable& table, multibody::SolverOptions& options) {
+  options.relative_tolerance = table.number_or("relative_tolerance", options.relative_tolerance);
+  options.absolute_tolerance = table.number_or("absolute_tolerance", options.absolute_tolerance);
+  options.largest_step_s = table.quantity_or("largest_step", "s", options.largest_step_s);
+  options.smallest_step_s = table.quantity_or("smallest_step", "s", options.smallest_step_s);
+  if (!(options.relative_tolerance > 0) || !(options.absolute_tolerance > 0)) {
     table.refuse("relative_tolerance", "expected positive tolerances");
   }
-  if (!(study.solver.smallest_step_s > 0) ||
-      !(study.solver.largest_step_s > study.solver.smallest_step_s)) {
+  if (!(options.smallest_step_s > 0) || !(options.largest_step_s > options.smallest_step_s)) {
     table.refuse("largest_step", "expected 0 < smallest_step < largest_step");
   }
+}
+
+void read_solver(const StudyTable& table, Study& study) {
+  read_steps(table, study.solver);
+  if (table.has("gravity")) study.gravity_m_s2 = quantity_vector(table, "gravity", "m/s^2");
   table.finish();
 }
 

@@ -32,5 +32,12 @@ void read_solver(const StudyTable& solver, Study& study);
 std::size_t choice(const StudyTable& table, const std::string& key,
                    const std::vector<std::string>& names);
 Eigen::Vector3d unit_vector(const StudyTable& table, const std::string& key);
+/// Three quantities.
+Eigen::Vector3d quantity_vector(const StudyTable& table, const std::string& key,
+                                const std::string& si_unit);
+/// Mass, centre and inertia of a rigid body: the keys mass, center, inertia.
+multibody::RigidBody read_rigid(const StudyTable& body);
+/// Tolerances and steps; keys that are not there keep their values.
+void read_steps(const StudyTable& solver, multibody::SolverOptions& options);
 
 }  // namespace flexneck::pipeline

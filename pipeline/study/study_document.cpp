@@ -176,6 +176,12 @@ std::vector<std::string> StudyTable::texts(const std::string& key) const {
   return values;
 }
 
+bool StudyTable::flag_or(const std::string& key, bool fallback) const {
+  return has(key) ? node_->scalar<bool>(key, "true or false") : fallback;
+}
+
+bool StudyTable::is_list(const std::string& key) const { return node_->value(key).is_array(); }
+
 int StudyTable::count(const std::string& key, int least) const {
   const auto value = node_->scalar<std::int64_t>(key, "a whole number");
   if (value < least || value > std::numeric_limits<int>::max()) {

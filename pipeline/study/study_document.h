@@ -26,6 +26,8 @@ class StudyTable {
   std::string text_or(const std::string& key, const std::string& fallback) const;
   std::vector<std::string> texts(const std::string& key) const;
 
+  bool flag_or(const std::string& key, bool fallback) const;
+
   /// A whole number of at least `least`.
   int count(const std::string& key, int least) const;
   int count_or(const std::string& key, int least, int fallback) const;
@@ -33,7 +35,10 @@ class StudyTable {
   /// A pure number, written without a unit.
   double number(const std::string& key) const;
   double number_or(const std::string& key, double fallback) const;
+  /// A list of them; `size` 0 means any number.
   std::vector<double> numbers(const std::string& key, std::size_t size) const;
+  /// True if the value is a list.
+  bool is_list(const std::string& key) const;
 
   /// A dimensional number such as "0.4 in", returned in `si_unit`.
   double quantity(const std::string& key, const std::string& si_unit) const;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace flexneck::multibody {
+
+/// A motion along a line given by a function of time, with its exact derivatives or integrals:
+/// pieces in Chebyshev polynomials that follow the function to 1e-13 of its largest value. Where
+/// the function has a kink or a jump, pieces end. By default no motion.
+class SmoothMotion {
+ public:
+  using Function = std::function<double(double)>;
+
+  SmoothMotion() = default;
+  /// @param displacement_m  of time in s, smooth over [0, end_s]
+  /// @throws InputError if it is not smooth or not finite.
+  static SmoothMotion of_displacement(const Function& displacement_m, double end_s);
+  /// From displacement and velocity zero at time zero.
+  /// @param acceleration_m_s2  of time in s, piecewise smooth over [0, end_s]
+  /// @throws InputError if it is not, or not finite.
+  static SmoothMotion of_acceleration(const Function& acceleration_m_s2, double end_s);
+
+  // Beyond [0, end_s] the outermost pieces go on.
+  double displacement_m(double time_s) const;
+  double velocity_m_s(double time_s) const;
+  double acceleration_m_s2(double time_s) const;
+
+  /// Kinks and jumps, ascending.
+  const std::vector<double>& breakpoints_s() const { return breakpoints_s_; }
+
+  static constexpr std::size_t kTerms = 18;
+  /// Coefficients of T_0, T_1, … and room for two integrations.
+  using Series = std::array<double, kTerms + 2>;
+  struct Piece {
+    double begin_s, end_s;
+    Series displacement, velocity, acceleration;
+  };
+
+ private:
+  const Piece& piece_at(double time_s) const;
+  double value(double time_s, Series Piece::*series) const;
+
+  std::vector<Piece> pieces_;
+  std::vector<double> breakpoints_s_;
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/simulate.h"
+
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+#include "multibody/history_file.h"
+#include "pipeline/model/model_file.h"
+#include "pipeline/output/csv_output.h"
+#include "pipeline/output/summary.h"
+#include "pipeline/results_folder.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+multibody::History run(const ModelFile& file) {
+  const multibody::OutputOptions output{file.end_time_s, file.output.interval_s};
+  try {
+    return file.start == ModelFile::Start::equilibrium
+               ? multibody::simulate_from_equilibrium(file.model, file.solver, output)
+               : multibody::simulate(file.model, file.solver, output);
+  } catch (const InputError& error) {
+    throw InputError(file.file.string() + ": " + error.what());
+  }
+}
+
+template <class Histories>
+void keep(Histories& histories, const std::vector<std::string>& names) {
+  std::erase_if(histories, [&](const auto& each) {
+    return std::find(names.begin(), names.end(), each.name) == names.end();
+  });
+}
+
+/// The channels need all markers; what is written of markers and joints is what was asked for.
+multibody::HistoryFile result_of(const ModelFile& file, multibody::History history) {
+  multibody::HistoryFile result;
+  const auto derive = [&](const std::vector<ChannelSpec>& specs) {
+    for (const ChannelSpec& spec : specs)
+      result.channels.push_back(channel_of(history, spec, file.model.gravity_m_s2));
+  };
+  derive(file.output.channels);
+  keep(history.markers, file.output.markers);
+  keep(history.joints, file.output.joints);
+  if (file.output.channels.empty()) derive(all_channels(history));
+  result.history = std::move(history);
+  result.provenance = provenance_of(file.files, file.parameters);
+  return result;
+}
+
+void write(const SimulateInput& input, const multibody::HistoryFile& result) {
+  input.folder.make();
+  const std::string name = input.model.stem().string();
+  const fs::path table = input.folder.file(name + ".csv");
+  multibody::write_history(input.folder.file(name + ".h5"), result);
+  write_csv(table, result.history.time_s, result.channels);
+  input.console.result(name + ": " + input.folder.file(name + ".h5").string() + ", " +
+                       table.string() + "\n" + run_summary(result.history) + "\n\n" +
+                       peak_table(result.history.time_s, result.channels));
+}
+
+}  // namespace
+
+bool simulate_command(const SimulateInput& input) {
+  if (input.model.empty())
+    throw InputError("simulate: name the model, 'flexneck simulate MODEL.toml'");
+  const ModelFile file = read_model_file(input.model, input.settings);
+  input.console.step("Simulating " + input.model.string());
+  try {
+    write(input, result_of(file, run(file)));
+  } catch (const multibody::IncompleteRun& stopped) {
+    write(input, result_of(file, stopped.history));
+    throw ComputationError(file.file.string() + ": " + stopped.what() +
+                           "; what was computed until then is kept, marked incomplete");
+  }
+  return true;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace flexneck::pipeline {
+
+/// Two columns of a table, in SI units.
+struct TableColumns {
+  std::vector<double> x, y;
+};
+
+/// Reads two columns of a CSV file. Its first line names the columns with their units, such as
+/// "time [ms], acceleration [gn]"; x is the first. Empty lines and those that begin with # count
+/// for nothing.
+/// @param column  name of the column y; empty if the file has two columns only
+/// @throws InputError with file and line for what is missing, not a number, not finite, of another
+/// unit, or an x that does not increase.
+TableColumns read_csv_columns(const std::filesystem::path& path, const std::string& x_unit,
+                              const std::string& y_unit, const std::string& column);
+
+}  // namespace flexneck::pipeline

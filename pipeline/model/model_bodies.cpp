@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/model/expression.h"
+#include "pipeline/model/model_sections.h"
+#include "pipeline/model/pulse.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+using multibody::DeformableBody;
+using multibody::DrivenBody;
+using multibody::RigidBody;
+using multibody::SmoothMotion;
+using multibody::TimeTable;
+
+namespace {
+
+/// Calls make() and puts the key in front of what it refuses.
+template <class Make>
+auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    table.refuse(key, error.what());
+  }
+}
+
+/// The inertia's axes may be turned against the body's.
+RigidBody rigid_body(const StudyTable& table) {
+  RigidBody body = read_rigid(table);
+  const Eigen::Matrix3d R = rotation_or_none(table, "inertia_rotation").toRotationMatrix();
+  body.inertia_kg_m2 = R * body.inertia_kg_m2 * R.transpose();
+  return body;
+}
+
+/// One number for each mode, or one for all.
+Eigen::VectorXd damping_ratios(const StudyTable& table, Eigen::Index modes) {
+  const std::string key = "damping_ratio";
+  if (!table.is_list(key)) return Eigen::VectorXd::Constant(modes, table.number(key));
+  const std::vector<double> ratios = table.numbers(key, static_cast<std::size_t>(modes));
+  return Eigen::Map<const Eigen::VectorXd>(ratios.data(), modes);
+}
+
+DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
+  const std::filesystem::path path = table.folder_of("modes_file") / table.text("modes_file");
+  fe_modal::ModalBody all = fe_modal::read_modal_body(path).body;
+  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
+  DeformableBody body;
+  body.modes = table.has("modes")
+                   ? at_key(table, "modes",
+                            [&] { return fe_modal::select_modes(all, table.texts("modes")); })
+                   : std::move(all);
+  const Eigen::Index modes = body.modes.mode_count();
+  body.damping_ratio = damping_ratios(table, modes);
+  if (table.has("offset")) {
+    const std::vector<double> offset = table.numbers("offset", static_cast<std::size_t>(modes));
+    body.offset = Eigen::Map<const Eigen::VectorXd>(offset.data(), modes);
+  }
+  return body;
+}
+
+TimeTable acceleration_table(const StudyTable& table, Assembly& assembly) {
+  const TableColumns columns =
+      read_columns(table, {"times", "s", "acceleration", "m/s^2"}, assembly.files);
+  return at_key(table, table.has("table") ? "table" : "times",
+                [&] { return TimeTable(columns.x, columns.y, TimeTable::Outside::zero); });
+}
+
+TimeTable pulse(const StudyTable& table, double velocity_m_s) {
+  const std::vector<double> times = table.quantities("pulse_times", "s", 0);
+  const std::vector<double> values = table.quantities("pulse_deceleration", "m/s^2", times.size());
+  return at_key(table, "pulse_deceleration",
+                [&] { return braking_pulse(times, values, velocity_m_s); });
+}
+
+SmoothMotion expressed_motion(const StudyTable& table, const std::string& key, double end_s) {
+  return at_key(table, key, [&] {
+    const Expression expression(table.text(key));
+    return key == "displacement" ? SmoothMotion::of_displacement(expression, end_s)
+                                 : SmoothMotion::of_acceleration(expression, end_s);
+  });
+}
+
+/// The keys that give a driven body its motion; one of them may be there.
+std::string motion_key(const StudyTable& table) {
+  constexpr std::array kKeys = {"table", "acceleration", "pulse_times", "displacement"};
+  std::string found;
+  for (const char* const key : kKeys) {
+    if (!table.has(key)) continue;
+    if (!found.empty())
+      table.refuse(key, "the body is driven already by '" + found + "'; give one motion only");
+    found = key;
+  }
+  return found;
+}
+
+DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
+  DrivenBody body;
+  if (table.has("direction")) body.direction = unit_vector(table, "direction");
+  body.initial_velocity_m_s = table.quantity_or("initial_velocity", "m/s", 0);
+  const std::string key = motion_key(table);
+  if (key == "pulse_times") {
+    body.acceleration_m_s2 = pulse(table, body.initial_velocity_m_s);
+  } else if (key == "displacement" || (key == "acceleration" && table.is_text(key))) {
+    body.motion = expressed_motion(table, key, assembly.end_time_s);
+  } else if (!key.empty()) {
+    body.acceleration_m_s2 = acceleration_table(table, assembly);
+  } else if (!table.has("initial_velocity")) {
+    table.refuse("name",
+                 "a driven body needs a motion: times and acceleration, table, pulse_times, "
+                 "displacement or initial_velocity; without one it is a ground");
+  }
+  return body;
+}
+
+void add_interfaces(multibody::Model& model, std::size_t index) {
+  const multibody::Body& body = model.bodies[index];
+  for (const fe_modal::Interface& interface :
+       std::get<DeformableBody>(body.kind).modes.interfaces) {
+    multibody::Marker marker;
+    marker.name = body.name + "." + interface.name;
+    marker.body = index;
+    marker.interface = interface.name;
+    model.markers.push_back(marker);
+  }
+}
+
+/// Where the body is and how it moves at the start, as far as the file says.
+void read_start(const StudyTable& table, bool is_free, Assembly& assembly) {
+  multibody::Body& body = assembly.model.bodies.back();
+  const bool posed = table.has("position") || table.has("rotation");
+  if (table.has("position")) body.initial_pose.position_m = quantity_vector(table, "position", "m");
+  body.initial_pose.rotation = rotation_or_none(table, "rotation");
+  assembly.posed.push_back(posed || !is_free);
+  const bool moving = is_free && (table.has("velocity") || table.has("angular_velocity"));
+  if (moving && table.has("velocity"))
+    body.initial_velocity_m_s = quantity_vector(table, "velocity", "m/s");
+  if (moving && table.has("angular_velocity"))
+    body.initial_angular_velocity_rad_s = quantity_vector(table, "angular_velocity", "rad/s");
+  assembly.moving.push_back(moving);
+}
+
+}  // namespace
+
+void read_body(const StudyTable& table, Assembly& assembly) {
+  multibody::Body body;
+  body.name = table.text("name");
+  const std::size_t kind = choice(table, "kind", {"ground", "driven", "rigid", "deformable"});
+  switch (kind) {
+    case 0:
+      body.kind = DrivenBody();
+      break;
+    case 1:
+      body.kind = driven_body(table, assembly);
+      break;
+    case 2:
+      body.kind = rigid_body(table);
+      break;
+    default:
+      body.kind = deformable_body(table, assembly);
+      break;
+  }
+  assembly.model.bodies.push_back(std::move(body));
+  read_start(table, kind >= 2, assembly);
+  if (kind == 3) add_interfaces(assembly.model, assembly.model.bodies.size() - 1);
+  table.finish();
+}
+
+void read_marker(const StudyTable& table, Assembly& assembly) {
+  multibody::Model& model = assembly.model;
+  multibody::Marker marker;
+  marker.body = reference(table, "body", names_of(model.bodies), "body");
+  const multibody::Body& body = model.bodies[marker.body];
+  marker.name = body.name + "." + table.text("name");
+  if (const auto* deformable = std::get_if<DeformableBody>(&body.kind)) {
+    const std::vector<std::string> names = names_of(deformable->modes.interfaces);
+    marker.interface = names[reference(table, "interface", names, "interface")];
+  } else {
+    marker.position_m = quantity_vector(table, "position", "m");
+  }
+  marker.rotation = rotation_or_none(table, "rotation");
+  model.markers.push_back(std::move(marker));
+  table.finish();
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/provenance.h"
+#include "multibody/model.h"
+#include "multibody/simulation.h"
+#include "pipeline/output/channel.h"
+
+namespace flexneck::pipeline {
+
+/// [output] and [[channel]]
+struct OutputSection {
+  double interval_s = 1e-3;
+  std::vector<std::string> markers;  ///< whose histories are written
+  std::vector<std::string> joints;   ///< likewise
+  std::vector<ChannelSpec> channels;
+};
+
+/// Everything that a model file says, in SI units.
+struct ModelFile {
+  /// State at time zero.
+  enum class Start {
+    given,       ///< as the bodies are given
+    equilibrium  ///< at rest against the driven bodies, moving with them
+  };
+
+  std::filesystem::path file;
+  multibody::Model model;
+  multibody::SolverOptions solver;
+  Start start = Start::given;
+  double end_time_s = 1;
+  OutputSection output;
+
+  std::vector<InputFile> files;  ///< everything that was read
+  std::vector<Parameter> parameters;
+};
+
+/// Reads a model file (pipeline/models/README.md) and what it names: modes and tables.
+/// @param settings  "dotted.key=value", as read_study()
+/// @throws InputError with file, line, column and key for everything that is not right.
+ModelFile read_model_file(const std::filesystem::path& path,
+                          const std::vector<std::string>& settings);
+
+}  // namespace flexneck::pipeline

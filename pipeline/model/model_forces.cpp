@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/model/model_sections.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+using multibody::JointCoordinate;
+using multibody::JointKind;
+using multibody::LoadCurve;
+using multibody::Resistance;
+using multibody::ResistanceSide;
+using multibody::TimeTable;
+
+namespace {
+
+std::size_t marker_named(const StudyTable& table, const std::string& key,
+                         const Assembly& assembly) {
+  return reference(table, key, names_of(assembly.model.markers), "marker");
+}
+
+// --------------------------------------------------------------------------- loads over time
+
+/// A load that is the same at all times under the key `constant`, or a table.
+TimeTable load_over_time(const StudyTable& table, const std::string& constant,
+                         const ColumnKeys& keys, Assembly& assembly) {
+  const TimeTable::Outside outside =
+      table.has("outside") && choice(table, "outside", {"constant", "zero"}) == 1
+          ? TimeTable::Outside::zero
+          : TimeTable::Outside::constant;
+  if (table.has(constant)) {
+    for (const std::string& key : {keys.x, std::string("table")})
+      if (table.has(key)) table.refuse(key, "the load is given already by '" + constant + "'");
+    return {{0.0}, {table.quantity(constant, keys.y_unit)}, TimeTable::Outside::constant};
+  }
+  const TableColumns columns = read_columns(table, keys, assembly.files);
+  try {
+    return {columns.x, columns.y, outside};
+  } catch (const InputError& error) {
+    table.refuse(table.has("table") ? "table" : keys.x, error.what());
+  }
+}
+
+// ------------------------------------------------------------------- loads over a deflection
+
+/// SI units of a resistance: of lengths and forces, or of angles and moments.
+struct Units {
+  std::string deflection, load;
+  std::string over(const std::string& power) const { return load + "/" + deflection + power; }
+};
+
+const Units kLinear = {"m", "N"};
+const Units kAngular = {"rad", "N*m"};
+
+LoadCurve polynomial(const StudyTable& table, const std::string& prefix, const Units& units) {
+  return LoadCurve::cubic(table.quantity_or(prefix + "stiffness", units.over(""), 0),
+                          table.quantity_or(prefix + "quadratic", units.over("^2"), 0),
+                          table.quantity_or(prefix + "cubic", units.over("^3"), 0));
+}
+
+LoadCurve load_curve(const StudyTable& table, const Units& units, Assembly& assembly) {
+  if (!table.has("deflections") && !table.has("table")) return polynomial(table, "", units);
+  for (const char* const key : {"stiffness", "quadratic", "cubic"})
+    if (table.has(key)) table.refuse(key, "the curve is given already by a table");
+  TableColumns columns =
+      read_columns(table, {"deflections", units.deflection, "loads", units.load}, assembly.files);
+  try {
+    return LoadCurve::table(std::move(columns.x), std::move(columns.y));
+  } catch (const InputError& error) {
+    table.refuse(table.has("table") ? "table" : "deflections", error.what());
+  }
+}
+
+ResistanceSide read_side(const StudyTable& table, const Units& units, Assembly& assembly) {
+  ResistanceSide side;
+  side.curve = load_curve(table, units, assembly);
+  side.stop = table.quantity_or("stop", units.deflection, side.stop);
+  side.beyond_stop = polynomial(table, "stop_", units);
+  side.unloading_ratio = table.number_or("unloading_ratio", side.unloading_ratio);
+  return side;
+}
+
+/// Curves of the table itself hold for both directions, those of its sub-tables for one.
+Resistance read_resistance_law(const StudyTable& table, const Units& units, Assembly& assembly) {
+  Resistance resistance;
+  resistance.positive = resistance.negative = read_side(table, units, assembly);
+  const auto side_of = [&](const char* key, ResistanceSide& side) {
+    if (!table.has(key)) return;
+    const StudyTable own = table.table(key);
+    side = read_side(own, units, assembly);
+    own.finish();
+  };
+  side_of("positive", resistance.positive);
+  side_of("negative", resistance.negative);
+  resistance.damping =
+      table.quantity_or("damping", units.load + "*s/" + units.deflection, resistance.damping);
+  resistance.friction = table.quantity_or("friction", units.load, resistance.friction);
+  resistance.full_rate =
+      table.quantity_or("full_rate", units.deflection + "/s", resistance.full_rate);
+  return resistance;
+}
+
+// -------------------------------------------------------------------------------- bushings
+
+/// Nine numbers row by row, or three on the diagonal.
+Eigen::Matrix3d block(const StudyTable& table, const std::string& key, const std::string& unit) {
+  if (!table.has(key)) return Eigen::Matrix3d::Zero();
+  const std::vector<double> values = table.quantities(key, unit, 0);
+  if (values.size() == 3)
+    return Eigen::Map<const Eigen::Vector3d>(values.data()).asDiagonal().toDenseMatrix();
+  if (values.size() != 9)
+    table.refuse(key, "expected 3 entries (a diagonal) or 9 (a matrix row by row), found " +
+                          std::to_string(values.size()));
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
+}
+
+/// @param rate  "" for a stiffness, "*s" for a damping
+Eigen::Matrix<double, 6, 6> bushing_matrix(const StudyTable& table, const std::string& what,
+                                           const std::string& rate) {
+  Eigen::Matrix<double, 6, 6> matrix;
+  const Eigen::Matrix3d coupling = block(table, "coupling_" + what, "N" + rate + "/rad");
+  matrix << block(table, "translation_" + what, "N" + rate + "/m"), coupling, coupling.transpose(),
+      block(table, "rotation_" + what, "N*m" + rate + "/rad");
+  return matrix;
+}
+
+}  // namespace
+
+void read_joint(const StudyTable& table, Assembly& assembly) {
+  multibody::Joint joint;
+  joint.name = table.text("name");
+  joint.kind = static_cast<JointKind>(choice(
+      table, "kind", {"ball", "pin", "fixed", "universal", "cylindrical", "slider", "free"}));
+  joint.marker_i = marker_named(table, "lower", assembly);
+  joint.marker_j = marker_named(table, "upper", assembly);
+  const bool turns = joint.kind == JointKind::pin || joint.kind == JointKind::cylindrical;
+  const bool slides = joint.kind == JointKind::slider || joint.kind == JointKind::cylindrical;
+  if (turns || slides || joint.kind == JointKind::universal)
+    joint.axis = unit_vector(table, "axis");
+  if (joint.kind == JointKind::universal) joint.second_axis = unit_vector(table, "second_axis");
+  JointStart start;
+  if (turns) {
+    start.angle_rad = table.quantity_or("angle", "rad", 0);
+    start.rate_rad_s = table.quantity_or("rate", "rad/s", 0);
+  }
+  if (slides) {
+    start.distance_m = table.quantity_or("distance", "m", 0);
+    start.speed_m_s = table.quantity_or("speed", "m/s", 0);
+  }
+  assembly.model.joints.push_back(std::move(joint));
+  assembly.starts.push_back(start);
+  table.finish();
+}
+
+void read_force(const StudyTable& table, Assembly& assembly) {
+  multibody::PointForce force;
+  force.name = table.text("name");
+  force.marker = marker_named(table, "marker", assembly);
+  force.direction = unit_vector(table, "direction");
+  force.magnitude_N =
+      load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
+  assembly.model.forces.push_back(std::move(force));
+  table.finish();
+}
+
+void read_torque(const StudyTable& table, Assembly& assembly) {
+  multibody::Torque torque;
+  torque.name = table.text("name");
+  torque.marker = marker_named(table, "marker", assembly);
+  torque.direction = unit_vector(table, "direction");
+  torque.magnitude_Nm =
+      load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N*m"}, assembly);
+  assembly.model.torques.push_back(std::move(torque));
+  table.finish();
+}
+
+void read_spring(const StudyTable& table, Assembly& assembly) {
+  multibody::MarkerSpring spring;
+  spring.name = table.text("name");
+  spring.marker_i = marker_named(table, "lower", assembly);
+  spring.marker_j = marker_named(table, "upper", assembly);
+  spring.free_length_m = table.quantity("free_length", "m");
+  spring.resistance = read_resistance_law(table, kLinear, assembly);
+  spring.resistance.tension_only = table.flag_or("tension_only", false);
+  assembly.model.springs.push_back(std::move(spring));
+  table.finish();
+}
+
+void read_bushing(const StudyTable& table, Assembly& assembly) {
+  multibody::Bushing bushing;
+  bushing.name = table.text("name");
+  bushing.marker_i = marker_named(table, "lower", assembly);
+  bushing.marker_j = marker_named(table, "upper", assembly);
+  bushing.stiffness = bushing_matrix(table, "stiffness", "");
+  bushing.damping = bushing_matrix(table, "damping", "*s");
+  assembly.model.bushings.push_back(std::move(bushing));
+  table.finish();
+}
+
+void read_resistance(const StudyTable& table, Assembly& assembly) {
+  multibody::JointResistance resistance;
+  resistance.name = table.text("name");
+  resistance.joint = reference(table, "joint", names_of(assembly.model.joints), "joint");
+  resistance.coordinate =
+      static_cast<JointCoordinate>(choice(table, "coordinate", {"distance", "angle", "flexion"}));
+  const bool is_linear = resistance.coordinate == JointCoordinate::distance;
+  resistance.resistance = read_resistance_law(table, is_linear ? kLinear : kAngular, assembly);
+  assembly.model.resistances.push_back(std::move(resistance));
+  table.finish();
+}
+
+}  // namespace flexneck::pipeline

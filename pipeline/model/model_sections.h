@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "multibody/model.h"
+#include "pipeline/model/csv_table.h"
+#include "pipeline/model/placement.h"
+#include "pipeline/study/study_document.h"
+
+namespace flexneck::pipeline {
+
+/// A model while its file is read.
+struct Assembly {
+  multibody::Model model;
+  std::vector<bool> posed, moving;  ///< of each body: whether the file says where, how fast
+  std::vector<JointStart> starts;   ///< of each joint
+  double end_time_s = 1;
+  std::vector<InputFile> files;  ///< modes and tables read
+};
+
+// Each adds what one table of the file says, and refuses what the table alone shows to be wrong.
+void read_body(const StudyTable& table, Assembly& assembly);        ///< [[body]]
+void read_marker(const StudyTable& table, Assembly& assembly);      ///< [[marker]]
+void read_joint(const StudyTable& table, Assembly& assembly);       ///< [[joint]]
+void read_force(const StudyTable& table, Assembly& assembly);       ///< [[force]]
+void read_torque(const StudyTable& table, Assembly& assembly);      ///< [[torque]]
+void read_spring(const StudyTable& table, Assembly& assembly);      ///< [[spring]]
+void read_bushing(const StudyTable& table, Assembly& assembly);     ///< [[bushing]]
+void read_resistance(const StudyTable& table, Assembly& assembly);  ///< [[resistance]]
+
+/// Position of the thing that a key names. @throws InputError with the nearest name.
+std::size_t reference(const StudyTable& table, const std::string& key,
+                      const std::vector<std::string>& names, const std::string& kind);
+/// A rotation vector, axis times angle; none if the key is not there.
+Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key);
+
+/// Names and units of the two columns of a table.
+struct ColumnKeys {
+  std::string x, x_unit, y, y_unit;
+};
+/// Two lists under the keys x and y, or the CSV file under the key `table`.
+TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
+                          std::vector<InputFile>& files);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "multibody/rotation.h"
+#include "pipeline/model/model_sections.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+std::size_t reference(const StudyTable& table, const std::string& key,
+                      const std::vector<std::string>& names, const std::string& kind) {
+  try {
+    return find_name(names, table.text(key), kind);
+  } catch (const InputError& error) {
+    table.refuse(key, error.what());
+  }
+}
+
+Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key) {
+  if (!table.has(key)) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(multibody::rotation_exp(quantity_vector(table, key, "rad")));
+}
+
+TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
+                          std::vector<InputFile>& files) {
+  if (!table.has("table")) {
+    TableColumns columns;
+    columns.x = table.quantities(keys.x, keys.x_unit, 0);
+    columns.y = table.quantities(keys.y, keys.y_unit, columns.x.size());
+    return columns;
+  }
+  for (const std::string& key : {keys.x, keys.y})
+    if (table.has(key)) table.refuse(key, "is given twice, here and by the key 'table'");
+  const std::filesystem::path path = table.folder_of("table") / table.text("table");
+  TableColumns columns =
+      read_csv_columns(path, keys.x_unit, keys.y_unit, table.text_or("column", ""));
+  files.push_back({path.filename().string(), hash_of_file(path.string())});
+  return columns;
+}
+
+}  // namespace flexneck::pipeline

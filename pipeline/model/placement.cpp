@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/model/placement.h"
+
+#include "geometry/foundation/error.h"
+#include "multibody/driven_path.h"
+#include "multibody/rotation.h"
+
+namespace flexneck::pipeline {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using multibody::Body;
+using multibody::DeformableBody;
+using multibody::DrivenBody;
+using multibody::Joint;
+using multibody::JointKind;
+using multibody::Marker;
+using multibody::Model;
+using multibody::Pose;
+
+namespace {
+
+Pose operator*(const Pose& a, const Pose& b) {
+  return {a.position_m + a.rotation * b.position_m, a.rotation * b.rotation};
+}
+
+Pose inverse(const Pose& a) {
+  const Quaterniond back = a.rotation.conjugate();
+  return {-(back * a.position_m), back};
+}
+
+/// Frame of a marker in its body's frame at the start.
+Pose marker_pose(const Model& model, const Marker& marker) {
+  const auto* const deformable = std::get_if<DeformableBody>(&model.bodies[marker.body].kind);
+  if (deformable == nullptr) return {marker.position_m, marker.rotation};
+  const fe_modal::Interface& place = deformable->modes.interface(marker.interface);
+  if (deformable->offset.size() == 0) return {place.position_m, marker.rotation};
+  const Vector3d theta = place.rotation * deformable->offset;
+  return {place.position_m + place.translation * deformable->offset,
+          Quaterniond(multibody::rotation_exp(theta)) * marker.rotation};
+}
+
+Pose start_pose(const Joint& joint, const JointStart& start) {
+  return {start.distance_m * joint.axis,
+          Quaterniond(Eigen::AngleAxisd(start.angle_rad, joint.axis))};
+}
+
+/// Calls visit(joint index, from, to) along the joints, from what is done to what is not.
+template <class Visit>
+void walk(const Model& model, std::vector<bool>& done, const Visit& visit) {
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (std::size_t k = 0; k < model.joints.size(); ++k) {
+      const Joint& joint = model.joints[k];
+      if (joint.kind == JointKind::free) continue;
+      const Marker* from = &model.markers[joint.marker_i];
+      const Marker* to = &model.markers[joint.marker_j];
+      if (done[to->body]) std::swap(from, to);
+      if (!done[from->body] || done[to->body]) continue;
+      visit(k, *from, *to);
+      done[to->body] = progress = true;
+    }
+  }
+}
+
+/// Velocity of a body's origin and angular velocity, world.
+struct Motion {
+  Vector3d v, w;
+};
+
+Motion motion_of(const Body& body) {
+  if (const auto* driven = std::get_if<DrivenBody>(&body.kind)) {
+    const multibody::DrivenPath path{body.initial_pose, *driven};
+    return {path.velocity_m_s(0), Vector3d::Zero()};
+  }
+  return {body.initial_velocity_m_s,
+          body.initial_pose.rotation * body.initial_angular_velocity_rad_s};
+}
+
+}  // namespace
+
+void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vector<bool> posed) {
+  walk(model, posed, [&](std::size_t k, const Marker& from, const Marker& to) {
+    const Joint& joint = model.joints[k];
+    const Pose step = start_pose(joint, starts[k]);
+    const bool outwards = &from == &model.markers[joint.marker_i];
+    model.bodies[to.body].initial_pose =
+        model.bodies[from.body].initial_pose * marker_pose(model, from) *
+        (outwards ? step : inverse(step)) * inverse(marker_pose(model, to));
+    model.bodies[to.body].initial_pose.rotation.normalize();
+  });
+  for (std::size_t b = 0; b < posed.size(); ++b) {
+    if (posed[b]) continue;
+    throw InputError("no joint connects the body '" + model.bodies[b].name +
+                     "' with one whose place is known; join it, or give it a position");
+  }
+}
+
+void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vector<bool> moving) {
+  for (std::size_t b = 0; b < moving.size(); ++b)
+    moving[b] = moving[b] || std::holds_alternative<DrivenBody>(model.bodies[b].kind);
+  walk(model, moving, [&](std::size_t k, const Marker& from, const Marker& to) {
+    const Joint& joint = model.joints[k];
+    const Pose frame = model.bodies[from.body].initial_pose * marker_pose(model, from);
+    const bool outwards = &from == &model.markers[joint.marker_i];
+    const Body& carrier = model.bodies[from.body];
+    Body& body = model.bodies[to.body];
+    const Motion motion = motion_of(carrier);
+    // The axis is the same in both markers' axes.
+    const Vector3d axis = (outwards ? 1 : -1) * (frame.rotation * joint.axis);
+    const Vector3d w = motion.w + starts[k].rate_rad_s * axis;
+    const Vector3d at = (body.initial_pose * marker_pose(model, to)).position_m;
+    const Vector3d v = motion.v + motion.w.cross(at - carrier.initial_pose.position_m) +
+                       starts[k].speed_m_s * axis;
+    body.initial_velocity_m_s = v + w.cross(body.initial_pose.position_m - at);
+    body.initial_angular_velocity_rad_s = body.initial_pose.rotation.conjugate() * w;
+  });
+}
+
+}  // namespace flexneck::pipeline

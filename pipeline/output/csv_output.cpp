@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/output/csv_output.h"
+
+#include <fstream>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// In quotes where the text would be taken for several cells.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string header_of(const std::vector<multibody::Channel>& channels) {
+  std::string line = "time [s]";
+  for (const multibody::Channel& channel : channels)
+    for (const std::string& column : channel.columns) {
+      const bool is_one = channel.columns.size() == 1;
+      line += "," + cell(channel.name + (is_one ? "" : " " + column) + " [" + channel.unit + "]");
+    }
+  return line;
+}
+
+}  // namespace
+
+void write_csv(const fs::path& path, const Eigen::VectorXd& time_s,
+               const std::vector<multibody::Channel>& channels) {
+  const fs::path temporary = path.string() + ".part";
+  std::ofstream file(temporary, std::ios::binary);
+  file << header_of(channels) << '\n';
+  for (Eigen::Index k = 0; k < time_s.size(); ++k) {
+    std::string line = fmt::format("{}", time_s[k]);
+    for (const multibody::Channel& channel : channels)
+      for (const double value : channel.values.col(k)) line += fmt::format(",{}", value);
+    file << line << '\n';
+  }
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(temporary, path, error);
+  if (!file || error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw InputError(path.string() + ": cannot be written");
+  }
+}
+
+}  // namespace flexneck::pipeline

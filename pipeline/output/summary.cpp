@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/output/summary.h"
+
+#include <fmt/core.h>
+
+#include "pipeline/text_table.h"
+
+namespace flexneck::pipeline {
+
+std::string run_summary(const multibody::History& history) {
+  const multibody::StepStatistics& steps = history.statistics;
+  std::string text = fmt::format(
+      "  {} output times to {:.6g} s; {} steps, {} rejected, {} evaluations of the equations\n"
+      "  constraints hold to {:.1e} in position (m, rad) and {:.1e} in velocity (per s)",
+      history.time_s.size(), history.time_s.size() > 0 ? history.time_s.tail<1>()[0] : 0.0,
+      steps.accepted, steps.rejected, steps.evaluations, steps.largest_position_residual,
+      steps.largest_velocity_residual);
+  if (!history.redundant_constraints.empty()) {
+    text += fmt::format("\n  {} constraints say what others hold already and were left out:",
+                        history.redundant_constraints.size());
+    for (const std::string& row : history.redundant_constraints) text += "\n    " + row;
+  }
+  for (const multibody::JointHistory& joint : history.joints)
+    if (!joint.undetermined.empty())
+      text += "\n  open in the reaction of joint '" + joint.name + "': " + joint.undetermined;
+  if (!history.incomplete.empty()) text += "\n  INCOMPLETE: " + history.incomplete;
+  return text;
+}
+
+std::string peak_table(const Eigen::VectorXd& time_s,
+                       const std::vector<multibody::Channel>& channels) {
+  std::vector<std::vector<std::string>> rows = {
+      {"channel", "", "unit", "smallest", "at s", "largest", "at s", ""}};
+  for (const multibody::Channel& channel : channels)
+    for (Eigen::Index row = 0; row < channel.values.rows() && time_s.size() > 0; ++row) {
+      Eigen::Index low = 0;
+      Eigen::Index high = 0;
+      const double smallest = channel.values.row(row).minCoeff(&low);
+      const double largest = channel.values.row(row).maxCoeff(&high);
+      rows.push_back({row == 0 ? channel.name : "", channel.columns[static_cast<std::size_t>(row)],
+                      channel.unit, fmt::format("{:.5g}", smallest),
+                      fmt::format("{:.4f}", time_s[low]), fmt::format("{:.5g}", largest),
+                      fmt::format("{:.4f}", time_s[high]), channel.filter});
+    }
+  return text_table(rows, {0, 1, 2, 7});
+}
+
+}  // namespace flexneck::pipeline

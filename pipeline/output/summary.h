@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "multibody/history_file.h"
+
+namespace flexneck::pipeline {
+
+/// What a run took and how well its constraints held, for reading.
+std::string run_summary(const multibody::History& history);
+
+/// The smallest and the largest value of every curve with their times.
+std::string peak_table(const Eigen::VectorXd& time_s,
+                       const std::vector<multibody::Channel>& channels);
+
+}  // namespace flexneck::pipeline

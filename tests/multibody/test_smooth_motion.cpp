@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "multibody/smooth_motion.h"
+
+using flexneck::InputError;
+using flexneck::multibody::SmoothMotion;
+
+namespace {
+
+constexpr double kRate = 2 * std::numbers::pi * 7;
+
+}  // namespace
+
+TEST_CASE("a displacement given by a function has its exact velocity and acceleration") {
+  const auto motion = SmoothMotion::of_displacement(
+      [](double t) { return 0.05 * std::sin(kRate * t) * std::exp(-t); }, 2.0);
+  CHECK(motion.breakpoints_s().empty());
+  for (const double t : {0.0, 0.123, 0.5, 1.0, 1.999, 2.0}) {
+    const double s = std::sin(kRate * t);
+    const double c = std::cos(kRate * t);
+    const double size = 0.05 * std::exp(-t);
+    CHECK(motion.displacement_m(t) == Approx(size * s).margin(1e-14));
+    CHECK(motion.velocity_m_s(t) == Approx(size * (kRate * c - s)).margin(1e-11));
+    CHECK(motion.acceleration_m_s2(t) ==
+          Approx(size * ((1 - kRate * kRate) * s - 2 * kRate * c)).margin(1e-7));
+  }
+}
+
+TEST_CASE("an acceleration given by a function has its exact integrals, past kinks and jumps") {
+  // Half a sine, then nothing: a kink at 80 ms. A step at a time that halving never meets.
+  constexpr double kEnd = 0.08;
+  constexpr double kJump = 0.1234567;
+  const auto motion = SmoothMotion::of_acceleration(
+      [](double t) {
+        const double sine = t < kEnd ? -200 * std::sin(std::numbers::pi * t / kEnd) : 0;
+        return sine + (t >= kJump ? 30 : 0);
+      },
+      0.3);
+  REQUIRE(motion.breakpoints_s().size() == 2);
+  CHECK(motion.breakpoints_s()[0] == Approx(kEnd).margin(1e-8));
+  CHECK(motion.breakpoints_s()[1] == Approx(kJump).epsilon(1e-15));
+  CHECK(motion.velocity_m_s(0) == 0);
+  const double lost = -200 * 2 * kEnd / std::numbers::pi;
+  CHECK(motion.velocity_m_s(0.1) == Approx(lost).epsilon(1e-13));
+  CHECK(motion.velocity_m_s(0.3) == Approx(lost + 30 * (0.3 - kJump)).epsilon(1e-13));
+  // Of half a sine the displacement at its end is half of what its final velocity would make.
+  CHECK(motion.displacement_m(0.3) ==
+        Approx(lost * (0.3 - kEnd / 2) + 15 * std::pow(0.3 - kJump, 2)).epsilon(1e-13));
+  CHECK(motion.acceleration_m_s2(0.04) == Approx(-200).epsilon(1e-13));
+}
+
+TEST_CASE("a motion that is not smooth enough or not a number is refused") {
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(SmoothMotion::of_displacement([](double t) { return std::abs(t - 0.3); }, 1.0),
+                    Contains("must be smooth"));
+  CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return std::sqrt(t - 0.5); }, 1.0),
+                    Contains("is not a finite number at"));
+  const SmoothMotion none;
+  CHECK(none.displacement_m(3) == 0);
+}

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/model/csv_table.h"
+#include "pipeline/model/model_file.h"
+#include "tests/support/modal_files.h"
+#include "tests/support/model_text.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using namespace flexneck::pipeline;
+using testing::double_pendulum_text;
+using testing::TemporaryFolder;
+using testing::with;
+using testing::write_text;
+
+namespace {
+
+ModelFile read(const TemporaryFolder& folder, const std::string& text) {
+  return read_model_file(write_text(folder / "model.toml", text), {});
+}
+
+/// What reading and running this model refuses.
+std::string refusal(const TemporaryFolder& folder, const std::string& text) {
+  try {
+    const ModelFile file = read(folder, text);
+    multibody::simulate(file.model, file.solver, {file.end_time_s, file.output.interval_s});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+}  // namespace
+
+TEST_CASE("bodies are where their joints put them and move as their joints say") {
+  const TemporaryFolder folder;
+  const ModelFile file = read(folder, double_pendulum_text());
+  const multibody::Model& model = file.model;
+  const multibody::Body& upper = model.bodies[1];
+  const multibody::Body& lower = model.bodies[2];
+  CHECK((upper.initial_pose.position_m - Eigen::Vector3d(0, 0, 1)).norm() < 1e-15);
+  const double angle = 40 * std::numbers::pi / 180;
+  const Eigen::Vector3d elbow(-0.4 * std::sin(angle), 0, 1 - 0.4 * std::cos(angle));
+  CHECK((lower.initial_pose.position_m - elbow).norm() < 1e-15);
+  const double rate = 300 * std::numbers::pi / 180;
+  CHECK((upper.initial_angular_velocity_rad_s - Eigen::Vector3d(0, rate, 0)).norm() < 1e-14);
+  // It turns about y with the upper body, and about the elbow's own axis.
+  const Eigen::Vector3d turning =
+      Eigen::Vector3d(0, rate, 0).cross(elbow - Eigen::Vector3d(0, 0, 1));
+  CHECK((lower.initial_velocity_m_s - turning).norm() < 1e-14);
+  const Eigen::Vector3d axis = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()) *
+                               (Eigen::AngleAxisd(std::numbers::pi / 6, Eigen::Vector3d::UnitZ()) *
+                                Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d w = lower.initial_pose.rotation * lower.initial_angular_velocity_rad_s;
+  CHECK((w - Eigen::Vector3d(0, rate, 0) - 8 * axis).norm() < 1e-14);
+  // So the joints hold at the start, in position and velocity.
+  CHECK(refusal(folder, double_pendulum_text()) == "nothing was refused");
+  CHECK(file.parameters.size() > 30);
+}
+
+TEST_CASE("every kind of force is read in its units") {
+  const TemporaryFolder folder;
+  write_text(folder / "load.csv",
+             "# a comment\ntime [ms], idle [1], load [lbf]\n0, 1, 2\n\n5, 1, 4\n");
+  const ModelFile file = read(folder, double_pendulum_text() + R"(
+[[force]]
+name = "push"
+marker = "lower.tip"
+direction = [0, 3, 4]
+table = "load.csv"
+column = "load"
+outside = "zero"
+[[torque]]
+name = "twist"
+marker = "upper.top"
+direction = [0, 1, 0]
+magnitude = "1 lbf*ft"
+[[spring]]
+name = "cord"
+lower = "ground.hook"
+upper = "lower.tip"
+free_length = "300 mm"
+deflections = ["0 mm", "10 mm"]
+loads = ["0 N", "5 N"]
+tension_only = true
+[[bushing]]
+name = "mount"
+lower = "ground.hook"
+upper = "lower.tip"
+translation_stiffness = ["1 N/mm", "2 N/mm", "3 N/mm"]
+rotation_stiffness = ["1 N*m/deg", "0 N*m/deg", "0 N*m/deg", "0 N*m/deg", "1 N*m/deg", "0 N*m/deg", "0 N*m/deg", "0 N*m/deg", "1 N*m/deg"]
+translation_damping = ["1 N*s/m", "1 N*s/m", "1 N*s/m"]
+[[resistance]]
+name = "elbow stop"
+joint = "elbow"
+coordinate = "angle"
+stiffness = "1 N*m/deg"
+damping = "0.1 N*m*s/rad"
+friction = "0.2 N*m"
+full_rate = "10 deg/s"
+[resistance.negative]
+cubic = "2 N*m/rad^3"
+stop = "30 deg"
+stop_stiffness = "5 N*m/rad"
+unloading_ratio = 0.5
+)");
+  const multibody::Model& model = file.model;
+  const double deg = std::numbers::pi / 180;
+  const double lbf = 4.4482216152605;
+  CHECK(model.forces[0].direction.isApprox(Eigen::Vector3d(0, 0.6, 0.8)));
+  CHECK(model.forces[0].magnitude_N.value(0.0025) == Approx(3 * lbf));
+  CHECK(model.forces[0].magnitude_N.value(0.006) == 0);
+  CHECK(model.torques[0].magnitude_Nm.value(7) == Approx(12 * 0.0254 * lbf));
+  CHECK(model.springs[0].resistance.positive.load(0.02) == Approx(10));
+  CHECK(model.springs[0].resistance.tension_only);
+  CHECK(model.bushings[0].stiffness(2, 2) == Approx(3000));
+  CHECK(model.bushings[0].stiffness(4, 4) == Approx(1 / deg));
+  CHECK(model.bushings[0].damping(0, 0) == Approx(1));
+  const multibody::Resistance& stop = model.resistances[0].resistance;
+  CHECK(stop.positive.load(deg) == Approx(1));
+  CHECK(stop.negative.load(0.6) ==
+        Approx(2 * 0.6 * 0.6 * 0.6 + 5 * (0.6 - 30 * deg)).epsilon(1e-12));
+  CHECK(stop.negative.unloading_ratio == 0.5);
+  CHECK(stop.full_rate == Approx(10 * deg));
+  CHECK(file.files.size() == 2);
+}
+
+TEST_CASE("a driven body follows a table, a pulse or an expression, and one of them only") {
+  const TemporaryFolder folder;
+  const auto sled = [&](const std::string& motion) {
+    return with(double_pendulum_text(), "kind = \"ground\"", "kind = \"driven\"\n" + motion);
+  };
+  const auto driven = [&](const std::string& motion) {
+    return std::get<multibody::DrivenBody>(read(folder, sled(motion)).model.bodies[0].kind);
+  };
+  CHECK(driven("displacement = \"0.05 * sin(2*pi*3*t)\"").motion.velocity_m_s(0) ==
+        Approx(0.05 * 6 * std::numbers::pi));
+  CHECK(driven("acceleration = \"-20 * gn * (t < 0.1)\"").motion.velocity_m_s(0.2) ==
+        Approx(-20 * 9.80665 * 0.1));
+  CHECK(driven("times = [\"0 ms\", \"10 ms\"]\nacceleration = [\"0 gn\", \"2 gn\"]")
+            .acceleration_m_s2.integral(1) == Approx(0.01 * 9.80665));
+  const auto pulse = driven(
+      "initial_velocity = \"3 m/s\"\npulse_times = [\"0 s\", \"1 s\"]\n"
+      "pulse_deceleration = [\"5 gn\", \"0 gn\"]");
+  CHECK(pulse.acceleration_m_s2.integral(1) == Approx(-3).epsilon(1e-15));
+  // The bodies start with it.
+  CHECK(
+      read(folder, sled("initial_velocity = \"3 m/s\"")).model.bodies[1].initial_velocity_m_s.x() ==
+      Approx(3));
+
+  CHECK_THAT(refusal(folder, sled("displacement = \"t\"\nacceleration = \"t\"")),
+             Contains("body.ground.displacement: the body is driven already by 'acceleration'"));
+  CHECK_THAT(refusal(folder, sled("displacement = \"sin(t\"")),
+             Contains("body.ground.displacement: \"sin(t\" cannot be read"));
+  CHECK_THAT(refusal(folder, sled("displacement = \"sqrt(t - 1)\"")),
+             Contains("is not a finite number"));
+  CHECK_THAT(refusal(folder, sled("displacement = \"abs(t - 0.1)\"")), Contains("must be smooth"));
+  CHECK_THAT(refusal(folder, sled("")), Contains("a driven body needs a motion"));
+}
+
+TEST_CASE("what a model gets wrong is told in one line with the place and the remedy") {
+  const TemporaryFolder folder;
+  const std::string good = double_pendulum_text();
+  const auto told = [&](const std::string& part, const std::string& by) {
+    const std::string line = refusal(folder, with(good, part, by));
+    CHECK(line.find('\n') == std::string::npos);
+    return line;
+  };
+  CHECK_THAT(told("lower = \"upper.end\"", "lower = \"uper.end\""),
+             Contains("model.toml:") && Contains("joint.elbow.lower: there is no marker 'uper.end' "
+                                                 "(did you mean 'upper.end'?)"));
+  CHECK_THAT(told("body = \"lower\"", "body = \"lowr\""), Contains("did you mean 'lower'?"));
+  CHECK_THAT(told("kind = \"pin\"", "kind = \"pim\""), Contains("did you mean 'pin'?"));
+  CHECK_THAT(told("mass = \"2 kg\"", "mas = \"2 kg\""), Contains("body.upper.mass"));
+  CHECK_THAT(told("mass = \"2 kg\"", "mass = \"2 m\""), Contains("measures something else"));
+  CHECK_THAT(told("mass = \"2 kg\"", "mass = \"nan kg\""), Contains("body.upper.mass"));
+  CHECK_THAT(told("mass = \"2 kg\"", "mass = \"-2 kg\""),
+             Contains("body 'upper': mass must be positive"));
+  CHECK_THAT(told("\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"0.01 kg*m^2\"",
+                  "\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"0.07 kg*m^2\""),
+             Contains("no body has the principal moments of inertia"));
+  CHECK_THAT(told("\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"0.01 kg*m^2\"",
+                  "\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"0 kg*m^2\""),
+             Contains("positive definite"));
+  CHECK_THAT(told("kind = \"pin\"", "kind = \"free\"\n#"),
+             Contains("unknown key 'axis'") || Contains("axis: unknown key"));
+  CHECK_THAT(told("lower = \"ground.hook\"", "lower = \"lower.tip\""),
+             Contains("no joint connects the body 'upper'"));
+  CHECK_THAT(told("interval = \"1 ms\"", "interval = \"1 ms\"\nmarkers = [\"lower.tp\"]"),
+             Contains("output.markers: there is no marker 'lower.tp' (did you mean 'lower.tip'?)"));
+  CHECK_THAT(told("name = \"lower\"\nkind",
+                  "name = \"lower\"\nposition = [\"1 m\", \"0 m\", \"0 m\"]\nkind"),
+             Contains("joint 'elbow'") && Contains("at the start the markers are") &&
+                 Contains("m and") && Contains("rad apart"));
+  CHECK_THAT(refusal(folder, good + "\n[[channel]]\nname = \"c\"\nquantity = \"velocity\"\n"
+                                    "marker = \"lower.tip\"\nfilter = \"CFC 1000\"\n"),
+             Contains("channel.c.filter: CFC 1000 needs at least 10000 samples per second"));
+  CHECK_THAT(refusal(folder, "[solver]\nend_time = \"1 s\"\n"), Contains("expected bodies"));
+}
+
+TEST_CASE("a body that two driven ones hold is driven twice") {
+  const TemporaryFolder folder;
+  CHECK_THAT(refusal(folder, double_pendulum_text() + R"(
+[[body]]
+name = "sled"
+kind = "driven"
+initial_velocity = "1 m/s"
+[[marker]]
+body = "sled"
+name = "seat"
+position = ["0 m", "0 m", "0 m"]
+[[body]]
+name = "box"
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
+[[marker]]
+body = "box"
+name = "foot"
+position = ["0 m", "0 m", "0 m"]
+[[joint]]
+name = "one"
+kind = "fixed"
+lower = "sled.seat"
+upper = "box.foot"
+[[joint]]
+name = "two"
+kind = "fixed"
+lower = "ground.hook"
+upper = "box.foot"
+)"),
+             Contains("body 'box' is driven twice: joint 'one' fixes it to 'sled' and joint 'two' "
+                      "to 'ground'"));
+}
+
+TEST_CASE("a CSV file that is not sound is told with its line") {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& text) {
+    try {
+      read_csv_columns(write_text(folder / "t.csv", text), "s", "N", "");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was refused");
+  };
+  CHECK(told("time [s], load [N]\n0, 0\n1, 2\n") == "nothing was refused");
+  CHECK_THAT(told("time [s], load [N]\n0, 0\n1, 2\n1, 3\n"),
+             Contains("t.csv:4: the column 'time' must increase strictly"));
+  CHECK_THAT(told("time [s], load [m]\n0, 0\n"),
+             Contains("t.csv:1: column \"load [m]\"") && Contains("measures something else"));
+  CHECK_THAT(told("time [s], load\n0, 0\n"), Contains("a column's name and unit"));
+  CHECK_THAT(told("time [s], load [N]\n0, x\n"), Contains("t.csv:2: expected a finite number"));
+  CHECK_THAT(told("time [s], load [N]\n0, nan\n"), Contains("finite number, found \"nan\""));
+  CHECK_THAT(told("time [s], load [N]\n0\n"), Contains("expected 2 cells, found 1"));
+  CHECK_THAT(told("time [s], a [N], b [N]\n0, 1, 2\n"), Contains("'column': 'time' 'a' 'b'"));
+  CHECK_THAT(told("time [s], load [N]\n"), Contains("expected rows"));
+  CHECK_THROWS_WITH(read_csv_columns(folder / "none.csv", "s", "N", ""), Contains("none.csv"));
+}
+
+TEST_CASE("modes of a deformable body are chosen by name, damped one by one, and may be offset") {
+  const TemporaryFolder folder;
+  testing::write_beam_modes(folder / "beam.h5");
+  const auto beam = [&](const std::string& keys) {
+    return R"(
+[solver]
+end_time = "10 ms"
+[[body]]
+name = "ground"
+kind = "ground"
+[[marker]]
+body = "ground"
+name = "bench"
+position = ["0 m", "0 m", "0 m"]
+[[body]]
+name = "beam"
+kind = "deformable"
+modes_file = "beam.h5"
+)" + keys + R"(
+[[marker]]
+body = "beam"
+name = "turned tip"
+interface = "top"
+rotation = ["0 deg", "0 deg", "90 deg"]
+[[body]]
+name = "weight"
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
+[[marker]]
+body = "weight"
+name = "face"
+position = ["0 m", "0 m", "0 m"]
+[[joint]]
+name = "clamp"
+kind = "fixed"
+lower = "ground.bench"
+upper = "beam.base"
+[[joint]]
+name = "tip"
+kind = "fixed"
+lower = "beam.turned tip"
+upper = "weight.face"
+)";
+  };
+  const std::string two = "modes = [\"lateral bending 1\", \"fore-aft bending 1\"]\n";
+  const ModelFile file =
+      read(folder, beam(two + "damping_ratio = [0.1, 0.2]\noffset = [0.0, 0.01]"));
+  const auto& body = std::get<multibody::DeformableBody>(file.model.bodies[1].kind);
+  CHECK(body.modes.modes[0].name == "lateral bending 1");
+  CHECK(body.damping_ratio[1] == 0.2);
+  // The weight sits on the tip of the bent beam, turned with it: and so it stays.
+  CHECK(file.model.bodies[2].initial_pose.position_m.x() ==
+        Approx(0.01 * body.modes.interface("top").translation(0, 1)));
+  const multibody::History history =
+      multibody::simulate(file.model, file.solver, {file.end_time_s, 1e-3});
+  CHECK((history.modal[0].coordinates.colwise() - history.modal[0].coordinates.col(0))
+            .cwiseAbs()
+            .maxCoeff() < 1e-12);
+
+  CHECK_THAT(refusal(folder, beam("modes = [\"lateral bending 3\"]\ndamping_ratio = 0.1")),
+             Contains("body.beam.modes: ") && Contains("did you mean 'lateral bending"));
+  CHECK_THAT(refusal(folder, beam(two + "damping_ratio = [0.1]")), Contains("list of 2 entries"));
+  CHECK_THAT(refusal(folder, with(beam("damping_ratio = 0.1"), "beam.h5", "none.h5")),
+             Contains("none.h5: no such file; make it with 'flexneck modes'"));
+  write_text(folder / "beam.h5", "not HDF5");
+  CHECK_THAT(refusal(folder, beam("damping_ratio = 0.1")), Contains("beam.h5"));
+}

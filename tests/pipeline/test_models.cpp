@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The model files that are shipped, against the experiments that are built in and against what is
+// known without either.
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "pipeline/experiments/pendulum.h"
+#include "pipeline/experiments/static_test.h"
+#include "pipeline/model/model_file.h"
+#include "tests/support/modal_files.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace flexneck;
+using namespace flexneck::pipeline;
+using multibody::History;
+using testing::TemporaryFolder;
+
+namespace {
+
+/// Two ways to the same model differ by rounding of the input only.
+constexpr double kSame = 1e-12;
+
+std::string shipped(const std::string& name) {
+  return std::string(FLEXNECK_SOURCE_DIR) + "/pipeline/models/" + name;
+}
+
+History run(const ModelFile& file) {
+  const multibody::OutputOptions output{file.end_time_s, file.output.interval_s};
+  return file.start == ModelFile::Start::equilibrium
+             ? multibody::simulate_from_equilibrium(file.model, file.solver, output)
+             : multibody::simulate(file.model, file.solver, output);
+}
+
+/// The built-in study moves the same beam.
+struct BuiltIn {
+  Study study = read_study(built_in_study(), {});
+  fe_modal::ModalBody body = testing::make_beam_body(testing::Beam());
+  const CaseSection& named(const std::string& name) const {
+    for (const CaseSection& each : study.cases)
+      if (each.name == name) return each;
+    throw std::runtime_error("no case " + name);
+  }
+};
+
+/// Markers and reactions, each against its largest value.
+void check_same(const History& found, const History& expected) {
+  REQUIRE(found.time_s.size() == expected.time_s.size());
+  REQUIRE(found.markers.size() == expected.markers.size());
+  const auto check = [](const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
+    CHECK((left - right).cwiseAbs().maxCoeff() <=
+          kSame * std::max(1.0, right.cwiseAbs().maxCoeff()));
+  };
+  for (const multibody::MarkerHistory& marker : expected.markers) {
+    CAPTURE(marker.name);
+    const multibody::MarkerHistory& same = found.marker(marker.name);
+    check(same.position_m, marker.position_m);
+    check(same.velocity_m_s, marker.velocity_m_s);
+    check(same.acceleration_m_s2, marker.acceleration_m_s2);
+    check(same.angular_velocity_rad_s, marker.angular_velocity_rad_s);
+  }
+  for (const multibody::JointHistory& joint : expected.joints) {
+    CAPTURE(joint.name);
+    check(found.joint(joint.name).force_N, joint.force_N);
+    check(found.joint(joint.name).moment_Nm, joint.moment_Nm);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the shipped pendulum is the built-in experiment") {
+  const TemporaryFolder folder;
+  testing::write_beam_modes(folder / "modes.h5");
+  const ModelFile file = read_model_file(
+      shipped("pendulum.toml"),
+      {"body.neck.modes_file=" + (folder / "modes.h5").string(), "solver.end_time=60 ms"});
+  const BuiltIn built_in;
+  check_same(run(file),
+             multibody::simulate_from_equilibrium(
+                 pendulum_model(built_in.study, built_in.named("flexion-120"), built_in.body),
+                 built_in.study.solver, {0.06, file.output.interval_s}));
+}
+
+TEST_CASE("the shipped static test is the built-in experiment") {
+  const TemporaryFolder folder;
+  testing::write_beam_modes(folder / "modes.h5");
+  const ModelFile file = read_model_file(
+      shipped("static_test.toml"),
+      {"body.neck.modes_file=" + (folder / "modes.h5").string(), "solver.end_time=0.5 s"});
+  const BuiltIn built_in;
+  check_same(run(file),
+             multibody::simulate(
+                 static_test_model(built_in.study, built_in.named("flexion"), built_in.body),
+                 built_in.study.solver, {0.5, file.output.interval_s}));
+}
+
+TEST_CASE("the shipped chain balances its energy, and its joints carry what hangs on them") {
+  const TemporaryFolder folder;
+  testing::Beam seat_back;
+  seat_back.length_m = 0.6;
+  seat_back.mass_kg = 8;
+  testing::write_beam_modes(folder / "seat_back.h5", seat_back, "feet", "head_rail");
+  testing::write_beam_modes(folder / "modes.h5");
+  const ModelFile file = read_model_file(
+      shipped("chain.toml"),
+      {"body.seat_back.modes_file=" + (folder / "seat_back.h5").string(),
+       "body.neck.modes_file=" + (folder / "modes.h5").string(), "output.interval=1 ms",
+       "channel.sled.filter=CFC 60", "channel.head acceleration.filter=CFC 60",
+       "channel.occipital moment.filter=CFC 60"});
+  const History history = run(file);
+  const multibody::EnergyHistory& energy = history.energy;
+  const Eigen::VectorXd balance = energy.kinetic_J + energy.gravitational_J + energy.strain_J +
+                                  energy.dissipated_J - energy.work_J;
+  CHECK((balance.array() - balance[0]).abs().maxCoeff() <
+        1e-6 * energy.work_J.cwiseAbs().maxCoeff());
+  // At rest: the feet carry all that stands on them, the neck's top the head.
+  const double head_N = 9.921 * 0.45359237 * 9.80665;
+  CHECK(history.joint("occipital").force_N.col(0).norm() == Approx(head_N).epsilon(1e-9));
+  CHECK(history.joint("feet").force_N.col(0).norm() ==
+        Approx(head_N + (12 + 8 + 1.21) * 9.80665).epsilon(1e-9));
+  // The head lags behind the sled that is thrown forward.
+  const Eigen::VectorXd lag =
+      (history.marker("head.cg").position_m.row(0) - history.marker("sled.floor").position_m.row(0))
+          .transpose();
+  CHECK(lag.minCoeff() < lag[0] - 0.02);
+}
+
+TEST_CASE("the shipped four-bar closes its loop and names what is held twice") {
+  const ModelFile file = read_model_file(shipped("four_bar.toml"), {"solver.end_time=0.3 s"});
+  const History history = run(file);
+  CHECK(history.redundant_constraints.size() == 3);
+  CHECK(history.statistics.largest_position_residual < 1e-12);
+  const multibody::EnergyHistory& energy = history.energy;
+  const Eigen::VectorXd balance = energy.kinetic_J + energy.gravitational_J + energy.strain_J +
+                                  energy.dissipated_J - energy.work_J;
+  CHECK((balance.array() - balance[0]).abs().maxCoeff() <
+        1e-7 * energy.work_J.cwiseAbs().maxCoeff());
+}

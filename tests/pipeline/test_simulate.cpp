@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command as it is built.
+#include <fstream>
+#include <iterator>
+
+#include <catch2/catch.hpp>
+
+#include "multibody/history_file.h"
+#include "tests/support/model_text.h"
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using testing::CommandOutcome;
+using testing::double_pendulum_text;
+using testing::TemporaryFolder;
+using testing::with;
+using testing::write_text;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+CommandOutcome simulate(const fs::path& model, const fs::path& out, const std::string& more = "") {
+  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck simulate " +
+                            model.string() + " --out " + out.string() + more);
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::ptrdiff_t lines_in(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+}  // namespace
+
+TEST_CASE("simulate writes histories and a table, tells what it took, and does so again") {
+  const TemporaryFolder folder;
+  const fs::path model = write_text(folder / "swing.toml", double_pendulum_text());
+  const CommandOutcome outcome = simulate(model, folder / "out");
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("steps") && Contains("rejected") &&
+                               Contains("lower.tip acceleration") && Contains("largest"));
+  const auto file = multibody::read_history(folder / "out/swing.h5");
+  CHECK(file.history.time_s.size() == 201);
+  CHECK(file.channels.size() == 5 * 4 + 2 * 2 + 1);
+  CHECK(file.provenance.inputs.at(0).name == "swing.toml");
+  const std::string table = bytes_of(folder / "out/swing.csv");
+  CHECK(lines_in(table) == 202);
+  CHECK_THAT(table, Catch::Matchers::StartsWith("time [s],ground.hook position x [m],"));
+  // Read back exactly.
+  const std::string last = table.substr(table.rfind('\n', table.size() - 2) + 1);
+  CHECK(std::stod(last) == file.history.time_s[200]);
+
+  REQUIRE(simulate(model, folder / "again", " -q").exit_code == 0);
+  for (const char* name : {"swing.h5", "swing.csv"})
+    CHECK(bytes_of(folder / "out" / name) == bytes_of(folder / "again" / name));
+}
+
+TEST_CASE("a model that is not sound ends in one line, exit code 2 and no file") {
+  const TemporaryFolder folder;
+  const auto check_refused = [&](const std::string& part, const std::string& by,
+                                 const std::string& reason) {
+    const fs::path model = write_text(folder / "bad.toml", with(double_pendulum_text(), part, by));
+    const CommandOutcome outcome = simulate(model, folder / "out", " -q");
+    INFO(outcome.text);
+    CHECK(outcome.exit_code == 2);
+    CHECK(lines_in(outcome.text) == 1);
+    CHECK_THAT(outcome.text, Contains("bad.toml") && Contains(reason));
+    CHECK_FALSE(fs::exists(folder / "out"));
+  };
+  check_refused("upper = \"lower.top\"", "upper = \"lower.topp\"", "did you mean 'lower.top'?");
+  check_refused("name = \"lower\"\nkind",
+                "name = \"lower\"\nposition = [\"1 m\", \"0 m\", \"0 m\"]\nkind", "rad apart");
+  const CommandOutcome none =
+      testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck simulate 2>&1");
+  CHECK(none.exit_code == 2);
+  CHECK_THAT(none.text, Contains("name the model"));
+}
+
+TEST_CASE("a run that cannot go on says when and why and keeps what it has, marked incomplete") {
+  const TemporaryFolder folder;
+  const fs::path model = write_text(folder / "stuck.toml", double_pendulum_text());
+  const CommandOutcome outcome = simulate(model, folder / "out", " -q --set solver.most_steps=20");
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 3);
+  CHECK(lines_in(outcome.text) == 1);
+  CHECK_THAT(outcome.text, Contains("given up at") && Contains("after 20 steps") &&
+                               Contains("marked incomplete"));
+  const auto file = multibody::read_history(folder / "out/stuck.h5");
+  CHECK_THAT(file.history.incomplete, Contains("given up"));
+  CHECK(file.history.time_s.size() > 1);
+  CHECK(file.history.time_s.size() < 201);
+  CHECK(lines_in(bytes_of(folder / "out/stuck.csv")) == file.history.time_s.size() + 1);
+}
