@@ -70,60 +70,6 @@ double locate(const SmoothMotion::Function& f, double begin_s, double end_s) {
   return end_s;
 }
 
-/// Pieces of one function: cut in halves until resolved, and wherever it is not smooth.
-class Fit {
- public:
-  Fit(const SmoothMotion::Function& f, double end_s) : f_(f), end_s_(end_s) {
-    constexpr int kSamples = 257;
-    for (int k = 0; k < kSamples; ++k)
-      scale_ = std::max(scale_, std::abs(f(end_s * (k + 0.5) / kSamples)));
-    // Again from the start whenever a cut is found: its neighbours then end exactly there.
-    while (!cover_all()) {
-      if (cuts_.size() > kMostBreakpoints) refuse(cuts_.back(), "is not piecewise smooth, e.g.");
-      std::sort(cuts_.begin(), cuts_.end());
-    }
-  }
-
-  const std::vector<Span>& spans() const { return spans_; }
-  const std::vector<double>& cuts() const { return cuts_; }
-
- private:
-  bool cover_all() {
-    spans_.clear();
-    double begin = 0;
-    for (const double cut : std::vector<double>(cuts_)) {
-      if (!cover(begin, cut)) return false;
-      begin = cut;
-    }
-    return cover(begin, end_s_);
-  }
-
-  bool cover(double begin_s, double end_s) {
-    const Span span = interpolate(f_, begin_s, end_s);
-    const bool is_short = end_s - begin_s < kShortest_s;
-    const auto is_near = [&](double cut) {
-      return cut > begin_s - 2 * kShortest_s && cut < end_s + 2 * kShortest_s;
-    };
-    if (is_resolved(span, scale_) ||
-        (is_short && std::any_of(cuts_.begin(), cuts_.end(), is_near))) {
-      spans_.push_back(span);
-      return true;
-    }
-    if (is_short) {
-      cuts_.push_back(locate(f_, begin_s, end_s));
-      return false;
-    }
-    const double middle = 0.5 * (begin_s + end_s);
-    return cover(begin_s, middle) && cover(middle, end_s);
-  }
-
-  const SmoothMotion::Function& f_;
-  double end_s_;
-  double scale_ = 0;
-  std::vector<Span> spans_;
-  std::vector<double> cuts_;
-};
-
 Series derivative(const Series& of, double length_s) {
   Series result{};
   for (std::size_t k = of.size() - 1; k > 0; --k) {
@@ -160,6 +106,84 @@ double sum_of(const Series& series, double x) {
   }
   return x * one - two + series[0];
 }
+
+/// Pieces of one function: cut in halves until resolved, and wherever it is not smooth.
+class Fit {
+ public:
+  Fit(const SmoothMotion::Function& f, double end_s) : f_(f), end_s_(end_s) {
+    constexpr int kSamples = 257;
+    for (int k = 0; k < kSamples; ++k)
+      scale_ = std::max(scale_, std::abs(f(end_s * (k + 0.5) / kSamples)));
+    // Again from the start whenever a cut is found: its neighbours then end exactly there.
+    while (!cover_all()) {
+      if (cuts_.size() > kMostBreakpoints) refuse(cuts_.back(), "is not piecewise smooth, e.g.");
+      std::sort(cuts_.begin(), cuts_.end());
+    }
+    find_hidden_cuts();
+  }
+
+  const std::vector<Span>& spans() const { return spans_; }
+  const std::vector<double>& cuts() const { return cuts_; }
+
+ private:
+  bool cover_all() {
+    spans_.clear();
+    double begin = 0;
+    for (const double cut : std::vector<double>(cuts_)) {
+      if (!cover(begin, cut)) return false;
+      begin = cut;
+    }
+    return cover(begin, end_s_);
+  }
+
+  bool cover(double begin_s, double end_s) {
+    const Span span = interpolate(f_, begin_s, end_s);
+    const bool is_short = end_s - begin_s < kShortest_s;
+    const auto is_near = [&](double cut) {
+      return cut > begin_s - 2 * kShortest_s && cut < end_s + 2 * kShortest_s;
+    };
+    if (is_resolved(span, scale_) ||
+        (is_short && std::any_of(cuts_.begin(), cuts_.end(), is_near))) {
+      spans_.push_back(span);
+      return true;
+    }
+    if (is_short) {
+      cuts_.push_back(locate(f_, begin_s, end_s));
+      return false;
+    }
+    const double middle = 0.5 * (begin_s + end_s);
+    return cover(begin_s, middle) && cover(middle, end_s);
+  }
+
+  /// Where halving has met a kink or a jump by chance, pieces on both sides are resolved.
+  void find_hidden_cuts() {
+    double steepest = 0;
+    std::vector<Series> slopes;
+    for (const Span& span : spans_) {
+      slopes.push_back(derivative(span.series, span.end_s - span.begin_s));
+      for (const double x : {-1.0, 0.0, 1.0})
+        steepest = std::max(steepest, std::abs(sum_of(slopes.back(), x)));
+    }
+    for (std::size_t k = 1; k < spans_.size(); ++k) {
+      const double at = spans_[k].begin_s;
+      const double shortest = std::min(spans_[k].end_s - at, at - spans_[k - 1].begin_s);
+      const double jump = sum_of(spans_[k].series, -1) - sum_of(spans_[k - 1].series, 1);
+      const double kink = sum_of(slopes[k], -1) - sum_of(slopes[k - 1], 1);
+      // Rounding of the series grows in their slopes as the pieces shorten.
+      if (std::abs(jump) > 1e-9 * scale_ ||
+          std::abs(kink) > 1e-6 * steepest + 1e3 * kResolution * scale_ / shortest)
+        cuts_.push_back(at);
+    }
+    std::sort(cuts_.begin(), cuts_.end());
+    cuts_.erase(std::unique(cuts_.begin(), cuts_.end()), cuts_.end());
+  }
+
+  const SmoothMotion::Function& f_;
+  double end_s_;
+  double scale_ = 0;
+  std::vector<Span> spans_;
+  std::vector<double> cuts_;
+};
 
 }  // namespace
 

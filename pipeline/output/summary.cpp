@@ -10,11 +10,14 @@ namespace flexneck::pipeline {
 std::string run_summary(const multibody::History& history) {
   const multibody::StepStatistics& steps = history.statistics;
   std::string text = fmt::format(
-      "  {} output times to {:.6g} s; {} steps, {} rejected, {} evaluations of the equations\n"
-      "  constraints hold to {:.1e} in position (m, rad) and {:.1e} in velocity (per s)",
+      "  {} output times to {:.6g} s; {} steps, {} rejected, {} evaluations of the equations",
       history.time_s.size(), history.time_s.size() > 0 ? history.time_s.tail<1>()[0] : 0.0,
-      steps.accepted, steps.rejected, steps.evaluations, steps.largest_position_residual,
-      steps.largest_velocity_residual);
+      steps.accepted, steps.rejected, steps.evaluations);
+  // Joint coordinates have no constraints.
+  if (steps.largest_position_residual > 0 || steps.largest_velocity_residual > 0)
+    text += fmt::format(
+        "\n  constraints hold to {:.1e} in position (m, rad) and {:.1e} in velocity (per s)",
+        steps.largest_position_residual, steps.largest_velocity_residual);
   if (!history.redundant_constraints.empty()) {
     text += fmt::format("\n  {} constraints say what others hold already and were left out:",
                         history.redundant_constraints.size());

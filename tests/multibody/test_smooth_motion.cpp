@@ -60,6 +60,12 @@ TEST_CASE("a motion that is not smooth enough or not a number is refused") {
                     Contains("must be smooth"));
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return std::sqrt(t - 0.5); }, 1.0),
                     Contains("is not a finite number at"));
+  // Halving meets this one exactly.
+  CHECK_THROWS_AS(SmoothMotion::of_displacement([](double t) { return std::abs(t - 0.5); }, 1.0),
+                  InputError);
+  const auto step =
+      SmoothMotion::of_acceleration([](double t) { return t < 0.5 ? 1.0 : 2.0; }, 1.0);
+  CHECK(step.breakpoints_s() == std::vector<double>{0.5});
   const SmoothMotion none;
   CHECK(none.displacement_m(3) == 0);
 }
