@@ -30,6 +30,14 @@ Eigen::Index pressure_count(PressureSpace space) {
   return 0;
 }
 
+struct Moduli {
+  explicit Moduli(const mesher::Material& material)
+      : mu(material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio))),
+        kappa(material.youngs_modulus_Pa / (3 * (1 - 2 * material.poissons_ratio))),
+        lambda(kappa - 2 * mu / 3) {}
+  double mu, kappa, lambda;
+};
+
 }  // namespace
 
 ElementKernel::Points::Points(mesher::ElementKind kind, int strength) {
@@ -118,12 +126,40 @@ void ElementKernel::add_displacement_part(double mu, double square,
   }
 }
 
+double ElementKernel::projected_modulus(const mesher::Material& material) const {
+  if (scheme_.pressures == PressureSpace::none) return 0;
+  const Moduli moduli(material);
+  return scheme_.projected == VolumetricPart::bulk ? moduli.kappa : moduli.lambda;
+}
+
+void ElementKernel::evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+                             const Eigen::MatrixXd& fields, PointFields& result) {
+  const Eigen::Index n = points_.values.rows();
+  map(nodes_m, points_);
+  differentiate();
+  const Eigen::VectorXd to_value = points_.roots.cwiseInverse();
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    for (Eigen::Index b = 0; b < 3; ++b) {
+      result.gradients.at(static_cast<std::size_t>(3 * a + b)) =
+          fields.middleRows(a * n, n).transpose() * gradients_.middleRows(b * n, n) *
+          to_value.asDiagonal();
+    }
+  }
+  result.volumes_m3 = points_.roots.cwiseAbs2();
+  const double projected = projected_modulus(material);
+  const Eigen::MatrixXd divergence =
+      result.gradients[0] + result.gradients[4] + result.gradients[8];
+  result.volumetric_Pa = (Moduli(material).lambda - projected) * divergence;
+  if (scheme_.pressures != PressureSpace::none) {
+    project_divergence(nodes_m);
+    result.volumetric_Pa += projected * (fields.transpose() * divergence_) *
+                            pressures_.transpose() * to_value.asDiagonal();
+  }
+}
+
 void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                             ElementMatrices& result) {
-  const double nu = material.poissons_ratio;
-  const double mu = material.youngs_modulus_Pa / (2 * (1 + nu));
-  const double kappa = material.youngs_modulus_Pa / (3 * (1 - 2 * nu));
-  const double lambda = kappa - 2 * mu / 3;
+  const Moduli moduli(material);
 
   map(nodes_m, points_);
   differentiate();
@@ -131,16 +167,16 @@ void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Mater
   multiply_by_transpose(1, gradients_, gradients_, 0, products_);
   result.stiffness.resize(products_.rows(), products_.cols());
   // 2 mu dev:dev + kappa div^2 = 2 mu eps:eps + lambda div^2
-  double square = lambda;
+  double square = moduli.lambda;
   if (scheme_.pressures != PressureSpace::none) {
     project_divergence(nodes_m);
-    const double projected = scheme_.projected == VolumetricPart::bulk ? kappa : lambda;
+    const double projected = projected_modulus(material);
     multiply_by_transpose(projected, divergence_, divergence_, 0, result.stiffness);
     square -= projected;
   } else {
     result.stiffness.setZero();
   }
-  add_displacement_part(mu, square, result.stiffness);
+  add_displacement_part(moduli.mu, square, result.stiffness);
 
   const bool shared = scheme_.strength == kMassStrength;
   if (!shared) map(nodes_m, mass_points_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "fe_modal/formulation.h"
@@ -12,6 +14,14 @@ namespace flexneck::fe_modal {
 struct ElementMatrices {
   Eigen::MatrixXd stiffness;  ///< (3n, 3n), N/m, symmetric
   Eigen::MatrixXd mass;       ///< (n, n), consistent, kg, the same in each direction
+};
+
+/// Fields of displacement at the q points of an element's stiffness.
+struct PointFields {
+  Eigen::VectorXd volumes_m3;  ///< (q), what each point stands for
+  /// Entry 3 a + b, (k, q): du_a / dx_b of each of k fields.
+  std::array<Eigen::MatrixXd, 9> gradients;
+  Eigen::MatrixXd volumetric_Pa;  ///< (k, q): stress is mu (grad + grad^T) + volumetric I
 };
 
 /// Stiffness and consistent mass of an element of any kind, linear isotropic elasticity; what kinds
@@ -31,6 +41,11 @@ class ElementKernel {
   void compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                ElementMatrices& result);
 
+  /// Gradients and stresses that belong to the stiffness.
+  /// @param fields (3n, k), degree of freedom a n + i is direction a of node i
+  void evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+                const Eigen::MatrixXd& fields, PointFields& result);
+
  private:
   /// Shape functions at the points of a rule.
   struct Points {
@@ -47,6 +62,7 @@ class ElementKernel {
   static void map(const Eigen::Matrix3Xd& nodes_m, Points& points);
   void differentiate();
   void project_divergence(const Eigen::Matrix3Xd& nodes_m);
+  double projected_modulus(const mesher::Material& material) const;
   void add_displacement_part(double mu, double square, Eigen::MatrixXd& stiffness) const;
 
   ElementScheme scheme_;

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/formulation.h"
 #include "geometry/foundation/progress.h"
@@ -51,6 +52,10 @@ struct RigidAttachment {
 struct ModalOptions {
   int mode_count = 10;
   Formulation formulation = Formulation::mixed_pressure;
+  BasisKind basis = BasisKind::normal;
+  /// Interfaces whose static shapes join the basis; empty: all.
+  std::vector<std::string> basis_interfaces;
+  bool geometric_stiffness = false;  ///< of the modes under unit loads; of a held body
   bool certify = false;        ///< count the modes by inertia too; costs a factorisation by MUMPS
   std::string held_set;        ///< node set held in all directions; empty: a free body
   std::string held_interface;  ///< name of the interface on the held nodes, modes zero there
@@ -65,9 +70,9 @@ struct ModalOptions {
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
 };
 
-/// Normal modes by shift-invert, reduced to a modal body.
+/// Normal modes by shift-invert, completed to the basis asked for, reduced to a modal body.
 /// @throws InputError for unknown sets, parts or interfaces, elements that have no such
-/// formulation, or more modes than degrees of freedom.
+/// formulation, more modes than degrees of freedom, or a basis that the boundary does not allow.
 /// @throws ComputationError if the factorisation or the eigensolver fails, or if a mode is missing.
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                         const Progress& progress);

@@ -79,6 +79,36 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_names(names_of(options.attachments), "attachment");
 }
 
+void check_basis(const ModalOptions& options, Eigen::Index dofs) {
+  if (options.basis == BasisKind::normal) return;
+  const std::string who =
+      "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
+  const bool held = !options.held_set.empty();
+  if (options.basis == BasisKind::inertia_relief && held) {
+    throw InputError(who + " is for a free body, but '" + options.held_set +
+                     "' is held; take 'residual' or hold nothing");
+  }
+  if (options.basis != BasisKind::inertia_relief && !held) {
+    throw InputError(who + " is for a held body, but nothing is held; take 'inertia-relief'");
+  }
+  if (options.interfaces.empty()) {
+    throw InputError(who +
+                     " adds the static shapes of interface loads: name an interface that is "
+                     "not held");
+  }
+  const std::vector<std::string> names = names_of(options.interfaces);
+  for (const std::string& name : options.basis_interfaces) {
+    static_cast<void>(find_name(names, name, "interface"));
+  }
+  const auto constraints = static_cast<Eigen::Index>(
+      6 * (options.basis_interfaces.empty() ? names.size() : options.basis_interfaces.size()));
+  if (options.basis == BasisKind::craig_bampton && options.mode_count + constraints > dofs) {
+    throw InputError(who + ": " + std::to_string(options.mode_count) + " modes with " +
+                     std::to_string(constraints) + " held interface motions are more than the " +
+                     std::to_string(dofs) + " degrees of freedom");
+  }
+}
+
 }  // namespace
 
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
@@ -94,6 +124,12 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
                      " degrees of freedom, found " + std::to_string(options.mode_count));
   }
   check_interfaces(mesh, options);
+  check_basis(options, dofs);
+  if (options.geometric_stiffness && options.held_set.empty()) {
+    throw InputError(
+        "the geometric stiffness under unit loads is that of a held body: name a set "
+        "of nodes to hold");
+  }
 }
 
 }  // namespace flexneck::fe_modal

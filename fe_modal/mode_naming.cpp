@@ -2,8 +2,11 @@
 #include "fe_modal/mode_naming.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <string_view>
+
+#include "fe_modal/body/basis_kind.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -42,6 +45,23 @@ std::vector<std::string> mode_names(const std::vector<Shares>& shares) {
     }
     const auto kind = static_cast<std::size_t>(largest - share.begin());
     names.push_back(std::string(kKinds[kind]) + " " + std::to_string(++counts[kind]));
+  }
+  return names;
+}
+
+std::vector<std::string> mode_names(const std::vector<Shares>& shares,
+                                    const std::vector<std::string>& kinds) {
+  std::vector<Shares> modes;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    if (!is_correction(kinds[k])) modes.push_back(shares[k]);
+  }
+  const std::vector<std::string> names_of_modes = mode_names(modes);
+  std::vector<std::string> names;
+  std::size_t next = 0;
+  std::map<std::string, int> counts;
+  for (const std::string& kind : kinds) {
+    names.push_back(is_correction(kind) ? kind + " " + std::to_string(++counts[kind])
+                                        : names_of_modes[next++]);
   }
   return names;
 }

@@ -21,5 +21,8 @@ Shares motion_shares(const std::vector<RigidAverage>& parts, const Eigen::Matrix
 /// Names by the largest share, counted by kind: "fore-aft bending 1", "lateral bending 1",
 /// "torsion 1", "axial 1"; modes without shares are "mode 1", "mode 2", …
 std::vector<std::string> mode_names(const std::vector<Shares>& shares);
+/// The same, with corrections (basis_kind.h) named by their kind: "residual 1", "residual 2", …
+std::vector<std::string> mode_names(const std::vector<Shares>& shares,
+                                    const std::vector<std::string>& kinds);
 
 }  // namespace flexneck::fe_modal

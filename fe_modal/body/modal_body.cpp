@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/body/modal_body.h"
 
+#include "fe_modal/body/basis_kind.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 
 namespace flexneck::fe_modal {
 namespace {
+
+constexpr std::string_view kAllModes = "all";
 
 InertiaInvariants select(const InertiaInvariants& all, const std::vector<Eigen::Index>& kept) {
   InertiaInvariants part;
@@ -27,6 +30,36 @@ InertiaInvariants select(const InertiaInvariants& all, const std::vector<Eigen::
   return part;
 }
 
+GeometricStiffness select(const GeometricStiffness& all, const std::vector<Eigen::Index>& kept) {
+  const auto part = [&](const std::vector<Eigen::MatrixXd>& whole) {
+    std::vector<Eigen::MatrixXd> selected;
+    for (const Eigen::MatrixXd& matrix : whole) selected.emplace_back(matrix(kept, kept));
+    return selected;
+  };
+  GeometricStiffness selected{
+      part(all.acceleration), part(all.angular_acceleration), part(all.velocity_products), {}};
+  for (const GeometricStiffness::OfInterface& loads : all.interfaces) {
+    selected.interfaces.push_back({loads.name, part(loads.force), part(loads.moment)});
+  }
+  return selected;
+}
+
+/// With kinds replaced by the names of their modes.
+std::vector<std::string> expand_kinds(const ModalBody& body,
+                                      const std::vector<std::string>& names) {
+  std::vector<std::string> expanded;
+  for (const std::string& name : names) {
+    bool is_kind = false;
+    for (const ModeRecord& mode : body.modes) {
+      if (mode.kind != name && (name != kAllModes || mode.kind == kRigidMode)) continue;
+      expanded.push_back(mode.name);
+      is_kind = true;
+    }
+    if (!is_kind) expanded.push_back(name);
+  }
+  return expanded;
+}
+
 }  // namespace
 
 const Interface& ModalBody::interface(const std::string& name) const {
@@ -37,7 +70,8 @@ Eigen::Index ModalBody::mode_index(const std::string& name) const {
   return static_cast<Eigen::Index>(find_name(names_of(modes), name, "mode"));
 }
 
-ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& names) {
+ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& wanted) {
+  const std::vector<std::string> names = expand_kinds(body, wanted);
   check_names(names, "mode");
   std::vector<Eigen::Index> kept;
   kept.reserve(names.size());
@@ -56,9 +90,10 @@ ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& na
   }
   for (const Interface& whole : body.interfaces) {
     part.interfaces.push_back({whole.name, whole.position_m, whole.translation(Eigen::all, kept),
-                               whole.rotation(Eigen::all, kept)});
+                               whole.rotation(Eigen::all, kept), whole.response});
   }
   part.invariants = select(body.invariants, kept);
+  if (body.geometric_stiffness) part.geometric_stiffness = select(*body.geometric_stiffness, kept);
   return part;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,18 +26,46 @@ struct InertiaInvariants {
   Eigen::MatrixXd Maa;              ///< int rho psi^T psi, (m, m): the identity
 };
 
+/// How an interface answers to unit loads on it, force (3) and moment (3), from the finite element
+/// model: C X and X^T M X of the static shapes K X = C^T, with C the average motion of the
+/// interface, translation (3) and rotation (3). Of a free body: to loads that inertia forces
+/// balance.
+struct StaticResponse {
+  Eigen::Matrix<double, 6, 6> compliance;  ///< m/N, 1/N; 1/N, 1/(N m)
+  Eigen::Matrix<double, 6, 6> mass;        ///< kg m^2/N^2, kg m/N^2; kg m/N^2, kg/N^2
+};
+
 /// A place where other bodies attach: a rigid frame that moves with the modes.
 struct Interface {
   std::string name;
   Eigen::Vector3d position_m;    ///< of the undeformed interface, body frame
   Eigen::Matrix3Xd translation;  ///< psi at the interface, (3, m)
   Eigen::Matrix3Xd rotation;     ///< mu at the interface, (3, m)
+  std::optional<StaticResponse> response = std::nullopt;  ///< none where nodes are held
+};
+
+/// Geometric stiffness of the modes, int grad(psi_i)^T sigma grad(psi_j), (m, m) each, for the
+/// stresses sigma of static unit loads. Their sum with the loads' present values stands beside the
+/// modes' own stiffness: a tensile stress stiffens. Body axes.
+struct GeometricStiffness {
+  struct OfInterface {
+    std::string name;
+    std::vector<Eigen::MatrixXd> force;   ///< along x, y, z, 1/(kg m)
+    std::vector<Eigen::MatrixXd> moment;  ///< about x, y, z, 1/(kg m^2)
+  };
+  /// Of the frame's origin, less gravity, along x, y, z: loads -rho e, 1/m.
+  std::vector<Eigen::MatrixXd> acceleration;
+  /// About x, y, z: loads -rho e x s0.
+  std::vector<Eigen::MatrixXd> angular_acceleration;
+  /// w_x^2, w_y^2, w_z^2, w_x w_y, w_x w_z, w_y w_z: loads -rho w x (w x s0).
+  std::vector<Eigen::MatrixXd> velocity_products;
+  std::vector<OfInterface> interfaces;
 };
 
 /// What is known of each basis vector.
 struct ModeRecord {
   std::string name;  ///< e.g. "fore-aft bending 1"
-  std::string kind;  ///< "normal": an eigenvector with the boundary of ModalBody::boundary
+  std::string kind;  ///< e.g. "normal", an eigenvector: see basis_kind.h
   /// Per cent of the kinetic energy of the plates' rigid motions: fore-aft (x with theta_y),
   /// lateral (y with theta_x), twist (theta_z), axial (z).
   std::array<double, 4> shares_percent{};
@@ -48,6 +77,8 @@ struct AttachedFrequencies {
   std::string body;       ///< name of the rigid body
   std::string interface;  ///< name of the interface it is fixed to
   Eigen::VectorXd frequencies_Hz;
+  /// Of the rigid body about the interface, translation (3) and rotation (3).
+  std::optional<Eigen::Matrix<double, 6, 6>> mass_matrix = std::nullopt;
 };
 
 /// A deformable body reduced to m mass-normalised modes in its body frame, which rides on the held
@@ -62,7 +93,8 @@ struct ModalBody {
   std::vector<Eigen::Matrix3Xd> shapes;  ///< m of (3, n), kg^(-1/2)
   std::vector<Interface> interfaces;
   InertiaInvariants invariants;
-  std::vector<AttachedFrequencies> attached;  ///< may be empty
+  std::vector<AttachedFrequencies> attached;                             ///< may be empty
+  std::optional<GeometricStiffness> geometric_stiffness = std::nullopt;  ///< if asked for
 
   Eigen::Index mode_count() const { return frequencies_Hz.size(); }
   /// @throws InputError if there is none of that name; the message lists those there are.
@@ -70,7 +102,8 @@ struct ModalBody {
   Eigen::Index mode_index(const std::string& name) const;
 };
 
-/// The body reduced further to the named modes, in the order given.
+/// The body reduced further to the named modes, in the order given. A kind (basis_kind.h) in place
+/// of a name stands for all modes of that kind, "all" for all that are not rigid motions.
 /// @throws InputError for a name that the body has not, or one that comes twice.
 ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& names);
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <span>
 
+#include "fe_modal/body/basis_table.h"
+#include "fe_modal/body/geometric_stiffness_file.h"
+#include "fe_modal/body/mode_count_study.h"
 #include "geometry/foundation/names.h"
 
 namespace flexneck::fe_modal {
@@ -12,6 +15,10 @@ namespace {
 constexpr double kMassNormalised = 1e-6;  ///< largest |Maa - I| that is accepted
 constexpr std::string_view kShapeUnit = "kg^-0.5";
 constexpr std::string_view kRotationUnit = "kg^-0.5 m^-1";
+/// Of the four blocks, row by row.
+constexpr std::string_view kComplianceUnit = "m/N, 1/N; 1/N, 1/(N m)";
+constexpr std::string_view kResponseMassUnit = "kg m^2/N^2, kg m/N^2; kg m/N^2, kg/N^2";
+constexpr std::string_view kRigidMassUnit = "kg, kg m; kg m, kg m^2";
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -106,6 +113,18 @@ void write_basis(Hdf5Writer& file, const ModalBody& body) {
   file.write_attribute("/basis", "boundary", std::string_view(body.boundary));
 }
 
+/// What readers could work out from the rest, for those who look.
+void write_basis_table(Hdf5Writer& file, const ModalBody& body) {
+  const BasisTable table = basis_table(body);
+  write_matrix(file, "/basis/effective_mass", table.effective_mass_kg, "kg");
+  write_matrix(file, "/basis/effective_inertia", table.effective_inertia_kg_m2, "kg m^2");
+  write_matrix(file, "/basis/inertia_captured", table.inertia_percent, "percent");
+  for (const BasisTable::Captured& captured : table.compliance) {
+    write_matrix(file, "/interfaces/" + captured.interface + "/compliance_captured",
+                 captured.percent, "percent");
+  }
+}
+
 void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   const std::vector<std::string> names = file.read_strings("/mode_names");
   const std::vector<std::string> kinds = file.read_strings("/basis/kind");
@@ -128,6 +147,9 @@ void write_interfaces(Hdf5Writer& file, const ModalBody& body) {
     write_vector(file, group + "/position", interface.position_m, "m");
     write_matrix(file, group + "/translation", interface.translation, kShapeUnit);
     write_matrix(file, group + "/rotation", interface.rotation, kRotationUnit);
+    if (!interface.response) continue;
+    write_matrix(file, group + "/compliance", interface.response->compliance, kComplianceUnit);
+    write_matrix(file, group + "/response_mass", interface.response->mass, kResponseMassUnit);
   }
 }
 
@@ -137,6 +159,10 @@ void read_interfaces(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
     body.interfaces.push_back({name, read_vector(file, group + "/position", 3, "m"),
                                read_matrix(file, group + "/translation", 3, m, kShapeUnit),
                                read_matrix(file, group + "/rotation", 3, m, kRotationUnit)});
+    if (!file.has(group + "/compliance")) continue;
+    body.interfaces.back().response = {
+        read_matrix(file, group + "/compliance", 6, 6, kComplianceUnit),
+        read_matrix(file, group + "/response_mass", 6, 6, kResponseMassUnit)};
   }
 }
 
@@ -177,6 +203,13 @@ void write_attached(Hdf5Writer& file, const ModalBody& body) {
     const std::string group = "/attached/" + attached.body;
     write_vector(file, group + "/frequencies", attached.frequencies_Hz, "Hz");
     file.write_attribute(group, "interface", std::string_view(attached.interface));
+    if (!attached.mass_matrix) continue;
+    write_matrix(file, group + "/mass_matrix", *attached.mass_matrix, kRigidMassUnit);
+    for (const ModeCountRow& row : mode_count_study(body, attached)) {
+      const std::string study = group + "/mode_counts/" + row.kept;
+      write_vector(file, study + "/modes_only", row.modes_only_Hz, "Hz");
+      write_vector(file, study + "/corrected", row.corrected_Hz, "Hz");
+    }
   }
 }
 
@@ -185,6 +218,9 @@ void read_attached(const Hdf5Reader& file, ModalBody& body) {
     const std::string group = "/attached/" + name;
     body.attached.push_back({name, file.string_attribute(group, "interface"),
                              read_vector(file, group + "/frequencies", kAnyExtent, "Hz")});
+    if (!file.has(group + "/mass_matrix")) continue;
+    body.attached.back().mass_matrix =
+        read_matrix(file, group + "/mass_matrix", 6, 6, kRigidMassUnit);
   }
 }
 
@@ -196,10 +232,12 @@ void write_modal_body(const std::filesystem::path& path, const ModalBodyFile& co
   Hdf5Writer file(path, kModalBodyFormat);
   write_vector(file, "/frequencies", body.frequencies_Hz, "Hz");
   write_basis(file, body);
+  write_basis_table(file, body);
   write_shapes(file, body);
   write_interfaces(file, body);
   write_invariants(file, body.invariants);
   write_attached(file, body);
+  if (body.geometric_stiffness) write_geometric_stiffness(file, *body.geometric_stiffness);
   file.write("/certificate/orthogonality", {&body.orthogonality, 1}, {1}, "1");
   file.write_attribute("/certificate", "status", std::string_view(body.certificate));
   write_provenance(file, content.provenance);
@@ -218,6 +256,7 @@ ModalBodyFile read_modal_body(const std::filesystem::path& path) {
   read_interfaces(file, m, body);
   body.invariants = read_invariants(file, m);
   read_attached(file, body);
+  body.geometric_stiffness = read_geometric_stiffness(file, m);
   body.orthogonality = read_vector(file, "/certificate/orthogonality", 1, "1")[0];
   body.certificate = file.string_attribute("/certificate", "status");
   content.provenance = read_provenance(file);

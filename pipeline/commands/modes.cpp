@@ -9,6 +9,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
 #include "mesher/mesh/mesh_file.h"
+#include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/structure_options.h"
 #include "pipeline/text_table.h"
@@ -31,6 +32,9 @@ fe_modal::ModalOptions neck_options(const Study& study) {
   fe_modal::ModalOptions options;
   options.mode_count = study.modes.count;
   options.formulation = study.modes.formulation;
+  options.basis = study.modes.basis;
+  options.basis_interfaces = study.modes.basis_interfaces;
+  options.geometric_stiffness = study.modes.stress_stiffening;
   options.held_set = "bolts";
   options.held_interface = "base";
   options.interfaces = {{"top", "top", geometry.joint_point_m}};
@@ -47,33 +51,22 @@ fe_modal::ModalOptions modal_options(const Study& study, mesher::Mesh& mesh) {
 
 std::string mode_table(const fe_modal::ModalBody& body) {
   std::vector<std::vector<std::string>> rows = {
-      {"mode", "Hz", "fore-aft %", "lateral %", "twist %", "axial %", "residual"}};
+      {"mode", "kind", "Hz", "fore-aft %", "lateral %", "twist %", "axial %", "residual"}};
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
     const fe_modal::ModeRecord& mode = body.modes[static_cast<std::size_t>(k)];
-    std::vector<std::string> row = {mode.name, fmt::format("{:.3f}", body.frequencies_Hz[k])};
+    std::vector<std::string> row = {mode.name, mode.kind,
+                                    fmt::format("{:.3f}", body.frequencies_Hz[k])};
     for (const double share : mode.shares_percent) row.push_back(fmt::format("{:.2f}", share));
     row.push_back(fmt::format("{:.1e}", mode.residual));
     rows.push_back(std::move(row));
   }
-  return text_table(rows);
+  return text_table(rows, {0, 1});
 }
 
 /// The neck's paper weighs in pounds.
 std::string mass_text(const Study& study, double mass_kg) {
   return study.geometry ? fmt::format("{:.3f} lb", mass_kg * factor_from_si("kg", "lb"))
                         : fmt::format("{:.4g} kg", mass_kg);
-}
-
-/// "With head on top: 5.0, 5.3 … Hz", a line for each body.
-std::string attached_text(const fe_modal::ModalBody& body) {
-  std::string text;
-  for (const fe_modal::AttachedFrequencies& attached : body.attached) {
-    text += "\nWith " + attached.body + " on " + attached.interface + ":";
-    for (const double frequency : attached.frequencies_Hz)
-      text += fmt::format(" {:.3f}", frequency);
-    text += " Hz";
-  }
-  return text;
 }
 
 /// Tells the analysis what stands in the mesh file for it.
@@ -113,7 +106,7 @@ bool modes_command(const CommandInput& input) {
   input.console.result(
       fmt::format("\nModes: {}, {}; mass {}  ({})\n{}{}", file.body.boundary, file.body.certificate,
                   mass_text(input.study, file.body.invariants.mass), input.folder.modes().string(),
-                  mode_table(file.body), input.study.structure ? attached_text(file.body) : ""));
+                  mode_table(file.body), basis_text(file.body)));
   return true;
 }
 

@@ -65,6 +65,9 @@ fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh)
   fe_modal::ModalOptions options;
   options.mode_count = study.modes.count;
   options.formulation = study.modes.formulation;
+  options.basis = study.modes.basis;
+  options.basis_interfaces = study.modes.basis_interfaces;
+  options.geometric_stiffness = study.modes.stress_stiffening;
   options.rigid_parts = study.modes.rigid_parts;
   options.length_m = mesher::bounding_box(mesh).extent_m().norm();
   try {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fe_modal/body/basis_kind.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/model/placement.h"
@@ -18,8 +19,12 @@ namespace {
 multibody::DeformableBody deformable(const BodySection& section, const fe_modal::ModalBody& body) {
   multibody::DeformableBody result;
   result.modes = fe_modal::select_modes(body, section.modes);
-  result.damping_ratio =
-      Eigen::VectorXd::Constant(result.modes.mode_count(), section.damping_ratio);
+  result.damping_ratio.resize(result.modes.mode_count());
+  for (Eigen::Index k = 0; k < result.damping_ratio.size(); ++k) {
+    const bool correction =
+        fe_modal::is_correction(result.modes.modes[static_cast<std::size_t>(k)].kind);
+    result.damping_ratio[k] = correction ? section.correction_damping_ratio : section.damping_ratio;
+  }
   return result;
 }
 

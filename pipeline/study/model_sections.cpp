@@ -71,6 +71,8 @@ BodySection read_body(const StudyTable& table) {
     case BodySection::Kind::deformable:
       body.modes = table.texts("modes");
       body.damping_ratio = table.number("damping_ratio");
+      body.correction_damping_ratio =
+          table.number_or("correction_damping_ratio", body.correction_damping_ratio);
       break;
   }
   table.finish();

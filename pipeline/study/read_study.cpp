@@ -41,6 +41,13 @@ ModesSection read_modes(const StudyTable& table) {
   ModesSection modes;
   modes.count = table.count_or("count", 1, modes.count);
   modes.formulation = read_formulation(table, modes.formulation);
+  if (table.has("basis")) {
+    modes.basis = static_cast<fe_modal::BasisKind>(choice(table, "basis", fe_modal::basis_names()));
+  }
+  if (table.has("basis_interfaces")) modes.basis_interfaces = table.texts("basis_interfaces");
+  if (table.has("stress_stiffening")) {
+    modes.stress_stiffening = choice(table, "stress_stiffening", {"none", "unit-loads"}) == 1;
+  }
   if (table.has("held")) modes.held = table.texts("held");
   if (table.has("rigid_parts")) modes.rigid_parts = table.texts("rigid_parts");
   modes.attached_body = table.text_or("attached_body", "");

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/body/basis_kind.h"
 #include "fe_modal/formulation.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/neck_slits.h"
@@ -42,11 +43,17 @@ struct MeshOrders {
 struct ModesSection {
   int count = 10;
   fe_modal::Formulation formulation = fe_modal::Formulation::mixed_pressure;
+  fe_modal::BasisKind basis = fe_modal::BasisKind::normal;
+  bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
+  std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
   std::vector<std::string> held;         ///< node sets held in all directions; empty: a free body
   std::vector<std::string> rigid_parts;  ///< parts whose motion names the modes
   std::string attached_body;  ///< rigid body set on an interface for the loaded frequencies
   std::string attached_to;    ///< that interface; empty: the first
 };
+
+/// Damping of correction modes where a study says nothing: see pipeline/experiments/case_model.h.
+inline constexpr double kCorrectionDamping = 0.05;
 
 /// [[body]]
 struct BodySection {
@@ -56,6 +63,8 @@ struct BodySection {
   multibody::RigidBody rigid;
   std::vector<std::string> modes;  ///< of a deformable body
   double damping_ratio = 0;
+  /// Of modes that only complete the static compliance.
+  double correction_damping_ratio = kCorrectionDamping;
   /// Deceleration of a driven body; a case scales it to its impact velocity.
   std::vector<double> pulse_times_s;
   std::vector<double> pulse_m_s2;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/names.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum.h"
@@ -76,6 +77,34 @@ TEST_CASE("the pendulum hangs head down and its joints close") {
   CHECK((head.initial_pose.position_m - Eigen::Vector3d(0, 0, -length)).norm() < kRounding);
   CHECK(model.joints.size() == 2);
   CHECK(model.gravity_m_s2.z() == Approx(-9.80665));
+}
+
+TEST_CASE("a body takes modes by kind, and its corrections a damping of their own") {
+  Experiment experiment;
+  std::vector<fe_modal::ModeRecord>& modes = experiment.body.modes;
+  for (std::size_t k = 2; k < modes.size(); ++k) {
+    modes[k].name = "residual " + std::to_string(k - 1);
+    modes[k].kind = "residual";
+  }
+  BodySection& neck =
+      experiment.study.bodies.at(find_name(names_of(experiment.study.bodies), "neck", "body"));
+  neck.modes = {"residual", modes[0].name};
+  neck.damping_ratio = 0.9;
+  neck.correction_damping_ratio = 0.3;
+  const multibody::Model model =
+      pendulum_model(experiment.study, experiment.named("flexion-60"), experiment.body);
+  const auto& body =
+      std::get<multibody::DeformableBody>(model.bodies[model.body_index("neck")].kind);
+  REQUIRE(body.modes.mode_count() == static_cast<Eigen::Index>(modes.size()) - 1);
+  CHECK(body.modes.modes.back().name == modes[0].name);
+  CHECK(body.damping_ratio[0] == 0.3);
+  CHECK(body.damping_ratio.tail<1>()[0] == 0.9);
+  neck.modes = {"all"};
+  CHECK(std::get<multibody::DeformableBody>(
+            pendulum_model(experiment.study, experiment.named("flexion-60"), experiment.body)
+                .bodies[1]
+                .kind)
+            .modes.mode_count() == static_cast<Eigen::Index>(modes.size()));
 }
 
 TEST_CASE("the arm comes to rest from the impact velocity, whatever the case") {

@@ -120,7 +120,20 @@ TEST_CASE("what cannot be is refused before anything is computed") {
                     Contains("there is no body 'nek' (did you mean 'neck'?)"));
   CHECK_THROWS_WITH(built_in({"case.flexion-20.impact_velocity=-1 m/s"}), Contains("positive"));
   CHECK_THROWS_WITH(built_in({"modes.attached_body=neck"}), Contains("expected a rigid body"));
+  CHECK_THROWS_WITH(built_in({"modes.basis=residul"}), Contains("did you mean 'residual'?"));
+  CHECK_THROWS_WITH(built_in({"modes.stress_stiffening=yes"}), Contains("unit-loads"));
   CHECK_THROWS_WITH(built_in({"solver.relative_tolerance=0"}), Contains("positive"));
+}
+
+TEST_CASE("the basis is chosen by its name") {
+  CHECK(built_in().modes.basis == fe_modal::BasisKind::normal);
+  const Study study =
+      built_in({"modes.basis=craig-bampton", "modes.basis_interfaces=[\"top\"]",
+                "modes.stress_stiffening=unit-loads", "body.neck.correction_damping_ratio=0.3"});
+  CHECK(study.modes.basis == fe_modal::BasisKind::craig_bampton);
+  CHECK(study.modes.basis_interfaces == std::vector<std::string>{"top"});
+  CHECK(study.modes.stress_stiffening);
+  CHECK(study.body("neck").correction_damping_ratio == 0.3);
 }
 
 TEST_CASE("a study without geometry is a model and needs no geometry keys") {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "fe_modal/petsc_handles.h"
+
+namespace flexneck::fe_modal {
+
+/// P^T M P as an operator, with P the K-orthogonal projector to the fields on which C x = 0:
+/// P = I - X (C X)^-1 C with K X = C^T. The eigenpairs of K x = lambda P^T M P x with finite lambda
+/// are the modes of the body whose interfaces' average motions C x are held: K^-1 P^T = P K^-1
+/// symmetric, so that x = lambda P K^-1 M P x has C x = 0.
+class ConstrainedMass {
+ public:
+  /// @param mass of the free degrees of freedom; must outlive this
+  /// @param constraints C^T, (dofs, n), independent
+  /// @param responses X, (dofs, n)
+  ConstrainedMass(Mat mass, const Eigen::MatrixXd& constraints, const Eigen::MatrixXd& responses);
+
+  Mat matrix() const { return shell_.get(); }
+  /// P x of each column.
+  Eigen::MatrixXd project(const Eigen::MatrixXd& columns) const;
+
+ private:
+  struct Terms;
+  std::shared_ptr<const Terms> terms_;  ///< at a fixed address: the shell points to it
+  MatHandle shell_;
+};
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/reduction/geometric_stiffness.h"
+
+#include <array>
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "fe_modal/element_kernel.h"
+#include "fe_modal/matrix_product.h"
+#include "fe_modal/reduction/static_response.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Of a symmetric tensor: xx, yy, zz, xy, xz, yz.
+constexpr std::array<std::array<std::size_t, 2>, 6> kPairs = {
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+/// Sums int sigma : (grad psi_i^T grad psi_j) over elements as products of matrices: one row for
+/// each pair i <= j of modes, one column for each stress field.
+class StressIntegral {
+ public:
+  StressIntegral(Eigen::Index modes, Eigen::Index stresses)
+      : modes_(modes), sums_(Eigen::MatrixXd::Zero(modes * (modes + 1) / 2, stresses)) {}
+
+  /// @param fields of the modes, then of the displacements that make the stresses
+  void add(const PointFields& fields, double shear_modulus_Pa) {
+    const Eigen::Index points = fields.volumes_m3.size();
+    products_.resize(sums_.rows(), 6 * points);
+    stresses_.resize(sums_.cols(), 6 * points);
+    for (Eigen::Index q = 0; q < points; ++q) {
+      multiply_gradients(fields, q);
+      find_stresses(fields, q, shear_modulus_Pa);
+    }
+    multiply_by_transpose(1, products_, stresses_, 1, sums_);
+  }
+
+  std::vector<Eigen::MatrixXd> matrices() const {
+    std::vector<Eigen::MatrixXd> result;
+    for (const auto& sums : sums_.colwise()) {
+      Eigen::MatrixXd matrix(modes_, modes_);
+      Eigen::Index row = 0;
+      for (Eigen::Index i = 0; i < modes_; ++i) {
+        for (Eigen::Index j = i; j < modes_; ++j) matrix(i, j) = matrix(j, i) = sums[row++];
+      }
+      result.push_back(std::move(matrix));
+    }
+    return result;
+  }
+
+ private:
+  /// Symmetric parts of sum_a psi_i,a,k psi_j,a,l, twice them off the diagonal, times the volume.
+  void multiply_gradients(const PointFields& fields, Eigen::Index q) {
+    for (std::size_t c = 0; c < kPairs.size(); ++c) {
+      const auto [k, l] = kPairs[c];
+      Eigen::Index row = 0;
+      for (Eigen::Index i = 0; i < modes_; ++i) {
+        for (Eigen::Index j = i; j < modes_; ++j) {
+          double sum = 0;
+          for (std::size_t a = 0; a < 3; ++a) {
+            const Eigen::MatrixXd& along_k = fields.gradients[3 * a + k];
+            const Eigen::MatrixXd& along_l = fields.gradients[3 * a + l];
+            sum += along_k(i, q) * along_l(j, q);
+            if (k != l) sum += along_l(i, q) * along_k(j, q);
+          }
+          products_(row++, 6 * q + static_cast<Eigen::Index>(c)) = fields.volumes_m3[q] * sum;
+        }
+      }
+    }
+  }
+
+  void find_stresses(const PointFields& fields, Eigen::Index q, double shear_modulus_Pa) {
+    for (std::size_t c = 0; c < kPairs.size(); ++c) {
+      const auto [k, l] = kPairs[c];
+      auto stress = stresses_.col(6 * q + static_cast<Eigen::Index>(c));
+      const auto later = Eigen::seqN(modes_, stress.size());
+      stress = shear_modulus_Pa *
+               (fields.gradients[3 * k + l](later, q) + fields.gradients[3 * l + k](later, q));
+      if (k == l) stress += fields.volumetric_Pa(later, q);
+    }
+  }
+
+  Eigen::Index modes_;
+  Eigen::MatrixXd sums_;      ///< (pairs of modes, stresses)
+  Eigen::MatrixXd products_;  ///< workspace: (pairs of modes, 6 points)
+  Eigen::MatrixXd stresses_;  ///< workspace: (stresses, 6 points)
+};
+
+/// Values of all fields at an element's nodes, (3 n, fields).
+void gather(std::span<const std::int32_t> nodes, const std::vector<Eigen::Matrix3Xd>& fields,
+            Eigen::Index first, Eigen::MatrixXd& values) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index a = 0; a < 3; ++a) {
+        values(a * n + i, first + static_cast<Eigen::Index>(f)) =
+            fields[f](a, nodes[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+}
+
+Eigen::Matrix3Xd positions_of(const mesher::Mesh& mesh) {
+  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+    positions.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[k].data());
+  }
+  return positions;
+}
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+/// Accelerations of the undeformed body: three of the frame, three angular ones, six products of
+/// angular velocities.
+std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positions) {
+  std::vector<Eigen::Matrix3Xd> fields;
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  for (Eigen::Index i = 0; i < 3; ++i) fields.push_back(axes.col(i).replicate(1, positions.cols()));
+  for (Eigen::Index i = 0; i < 3; ++i) fields.push_back(skew(axes.col(i)) * positions);
+  for (const auto& [k, l] : kPairs) {
+    const Eigen::Matrix3d one = skew(axes.col(static_cast<Eigen::Index>(k)));
+    const Eigen::Matrix3d other = skew(axes.col(static_cast<Eigen::Index>(l)));
+    const double share = k == l ? 0.5 : 1;
+    fields.push_back(share * (one * other + other * one) * positions);
+  }
+  return fields;
+}
+
+}  // namespace
+
+std::vector<Eigen::MatrixXd> geometric_stiffness(
+    const mesher::Mesh& mesh, Formulation formulation, const std::vector<Eigen::Matrix3Xd>& modes,
+    const std::vector<Eigen::Matrix3Xd>& displacements) {
+  const auto m = static_cast<Eigen::Index>(modes.size());
+  const auto k = static_cast<Eigen::Index>(displacements.size());
+  StressIntegral integral(m, k);
+  PointFields fields;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    const mesher::Material& material = mesh.materials.at(block.material);
+    const double shear_modulus = material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio));
+    ElementKernel kernel(element_scheme(block.kind, formulation));
+    const std::size_t width = mesher::nodes_per_element(block.kind);
+    Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
+    Eigen::MatrixXd values(coordinates.size(), m + k);
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      const auto nodes = std::span(block.nodes).subspan(width * e, width);
+      for (std::size_t i = 0; i < width; ++i) {
+        coordinates.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::Vector3d>(
+            mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
+      }
+      gather(nodes, modes, 0, values);
+      gather(nodes, displacements, m, values);
+      kernel.evaluate(coordinates, material, values, fields);
+      integral.add(fields, shear_modulus);
+    }
+  }
+  return integral.matrices();
+}
+
+GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh, Formulation formulation,
+                                       const FreeNodes& free_nodes, const NodalMass& nodal_mass,
+                                       const BodyOperators& body,
+                                       const std::vector<InterfaceLoads>& interfaces,
+                                       const std::vector<Eigen::Matrix3Xd>& modes) {
+  const std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(positions_of(mesh));
+  const auto inertial = static_cast<Eigen::Index>(accelerations.size());
+  Eigen::MatrixXd loads(free_nodes.dof_count(),
+                        inertial + static_cast<Eigen::Index>(6 * interfaces.size()));
+  for (Eigen::Index i = 0; i < inertial; ++i) {
+    const Eigen::MatrixX3d field = accelerations[static_cast<std::size_t>(i)].transpose();
+    loads.col(i) = -free_nodes.gather(Eigen::MatrixX3d(nodal_mass * field).transpose());
+  }
+  for (std::size_t k = 0; k < interfaces.size(); ++k) {
+    loads.middleCols<6>(inertial + static_cast<Eigen::Index>(6 * k)) = interfaces[k].forces;
+  }
+  const Eigen::MatrixXd responses = static_response_beyond(body, {}, loads);
+  std::vector<Eigen::Matrix3Xd> displacements;
+  for (const auto& response : responses.colwise()) {
+    displacements.push_back(free_nodes.expand(response));
+  }
+  const std::vector<Eigen::MatrixXd> all =
+      geometric_stiffness(mesh, formulation, modes, displacements);
+  const auto group = [&](std::size_t first, std::size_t count) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::vector<Eigen::MatrixXd>(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  GeometricStiffness stiffness{group(0, 3), group(3, 3), group(6, 6), {}};
+  for (std::size_t k = 0; k < interfaces.size(); ++k) {
+    stiffness.interfaces.push_back(
+        {interfaces[k].name, group(12 + 6 * k, 3), group(15 + 6 * k, 3)});
+  }
+  return stiffness;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/formulation.h"
+#include "fe_modal/free_nodes.h"
+#include "fe_modal/mass_matrix.h"
+#include "fe_modal/reduction/operators.h"
+#include "fe_modal/reduction/reduction.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// int grad(psi_i)^T sigma grad(psi_j) dV = int sum_a psi_i,a,k sigma_kl psi_j,a,l dV for each of
+/// some stress fields.
+/// @param modes m fields on all nodes, (3, n)
+/// @param displacements fields on all nodes, (3, n), whose stresses are taken
+/// @return (m, m) for each displacement field
+std::vector<Eigen::MatrixXd> geometric_stiffness(
+    const mesher::Mesh& mesh, Formulation formulation, const std::vector<Eigen::Matrix3Xd>& modes,
+    const std::vector<Eigen::Matrix3Xd>& displacements);
+
+/// The same for the stresses of unit accelerations, angular accelerations, products of angular
+/// velocities and interface loads of a held body, from static solutions.
+/// @param nodal_mass of all nodes
+GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh, Formulation formulation,
+                                       const FreeNodes& free_nodes, const NodalMass& nodal_mass,
+                                       const BodyOperators& body,
+                                       const std::vector<InterfaceLoads>& interfaces,
+                                       const std::vector<Eigen::Matrix3Xd>& modes);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/body/basis_kind.h"
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/eigensolver.h"
+#include "fe_modal/free_nodes.h"
+#include "fe_modal/reduction/operators.h"
+#include "fe_modal/rigid_average.h"
+#include "geometry/foundation/progress.h"
+
+namespace flexneck::fe_modal {
+
+/// Six unit loads of one interface, force (3) and moment (3), which are spread so that their work
+/// is that of the interface's average motion.
+struct InterfaceLoads {
+  std::string name;
+  Eigen::MatrixXd forces;      ///< C^T, (dofs, 6)
+  bool corrects_basis = true;  ///< whether static shapes of this interface join the basis
+};
+
+/// Loads of an interface on the free degrees of freedom.
+InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
+                               const FreeNodes& free_nodes);
+
+struct Reduction {
+  EigenPairs pairs;                ///< M-orthonormal, ascending
+  std::vector<std::string> kinds;  ///< of each pair, see basis_kind.h
+  /// For each interface; none for a free body whose modes do not hold all six rigid motions.
+  std::vector<StaticResponse> responses;
+};
+
+/// The lowest eigenpairs of K x = lambda M x for any symmetric positive M.
+using ModeSolver = std::function<EigenPairs(Mat mass, Eigen::Index count)>;
+
+/// Completes the eigenvectors of a body by the static shapes of its interfaces: residual
+/// attachment modes (MacNeal, Comput. Struct. 1 (1971); Rubin, AIAA J. 13 (1975)), of a free body
+/// with inertia relief. Each has a frequency and is M-orthonormal to all others. Shapes that depend
+/// on others or that the modes hold already are dropped and reported.
+/// @param normal eigenpairs of the body; eigenvalues of rigid motions are exactly zero
+/// @param kind normal: nothing is added
+/// @throws InputError if a free body's basis lacks rigid motions; ComputationError from the solver.
+Reduction complete_modes(const BodyOperators& body, const EigenPairs& normal,
+                         const std::vector<InterfaceLoads>& interfaces, BasisKind kind,
+                         const Progress& progress);
+
+/// Modes with the average motions of the interfaces held, and the interfaces' static shapes (Craig
+/// and Bampton, AIAA J. 6 (1968)), made orthonormal by the reduced eigenproblem. Of its vectors the
+/// `count` lowest stand for modes, the others are corrections.
+/// @pre the body is held
+Reduction craig_bampton(const BodyOperators& body, Mat mass, const ModeSolver& solve_modes,
+                        Eigen::Index count, const std::vector<InterfaceLoads>& interfaces,
+                        const Progress& progress);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/reduction/ritz.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "fe_modal/reduction/static_response.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// The second pass removes the rounding that the first one has magnified.
+constexpr int kPasses = 2;
+
+Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& matrix) {
+  return (matrix + matrix.transpose()) / 2;
+}
+
+}  // namespace
+
+EigenPairs ritz_pairs(const BodyOperators& body, const Eigen::MatrixXd& modes,
+                      Eigen::MatrixXd shapes) {
+  EigenPairs pairs{Eigen::VectorXd(shapes.cols()), std::move(shapes)};
+  if (pairs.values.size() == 0) return pairs;
+  const Eigen::MatrixXd momenta = modes.cols() > 0 ? body.mass(modes) : modes;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    remove_modes(modes, momenta, pairs.vectors);
+    Eigen::MatrixXd mass = pairs.vectors.transpose() * body.mass(pairs.vectors);
+    Eigen::MatrixXd stiffness = pairs.vectors.transpose() * body.stiffness(pairs.vectors);
+    // Shapes of unit mass, so that the small problem is as well conditioned as it can be.
+    const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+    mass = scale.asDiagonal() * symmetric_part(mass) * scale.asDiagonal();
+    stiffness = scale.asDiagonal() * symmetric_part(stiffness) * scale.asDiagonal();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+    pairs.values = solver.eigenvalues();
+    pairs.vectors *= scale.asDiagonal() * solver.eigenvectors();
+  }
+  return pairs;
+}
+
+}  // namespace flexneck::fe_modal

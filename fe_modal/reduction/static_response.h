@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fe_modal/eigensolver.h"
+#include "fe_modal/reduction/operators.h"
+
+namespace flexneck::fe_modal {
+
+/// The columns less what the modes have of them, M-orthogonal to the modes.
+/// @param modes (dofs, m), M-orthonormal; may have no columns
+/// @param momenta M times the modes
+void remove_modes(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& momenta,
+                  Eigen::MatrixXd& columns);
+
+/// What static shapes have beyond some modes: X with K X = F - M Phi Phi^T F, M-orthogonal to the
+/// modes Phi. If Phi holds a free body's six rigid motions, X is its deformation under the loads
+/// and the inertia forces that balance them (inertia relief). Without modes it is K^-1 F.
+///
+/// Conjugate gradients with (K - shift M)^-1: one step and one of refinement where the shift is
+/// zero, else as many as the first elastic mode that is not in Phi is small against the shift.
+/// @param loads F, (dofs, n)
+/// @param kept the modes, M-orthonormal eigenpairs; all rigid motions if the shift is not zero
+/// @throws ComputationError if it does not converge to 1e-10 of the energy norm.
+Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPairs& kept,
+                                       const Eigen::MatrixXd& loads);
+
+/// What the modes have of static shapes: X^T M X and F^T X of X = sum phi (phi^T F) / lambda over
+/// the modes that are no rigid motion.
+struct ModalResponse {
+  Eigen::MatrixXd compliance;  ///< F^T X, (n, n)
+  Eigen::MatrixXd mass;        ///< X^T M X, (n, n)
+};
+/// @param modal_loads Phi^T F, (m, n)
+ModalResponse modal_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& modal_loads);
+
+}  // namespace flexneck::fe_modal

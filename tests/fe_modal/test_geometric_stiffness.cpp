@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "fe_modal/modal_analysis.h"
+#include "tests/support/beam_body.h"
+#include "tests/support/block_mesh.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr double kYoung = 7e10;
+constexpr double kLength = 1.0;
+
+/// A clamped beam along z without lateral contraction, so that the clamp adds nothing; residual
+/// modes of the tip load.
+ModalBody beam(const Eigen::Vector2d& section_m, std::array<int, 3> divisions, int count) {
+  const mesher::Mesh mesh =
+      testing::box(divisions, {section_m.x(), section_m.y(), kLength}, {"light", kYoung, 0, 2700})
+          .make();
+  ModalOptions options;
+  options.mode_count = count;
+  options.basis = BasisKind::residual;
+  options.geometric_stiffness = true;
+  options.held_set = "bottom";
+  options.interfaces = {{"tip", "top", {0, 0, kLength}}};
+  options.sign_interface = "tip";
+  options.length_m = kLength;
+  options.rigid_parts = {"block"};
+  return analyse_modes(mesh, options, {});
+}
+
+/// Smallest positive factor at which K + factor K_G is singular.
+double buckling_load(const ModalBody& body, const Eigen::MatrixXd& geometric) {
+  const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
+  const Eigen::MatrixXd scaled =
+      omega.cwiseInverse().asDiagonal() * geometric * omega.cwiseInverse().asDiagonal();
+  return -1 / Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0];
+}
+
+/// int (L^2 - z^2) / 2 phi'^2 dz over int phi^2 dz of a beam's n-th mode: how much the square of
+/// its frequency rises with the square of the spin about an axis through the root.
+double southwell(std::size_t n) {
+  const auto [points, weights] = testing::detail::gauss_rule(40);
+  double sum = 0;
+  for (Eigen::Index k = 0; k < points.size(); ++k) {
+    const double slope = testing::detail::clamped_free_shape(n, points[k]).second;
+    sum += weights[k] * (1 - points[k] * points[k]) / 2 * slope * slope;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a spun beam stiffens by Southwell's coefficients, a pushed column buckles at Euler's load") {
+  // Thickness over length 1/50: shear and rotary inertia count for some (h/L)^2 b^2.
+  constexpr double kShear = 3e-3;
+  const ModalBody body = beam({0.02, 0.03}, {1, 1, 12}, 6);
+  REQUIRE(body.geometric_stiffness);
+  const GeometricStiffness& geometric = *body.geometric_stiffness;
+  CHECK(southwell(0) == Approx(1.193).margin(0.001));  // the textbooks' coefficient
+  // Spin about x: bending along x is the flapping of a blade, along y stays in the plane.
+  for (const std::size_t n : {0U, 1U}) {
+    for (const std::string kind : {"fore-aft", "lateral"}) {
+      const Eigen::Index k = body.mode_index(kind + " bending " + std::to_string(n + 1));
+      CAPTURE(kind, n);
+      CHECK(geometric.velocity_products[0](k, k) ==
+            Approx(southwell(n)).epsilon(kShear * (n == 0 ? 1 : 4)));
+    }
+  }
+  const double EI = kYoung * 0.03 * std::pow(0.02, 3) / 12;
+  const double euler = std::pow(std::numbers::pi / (2 * kLength), 2) * EI;
+  const GeometricStiffness::OfInterface& tip = geometric.interfaces.at(0);
+  CHECK(tip.name == "tip");
+  CHECK(buckling_load(body, -tip.force[2]) == Approx(euler).epsilon(1e-3));
+  // Own weight: 7.837 EI / L^2 (Greenhill) is the critical weight.
+  const double weight = 7.837 * EI / (kLength * kLength);
+  const double mass = 2700 * 0.02 * 0.03 * kLength;
+  CHECK(buckling_load(body, geometric.acceleration[2]) == Approx(weight / mass).epsilon(2e-3));
+}
+
+TEST_CASE("a narrow beam tips over sideways under Prandtl's load") {
+  // 4.013 sqrt(EI GJ) / L^2 for a tip force at the centroid. Warping at the clamp, which the
+  // formula leaves out, stiffens by about (0.1 L_warp / L): allow for 2 %.
+  const double thickness = 0.008;
+  const double height = 0.08;
+  const ModalBody body = beam({thickness, height}, {1, 2, 10}, 10);
+  const double EI = kYoung * height * std::pow(thickness, 3) / 12;
+  const double GJ =
+      kYoung / 2 * height * std::pow(thickness, 3) / 3 * (1 - 0.63 * thickness / height);
+  const double prandtl = 4.013 * std::sqrt(EI * GJ) / (kLength * kLength);
+  const std::vector<Eigen::MatrixXd>& force = body.geometric_stiffness->interfaces.at(0).force;
+  CHECK(buckling_load(body, force[1]) == Approx(prandtl).epsilon(0.02));
+  CHECK(buckling_load(body, -force[1]) == Approx(prandtl).epsilon(0.02));
+}
+
+}  // namespace flexneck::fe_modal

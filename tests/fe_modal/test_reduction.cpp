@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "fe_modal/assembly.h"
+#include "fe_modal/attached_mass.h"
+#include "fe_modal/body/mode_count_study.h"
+#include "fe_modal/modal_analysis.h"
+#include "geometry/foundation/error.h"
+#include "tests/fe_modal/dense.h"
+#include "tests/support/block_mesh.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// What the issue asks of the captured compliance.
+constexpr double kCompliance = 1e-8;
+/// Two solutions of the same small problem in double precision.
+constexpr double kSame = 1e-9;
+const Eigen::Vector3d kTip(0.01, -0.02, 0.32);
+const Eigen::Vector3d kRoot(0.02, 0.01, 0);
+
+/// A rubber block without any symmetry.
+const mesher::Mesh& block() {
+  static const mesher::Mesh mesh = [] {
+    testing::BlockMesh box = testing::box({1, 1, 2}, {1, 1, 1}, {"rubber", 8.3e6, 0.49, 950});
+    box.position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+      return 0.3 * testing::distorted(p).cwiseProduct(Eigen::Vector3d(0.4, 0.5, 1));
+    };
+    return box.make();
+  }();
+  return mesh;
+}
+
+ModalOptions held(BasisKind basis, int count) {
+  ModalOptions options;
+  options.mode_count = count;
+  options.basis = basis;
+  options.held_set = "bottom";
+  options.interfaces = {{"tip", "top", kTip}};
+  return options;
+}
+
+ModalOptions free_block(BasisKind basis, int count) {
+  ModalOptions options;
+  options.mode_count = count;
+  options.basis = basis;
+  options.interfaces = {{"tip", "top", kTip}, {"root", "bottom", kRoot}};
+  return options;
+}
+
+/// Matrices of the finite element model and an interface's average motion C.
+struct Dense {
+  Eigen::MatrixXd stiffness;
+  Eigen::MatrixXd mass;
+  Eigen::MatrixXd average;  ///< (6, dofs)
+};
+
+Dense dense_model(const std::vector<std::int32_t>& held_nodes, const std::string& set,
+                  const Eigen::Vector3d& point) {
+  const FreeNodes free_nodes(block(), held_nodes);
+  const SystemMatrices system = assemble(block(), free_nodes);
+  Dense model{dense(system.stiffness.get()), dense(system.mass.get()),
+              Eigen::MatrixXd(6, free_nodes.dof_count())};
+  const auto weights =
+      RigidAverage(block(), block().face_set(set), point).weights(free_nodes.node_count());
+  for (std::size_t i = 0; i < 6; ++i) {
+    model.average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
+  }
+  return model;
+}
+
+Dense held_model() { return dense_model(block().node_set("bottom").nodes, "top", kTip); }
+
+/// Largest difference, with entries scaled by those of the diagonal.
+double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+  return (scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff();
+}
+
+/// Compliance that a body's modes have at an interface.
+Matrix6d captured(const ModalBody& body, const std::string& interface) {
+  const Interface& where = body.interface(interface);
+  Eigen::MatrixXd motions(6, body.mode_count());
+  motions << where.translation, where.rotation;
+  Matrix6d sum = Matrix6d::Zero();
+  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    const double omega = 2 * std::numbers::pi * body.frequencies_Hz[k];
+    if (omega > 0) sum += motions.col(k) * motions.col(k).transpose() / (omega * omega);
+  }
+  return sum;
+}
+
+long count_of(const ModalBody& body, std::string_view kind) {
+  return std::count_if(body.modes.begin(), body.modes.end(),
+                       [&](const ModeRecord& mode) { return mode.kind == kind; });
+}
+
+void check_basis(const ModalBody& body) {
+  CHECK(body.orthogonality < kSame);
+  CHECK(std::is_sorted(body.frequencies_Hz.begin(), body.frequencies_Hz.end()));
+}
+
+}  // namespace
+
+TEST_CASE("modes with residual modes have the compliance of direct static solutions") {
+  const ModalBody body = analyse_modes(block(), held(BasisKind::residual, 3), {});
+  const Dense model = held_model();
+  const Eigen::MatrixXd shapes = model.stiffness.llt().solve(model.average.transpose());
+  const Eigen::MatrixXd exact = model.average * shapes;
+  CHECK(difference(captured(body, "tip"), exact) < kCompliance);
+  CHECK(count_of(body, kNormalMode) == 3);
+  CHECK(count_of(body, kResidualMode) == 6);
+  CHECK(body.modes[3].name == "residual 1");
+  check_basis(body);
+  // Without them much is missing, and the response tells how much.
+  const ModalBody plain = analyse_modes(block(), held(BasisKind::normal, 3), {});
+  REQUIRE(plain.mode_count() == 3);
+  CHECK(difference(captured(plain, "tip"), exact) > 0.1);
+  const StaticResponse& response = *plain.interface("tip").response;
+  CHECK(difference(response.compliance, exact) < kCompliance);
+  CHECK(difference(response.mass, shapes.transpose() * model.mass * shapes) < kCompliance);
+  // A correction is no eigenvector, a mode is.
+  CHECK(body.modes[2].residual < 1e-6);
+  CHECK(body.modes[3].residual > 1e-3);
+}
+
+TEST_CASE("a Craig-Bampton basis is that of the textbook's dense matrices") {
+  constexpr int kCount = 4;
+  const ModalBody body = analyse_modes(block(), held(BasisKind::craig_bampton, kCount), {});
+  const Dense model = held_model();
+  const Eigen::MatrixXd shapes = model.stiffness.llt().solve(model.average.transpose());
+  CHECK(difference(captured(body, "tip"), model.average * shapes) < kCompliance);
+  CHECK(count_of(body, kRitzMode) == kCount);
+  CHECK(count_of(body, kConstraintMode) == 6);
+  check_basis(body);
+
+  // Modes on the null space of C, with the constraint modes.
+  const Eigen::MatrixXd inside = Eigen::FullPivLU<Eigen::MatrixXd>(model.average).kernel();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> fixed(
+      inside.transpose() * model.stiffness * inside, inside.transpose() * model.mass * inside);
+  Eigen::MatrixXd basis(shapes.rows(), kCount + 6);
+  basis << inside * fixed.eigenvectors().leftCols(kCount),
+      shapes * (model.average * shapes).inverse();
+  const Eigen::VectorXd expected =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
+          basis.transpose() * model.stiffness * basis, basis.transpose() * model.mass * basis)
+          .eigenvalues()
+          .cwiseSqrt() /
+      (2 * std::numbers::pi);
+  CHECK((body.frequencies_Hz.array() / expected.array() - 1).abs().maxCoeff() < 1e-8);
+}
+
+TEST_CASE("a free body with inertia relief deforms as all its elastic modes would have it") {
+  const ModalBody body = analyse_modes(block(), free_block(BasisKind::inertia_relief, 9), {});
+  CHECK(count_of(body, kRigidMode) == 6);
+  CHECK(count_of(body, kNormalMode) == 3);
+  CHECK(count_of(body, kReliefMode) == 12);
+  check_basis(body);
+  for (const auto& [name, set, point] :
+       {std::tuple{"tip", "top", kTip}, {"root", "bottom", kRoot}}) {
+    CAPTURE(name);
+    const Dense model = dense_model({}, set, point);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> all(model.stiffness,
+                                                                        model.mass);
+    const Eigen::Index elastic = all.eigenvalues().size() - 6;
+    const Eigen::MatrixXd motions = model.average * all.eigenvectors().rightCols(elastic);
+    const Eigen::MatrixXd exact =
+        motions * all.eigenvalues().tail(elastic).cwiseInverse().asDiagonal() * motions.transpose();
+    CHECK(difference(captured(body, name), exact) < kCompliance);
+    CHECK(difference(body.interface(name).response->compliance, exact) < kCompliance);
+  }
+}
+
+TEST_CASE("correction modes that others hold already are dropped and told of") {
+  std::vector<std::string> lines;
+  const auto record = [&](const std::string& line) { lines.push_back(line); };
+  const auto told = [&](const std::string& text) {
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+      return line.find(text) != std::string::npos;
+    });
+  };
+  // The same face twice.
+  ModalOptions options = held(BasisKind::residual, 3);
+  options.interfaces.push_back({"twin", "top", {0, 0, 0}});
+  ModalBody body = analyse_modes(block(), options, record);
+  CHECK(count_of(body, kResidualMode) == 6);
+  CHECK(told("6 of 12 correction modes are dropped"));
+  check_basis(body);
+  options.basis_interfaces = {"twin"};
+  lines.clear();
+  body = analyse_modes(block(), options, record);
+  CHECK(count_of(body, kResidualMode) == 6);
+  CHECK_FALSE(told("dropped"));
+  // All modes there are.
+  options = held(BasisKind::residual, 108);
+  body = analyse_modes(block(), options, record);
+  CHECK(count_of(body, kResidualMode) == 0);
+  CHECK(told("6 of 6 correction modes are dropped"));
+}
+
+TEST_CASE("the study of mode counts is what bodies with so many modes and residual modes give") {
+  Eigen::Matrix3d inertia;
+  inertia << 0.020, 0.002, -0.001, 0.002, 0.024, 0.003, -0.001, 0.003, 0.018;
+  ModalOptions options = held(BasisKind::normal, 6);
+  options.attachments = {{"head", "tip", 4.5, kTip + Eigen::Vector3d(0.02, 0, 0.05), inertia}};
+  const ModalBody six = analyse_modes(block(), options, {});
+  const AttachedFrequencies& exact = six.attached.at(0);
+  const std::vector<ModeCountRow> rows = mode_count_study(six, exact);
+  REQUIRE(rows.size() == 3);
+  for (const ModeCountRow& row : rows) {
+    CAPTURE(row.kept);
+    options = held(BasisKind::residual, std::stoi(row.kept));
+    const ModalBody few = analyse_modes(block(), options, {});
+    // Its own vectors, residual ones among them.
+    const Interface& tip = few.interface("tip");
+    Eigen::MatrixXd motions(6, few.mode_count());
+    motions << tip.translation, tip.rotation;
+    const auto frequencies = [&](Eigen::Index m) -> Eigen::VectorXd {
+      const Eigen::MatrixXd mass =
+          Eigen::MatrixXd::Identity(m, m) +
+          motions.leftCols(m).transpose() * *exact.mass_matrix * motions.leftCols(m);
+      const Eigen::MatrixXd stiffness = few.frequencies_Hz.head(m).cwiseAbs2().asDiagonal();
+      return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, mass)
+          .eigenvalues()
+          .cwiseSqrt();
+    };
+    const Eigen::VectorXd modes_only = frequencies(std::stoi(row.kept));
+    const Eigen::VectorXd corrected = frequencies(few.mode_count());
+    const Eigen::Index n = row.modes_only_Hz.size();
+    CHECK((row.modes_only_Hz.array() / modes_only.array().head(n) - 1).abs().maxCoeff() < kSame);
+    CHECK((row.corrected_Hz.array() / corrected.array().head(6) - 1).abs().maxCoeff() < kSame);
+    // Ritz values: above the exact ones, nearer with corrections.
+    CHECK(row.corrected_Hz[0] > exact.frequencies_Hz[0] * (1 - kSame));
+    CHECK(row.corrected_Hz[0] < row.modes_only_Hz[0]);
+  }
+}
+
+TEST_CASE("a basis that the boundary or the interfaces do not allow is refused") {
+  const auto complaint = [](const ModalOptions& options) -> std::string {
+    try {
+      analyse_modes(block(), options, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  using Catch::Contains;
+  CHECK_THAT(complaint(free_block(BasisKind::residual, 9)), Contains("take 'inertia-relief'"));
+  CHECK_THAT(complaint(held(BasisKind::inertia_relief, 9)), Contains("'bottom' is held"));
+  CHECK_THAT(complaint(free_block(BasisKind::inertia_relief, 5)), Contains("six modes or more"));
+  CHECK_THAT(complaint(held(BasisKind::craig_bampton, 103)), Contains("108 degrees of freedom"));
+  ModalOptions options = held(BasisKind::residual, 3);
+  options.basis_interfaces = {"tp"};
+  CHECK_THAT(complaint(options), Contains("'tp'") && Contains("tip"));
+  options = held(BasisKind::residual, 3);
+  options.interfaces.clear();
+  CHECK_THAT(complaint(options), Contains("name an interface"));
+}
+
+}  // namespace flexneck::fe_modal
