@@ -102,6 +102,32 @@ class DescriptorEquations final : public Equations {
     return names;
   }
 
+  Layout layout() const override {
+    return {system_.position_count, system_.velocity_count, system_.constraint_count};
+  }
+  void retract(Eigen::Ref<Vector> positions,
+               const Eigen::Ref<const Vector>& change) const override {
+    system_.retract(positions, change);
+  }
+  const Vector& multipliers() const override { return equations_.multipliers(); }
+  void residual(double time_s, const Vector& state, const Vector& accelerations,
+                const Vector& multipliers, Vector& residual) override {
+    equations_.residual(time_s, state, accelerations, multipliers, residual);
+  }
+  void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const override {
+    mass = assembled_mass(equations_);
+    rows_transposed = assembled_rows_transposed(equations_);
+  }
+  void rate(const Vector& state, const Vector& accelerations, Vector& rate) const override {
+    equations_.fill_rate(state, accelerations, rate);
+  }
+  std::vector<Index> redundant_rows() const override {
+    std::vector<Index> rows;
+    for (const KktSolver::RedundantRow& each : equations_.solver().redundant_rows())
+      rows.push_back(equations_.solver().joint_offset(each.joint) + each.row);
+    return rows;
+  }
+
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     // The correction is of the size of the interpolation's error: with the factors from before it,
     // velocities and accelerations are as exact as the interpolated state.

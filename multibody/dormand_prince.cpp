@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
-
-#include "geometry/foundation/error.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -42,11 +39,9 @@ constexpr double kLargestCut = 0.2;
 
 DormandPrince::DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s,
                              const Vector& y)
-    : problem_(std::move(problem)),
-      limits_(limits),
-      time_s_(time_s),
+    : TimeIntegrator(limits, time_s, y),
+      problem_(std::move(problem)),
       previous_time_s_(time_s),
-      y_(y),
       y_next_(y),
       y_stage_(y),
       error_(Vector::Zero(y.size())) {
@@ -117,15 +112,6 @@ double DormandPrince::adapted(double length_s, double error) {
   return length_s / std::clamp(factor, 1 / kLargestGrowth, 1 / kLargestCut);
 }
 
-void DormandPrince::collapse(const ErrorEstimate& error) const {
-  std::ostringstream message;
-  message.precision(9);
-  message << "the step size fell below " << limits_.smallest_s << " s at " << time_s_
-          << " s; what limits it is the " << problem_.name_of_component(error.component);
-  if (!std::isfinite(error.value)) message << ", which is not a number";
-  throw ComputationError(message.str());
-}
-
 void DormandPrince::step(double limit_s) {
   if (!fresh_) problem_.derivative(time_s_, y_, rates_[0]);
   fresh_ = true;
@@ -136,8 +122,12 @@ void DormandPrince::step(double limit_s) {
   while (true) {
     if (proposed_s_ < limits_.smallest_s) collapse(last_estimate_);
     double length = std::min(proposed_s_, limits_.largest_s);
+    reason_ = length < proposed_s_ ? StepReason::largest_step : StepReason::error;
     const bool truncated = length >= left * (1 - 1e-9);
-    if (truncated) length = left;
+    if (truncated) {
+      length = left;
+      reason_ = StepReason::end;
+    }
     attempt(length);
     const ErrorEstimate error = problem_.measure(y_, y_next_, error_);
     last_estimate_ = error;

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "multibody/error_estimate.h"
+#include "multibody/time_integrator.h"
 
 namespace flexneck::multibody {
 
@@ -25,39 +26,21 @@ struct InitialValueProblem {
   std::function<std::string(std::size_t component)> name_of_component;
 };
 
-struct StepLimits {
-  double largest_s;
-  double smallest_s;
-};
-
 /// The explicit pair of orders 5(4) by Dormand and Prince (J. Comp. Appl. Math. 6, 1980) with
 /// Shampine's dense output of order 4 and PI step control (Hairer, Norsett and Wanner, Solving
 /// Ordinary Differential Equations I, II.4 to II.6).
-class DormandPrince {
+class DormandPrince final : public TimeIntegrator {
  public:
-  using Vector = Eigen::VectorXd;
-
   /// @param y  at `time_s`
   DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s, const Vector& y);
 
-  /// Forgets the rate at the present time: after a jump of the right-hand side.
-  void restart();
-  /// One accepted step that does not pass `limit_s`.
-  /// @throws ComputationError if the step would have to be smaller than the smallest allowed or the
-  /// rate is not a number: time and component that limited it.
-  void step(double limit_s);
+  void restart() override;
+  void step(double limit_s) override;
   /// A step of the given length, whatever its error.
   void fixed_step(double length_s);
-  /// The state inside the last step.
-  void interpolate(double time_s, Vector& y) const;
-
-  double time_s() const { return time_s_; }
-  const Vector& state() const { return y_; }
-  int accepted() const { return accepted_; }
-  int rejected() const { return rejected_; }
-  /// Of the last step tried.
-  std::string limiting_component() const {
-    return problem_.name_of_component(last_estimate_.component);
+  void interpolate(double time_s, Vector& y) const override;
+  std::string name_of(std::size_t component) const override {
+    return problem_.name_of_component(component);
   }
 
  private:
@@ -67,21 +50,15 @@ class DormandPrince {
   void accept(double length_s);
   double choose_first_step() const;
   double adapted(double length_s, double error);
-  [[noreturn]] void collapse(const ErrorEstimate& error) const;
 
   InitialValueProblem problem_;
-  StepLimits limits_;
-  double time_s_;
   double previous_time_s_;
-  Vector y_, y_next_, y_stage_, error_;
+  Vector y_next_, y_stage_, error_;
   std::array<Vector, kStages> rates_;
   std::array<Vector, 5> dense_;
   double proposed_s_ = 0;  ///< zero: to be chosen
   double last_error_ = 1e-4;
-  ErrorEstimate last_estimate_;
   bool fresh_ = false;  ///< rates_[0] belongs to the present state
-  int accepted_ = 0;
-  int rejected_ = 0;
 };
 
 }  // namespace flexneck::multibody

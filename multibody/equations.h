@@ -35,6 +35,28 @@ class Equations {
                                 const Vector& error) const = 0;
   virtual std::string name_of(std::size_t component) const = 0;
 
+  /// How many positions (with which a state begins), velocities (which follow) and constraints.
+  struct Layout {
+    Eigen::Index positions, velocities, constraints;
+  };
+  virtual Layout layout() const = 0;
+  /// Positions moved by a displacement of the kind of velocities.
+  virtual void retract(Eigen::Ref<Vector> positions,
+                       const Eigen::Ref<const Vector>& change) const = 0;
+  /// Of the last derivative() or finish_step(), (constraints).
+  virtual const Vector& multipliers() const = 0;
+  /// What given accelerations and multipliers leave of the equations of motion, (velocities), above
+  /// what the positions leave of the constraints.
+  virtual void residual(double time_s, const Vector& state, const Vector& accelerations,
+                        const Vector& multipliers, Vector& residual) = 0;
+  /// Where residual() was last: its derivatives by the accelerations and by the multipliers,
+  /// (velocities, constraints).
+  virtual void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const = 0;
+  /// The rate of a state like the one whose residual() was last.
+  virtual void rate(const Vector& state, const Vector& accelerations, Vector& rate) const = 0;
+  /// Indices of constraints that others hold already, as of the last derivative().
+  virtual std::vector<Eigen::Index> redundant_rows() const { return {}; }
+
   /// Records an interpolated state, put onto the joints first.
   virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;
   virtual int evaluations() const = 0;

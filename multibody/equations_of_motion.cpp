@@ -192,10 +192,15 @@ void EquationsOfMotion::evaluate(double time_s, const ConstVector& state, Vector
 }
 
 void EquationsOfMotion::evaluate_updated(const ConstVector& state, VectorXd& rate) {
+  solve();
+  fill_rate(state, accelerations_, rate);
+}
+
+void EquationsOfMotion::fill_rate(const ConstVector& state, const ConstVector& accelerations,
+                                  VectorXd& rate) const {
   const Index nq = system_.position_count;
   const Index nv = system_.velocity_count;
   const auto velocities = state.segment(nq, nv);
-  solve();
   for (const FreeBody& body : system_.bodies) {
     const Index m = body.constants.mode_count();
     const auto V = velocities.segment(body.velocity, 6 + m);
@@ -204,9 +209,38 @@ void EquationsOfMotion::evaluate_updated(const ConstVector& state, VectorXd& rat
     Q_rate.segment<4>(3) = quaternion_rate(state.segment<4>(body.position + 3), V.segment<3>(3));
     Q_rate.tail(m) = V.tail(m);
   }
-  rate.segment(nq, nv) = accelerations_;
+  rate.segment(nq, nv) = accelerations;
   rate[nq + nv] = dissipation_W(velocities);
   rate[nq + nv + 1] = work_W();
+}
+
+void EquationsOfMotion::residual(double time_s, const ConstVector& state,
+                                 const ConstVector& accelerations, const ConstVector& multipliers,
+                                 VectorXd& residual) {
+  const Index nv = system_.velocity_count;
+  update_positions(time_s, state.head(system_.position_count));
+  set_velocities(state.segment(system_.position_count, nv));
+  multipliers_ = multipliers;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const FreeBody& body = system_.bodies[b];
+    const Index size = body.constants.velocity_count();
+    auto part = residual.segment(body.velocity, size);
+    part = -right_hand_side_.segment(body.velocity, size);
+    part.noalias() += bodies_[b].mass * accelerations.segment(body.velocity, size);
+  }
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    const JointRows& rows = joints_[k];
+    const auto lambda = multipliers_.segment(solver_.joint_offset(k), rows.rows);
+    const auto add = [&](std::size_t b, const TransposedRows& B_transposed) {
+      if (b == kNone) return;
+      residual.segment(system_.bodies[b].velocity, B_transposed.rows()).noalias() +=
+          B_transposed.leftCols(rows.rows).lazyProduct(lambda);
+    };
+    add(system_.places[k].body_i, rows.B_i);
+    add(system_.places[k].body_j, rows.B_j);
+  }
+  residual.tail(system_.constraint_count) = position_residual_;
+  ++evaluations_;
 }
 
 void EquationsOfMotion::remove_residual(const VectorXd& residual, VectorXd& change) {

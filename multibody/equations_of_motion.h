@@ -40,6 +40,14 @@ class EquationsOfMotion {
   void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
   /// The same once positions and velocities are updated.
   void evaluate_updated(const ConstVector& state, Eigen::VectorXd& rate);
+  /// The rate of a state that was updated, whose accelerations and multipliers are known.
+  void fill_rate(const ConstVector& state, const ConstVector& accelerations,
+                 Eigen::VectorXd& rate) const;
+
+  /// What accelerations and multipliers leave of the equations of motion, M V' + B^T lambda - u,
+  /// above what the positions leave of the constraints. Nothing is factorised.
+  void residual(double time_s, const ConstVector& state, const ConstVector& accelerations,
+                const ConstVector& multipliers, Eigen::VectorXd& residual);
 
   /// Solves [M B^T; B 0] [change; .] = [0; -residual]: the smallest change in the mass metric.
   void remove_residual(const Eigen::VectorXd& residual, Eigen::VectorXd& change);

@@ -46,12 +46,19 @@ struct EnergyHistory {
   Eigen::VectorXd work_J;  ///< done by forces and driven bodies, since the start
 };
 
+/// What set the length of accepted steps, and of how many.
+struct StepLimit {
+  std::string what;  ///< e.g. "error: rate of deformation of body 'neck'"
+  int steps = 0;
+};
+
 struct StepStatistics {
   int accepted = 0;
   int rejected = 0;
   int evaluations = 0;                   ///< of the equations of motion
   double largest_position_residual = 0;  ///< of the constraints, m and rad
   double largest_velocity_residual = 0;
+  std::vector<StepLimit> limits;  ///< the most frequent first
 };
 
 /// What a run leaves, at fixed times.

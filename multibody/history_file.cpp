@@ -21,6 +21,8 @@ constexpr const char* kIndex = "index";
 constexpr const char* kUndetermined = "undetermined";
 constexpr const char* kIncomplete = "incomplete";
 constexpr const char* kRedundant = "/statistics/redundant_constraints";
+constexpr const char* kLimits = "/statistics/step_limits";
+constexpr const char* kLimitedSteps = "/statistics/limited_steps";
 constexpr const char* kModalUnit = "kg^(1/2) m";
 
 /// The vectors of a marker and the fixed-size arrays of a joint with their datasets' names and
@@ -132,6 +134,15 @@ void write_statistics(Hdf5Writer& file, const StepStatistics& statistics) {
                        statistics.largest_position_residual);
   file.write_attribute(kStatistics, "largest_velocity_residual",
                        statistics.largest_velocity_residual);
+  if (statistics.limits.empty()) return;
+  std::vector<std::string> limits;
+  Eigen::VectorXd steps(static_cast<Eigen::Index>(statistics.limits.size()));
+  for (const StepLimit& limit : statistics.limits) {
+    steps[static_cast<Eigen::Index>(limits.size())] = limit.steps;
+    limits.push_back(limit.what);
+  }
+  file.write(kLimits, limits);
+  write_vector(file, kLimitedSteps, steps, "1");
 }
 
 /// Members of a group in the order of their attribute `index`.
@@ -213,6 +224,11 @@ StepStatistics read_statistics(const Hdf5Reader& file) {
       file.double_attribute(kStatistics, "largest_position_residual");
   statistics.largest_velocity_residual =
       file.double_attribute(kStatistics, "largest_velocity_residual");
+  if (!file.has(kLimits)) return statistics;
+  const std::vector<std::string> limits = file.read_strings(kLimits);
+  const Eigen::VectorXd steps = read_vector(file, kLimitedSteps, limits.size(), "1");
+  for (std::size_t k = 0; k < limits.size(); ++k)
+    statistics.limits.push_back({limits[k], static_cast<int>(steps[static_cast<Eigen::Index>(k)])});
   return statistics;
 }
 

@@ -2,12 +2,16 @@
 #include "multibody/motion.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/foundation/error.h"
 #include "multibody/dormand_prince.h"
 #include "multibody/forces/force_set.h"
+#include "multibody/generalised_alpha.h"
 #include "multibody/recorder.h"
 
 namespace flexneck::multibody {
@@ -46,6 +50,57 @@ std::vector<double> breakpoints(const Model& model, double end_s) {
   return times;
 }
 
+std::unique_ptr<TimeIntegrator> integrator_of(Equations& equations, const VectorXd& state,
+                                              const SolverOptions& solver) {
+  const StepLimits limits{solver.largest_step_s, solver.smallest_step_s};
+  if (solver.integrator == Integrator::generalised_alpha)
+    return std::make_unique<GeneralisedAlpha>(equations, solver.spectral_radius, limits, 0, state);
+  InitialValueProblem problem{
+      [&](double t, const VectorXd& y, VectorXd& rate) { equations.derivative(t, y, rate); },
+      [&](double t, VectorXd& y, VectorXd& rate) { equations.finish_step(t, y, rate); },
+      [&](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
+        return equations.measure(begin, end, error);
+      },
+      [&](std::size_t component) { return equations.name_of(component); }};
+  return std::make_unique<DormandPrince>(std::move(problem), limits, 0, state);
+}
+
+/// Counts what set the lengths of steps.
+class LimitCounter {
+ public:
+  void count(const TimeIntegrator& integrator) {
+    const StepReason reason = integrator.reason();
+    ++steps_[{reason, reason == StepReason::error ? integrator.limiting_component() : 0}];
+  }
+  std::vector<StepLimit> take(const TimeIntegrator& integrator) const {
+    std::vector<StepLimit> limits;
+    for (const auto& [cause, steps] : steps_) {
+      const auto& [reason, component] = cause;
+      limits.push_back({name_of(reason, integrator.name_of(component)), steps});
+    }
+    std::stable_sort(limits.begin(), limits.end(),
+                     [](const StepLimit& a, const StepLimit& b) { return a.steps > b.steps; });
+    return limits;
+  }
+
+ private:
+  static std::string name_of(StepReason reason, const std::string& component) {
+    switch (reason) {
+      case StepReason::error:
+        return "error: " + component;
+      case StepReason::largest_step:
+        return "the largest step allowed";
+      case StepReason::end:
+        return "a kink of a table or the end of the run";
+      case StepReason::iteration:
+        break;
+    }
+    return "convergence of Newton's method";
+  }
+
+  std::map<std::pair<StepReason, std::size_t>, int> steps_;
+};
+
 /// One run: the integrator, and the recorder behind it.
 class Run {
  public:
@@ -54,17 +109,18 @@ class Run {
       : equations_(equations),
         most_steps_(solver.most_steps),
         recorder_(model, output_times(output)),
-        integrator_(problem(), {solver.largest_step_s, solver.smallest_step_s}, 0, state),
+        integrator_(integrator_of(equations, state, solver)),
         output_state_(state) {}
 
   /// Steps over an interval in which no table has a kink.
   void advance(double begin_s, double end_s) {
     equations_.set_interval(begin_s, end_s);
-    integrator_.restart();
-    while (integrator_.time_s() < end_s) {
-      if (integrator_.accepted() + integrator_.rejected() >= most_steps_) give_up();
-      integrator_.step(end_s);
-      record_until(integrator_.time_s());
+    integrator_->restart();
+    while (integrator_->time_s() < end_s) {
+      if (integrator_->accepted() + integrator_->rejected() >= most_steps_) give_up();
+      integrator_->step(end_s);
+      limits_.count(*integrator_);
+      record_until(integrator_->time_s());
     }
   }
 
@@ -80,30 +136,22 @@ class Run {
  private:
   void count_steps() {
     StepStatistics& statistics = recorder_.statistics();
-    statistics.accepted = integrator_.accepted();
-    statistics.rejected = integrator_.rejected();
+    statistics.accepted = integrator_->accepted();
+    statistics.rejected = integrator_->rejected();
     statistics.evaluations = equations_.evaluations();
+    statistics.limits = limits_.take(*integrator_);
   }
   [[noreturn]] void give_up() const {
-    throw ComputationError("the run was given up at " + std::to_string(integrator_.time_s()) +
+    throw ComputationError("the run was given up at " + std::to_string(integrator_->time_s()) +
                            " s after " + std::to_string(most_steps_) +
-                           " steps; what limits them is the " + integrator_.limiting_component());
-  }
-
-  InitialValueProblem problem() {
-    return {
-        [this](double t, const VectorXd& y, VectorXd& rate) { equations_.derivative(t, y, rate); },
-        [this](double t, VectorXd& y, VectorXd& rate) { equations_.finish_step(t, y, rate); },
-        [this](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
-          return equations_.measure(begin, end, error);
-        },
-        [this](std::size_t component) { return equations_.name_of(component); }};
+                           " steps; what limits them is the " +
+                           integrator_->name_of(integrator_->limiting_component()));
   }
 
   void record_until(double time_s) {
     while (next_ < recorder_.columns() && recorder_.time_s(next_) <= time_s) {
       const double at = recorder_.time_s(next_);
-      integrator_.interpolate(at, output_state_);
+      integrator_->interpolate(at, output_state_);
       equations_.record(at, output_state_, recorder_, next_);
       if (next_ == 0) recorder_.redundant(equations_.redundant_constraints());
       ++next_;
@@ -113,7 +161,8 @@ class Run {
   Equations& equations_;
   int most_steps_;
   Recorder recorder_;
-  DormandPrince integrator_;
+  std::unique_ptr<TimeIntegrator> integrator_;
+  LimitCounter limits_;
   VectorXd output_state_;
   Index next_ = 0;
 };

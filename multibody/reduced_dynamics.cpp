@@ -20,6 +20,8 @@ constexpr double kDifference = 1e-5;
 /// Rows that depend on others leave pivots below this share of the largest.
 constexpr double kRank = 1e-9;
 
+}  // namespace
+
 MatrixXd assembled_mass(const EquationsOfMotion& equations) {
   const System& system = equations.system();
   MatrixXd M = MatrixXd::Zero(system.velocity_count, system.velocity_count);
@@ -30,8 +32,6 @@ MatrixXd assembled_mass(const EquationsOfMotion& equations) {
   }
   return M;
 }
-
-}  // namespace
 
 MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations) {
   const System& system = equations.system();

@@ -8,6 +8,8 @@
 
 namespace flexneck::multibody {
 
+/// M, (velocity_count, velocity_count), of equations whose positions are updated.
+Eigen::MatrixXd assembled_mass(const EquationsOfMotion& equations);
 /// B^T, (velocity_count, constraint_count), of equations whose positions are updated.
 Eigen::MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations);
 

@@ -20,6 +20,12 @@ enum class Formulation {
   automatic    ///< recursive where the joints make trees, else descriptor
 };
 
+/// How a run steps through time.
+enum class Integrator {
+  dormand_prince,    ///< explicit, order 5: for most models
+  generalised_alpha  ///< implicit, order 2: for stiff ones, whose fast vibrations do not matter
+};
+
 struct SolverOptions {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-9;
@@ -27,6 +33,10 @@ struct SolverOptions {
   double smallest_step_s = 1e-10;
   Formulation formulation = Formulation::automatic;
   int most_steps = 10'000'000;  ///< tried; a run that needs more is given up
+  Integrator integrator = Integrator::dormand_prince;
+  /// Of the generalised-alpha method, in [0, 1]: by what a step multiplies vibrations that it does
+  /// not resolve.
+  double spectral_radius = 0.8;
 };
 
 /// A run that could not go on: when and why, and what was computed until then.

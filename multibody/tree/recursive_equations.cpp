@@ -47,6 +47,26 @@ class RecursiveEquations final : public Equations {
   std::string name_of(std::size_t component) const override { return error_.name_of(component); }
   int evaluations() const override { return dynamics_.evaluations(); }
 
+  Layout layout() const override { return {tree_.position_count, tree_.velocity_count, 0}; }
+  void retract(Eigen::Ref<Vector> positions,
+               const Eigen::Ref<const Vector>& change) const override {
+    tree::retract(tree_, change, positions);
+  }
+  const Vector& multipliers() const override { return no_multipliers_; }
+  /// In the form V' - F(Q, V), which has the unit matrix as mass.
+  void residual(double time_s, const Vector& state, const Vector& accelerations,
+                const Vector& /*multipliers*/, Vector& residual) override {
+    dynamics_.update(time_s, state);
+    dynamics_.solve();
+    residual = accelerations - dynamics_.accelerations();
+  }
+  void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& /*rows_transposed*/) const override {
+    mass.setIdentity();
+  }
+  void rate(const Vector& state, const Vector& accelerations, Vector& rate) const override {
+    dynamics_.fill_rate(state, accelerations, rate);
+  }
+
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     normalise(state);
     dynamics_.update(time_s, state);
@@ -72,6 +92,7 @@ class RecursiveEquations final : public Equations {
   tree::Tree tree_;
   tree::TreeDynamics dynamics_;
   tree::TreeError error_;
+  Vector no_multipliers_;
 };
 
 }  // namespace

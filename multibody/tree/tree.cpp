@@ -84,6 +84,17 @@ double trace(const Vector6d& packed) { return packed[0] + packed[1] + packed[2];
 
 }  // namespace
 
+void retract(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& change,
+             Eigen::Ref<Eigen::VectorXd> positions) {
+  for (const TreeBody& body : tree.bodies) {
+    const Index nq = body.joint.position_count();
+    const Index nu = body.joint.velocity_count();
+    const Index m = body.inertia.mode_count();
+    retract(body.joint, change.segment(body.velocity, nu), positions.segment(body.position, nq));
+    positions.segment(body.position + nq, m) += change.segment(body.velocity + nu, m);
+  }
+}
+
 bool is_tree(const Model& model) { return !walk(model).closing_joint; }
 
 Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) {

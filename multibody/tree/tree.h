@@ -65,6 +65,10 @@ struct Tree {
   Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
 };
 
+/// Positions moved by a displacement of the kind of velocities, (velocity_count), finite.
+void retract(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& change,
+             Eigen::Ref<Eigen::VectorXd> positions);
+
 /// Whether the joints of a model make trees.
 bool is_tree(const Model& model);
 

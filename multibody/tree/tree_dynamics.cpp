@@ -172,6 +172,11 @@ void TreeDynamics::apply(const TreeMarker& marker, const NodeMotion& node, const
 void TreeDynamics::evaluate(double time_s, const ConstVector& state, VectorXd& rate) {
   update(time_s, state);
   solve();
+  fill_rate(state, accelerations_, rate);
+}
+
+void TreeDynamics::fill_rate(const ConstVector& state, const ConstVector& accelerations,
+                             VectorXd& rate) const {
   const Index nq = tree_.position_count;
   const Index nv = tree_.velocity_count;
   for (const TreeBody& body : tree_.bodies) {
@@ -182,7 +187,7 @@ void TreeDynamics::evaluate(double time_s, const ConstVector& state, VectorXd& r
                   rate.segment(body.position, q));
     rate.segment(body.position + q, m) = state.segment(nq + body.velocity + u, m);
   }
-  rate.segment(nq, nv) = accelerations_;
+  rate.segment(nq, nv) = accelerations;
   rate[nq + nv] = dissipation_W();
   rate[nq + nv + 1] = work_W();
 }

@@ -30,6 +30,10 @@ class TreeDynamics {
   void solve();
   /// Rate of the whole state (Tree::state_count()).
   void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
+  /// The same for a state that was updated, with given accelerations; powers are of the last
+  /// solve().
+  void fill_rate(const ConstVector& state, const ConstVector& accelerations,
+                 Eigen::VectorXd& rate) const;
   /// Generalised forces besides the model's, (velocity_count); zero unless set.
   Eigen::VectorXd& extra_forces() { return extra_forces_; }
 

@@ -58,15 +58,8 @@ double TreeRest::extent(const VectorXd& xi) const {
 }
 
 VectorXd TreeRest::state_at(const VectorXd& xi) const {
-  const VectorXd change = N_ * xi;
   VectorXd state = state_;
-  for (const TreeBody& body : dynamics_.tree().bodies) {
-    const Index nq = body.joint.position_count();
-    const Index nu = body.joint.velocity_count();
-    const Index m = body.inertia.mode_count();
-    retract(body.joint, change.segment(body.velocity, nu), state.segment(body.position, nq));
-    state.segment(body.position + nq, m) += change.segment(body.velocity + nu, m);
-  }
+  retract(dynamics_.tree(), N_ * xi, state.head(dynamics_.tree().position_count));
   return state;
 }
 

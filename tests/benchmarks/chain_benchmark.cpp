@@ -19,9 +19,18 @@ using Eigen::Vector3d;
 using flexneck::benchmarks::measure;
 using flexneck::benchmarks::Timing;
 
-const char* name_of(Formulation formulation) {
-  return formulation == Formulation::recursive ? "recursive" : "descriptor";
-}
+/// Equations of motion and how they are integrated.
+struct Method {
+  const char* name;
+  Formulation formulation;
+  Integrator integrator;
+};
+constexpr Method kRecursive{"recursive", Formulation::recursive, Integrator::dormand_prince};
+constexpr Method kDescriptor{"descriptor", Formulation::descriptor, Integrator::dormand_prince};
+constexpr Method kRecursiveAlpha{"recursive, alpha", Formulation::recursive,
+                                 Integrator::generalised_alpha};
+constexpr Method kDescriptorAlpha{"descriptor, alpha", Formulation::descriptor,
+                                  Integrator::generalised_alpha};
 
 RigidBody rod(double mass_kg, double length_m, const Vector3d& moments_kg_m2) {
   return {mass_kg, {0, 0, -length_m / 2}, moments_kg_m2.asDiagonal()};
@@ -139,28 +148,29 @@ Model flexible_chain() {
 }
 
 /// Runs of 1 s: their time, and the error of the head's centre at the end against a run at 1e-12.
-void report_run(const char* name, const Model& model, std::initializer_list<double> tolerances,
-                int runs) {
+void report_run(const char* name, const Model& model, std::initializer_list<Method> methods,
+                std::initializer_list<double> tolerances, int runs) {
   const OutputOptions output{.end_time_s = 1, .interval_s = 0.01};
-  const auto run = [&](double tolerance, Formulation formulation) {
+  const auto run = [&](double tolerance, const Method& method) {
     const SolverOptions solver{.relative_tolerance = tolerance,
                                .absolute_tolerance = 1e-3 * tolerance,
-                               .formulation = formulation};
+                               .formulation = method.formulation,
+                               .integrator = method.integrator};
     return simulate(model, solver, output);
   };
   const auto path = [](const History& history) { return history.marker("head cg").position_m; };
-  const Eigen::Matrix3Xd exact = path(run(1e-12, Formulation::recursive));
+  const Eigen::Matrix3Xd exact = path(run(1e-12, kRecursive));
   const double peak = (exact.colwise() - exact.col(0)).colwise().norm().maxCoeff();
   std::printf("%s, 1 s: CPU time, error of the head at 1 s in m and of its largest displacement\n",
               name);
-  for (const Formulation formulation : {Formulation::recursive, Formulation::descriptor})
+  for (const Method& method : methods)
     for (const double tolerance : tolerances) {
       History history;
-      const Timing timing = measure(runs, [&] { history = run(tolerance, formulation); });
+      const Timing timing = measure(runs, [&] { history = run(tolerance, method); });
       const double error = (path(history).rightCols<1>() - exact.rightCols<1>()).norm();
-      std::printf("%-12s %8.0e %10.3f ms %12.2e %12.2e %8d right-hand sides\n",
-                  name_of(formulation), tolerance, timing.median_ms, error, error / peak,
-                  history.statistics.evaluations);
+      std::printf("%-18s %6.0e %9.3f ms %10.2e %10.2e %6d steps %6d evaluations; %s\n", method.name,
+                  tolerance, timing.median_ms, error, error / peak, history.statistics.accepted,
+                  history.statistics.evaluations, history.statistics.limits.front().what.c_str());
     }
 }
 
@@ -173,7 +183,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   report_growth();
-  report_run("rigid chain", rigid_chain(), {1e-5, 1e-6, 1e-7}, runs);
-  report_run("flexible chain", flexible_chain(), {1e-4, 1e-5, 1e-6}, runs);
+  report_run("rigid chain", rigid_chain(), {kRecursive, kDescriptor}, {1e-5, 1e-6, 1e-7}, runs);
+  report_run("flexible chain", flexible_chain(),
+             {kRecursive, kDescriptor, kRecursiveAlpha, kDescriptorAlpha}, {1e-4, 1e-5, 1e-6},
+             runs);
   return 0;
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/iteration_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Of differences, in m, rad and kg^(1/2) m and their rates: Newton's method needs few digits.
+constexpr double kDifference = 1e-7;
+
+}  // namespace
+
+IterationMatrix::IterationMatrix(const Equations& equations)
+    : nq_(equations.layout().positions),
+      nv_(equations.layout().velocities),
+      nc_(equations.layout().constraints),
+      mass_(nv_, nv_),
+      damping_(nv_, nv_),
+      stiffness_(nv_, nv_),
+      rows_transposed_(nv_, nc_),
+      matrix_(MatrixXd::Zero(nv_ + nc_, nv_ + nc_)),
+      factors_(nv_ + nc_),
+      base_(nv_ + nc_),
+      moved_(nv_ + nc_),
+      right_(nv_ + nc_) {}
+
+void IterationMatrix::linearise(Equations& equations, double time_s, const Vector& state,
+                                const Vector& accelerations, const Vector& multipliers) {
+  equations.residual(time_s, state, accelerations, multipliers, base_);
+  equations.inertia(mass_, rows_transposed_);
+  redundant_ = equations.redundant_rows();
+  state_ = state;
+  Vector change = Vector::Zero(nv_);
+  for (Index i = 0; i < nv_; ++i) {
+    const double rate = state[nq_ + i];
+    const double step = kDifference * std::max(1.0, std::abs(rate));
+    state_[nq_ + i] = rate + step;
+    equations.residual(time_s, state_, accelerations, multipliers, moved_);
+    damping_.col(i) = (moved_ - base_).head(nv_) / step;
+    state_[nq_ + i] = rate;
+
+    change[i] = kDifference;
+    equations.retract(state_.head(nq_), change);
+    equations.residual(time_s, state_, accelerations, multipliers, moved_);
+    stiffness_.col(i) = (moved_ - base_).head(nv_) / kDifference;
+    state_.head(nq_) = state.head(nq_);
+    change[i] = 0;
+  }
+}
+
+void IterationMatrix::factorise(double q, double v) {
+  q_ = q;
+  matrix_.topLeftCorner(nv_, nv_) = mass_ + v * damping_ + q * stiffness_;
+  matrix_.topRightCorner(nv_, nc_) = rows_transposed_;
+  matrix_.bottomLeftCorner(nc_, nv_) = rows_transposed_.transpose();
+  matrix_.bottomRightCorner(nc_, nc_).setZero();
+  for (const Index row : redundant_) {
+    matrix_.row(nv_ + row).setZero();
+    matrix_.col(nv_ + row).setZero();
+    matrix_(nv_ + row, nv_ + row) = 1;
+  }
+  factors_.compute(matrix_);
+}
+
+void IterationMatrix::solve(Vector& residual) {
+  right_.head(nv_) = -residual.head(nv_);
+  right_.tail(nc_) = residual.tail(nc_) / -q_;
+  for (const Index row : redundant_) right_[nv_ + row] = 0;
+  residual = factors_.solve(right_);
+}
+
+void IterationMatrix::filter(Vector& change) {
+  right_.setZero();
+  right_.head(nv_).noalias() = mass_ * change;
+  moved_ = factors_.solve(right_);
+  change = moved_.head(nv_);
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "multibody/equations.h"
+
+namespace flexneck::multibody {
+
+/// Equations of motion linearised about a state, for Newton's method over a step: with dQ = q dV'
+/// and dV = v dV',
+///   [mass + v damping + q stiffness, B^T; B, 0] [dV'; dlambda] = [-r; -Phi / q].
+/// Damping and stiffness are differences of the residual, so that every force counts. Dense: meant
+/// for models of up to about a hundred velocities.
+class IterationMatrix {
+ public:
+  using Vector = Eigen::VectorXd;
+
+  explicit IterationMatrix(const Equations& equations);
+
+  /// About a state with its accelerations and multipliers.
+  void linearise(Equations& equations, double time_s, const Vector& state,
+                 const Vector& accelerations, const Vector& multipliers);
+  /// For the factors q and v of a step.
+  void factorise(double q, double v);
+  /// Residual (velocities + constraints) -> correction of [V'; lambda].
+  void solve(Vector& residual);
+  /// change (velocities) <- S^-1 [mass change; 0]: what is left of it once the stiff modes resist.
+  void filter(Vector& change);
+
+ private:
+  Eigen::Index nq_, nv_, nc_;
+  std::vector<Eigen::Index> redundant_;  ///< constraints that others hold: their multiplier is zero
+  Eigen::MatrixXd mass_, damping_, stiffness_, rows_transposed_, matrix_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  Vector base_, moved_, state_, right_;
+  double q_ = 0;
+};
+
+}  // namespace flexneck::multibody
