@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "multibody/generalised_alpha.h"
+#include "multibody/simulation.h"
+#include "tests/support/formulations.h"
+#include "tests/support/test_models.h"
+
+using namespace flexneck::multibody;
+using namespace flexneck::testing;
+using Catch::Matchers::Contains;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+std::unique_ptr<Equations> equations_of(const Model& model, Formulation formulation) {
+  SolverOptions solver;
+  // Newton's method goes on to a hundredth of this.
+  solver.relative_tolerance = 1e-10;
+  solver.absolute_tolerance = 1e-12;
+  return formulation == Formulation::recursive ? recursive_equations(model, solver)
+                                               : descriptor_equations(model, solver);
+}
+
+/// The state at `end_s` after equal steps.
+VectorXd end_of(const Model& model, Formulation formulation, double spectral_radius, double end_s,
+                int steps) {
+  const auto equations = equations_of(model, formulation);
+  equations->set_interval(0, 2 * end_s);
+  GeneralisedAlpha integrator(*equations, spectral_radius, {1, 1e-10}, 0, equations->given_state());
+  for (int k = 0; k < steps; ++k) integrator.fixed_step(end_s / steps);
+  return integrator.state();
+}
+
+/// The heavy top of Bruels, Cardona and Arnold.
+Model heavy_top() {
+  ModelBuilder build;
+  RigidBody body;
+  body.mass_kg = 15;
+  body.center_m = {0, 1, 0};
+  body.inertia_kg_m2 = Vector3d(0.234375, 0.46875, 0.234375).asDiagonal();
+  const auto ground = build.ground();
+  const auto top = build.body("top", body, {}, Vector3d::Zero(), {0, 150, -4.61538});
+  build.joint("ball", JointKind::ball, build.marker("pivot", ground), build.marker("tip", top));
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  return build.model;
+}
+
+Vector3d top_center(const VectorXd& state, Formulation formulation) {
+  // Descriptor: x, quaternion; recursive: quaternion alone.
+  const bool descriptor = formulation == Formulation::descriptor;
+  const Vector3d origin = descriptor ? Vector3d(state.head<3>()) : Vector3d::Zero();
+  const auto q = state.segment<4>(descriptor ? 3 : 0);
+  return origin + Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d(0, 1, 0);
+}
+
+/// Swings on a pin: a stiff beam without damping and a head.
+Model stiff_pendulum() {
+  ModelBuilder build;
+  Beam beam;
+  beam.length_m = 0.5;
+  beam.fore_aft_Hz = beam.lateral_Hz = 800;
+  const Quaterniond tilt(Eigen::AngleAxisd(2.0, Vector3d::UnitY()));
+  const auto ground = build.ground();
+  const auto bar = build.body("bar", deformable(make_beam_body(beam), 0), {Vector3d::Zero(), tilt});
+  const auto head = build.body("head", make_head(), {tilt * Vector3d(0, 0, beam.length_m), tilt});
+  build.joint("pin", JointKind::pin, build.marker("pivot", ground, Vector3d::Zero(), tilt),
+              build.interface_marker("root", bar, "base"));
+  build.joint("weld", JointKind::fixed, build.interface_marker("top", bar, "top"),
+              build.marker("head", head));
+  build.marker("head cg", head, make_head().center_m);
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  return build.model;
+}
+
+}  // namespace
+
+TEST_CASE("generalised-alpha takes the heavy top where it must be, with order two") {
+  const Formulation formulation = either_formulation();
+  const Model model = heavy_top();
+  const Vector3d published(-0.15041682, -0.72416559, -0.67302227);
+  const auto end = [&](int steps) {
+    return top_center(end_of(model, formulation, 0.9, 2, steps), formulation);
+  };
+  // It spins by 150 rad/s: 13 and 6.5 steps a radian.
+  const Vector3d coarse = end(4000);
+  const Vector3d fine = end(8000);
+  const double error = (fine - published).norm();
+  CHECK(std::log2((coarse - published).norm() / error) == Approx(2).margin(0.05));
+  // Without the leading term of the error only those of higher order are left.
+  CHECK(((4 * fine - coarse) / 3 - published).norm() < error / 20);
+}
+
+TEST_CASE("generalised-alpha is of order two for deformation, whatever it damps") {
+  const double spectral_radius = GENERATE(0.0, 0.7, 1.0);
+  const TimeTable pull({0, 1}, {-150, -150}, TimeTable::Outside::constant);
+  ModelBuilder build = head_on_neck({Vector3d(1, 1, 0).normalized(), 3, pull}, hanging_pose(),
+                                    Beam{}, 0.4, make_head());
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  constexpr double kEnd_s = 0.04;
+  const SolverOptions tight{.relative_tolerance = 1e-12, .absolute_tolerance = 1e-15};
+  const History exact = simulate(build.model, tight, {.end_time_s = kEnd_s, .interval_s = kEnd_s});
+  const VectorXd reference = exact.modal[0].coordinates.col(1);
+  // Joint coordinates of a fixed joint: none; the state begins with the modes.
+  const auto error = [&](int steps) {
+    return (end_of(build.model, Formulation::recursive, spectral_radius, kEnd_s, steps).head(4) -
+            reference)
+        .norm();
+  };
+  const double coarse = error(200);
+  const double fine = error(400);
+  CHECK(std::log2(coarse / fine) == Approx(2).margin(0.1));
+  CHECK(fine < 1e-3 * reference.norm());
+}
+
+TEST_CASE("generalised-alpha steps over stiff vibrations that hold up the explicit method") {
+  const Formulation formulation = either_formulation();
+  const Model model = stiff_pendulum();
+  const OutputOptions output{.end_time_s = 0.2, .interval_s = 0.02};
+  SolverOptions solver{.relative_tolerance = 1e-5, .absolute_tolerance = 1e-8};
+  solver.formulation = formulation;
+  const History exact = simulate(model, solver, output);
+  solver.integrator = Integrator::generalised_alpha;
+  const History found = simulate(model, solver, output);
+  CHECK(10 * found.statistics.evaluations < exact.statistics.evaluations);
+  // A local error of 1e-5 a step adds up over about 100.
+  const MarkerHistory& a = exact.marker("head cg");
+  const MarkerHistory& b = found.marker("head cg");
+  CHECK((a.position_m - b.position_m).colwise().norm().maxCoeff() < 1e-3);
+  CHECK(b.position_m.col(0) != b.position_m.col(10));
+  // What is put out keeps the joints.
+  CHECK(found.statistics.largest_position_residual < 1e-9);
+  // Each says what it waits for.
+  REQUIRE_FALSE(exact.statistics.limits.empty());
+  REQUIRE_FALSE(found.statistics.limits.empty());
+  int steps = 0;
+  for (const StepLimit& limit : found.statistics.limits) steps += limit.steps;
+  CHECK(steps == found.statistics.accepted);
+  CHECK_THAT(exact.statistics.limits.front().what,
+             Contains("deformation of body 'bar'") || Contains("velocity of body"));
+}
+
+TEST_CASE("generalised-alpha closes loops whose joints repeat each other") {
+  // A door on two hinges of one axis.
+  ModelBuilder build;
+  const auto ground = build.ground();
+  const auto door =
+      build.body("door", RigidBody{10, {0.4, 0, 0}, Vector3d(0.5, 0.9, 0.6).asDiagonal()});
+  for (const double z : {0.0, 1.0}) {
+    const std::string name = "hinge " + std::to_string(z);
+    build.joint(name, JointKind::pin, build.marker("frame " + name, ground, {0, 0, z}),
+                build.marker("door " + name, door, {0, 0, z}), Vector3d::UnitZ());
+  }
+  build.marker("edge", door, {0.8, 0, 0});
+  build.model.gravity_m_s2 = {0.5, 2, -kGravity};
+  const OutputOptions output{.end_time_s = 0.5, .interval_s = 0.1};
+  SolverOptions solver{.relative_tolerance = 1e-8, .absolute_tolerance = 1e-11};
+  solver.formulation = Formulation::descriptor;
+  const History exact = simulate(build.model, solver, output);
+  solver.integrator = Integrator::generalised_alpha;
+  const History found = simulate(build.model, solver, output);
+  CHECK((exact.marker("edge").position_m - found.marker("edge").position_m).norm() < 1e-5);
+  CHECK((exact.marker("edge").position_m.col(5) - exact.marker("edge").position_m.col(0)).norm() >
+        0.1);
+  CHECK(found.redundant_constraints.size() == 5);
+}
+
+TEST_CASE("a spectral radius out of its range is refused") {
+  SolverOptions solver;
+  solver.integrator = Integrator::generalised_alpha;
+  solver.spectral_radius = 1.5;
+  CHECK_THROWS_WITH(simulate(heavy_top(), solver, {}), Contains("spectral radius"));
+}
