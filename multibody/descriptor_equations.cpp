@@ -81,7 +81,7 @@ class DescriptorEquations final : public Equations {
     equations_.evaluate(time_s, state, rate);
   }
   void finish_step(double time_s, Vector& state, Vector& rate) override {
-    projection_.apply(time_s, state);
+    projection_.apply_behind_step(time_s, state);
     equations_.evaluate_updated(state, rate);
   }
   ErrorEstimate measure(const Vector& begin, const Vector& end,

@@ -29,7 +29,7 @@ class Equations {
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
   virtual void set_interval(double begin_s, double end_s) = 0;
   virtual void derivative(double time_s, const Vector& state, Vector& rate) = 0;
-  /// See InitialValueProblem::finish_step.
+  /// See InitialValueProblem::finish_step. The last derivative() must have been near.
   virtual void finish_step(double time_s, Vector& state, Vector& rate) = 0;
   virtual ErrorEstimate measure(const Vector& begin, const Vector& end,
                                 const Vector& error) const = 0;

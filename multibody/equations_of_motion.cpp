@@ -135,6 +135,22 @@ void EquationsOfMotion::update_positions(double time_s, const ConstVector& posit
   }
 }
 
+void EquationsOfMotion::update_velocity_residual(const ConstVector& velocities) {
+  for (const std::size_t marker : active_markers_) update_marker_velocities(marker, velocities);
+  update_joint_velocities();
+}
+
+void EquationsOfMotion::update_joint_velocities() {
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    const Joint& joint = system_.joints[k];
+    JointRows& rows = joints_[k];
+    update_velocities(markers_[joint.marker_i], markers_[joint.marker_j], rows);
+    const Index offset = solver_.joint_offset(k);
+    velocity_residual_.segment(offset, rows.rows) = rows.velocity_residual.head(rows.rows);
+    gamma_.segment(offset, rows.rows) = rows.gamma.head(rows.rows);
+  }
+}
+
 void EquationsOfMotion::set_velocities(const ConstVector& velocities) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const FreeBody& body = system_.bodies[b];
@@ -145,14 +161,7 @@ void EquationsOfMotion::set_velocities(const ConstVector& velocities) {
   }
   for (const std::size_t marker : active_markers_) update_marker_velocities(marker, velocities);
   apply_forces();
-  for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const Joint& joint = system_.joints[k];
-    JointRows& rows = joints_[k];
-    update_velocities(markers_[joint.marker_i], markers_[joint.marker_j], rows);
-    const Index offset = solver_.joint_offset(k);
-    velocity_residual_.segment(offset, rows.rows) = rows.velocity_residual.head(rows.rows);
-    gamma_.segment(offset, rows.rows) = rows.gamma.head(rows.rows);
-  }
+  update_joint_velocities();
 }
 
 void EquationsOfMotion::apply_forces() {

@@ -32,6 +32,8 @@ class EquationsOfMotion {
   /// was factorised.
   void update_positions(double time_s, const ConstVector& positions);
   void factorise();
+  /// Velocity residuals alone.
+  void update_velocity_residual(const ConstVector& velocities);
   /// Right-hand sides and velocity residuals.
   void set_velocities(const ConstVector& velocities);
   /// Accelerations and multipliers.
@@ -76,6 +78,7 @@ class EquationsOfMotion {
   void update_driven_bodies();
   void update_marker_configuration(std::size_t index);
   void update_marker_velocities(std::size_t index, const ConstVector& velocities);
+  void update_joint_velocities();
   void apply_forces();
 
   const System& system_;

@@ -68,6 +68,7 @@ GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius,
 /// Consistent V' and multipliers behind a jump, and V'' by a difference along the motion, without
 /// which a_n would be of first order only. Zero as length: the first of a run.
 void GeneralisedAlpha::begin(double length_s) {
+  equations_.derivative(time_s_, y_, rate_);
   equations_.finish_step(time_s_, y_, rate_);
   now_.V_rate = rate_.segment(nq_, nv_);
   now_.lambda = equations_.multipliers();

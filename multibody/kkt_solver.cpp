@@ -99,8 +99,13 @@ void KktSolver::assemble_schur_complement() {
     const TransposedRows& Y_row = meeting.row_is_i ? row.Y_i : row.Y_j;
     const TransposedRows& Y_column = meeting.column_is_i ? column.Y_i : column.Y_j;
     Block& sum = block(meeting.row_joint, meeting.column_joint);
-    for (Index k = 0; k < Y_row.rows(); ++k)
-      sum.noalias() += Y_row.row(k).transpose() * Y_column.row(k);
+    // A column at a time stays in registers.
+    for (Index c = 0; c < kMaxRows; ++c) {
+      RowVector column_sum = RowVector::Zero();
+      for (Index k = 0; k < Y_row.rows(); ++k)
+        column_sum += Y_column(k, c) * Y_row.row(k).transpose();
+      sum.col(c) += column_sum;
+    }
   }
 }
 

@@ -15,6 +15,13 @@ void Projection::correct_positions(Eigen::Ref<VectorXd>& positions) {
   equations_.system().retract(positions, change_);
 }
 
+template <typename Velocities>
+void Projection::correct_velocities(Velocities&& velocities) {
+  equations_.update_velocity_residual(velocities);
+  equations_.remove_residual(equations_.velocity_residual(), change_);
+  velocities += change_;
+}
+
 void Projection::apply(double time_s, Eigen::Ref<VectorXd> state, bool refactorise) {
   const System& system = equations_.system();
   Eigen::Ref<VectorXd> positions = state.head(system.position_count);
@@ -25,10 +32,23 @@ void Projection::apply(double time_s, Eigen::Ref<VectorXd> state, bool refactori
     correct_positions(positions);
     equations_.update_positions(time_s, positions);
     if (refactorise) equations_.factorise();
-    equations_.set_velocities(velocities);
-    equations_.remove_residual(equations_.velocity_residual(), change_);
-    velocities += change_;
+    correct_velocities(velocities);
   }
+  equations_.set_velocities(velocities);
+}
+
+void Projection::apply_behind_step(double time_s, Eigen::Ref<VectorXd> state) {
+  const System& system = equations_.system();
+  Eigen::Ref<VectorXd> positions = state.head(system.position_count);
+  auto velocities = state.segment(system.position_count, system.velocity_count);
+  system.normalise(positions);
+  equations_.update_positions(time_s, positions);
+  if (system.constraint_count > 0) {
+    correct_positions(positions);
+    equations_.update_positions(time_s, positions);
+  }
+  equations_.factorise();
+  if (system.constraint_count > 0) correct_velocities(velocities);
   equations_.set_velocities(velocities);
 }
 

@@ -20,12 +20,18 @@ class Projection {
   ///     the state before: they then miss by the size of the correction, relative
   void apply(double time_s, Eigen::Ref<Eigen::VectorXd> state, bool refactorise = true);
 
+  /// The same behind a step: the positions are corrected with the factors of the step's last stage,
+  /// which lies within the step's error of its end, so that only one configuration is factorised.
+  void apply_behind_step(double time_s, Eigen::Ref<Eigen::VectorXd> state);
+
   /// Newton steps for the positions only until the residual no longer falls, at most ten.
   /// Leaves `equations` updated for the positions. @return the largest residual left, m and rad.
   double converge_positions(double time_s, Eigen::Ref<Eigen::VectorXd> positions);
 
  private:
   void correct_positions(Eigen::Ref<Eigen::VectorXd>& positions);
+  template <typename Velocities>
+  void correct_velocities(Velocities&& velocities);
 
   EquationsOfMotion& equations_;
   Eigen::VectorXd change_;

@@ -20,12 +20,25 @@ constexpr std::array<const char*, kComponents> kNames = {
 StateError::StateError(const System& system, double relative, double absolute)
     : system_(system), tolerance_{relative, absolute} {}
 
+/// Speed of the fastest turning or deforming body, m/s.
+double StateError::fastest(const VectorXd& state) const {
+  double speed = 0;
+  for (const FreeBody& body : system_.bodies) {
+    const Index m = body.constants.mode_count();
+    const Index v = system_.position_count + body.velocity;
+    speed = std::max({speed, system_.size_m * state.segment<3>(v + 3).norm(),
+                      state.segment(v + 6, m).norm() / std::sqrt(body.constants.mass)});
+  }
+  return speed;
+}
+
 ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
                                      const VectorXd& error) const {
   ErrorEstimate worst;
   const auto consider = [&](std::size_t component, double size, double reference) {
     worst.consider(component, tolerance_.ratio(size, reference));
   };
+  const double speed = std::max(fastest(begin), fastest(end));
   for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
     const FreeBody& body = system_.bodies[b];
     const Index m = body.constants.mode_count();
@@ -36,9 +49,8 @@ ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
     // A quaternion changes by half the angle.
     consider(first + 1, 2 * error.segment<4>(q + 3).norm(), 1);
     consider(first + 3, error.segment<3>(v).norm(),
-             std::max(begin.segment<3>(v).norm(), end.segment<3>(v).norm()));
-    consider(first + 4, error.segment<3>(v + 3).norm(),
-             std::max(begin.segment<3>(v + 3).norm(), end.segment<3>(v + 3).norm()));
+             std::max({begin.segment<3>(v).norm(), end.segment<3>(v).norm(), speed}));
+    consider(first + 4, system_.size_m * error.segment<3>(v + 3).norm(), speed);
     if (m == 0) continue;
     const double root_mass = std::sqrt(body.constants.mass);
     const ModalAmplitude present(body.constants.springs.stiffness, end.segment(q + 7, m),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/tree/body_inertia.h"
 
+#include "multibody/rotation.h"
+
 namespace flexneck::multibody::tree {
 namespace {
 
@@ -68,58 +70,71 @@ InertiaTerms::InertiaTerms(const BodyInertia& body)
       M_ra(6, body.mode_count()),
       M_aa(body.mode_count(), body.mode_count()),
       bias_r(Vector6d::Zero()),
-      bias_a(body.mode_count()),
-      J_rate(6, body.mode_count()),
-      packed(3 * body.mode_count()) {}
+      bias_a(body.mode_count()) {}
+
+namespace {
+
+/// What the modes add to the first moment, to the moment of inertia and to their rates.
+struct ModalSums {
+  Vector3d S;
+  Vector6d J;
+  Vector6d J_dot = Vector6d::Zero();
+  Vector3d momentum = Vector3d::Zero();  ///< S2 a'
+  Vector3d angular = Vector3d::Zero();   ///< N a'
+};
+
+/// All that mode l contributes, in one pass over its invariants: small sums stay in registers.
+[[gnu::always_inline]] inline void add_mode(const BodyInertia& body, const VectorXd& a,
+                                            const VectorXd& a_rate, const Vector3d& w,
+                                            const Vector6d& form, Index l, ModalSums& sums,
+                                            InertiaTerms& terms) {
+  const Index m = body.mode_count();
+  Vector6d slope = body.D.col(l);
+  Vector3d N_l = body.N0.col(l);
+  Vector3d N_rate = Vector3d::Zero();
+  for (Index j = 0; j < m; ++j) {
+    slope += a[j] * body.E.block<6, 1>(6 * l, j);
+    const Vector3d N_jl = body.N.block<3, 1>(3 * l, j);
+    N_l += a[j] * N_jl;
+    N_rate += a_rate[j] * N_jl;
+  }
+  const Vector3d S2_l = body.S2.col(l);
+  terms.M_ra.block<3, 1>(0, l) = S2_l;
+  terms.M_ra.block<3, 1>(3, l) = N_l;
+  terms.bias_a[l] =
+      2 * w.dot(N_rate) - 0.5 * form.dot(slope) + body.springs.load(l, a[l], a_rate[l]);
+  sums.S += a[l] * S2_l;
+  // J = J0 + D a + E a a / 2 = J0 + (D + dJ/da) a / 2.
+  sums.J += (0.5 * a[l]) * (body.D.col(l) + slope);
+  sums.J_dot += a_rate[l] * slope;
+  sums.momentum += a_rate[l] * S2_l;
+  sums.angular += a_rate[l] * N_l;
+}
+
+}  // namespace
 
 void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, const Vector3d& w,
             InertiaTerms& terms) {
+  ModalSums sums{body.S1, body.J0};
   const Index m = body.mode_count();
-  terms.S = body.S1;
-  Vector6d J = body.J0;
   if (m > 0) {
-    for (Index j = 0; j < m; ++j) terms.S += a[j] * body.S2.col(j);
-    Eigen::Map<VectorXd> slopes(terms.J_rate.data(), 6 * m);
-    slopes = Eigen::Map<const VectorXd>(body.D.data(), 6 * m);
-    for (Index j = 0; j < m; ++j) slopes += a[j] * body.E.col(j);
-    // J = J0 + D a + E a a / 2 = J0 + (D + dJ/da) a / 2.
-    for (Index l = 0; l < m; ++l) J += (0.5 * a[l]) * (body.D.col(l) + terms.J_rate.col(l));
+    const Vector6d form = quadratic_form(w);
+    for (Index l = 0; l < m; ++l) add_mode(body, a, a_rate, w, form, l, sums, terms);
     terms.M_aa = body.Maa;
-    terms.M_ra.topRows<3>() = body.S2;
-    terms.packed = Eigen::Map<const VectorXd>(body.N0.data(), 3 * m);
-    for (Index j = 0; j < m; ++j) terms.packed += a[j] * body.N.col(j);
-    for (Index l = 0; l < m; ++l) terms.M_ra.block<3, 1>(3, l) = terms.packed.segment<3>(3 * l);
   }
-  const Matrix3d inertia = unpacked(J);
-  const Vector3d& S = terms.S;
-  Matrix3d crossed;
-  crossed << 0, -S.z(), S.y(), S.z(), 0, -S.x(), -S.y(), S.x(), 0;
+  const Matrix3d inertia = unpacked(sums.J);
+  const Matrix3d crossed = skew(sums.S);
   terms.M_rr.topLeftCorner<3, 3>() = body.mass * Matrix3d::Identity();
   terms.M_rr.topRightCorner<3, 3>() = -crossed;
   terms.M_rr.bottomLeftCorner<3, 3>() = crossed;
   terms.M_rr.bottomRightCorner<3, 3>() = inertia;
 
-  // Rates of momentum and of angular momentum, and of the modes' momenta less dT/da.
-  Vector3d momentum = w.cross(S);
-  Vector3d angular = inertia * w;
-  Vector3d change = Vector3d::Zero();
-  if (m > 0) {
-    Vector6d J_dot = Vector6d::Zero();
-    for (Index l = 0; l < m; ++l) {
-      momentum += (2 * a_rate[l]) * body.S2.col(l);
-      angular += a_rate[l] * terms.M_ra.block<3, 1>(3, l);
-      J_dot += a_rate[l] * terms.J_rate.col(l);
-    }
-    change = unpacked(J_dot) * w;
-    terms.packed = a_rate[0] * body.N.col(0);
-    for (Index j = 1; j < m; ++j) terms.packed += a_rate[j] * body.N.col(j);
-    const Vector6d form = quadratic_form(w);
-    for (Index l = 0; l < m; ++l)
-      terms.bias_a[l] = 2 * w.dot(terms.packed.segment<3>(3 * l)) -
-                        0.5 * form.dot(terms.J_rate.col(l)) + body.springs.load(l, a[l], a_rate[l]);
-  }
+  // Rates of momentum and of angular momentum.
+  const Vector3d momentum = w.cross(sums.S) + 2 * sums.momentum;
+  const Vector3d angular = inertia * w + sums.angular;
   terms.bias_r.head<3>() = w.cross(momentum);
-  terms.bias_r.tail<3>() = change + w.cross(angular);
+  terms.bias_r.tail<3>() = w.cross(angular);
+  if (m > 0) terms.bias_r.tail<3>() += unpacked(sums.J_dot) * w;
 }
 
 double kinetic_energy_J(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate,

@@ -43,9 +43,6 @@ struct InertiaTerms {
   Eigen::MatrixXd M_aa;
   Vector6d bias_r;
   Eigen::VectorXd bias_a;
-  Eigen::Vector3d S;       ///< first moment
-  Matrix6Xd J_rate;        ///< (6, m): dJ/da_l
-  Eigen::VectorXd packed;  ///< (3m): scratch
 };
 
 /// At modal coordinates a, their rates and the angular velocity w (body axes).

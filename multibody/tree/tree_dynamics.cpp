@@ -32,7 +32,7 @@ TreeDynamics::Work::Work(const TreeBody& body)
       z(a),
       U(Matrix6d::Zero()),
       D(Matrix6d::Zero()),
-      reaction(Vector6d::Zero()) {}
+      at_M(Vector6d::Zero()) {}
 
 TreeDynamics::TreeDynamics(const Tree& tree, Drive drive)
     : tree_(tree),

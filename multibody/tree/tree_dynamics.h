@@ -82,7 +82,10 @@ class TreeDynamics {
     Matrix6d U;         ///< inertia S
     Matrix6d D;         ///< factor of S^T U
     Vector6d residual;  ///< tau - S^T bias
-    Vector6d reaction;  ///< force above moment at M on this body, body axes
+    Vector6d at_M;      ///< M's acceleration before the joint's own, body axes
+
+    /// Force above moment at M on this body, body axes.
+    Vector6d reaction() const { return bias + inertia * at_M; }
   };
 
   double table_time(double time_s) const;

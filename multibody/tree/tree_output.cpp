@@ -52,8 +52,9 @@ Reaction TreeDynamics::joint_reaction(std::size_t joint) const {
   const std::size_t b = tree_.body_of_joint[joint];
   if (b == kNone) return {Vector3d::Zero(), Vector3d::Zero()};
   const Work& work = work_[b];
-  const Vector3d force = work.frame.A * work.reaction.head<3>();
-  const Vector3d moment = work.frame.A * work.reaction.tail<3>();
+  const Vector6d reaction = work.reaction();
+  const Vector3d force = work.frame.A * reaction.head<3>();
+  const Vector3d moment = work.frame.A * reaction.tail<3>();
   if (tree_.bodies[b].inner_is_i) return {force, moment};
   // Marker j is the inner one: what is known at M acts on i, and counts about F.
   const Vector3d arm = frame_of(tree_.bodies[b].carrier).A * work.d;
@@ -98,7 +99,7 @@ double TreeDynamics::work_W() const {
     const Carrier& carrier = tree_.bodies[b].carrier;
     if (carrier.driven == kNone) continue;
     const Frame& driven = driven_[carrier.driven];
-    power += (work_[b].frame.A * work_[b].reaction.head<3>()).dot(driven.A * driven.v);
+    power += (work_[b].frame.A * work_[b].reaction().head<3>()).dot(driven.A * driven.v);
   }
   return power;
 }

@@ -163,6 +163,8 @@ void report_run(const char* name, const Model& model, std::initializer_list<Meth
   const double peak = (exact.colwise() - exact.col(0)).colwise().norm().maxCoeff();
   std::printf("%s, 1 s: CPU time, error of the head at 1 s in m and of its largest displacement\n",
               name);
+  std::printf("the head's centre ends at %.9f %.9f %.9f m\n", exact(0, exact.cols() - 1),
+              exact(1, exact.cols() - 1), exact(2, exact.cols() - 1));
   for (const Method& method : methods)
     for (const double tolerance : tolerances) {
       History history;
