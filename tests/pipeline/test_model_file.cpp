@@ -187,7 +187,7 @@ TEST_CASE("what a model gets wrong is told in one line with the place and the re
   CHECK_THAT(told("\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"0.01 kg*m^2\"",
                   "\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"0 kg*m^2\""),
              Contains("positive definite"));
-  CHECK_THAT(told("kind = \"pin\"", "kind = \"ball\""), Contains("axis: unknown key"));
+  CHECK_THAT(told("kind = \"pin\"", "kind = \"ball\""), Contains("angle: unknown key"));
   CHECK_THAT(told("lower = \"ground.hook\"", "lower = \"lower.tip\""),
              Contains("no joint connects the body 'upper'"));
   CHECK_THAT(
