@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/model/pulse.h"
@@ -110,6 +111,8 @@ bool is_fore_aft(const fe_modal::ModeRecord& mode) {
 Study in_plane(Study study, const CaseSection& experiment, const fe_modal::ModalBody& body) {
   const bool fore_aft = experiment.direction != CaseSection::Direction::lateral;
   for (BodySection& section : study.bodies) {
+    if (section.modes.empty()) continue;
+    section.modes = names_of(fe_modal::select_modes(body, section.modes).modes);  // kinds spelt out
     std::erase_if(section.modes, [&](const std::string& name) {
       const auto k = static_cast<std::size_t>(body.mode_index(name));
       return is_fore_aft(body.modes[k]) != fore_aft;

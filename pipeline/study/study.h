@@ -52,7 +52,11 @@ struct ModesSection {
   std::string attached_to;    ///< that interface; empty: the first
 };
 
-/// Damping of correction modes where a study says nothing: see pipeline/experiments/case_model.h.
+/// Damping of correction modes where a study says nothing; inferred. They stand for what many
+/// higher modes give statically, so a damping of their own has no meaning but to let their ringing
+/// die out. On the neck with the head (four normal, six residual modes) 0 and 0.05 give the same
+/// system damping within 0.3 %, the modes' 0.9 raises it by 4 %; the rate 2 zeta omega stays far
+/// from the explicit step's limit.
 inline constexpr double kCorrectionDamping = 0.05;
 
 /// [[body]]

@@ -86,11 +86,16 @@ void check_compliance_table(const ModalBody& body) {
       {lowest(10), {.9995, .985, .989, .999, .966}},
       {lowest(20), {1.000, .9998, .9999, 1.000, .998}}};
   constexpr std::array<Eigen::Index, 5> kDirections = {0, 4, 3, 5, 2};
+  // Half of the last digit printed, and what the study's mesh of other elements differs by: 0.1 %
+  // of the bending compliances, 1.5 % of the axial share that bending modes have through the
+  // rubber's offset.
+  constexpr double kDigit = 0.0005;
+  constexpr std::array<double, 5> kMesh = {0.001, 0.001, 0.001, 0.001, 0.0035};
   for (const auto& [modes, expected] : rows) {
     const Eigen::VectorXd found = captured(body, modes);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       CAPTURE(modes.size(), i, found[kDirections[i]], expected[i]);
-      CHECK(std::abs(found[kDirections[i]] - expected[i]) < 0.0006);
+      CHECK(std::abs(found[kDirections[i]] - expected[i]) < kDigit + kMesh[i]);
     }
   }
 }
