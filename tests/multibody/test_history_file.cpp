@@ -30,6 +30,7 @@ MarkerHistory random_marker(testing::RandomNumbers& random, const std::string& n
           random_columns<Eigen::Matrix3Xd>(random, 3),
           random_columns<Eigen::Matrix3Xd>(random, 3),
           random_columns<Eigen::Matrix4Xd>(random, 4),
+          random_columns<Eigen::Matrix3Xd>(random, 3),
           random_columns<Eigen::Matrix3Xd>(random, 3)};
 }
 
@@ -76,6 +77,8 @@ TEST_CASE("A history comes back from its file to the last bit and in its order")
     CHECK(read.markers[k].acceleration_m_s2 == written.markers[k].acceleration_m_s2);
     CHECK(read.markers[k].rotation == written.markers[k].rotation);
     CHECK(read.markers[k].angular_velocity_rad_s == written.markers[k].angular_velocity_rad_s);
+    CHECK(read.markers[k].angular_acceleration_rad_s2 ==
+          written.markers[k].angular_acceleration_rad_s2);
   }
   REQUIRE(read.joints.size() == written.joints.size());
   for (std::size_t k = 0; k < written.joints.size(); ++k) {
