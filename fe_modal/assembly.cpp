@@ -82,10 +82,10 @@ void add_mass(const SortedNodes& nodes, const Eigen::MatrixXd& element, NodalMas
 }
 
 void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
-               const FreeNodes& free_nodes, Formulation formulation, SymmetricMatrix& stiffness,
-               NodalMass& mass) {
+               const FreeNodes& free_nodes, const FormulationChoice& formulation,
+               SymmetricMatrix& stiffness, NodalMass& mass) {
   const mesher::Material& material = mesh.materials.at(block.material);
-  ElementKernel kernel(element_scheme(block.kind, formulation));
+  ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
   ElementMatrices element;
   const std::size_t width = mesher::nodes_per_element(block.kind);
   Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
@@ -113,7 +113,7 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
 }  // namespace
 
 SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
-                        Formulation formulation) {
+                        const FormulationChoice& formulation) {
   NodeGraph graph(mesh, free_nodes);
   SymmetricMatrix stiffness(graph);
   NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));

@@ -21,7 +21,7 @@ struct SystemMatrices {
 /// @throws InputError if a part's kind of element has no such formulation.
 /// @throws ComputationError if an element is inverted, or PETSc fails, e.g. for want of memory.
 SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
-                        Formulation formulation = Formulation::mixed_pressure);
+                        const FormulationChoice& formulation = {});
 
 /// K - shift M.
 SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/attached_mass.h"
 
+#include <utility>
+
 #include <Eigen/Geometry>
+
+#include "fe_modal/inverse_iteration.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -62,6 +66,24 @@ AttachedMass::AttachedMass(Mat mass, const FreeNodes& free_nodes, const RigidAve
                                reinterpret_cast<void (*)()>(&Terms::multiply)),
           kAttaching);
   require(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE), kAttaching);
+}
+
+Eigen::MatrixXd AttachedMass::loads() const { return terms_->average.transpose(); }
+
+Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
+                                   const Eigen::MatrixXd& modes, Eigen::Index count) {
+  // Each iteration divides the error of an eigenvalue by the square of its distance to the first
+  // one outside the space, tens to hundreds.
+  constexpr double kSettled = 1e-10;
+  const Eigen::MatrixXd responses = inverse.solve(mass.loads());
+  Eigen::MatrixXd start(modes.rows(), modes.cols() + responses.cols());
+  start << modes, responses;
+  start.colwise().normalize();
+  const Settled settled = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+    return ((after - before).head(count).array().abs() <= kSettled * after.head(count).array())
+        .all();
+  };
+  return inverse_iteration(mass.matrix(), inverse, std::move(start), settled).values.head(count);
 }
 
 }  // namespace flexneck::fe_modal

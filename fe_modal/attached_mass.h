@@ -6,6 +6,7 @@
 #include "fe_modal/free_nodes.h"
 #include "fe_modal/petsc_handles.h"
 #include "fe_modal/rigid_average.h"
+#include "fe_modal/shift_inverse.h"
 
 namespace flexneck::fe_modal {
 
@@ -24,11 +25,22 @@ class AttachedMass {
                const Matrix6d& rigid_mass);
 
   Mat matrix() const { return shell_.get(); }
+  /// C^T, (dofs, 6): unit forces and moments on the region.
+  Eigen::MatrixXd loads() const;
 
  private:
   struct Terms;
   std::shared_ptr<const Terms> terms_;  ///< at a fixed address: the shell points to it
   MatHandle shell_;
 };
+
+/// The lowest eigenvalues of K x = lambda (M + C^T M_rigid C) x by inverse iteration of the span of
+/// the body's lowest modes and of its static response to the loads on the region. A mode that is
+/// orthogonal to these in the energy does not move the region, so it is one of the body without
+/// the mass, and none of its lowest: nothing can be missed that is asked for.
+/// @param inverse of K
+/// @param modes (dofs, m) the body's lowest; m is at least `count`
+Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
+                                   const Eigen::MatrixXd& modes, Eigen::Index count);
 
 }  // namespace flexneck::fe_modal

@@ -26,7 +26,7 @@ struct Accuracy {
 /// frequencies 1 % apart.
 constexpr Accuracy kFine = {1e-12, 10, PETSC_TRUE};
 /// Only to tell missed eigenvalues, which are far larger, from the next one.
-constexpr Accuracy kCoarse = {1e-4, 8, PETSC_FALSE};
+constexpr Accuracy kCoarse = {1e-3, 8, PETSC_FALSE};
 /// Eigenvalues this close to the highest one wanted are its partners and may stay out.
 constexpr double kSameValue = 1e-6;
 
@@ -113,7 +113,7 @@ Eigen::VectorXd start_vector(Eigen::Index size, Eigen::Index found) {
 
 /// The `count` eigenpairs nearest to the shift that are M-orthogonal to the columns of `found`.
 EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& accuracy,
-                  const Eigen::MatrixXd& found) {
+                  const Eigen::MatrixXd& found, const Eigen::VectorXd& given_start = {}) {
   PetscInt size = 0;
   require(MatGetSize(problem.mass, &size, nullptr), kSolving);
   const EpsHandle handle = make_solver(problem);
@@ -128,7 +128,8 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& ac
     require(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()),
             kSolving);
   }
-  const Eigen::VectorXd start = start_vector(size, found.cols());
+  const Eigen::VectorXd start =
+      given_start.size() > 0 ? given_start : start_vector(size, found.cols());
   const VecHandle start_handle = wrap(start.data(), start.size());
   Vec start_space = start_handle.get();
   require(EPSSetInitialSpace(eps, 1, &start_space), kSolving);
@@ -164,9 +165,9 @@ EigenPairs merge(const EigenPairs& one, const EigenPairs& other) {
 }  // namespace
 
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
-                             Eigen::Index count) {
+                             Eigen::Index count, const Eigen::VectorXd& start) {
   const Problem problem{stiffness, mass, &inverse};
-  EigenPairs pairs = search(problem, count, kFine, Eigen::MatrixXd());
+  EigenPairs pairs = search(problem, count, kFine, Eigen::MatrixXd(), start);
   const Eigen::Index size = pairs.vectors.rows();
   while (pairs.values.size() < size) {
     const double highest = pairs.values[count - 1] - inverse.shift();

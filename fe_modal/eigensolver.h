@@ -21,9 +21,11 @@ struct EigenPairs {
 /// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
 /// inverse if the shift is zero
 /// @param count at most the number of degrees of freedom
+/// @param start of the first search, (dofs); empty: random. What it does not hold is left to the
+/// second one.
 /// @throws ComputationError if the iteration does not converge.
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
-                             Eigen::Index count);
+                             Eigen::Index count, const Eigen::VectorXd& start = {});
 
 /// ||K x - lambda M x|| / ||K x|| of each pair; of a rigid-body motion, lambda = 0, where that is
 /// not defined, ||K x|| / ||shift M x||.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 
 #include "geometry/foundation/error.h"
@@ -57,6 +58,28 @@ constexpr std::array<ElementScheme, 13> kSchemes = {{
 }};
 
 }  // namespace
+
+Formulation FormulationChoice::of(const mesher::Material& material) const {
+  const auto found = of_material.find(material.name);
+  return found == of_material.end() ? of_others : found->second;
+}
+
+std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
+                                          const FormulationChoice& formulation) {
+  constexpr double kNearlyIncompressible = 0.45;
+  std::vector<std::string> lines;
+  for (const mesher::Material& material : mesh.materials) {
+    const Formulation chosen = formulation.of(material);
+    if (chosen == Formulation::mixed_pressure) continue;
+    if (!(material.poissons_ratio > kNearlyIncompressible)) continue;
+    std::array<char, 32> ratio{};
+    std::snprintf(ratio.data(), ratio.size(), "%g", material.poissons_ratio);
+    lines.push_back("material '" + material.name + "' with Poisson's ratio " + ratio.data() +
+                    " in formulation '" + std::string(name_of(chosen)) +
+                    "' makes elements too stiff; mixed_pressure does not");
+  }
+  return lines;
+}
 
 std::string_view name_of(Formulation formulation) {
   return kFormulations.at(static_cast<std::size_t>(formulation)).name;

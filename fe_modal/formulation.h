@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesher/mesh/element_kind.h"
+#include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
 
@@ -18,6 +22,21 @@ enum class Formulation {
 std::string_view name_of(Formulation formulation);
 /// @throws InputError if no formulation has this name.
 Formulation formulation_from(std::string_view name);
+
+/// The formulation of each material.
+struct FormulationChoice {
+  // NOLINTNEXTLINE(google-explicit-constructor): one formulation is a choice for all materials
+  FormulationChoice(Formulation all = Formulation::mixed_pressure) : of_others(all) {}
+
+  Formulation of_others;                           ///< of materials that are not named
+  std::map<std::string, Formulation> of_material;  ///< by name
+
+  Formulation of(const mesher::Material& material) const;
+};
+
+/// A line for each material that would lock: nearly incompressible, nu > 0.45, but not mixed.
+std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
+                                          const FormulationChoice& formulation);
 
 /// Pressures of the mixed formulation, one set for each element.
 enum class PressureSpace {

@@ -8,36 +8,52 @@
 #include "fe_modal/assembly.h"
 #include "fe_modal/attached_mass.h"
 #include "fe_modal/completeness.h"
+#include "fe_modal/convergence.h"
 #include "fe_modal/eigensolver.h"
 #include "fe_modal/free_nodes.h"
 #include "fe_modal/invariants.h"
 #include "fe_modal/make_system.h"
+#include "fe_modal/mechanism.h"
 #include "fe_modal/modal_options_check.h"
 #include "fe_modal/mode_conventions.h"
 #include "fe_modal/mode_naming.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/rigid_average.h"
-#include "mesher/mesh/bounding_box.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 constexpr Eigen::Index kAttachedCount = 6;
-/// Eigenvalues below this share of the shift are rigid-body motions of a free body.
-constexpr double kRigidBody = 1e-6;
 constexpr const char* kNotCertified = "not certified";
 
-/// A held body has a definite stiffness. A free one is shifted below zero by a crude estimate of
-/// its first eigenvalue, (c / L)^2 of the slowest material.
-double shift_for(const mesher::Mesh& mesh, const ModalOptions& options) {
-  if (!options.held_set.empty()) return 0;
-  double slowest = HUGE_VAL;
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    const mesher::Material& material = mesh.materials.at(block.material);
-    slowest = std::min(slowest, material.youngs_modulus_Pa / material.density_kg_m3);
+[[noreturn]] void refuse_mechanism(const std::string& motions) {
+  throw InputError("the body is a mechanism: " + motions + "; hold it or bond it to its neighbour");
+}
+
+/// A stiffness that is not definite is that of a mechanism, or of elements that are none.
+std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
+                                                        const FreeNodes& free_nodes,
+                                                        const ModalSystem& system, double shift) {
+  try {
+    return system.shift_inverse(shift);
+  } catch (const ComputationError&) {
+    const auto motions =
+        shift == 0 ? describe_mechanism(mesh, free_nodes, system, true) : std::nullopt;
+    if (!motions) throw;
+    refuse_mechanism(*motions);
   }
-  return -slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
+}
+
+/// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
+void check_no_mechanism(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                        const ModalSystem& system, const Eigen::VectorXd& values, bool held) {
+  const Eigen::Index rigid = held ? 0 : 6;
+  if (values.size() <= rigid || values[rigid] > kStrainless * eigenvalue_scale(mesh)) return;
+  if (const auto motions = describe_mechanism(mesh, free_nodes, system, held)) {
+    refuse_mechanism(*motions);
+  }
 }
 
 Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues) {
@@ -113,17 +129,16 @@ CertifiedModes normal_modes(const ModalSystem& system, const ShiftInverse& inver
                                                                 inverse, options.mode_count),
                                               kNotCertified};
   for (double& value : modes.pairs.values) {
-    if (value < kRigidBody * -inverse.shift()) value = 0;
+    if (value < kStrainless * -inverse.shift()) value = 0;
   }
   return modes;
 }
 
 /// The basis asked for and its certificate.
-std::pair<Reduction, std::string> reduced_basis(const ModalSystem& system,
-                                                const ShiftInverse& inverse,
-                                                const ModalOptions& options,
-                                                const std::vector<InterfaceLoads>& loads,
-                                                const Progress& progress) {
+std::pair<Reduction, std::string> reduced_basis(
+    const mesher::Mesh& mesh, const FreeNodes& free_nodes, const ModalSystem& system,
+    const ShiftInverse& inverse, const ModalOptions& options,
+    const std::vector<InterfaceLoads>& loads, const Progress& progress) {
   const BodyOperators operators = operators_of(system, inverse);
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
@@ -133,23 +148,38 @@ std::pair<Reduction, std::string> reduced_basis(const ModalSystem& system,
             kNotCertified};
   }
   const auto [pairs, certificate] = normal_modes(system, inverse, options);
+  check_no_mechanism(mesh, free_nodes, system, pairs.values, !options.held_set.empty());
   return {complete_modes(operators, pairs, loads, options.basis, progress), certificate};
 }
 
+/// Places of the body's own eigenvectors, which are its lowest, in the basis.
+std::vector<std::size_t> eigenvectors_of(const Reduction& basis) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < basis.kinds.size(); ++k) {
+    if (basis.kinds[k] == kNormalMode || basis.kinds[k] == kRigidMode) places.push_back(k);
+  }
+  return places;
+}
+
+/// @param modes the body's lowest eigenvectors
 std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
                                                const FreeNodes& free_nodes,
                                                const ModalSystem& system,
                                                const ShiftInverse& inverse,
+                                               const Eigen::MatrixXd& modes,
                                                const std::vector<RigidAverage>& averages) {
+  const Eigen::Index count = std::min(kAttachedCount, free_nodes.dof_count());
   std::vector<AttachedFrequencies> result;
   for (const RigidAttachment& body : options.attachments) {
     const RigidAverage& region = averages[interface_index(options, body.interface)];
     const Matrix6d rigid_mass =
         rigid_mass_matrix(body.mass_kg, body.center_m - region.point_m(), body.inertia_kg_m2);
     const AttachedMass mass(system.mass(), free_nodes, region, rigid_mass);
-    const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), mass.matrix(), inverse,
-                                               std::min(kAttachedCount, free_nodes.dof_count()));
-    result.push_back({body.name, body.interface, frequencies_Hz(pairs.values), rigid_mass});
+    const Eigen::VectorXd values =
+        modes.cols() < count
+            ? lowest_eigenpairs(system.stiffness(), mass.matrix(), inverse, count).values
+            : lowest_eigenvalues(mass, inverse, modes, count);
+    result.push_back({body.name, body.interface, frequencies_Hz(values), rigid_mass});
   }
   return result;
 }
@@ -157,7 +187,9 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
 }  // namespace
 
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
-                        const Progress& progress) {
+                        const Progress& progress, StepTimes* step_times) {
+  StepTimes unseen;
+  StepTimes& times = step_times != nullptr ? *step_times : unseen;
   const auto report = [&](const std::string& line) {
     if (progress) progress(line);
   };
@@ -167,20 +199,26 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
       mesh, held ? mesh.node_set(options.held_set).nodes : std::vector<std::int32_t>{});
   report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
          " degrees of freedom");
+  times.start("assemble");
   const std::unique_ptr<const ModalSystem> owned_system = make_system(mesh, free_nodes, options);
   const ModalSystem& system = *owned_system;
 
+  times.start("order and factorise");
   report("factorising the stiffness");
-  const double shift = shift_for(mesh, options);
-  const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(shift);
+  // A held body has a definite stiffness; a free one is shifted below zero.
+  const double shift = held ? 0 : -eigenvalue_scale(mesh);
+  const std::unique_ptr<const ShiftInverse> inverse =
+      factorise_or_refuse(mesh, free_nodes, system, shift);
   report(inverse->describe());
+  times.start("iterate");
   report("solving for " + std::to_string(options.mode_count) + " modes");
   std::vector<RigidAverage> averages;
   for (const InterfaceDefinition& interface : options.interfaces) {
     averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
   }
   const std::vector<InterfaceLoads> loads = loads_of(options, free_nodes, averages);
-  auto [basis, certificate] = reduced_basis(system, *inverse, options, loads, progress);
+  auto [basis, certificate] =
+      reduced_basis(mesh, free_nodes, system, *inverse, options, loads, progress);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
     apply_conventions(pairs);
@@ -189,6 +227,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                       options.length_m);
   }
 
+  times.start("post-process");
   report("reducing to modal coordinates");
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
@@ -204,6 +243,16 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
                               relative_residuals(system.stiffness(), system.mass(), pairs, shift));
+  const std::vector<std::size_t> eigenvectors = eigenvectors_of(basis);
+  if (options.certify && !eigenvectors.empty()) {
+    times.start("refine and solve again");
+    const EigenPairs normal = {pairs.values(eigenvectors), pairs.vectors(Eigen::all, eigenvectors)};
+    const auto errors = mesh_errors({mesh, free_nodes, system.mass(), normal}, options, progress);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      body.modes[eigenvectors[k]].mesh_error = errors[k];
+    }
+    times.start("post-process");
+  }
   body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
   body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
@@ -217,8 +266,13 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
         unit_load_stiffness(mesh, options.formulation, free_nodes, system.nodal_mass(),
                             operators_of(system, *inverse), loads, body.shapes);
   }
-  if (!options.attachments.empty()) report("solving with rigid bodies attached");
-  body.attached = attach_bodies(options, free_nodes, system, *inverse, averages);
+  if (!options.attachments.empty()) {
+    times.start("iterate with bodies attached");
+    report("solving with rigid bodies attached");
+  }
+  body.attached = attach_bodies(options, free_nodes, system, *inverse,
+                                pairs.vectors(Eigen::all, eigenvectors), averages);
+  times.stop();
   return body;
 }
 

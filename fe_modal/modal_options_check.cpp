@@ -36,10 +36,14 @@ void check_parts(const mesher::Mesh& mesh, const ModalOptions& options) {
       parts.push_back(block.part);
     }
     try {
-      static_cast<void>(element_scheme(block.kind, options.formulation));
+      static_cast<void>(
+          element_scheme(block.kind, options.formulation.of(mesh.materials.at(block.material))));
     } catch (const InputError& error) {
       throw InputError("part '" + block.part + "': " + error.what());
     }
+  }
+  for (const auto& entry : options.formulation.of_material) {
+    static_cast<void>(find_name(names_of(mesh.materials), entry.first, "material"));
   }
   for (const std::string& name : options.rigid_parts) {
     static_cast<void>(find_name(parts, name, "part"));
@@ -112,6 +116,7 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
 }  // namespace
 
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
+  mesher::check(mesh);
   check_parts(mesh, options);
   std::vector<std::int32_t> held;
   if (!options.held_set.empty()) {

@@ -57,6 +57,10 @@ void describe(CLI::App& app, Arguments& arguments) {
          [&](const std::string& cuts) { arguments.settings.push_back("mesh.refine=" + cuts); },
          "Cut every element in N + 1 in each direction; as --set mesh.refine=N")
       ->option_text("N");
+  app.add_flag_function(
+      "--certify",
+      [&](std::int64_t /*times*/) { arguments.settings.emplace_back("modes.certify=true"); },
+      "Prove that no mode is missing and estimate the mesh's error; as --set modes.certify=true");
   app.add_flag("--show", arguments.show, "With mesh: print dimensions and a section, mesh nothing");
   app.add_option("--to", arguments.target, "With export: the file to write")
       ->option_text("FILE.msh|FILE.inp");

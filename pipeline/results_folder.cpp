@@ -47,6 +47,16 @@ Provenance provenance_of(const Study& study, const std::vector<std::string>& pre
   return provenance;
 }
 
+Provenance mesh_provenance(const Study& study) {
+  Provenance provenance = provenance_of(study, {"geometry.", "mesh."});
+  std::erase_if(provenance.parameters, [](const Parameter& parameter) {
+    return parameter.key.starts_with("geometry.materials.") &&
+           (parameter.key.ends_with(".formulation") ||
+            parameter.key.ends_with(".static_modulus_ratio"));
+  });
+  return provenance;
+}
+
 void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,
                          const std::string& made_by) {
   for (const Parameter& then : made_from.parameters) {

@@ -19,6 +19,8 @@ class ResultsFolder {
   void make() const;
   std::filesystem::path mesh() const { return path_ / "mesh.h5"; }
   std::filesystem::path modes() const { return path_ / "modes.h5"; }
+  /// Modes with the static moduli, where a material has one.
+  std::filesystem::path static_modes() const { return path_ / "modes_static.h5"; }
   std::filesystem::path mesh_picture() const { return path_ / "mesh.png"; }
   std::filesystem::path modes_picture() const { return path_ / "modes.png"; }
   std::filesystem::path history(const CaseSection& experiment) const;
@@ -36,6 +38,10 @@ Provenance provenance_of(const std::vector<InputFile>& files,
 /// What a result of this study was made from: the program, the study's files, and those of its
 /// values whose key begins with one of the prefixes, such as "geometry." (all if there is none).
 Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes = {});
+
+/// The same for a mesh: what the study says of [geometry] and [mesh], save what only the solver
+/// asks of its materials.
+Provenance mesh_provenance(const Study& study);
 
 /// Refuses a file that was made with other values than the study has now.
 /// @throws InputError naming the first value that differs, and the command that makes the file.

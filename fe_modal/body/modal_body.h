@@ -62,6 +62,13 @@ struct GeometricStiffness {
   std::vector<OfInterface> interfaces;
 };
 
+/// Error of a mode's frequency that the size of the elements makes, estimated by halving them.
+struct MeshError {
+  double refined_Hz = 0;  ///< frequency of the same shape with each element cut in eight
+  double mac = 0;         ///< modal assurance criterion of the two shapes: 1 if they are the same
+  double error = 0;       ///< of the frequency, relative, >= 0; 1 where mac < 0.8: not found again
+};
+
 /// What is known of each basis vector.
 struct ModeRecord {
   std::string name;  ///< e.g. "fore-aft bending 1"
@@ -70,6 +77,7 @@ struct ModeRecord {
   /// lateral (y with theta_x), twist (theta_z), axial (z).
   std::array<double, 4> shares_percent{};
   double residual = 0;  ///< ||K x - lambda M x|| / ||K x||
+  std::optional<MeshError> mesh_error = {};  ///< of a normal mode, where it was estimated
 };
 
 /// Frequencies of the finite element model with a rigid body fixed to an interface, no gravity.

@@ -198,6 +198,44 @@ InertiaInvariants read_invariants(const Hdf5Reader& file, std::size_t m) {
   return inertia;
 }
 
+void write_mesh_errors(Hdf5Writer& file, const ModalBody& body) {
+  std::vector<std::string> names;
+  std::vector<double> refined;
+  std::vector<double> macs;
+  std::vector<double> errors;
+  for (const ModeRecord& mode : body.modes) {
+    if (!mode.mesh_error) continue;
+    names.push_back(mode.name);
+    refined.push_back(mode.mesh_error->refined_Hz);
+    macs.push_back(mode.mesh_error->mac);
+    errors.push_back(mode.mesh_error->error);
+  }
+  if (names.empty()) return;
+  file.write("/convergence/mode", names);
+  file.write("/convergence/refined_frequency", refined, {names.size()}, "Hz");
+  file.write("/convergence/mac", macs, {names.size()}, "1");
+  file.write("/convergence/error", errors, {names.size()}, "1");
+}
+
+void read_mesh_errors(const Hdf5Reader& file, ModalBody& body) {
+  if (file.members("/convergence").empty()) return;
+  const std::vector<std::string> names = file.read_strings("/convergence/mode");
+  const std::size_t k = names.size();
+  const auto read = [&](const std::string& dataset, std::string_view unit) {
+    return file.read_doubles("/convergence/" + dataset, {k}, unit);
+  };
+  const std::vector<double> refined = read("refined_frequency", "Hz");
+  const std::vector<double> macs = read("mac", "1");
+  const std::vector<double> errors = read("error", "1");
+  const std::vector<std::string> known = names_of(body.modes);
+  for (std::size_t l = 0; l < k; ++l) {
+    const auto mode = std::find(known.begin(), known.end(), names[l]);
+    if (mode == known.end()) file.refuse("/convergence/mode", "no mode is named " + names[l]);
+    body.modes[static_cast<std::size_t>(mode - known.begin())].mesh_error =
+        MeshError{refined[l], macs[l], errors[l]};
+  }
+}
+
 void write_attached(Hdf5Writer& file, const ModalBody& body) {
   for (const AttachedFrequencies& attached : body.attached) {
     const std::string group = "/attached/" + attached.body;
@@ -238,6 +276,7 @@ void write_modal_body(const std::filesystem::path& path, const ModalBodyFile& co
   write_invariants(file, body.invariants);
   write_attached(file, body);
   if (body.geometric_stiffness) write_geometric_stiffness(file, *body.geometric_stiffness);
+  write_mesh_errors(file, body);
   file.write("/certificate/orthogonality", {&body.orthogonality, 1}, {1}, "1");
   file.write_attribute("/certificate", "status", std::string_view(body.certificate));
   write_provenance(file, content.provenance);
@@ -257,6 +296,7 @@ ModalBodyFile read_modal_body(const std::filesystem::path& path) {
   body.invariants = read_invariants(file, m);
   read_attached(file, body);
   body.geometric_stiffness = read_geometric_stiffness(file, m);
+  read_mesh_errors(file, body);
   body.orthogonality = read_vector(file, "/certificate/orthogonality", 1, "1")[0];
   body.certificate = file.string_attribute("/certificate", "status");
   content.provenance = read_provenance(file);

@@ -81,13 +81,17 @@ class DistributedSystem::Inverse : public ShiftInverse {
 };
 
 DistributedSystem::DistributedSystem(MPI_Comm ranks, const mesher::Mesh& mesh,
-                                     const FreeNodes& free_nodes, Formulation formulation,
+                                     const FreeNodes& free_nodes,
+                                     const FormulationChoice& formulation,
                                      const mesher::ElementPartition& partition,
                                      std::vector<std::int32_t> node_order)
     : ranks_(ranks), node_order_(std::move(node_order)) {
   std::vector<Share> shares = share_out(mesh, free_nodes, partition);
-  for (const Share& share : shares) nodes_of_.push_back(share.free_global);
-  assemble_shares(shares, formulation);
+  for (Share& share : shares) {
+    share.formulation = formulation;
+    nodes_of_.push_back(share.free_global);
+  }
+  assemble_shares(shares);
   gather_mass(mesh, free_nodes, shares);
 
   const auto size = static_cast<PetscInt>(free_nodes.dof_count());
@@ -107,14 +111,13 @@ void DistributedSystem::order_all(const Order& order) const {
   }
 }
 
-void DistributedSystem::assemble_shares(std::vector<Share>& shares, Formulation formulation) {
+void DistributedSystem::assemble_shares(std::vector<Share>& shares) {
   for (std::size_t worker = 1; worker < shares.size(); ++worker) {
-    send_order(ranks_, static_cast<int>(worker),
-               {.task = Task::assemble, .formulation = formulation});
+    send_order(ranks_, static_cast<int>(worker), {.task = Task::assemble});
     send(ranks_, static_cast<int>(worker), pack(shares[worker]));
     shares[worker].mesh = {};
   }
-  together(ranks_, [&] { own_ = std::make_unique<PartialSystem>(shares[0], formulation); });
+  together(ranks_, [&] { own_ = std::make_unique<PartialSystem>(shares[0]); });
 }
 
 void DistributedSystem::gather_mass(const mesher::Mesh& mesh, const FreeNodes& free_nodes,

@@ -18,7 +18,7 @@ class DistributedSystem : public ModalSystem {
   /// @param node_order of all free nodes, or empty: by nested dissection
   /// @throws what assemble() throws on any rank.
   DistributedSystem(MPI_Comm ranks, const mesher::Mesh& mesh, const FreeNodes& free_nodes,
-                    Formulation formulation, const mesher::ElementPartition& partition,
+                    const FormulationChoice& formulation, const mesher::ElementPartition& partition,
                     std::vector<std::int32_t> node_order);
 
   Mat stiffness() const override { return stiffness_.get(); }
@@ -31,7 +31,7 @@ class DistributedSystem : public ModalSystem {
   class Inverse;
 
   void order_all(const Order& order) const;
-  void assemble_shares(std::vector<Share>& shares, Formulation formulation);
+  void assemble_shares(std::vector<Share>& shares);
   void gather_mass(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
                    const std::vector<Share>& shares);
   void add_mass(const std::vector<std::int32_t>& nodes, const std::int32_t* offsets,

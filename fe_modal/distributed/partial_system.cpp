@@ -20,10 +20,10 @@ VecHandle wrap(std::span<const double> values) {
 
 }  // namespace
 
-PartialSystem::PartialSystem(const Share& share, Formulation formulation)
+PartialSystem::PartialSystem(const Share& share)
     : nodes_(share.free_global),
-      matrices_(
-          assemble(share.mesh, FreeNodes(share.free_index, share.free_count()), formulation)) {}
+      matrices_(assemble(share.mesh, FreeNodes(share.free_index, share.free_count()),
+                         share.formulation)) {}
 
 void PartialSystem::multiply_stiffness(std::span<const double> x, std::span<double> y) const {
   const VecHandle in = wrap(x);

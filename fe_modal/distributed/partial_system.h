@@ -14,7 +14,7 @@ namespace flexneck::fe_modal {
 class PartialSystem {
  public:
   /// @throws what assemble() throws.
-  PartialSystem(const Share& share, Formulation formulation);
+  explicit PartialSystem(const Share& share);
 
   /// Numbers of its free nodes among those of the body.
   const std::vector<std::int32_t>& nodes() const { return nodes_; }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fe_modal/formulation.h"
 #include "fe_modal/free_nodes.h"
 #include "mesher/mesh/mesh.h"
 #include "mesher/partition/element_partition.h"
@@ -14,6 +15,7 @@ namespace flexneck::fe_modal {
 /// shares: the matrices of the shares add up to those of the body.
 struct Share {
   mesher::Mesh mesh;                      ///< nodes, materials and blocks; no sets
+  FormulationChoice formulation;          ///< of the materials
   std::vector<std::int32_t> nodes;        ///< (n) their numbers in the whole mesh, ascending
   std::vector<std::int32_t> free_index;   ///< (n) as FreeNodes::index, of the share's free nodes
   std::vector<std::int32_t> free_global;  ///< (free of the share) numbers in FreeNodes of the body,

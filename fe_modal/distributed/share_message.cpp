@@ -15,6 +15,7 @@ Bytes pack(const Share& share) {
     message.put(material.youngs_modulus_Pa);
     message.put(material.poissons_ratio);
     message.put(material.density_kg_m3);
+    message.put(share.formulation.of(material));
   }
   message.put(share.mesh.blocks.size());
   for (const mesher::ElementBlock& block : share.mesh.blocks) {
@@ -39,6 +40,7 @@ Share unpack_share(Bytes bytes) {
     material.youngs_modulus_Pa = message.get<double>();
     material.poissons_ratio = message.get<double>();
     material.density_kg_m3 = message.get<double>();
+    share.formulation.of_material[material.name] = message.get<Formulation>();
   }
   share.mesh.blocks.resize(message.get<std::size_t>());
   for (mesher::ElementBlock& block : share.mesh.blocks) {

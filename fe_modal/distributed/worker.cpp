@@ -36,7 +36,7 @@ void Worker::carry_out(const Order& order) {
       together(ranks_, [&] {
         factors_.clear();
         system_.reset();
-        system_.emplace(unpack_share(std::move(share)), order.formulation);
+        system_.emplace(unpack_share(std::move(share)));
       });
       return;
     }

@@ -28,7 +28,6 @@ struct Order {
   int number = 0;
   int columns = 0;
   double value = 0;
-  Formulation formulation = Formulation::mixed_pressure;
 };
 
 void send_order(MPI_Comm ranks, int to, const Order& order);

@@ -135,7 +135,8 @@ std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positio
 }  // namespace
 
 std::vector<Eigen::MatrixXd> geometric_stiffness(
-    const mesher::Mesh& mesh, Formulation formulation, const std::vector<Eigen::Matrix3Xd>& modes,
+    const mesher::Mesh& mesh, const FormulationChoice& formulation,
+    const std::vector<Eigen::Matrix3Xd>& modes,
     const std::vector<Eigen::Matrix3Xd>& displacements) {
   const auto m = static_cast<Eigen::Index>(modes.size());
   const auto k = static_cast<Eigen::Index>(displacements.size());
@@ -144,7 +145,7 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
   for (const mesher::ElementBlock& block : mesh.blocks) {
     const mesher::Material& material = mesh.materials.at(block.material);
     const double shear_modulus = material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio));
-    ElementKernel kernel(element_scheme(block.kind, formulation));
+    ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
     const std::size_t width = mesher::nodes_per_element(block.kind);
     Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
     Eigen::MatrixXd values(coordinates.size(), m + k);
@@ -163,7 +164,8 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
   return integral.matrices();
 }
 
-GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh, Formulation formulation,
+GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
+                                       const FormulationChoice& formulation,
                                        const FreeNodes& free_nodes, const NodalMass& nodal_mass,
                                        const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,

@@ -21,13 +21,14 @@ namespace flexneck::fe_modal {
 /// @param displacements fields on all nodes, (3, n), whose stresses are taken
 /// @return (m, m) for each displacement field
 std::vector<Eigen::MatrixXd> geometric_stiffness(
-    const mesher::Mesh& mesh, Formulation formulation, const std::vector<Eigen::Matrix3Xd>& modes,
-    const std::vector<Eigen::Matrix3Xd>& displacements);
+    const mesher::Mesh& mesh, const FormulationChoice& formulation,
+    const std::vector<Eigen::Matrix3Xd>& modes, const std::vector<Eigen::Matrix3Xd>& displacements);
 
 /// The same for the stresses of unit accelerations, angular accelerations, products of angular
 /// velocities and interface loads of a held body, from static solutions.
 /// @param nodal_mass of all nodes
-GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh, Formulation formulation,
+GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
+                                       const FormulationChoice& formulation,
                                        const FreeNodes& free_nodes, const NodalMass& nodal_mass,
                                        const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,

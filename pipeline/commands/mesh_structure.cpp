@@ -34,7 +34,7 @@ bool mesh_structure(const CommandInput& input) {
   input.console.step("Meshing " + source.filename().string());
   mesher::MeshFile file;
   file.mesh = make_mesh(structure, input.console.detail());
-  file.provenance = provenance_of(input.study, {"geometry.", "mesh."});
+  file.provenance = mesh_provenance(input.study);
   file.provenance.inputs.push_back({source.filename().string(), hash_of_file(source.string())});
   finish_mesh(input, std::move(file), {});
   return true;

@@ -7,6 +7,7 @@
 #include "fe_modal/distributed/ranks.h"
 #include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/step_times.h"
 #include "geometry/foundation/units.h"
 #include "mesher/mesh/mesh_file.h"
 #include "pipeline/commands/basis_text.h"
@@ -31,10 +32,11 @@ fe_modal::ModalOptions neck_options(const Study& study) {
   const GeometrySection& geometry = *study.geometry;
   fe_modal::ModalOptions options;
   options.mode_count = study.modes.count;
-  options.formulation = study.modes.formulation;
+  options.formulation = formulation_of(study);
   options.basis = study.modes.basis;
   options.basis_interfaces = study.modes.basis_interfaces;
   options.geometric_stiffness = study.modes.stress_stiffening;
+  options.certify = study.modes.certify;
   options.held_set = "bolts";
   options.held_interface = "base";
   options.interfaces = {{"top", "top", geometry.joint_point_m}};
@@ -49,15 +51,28 @@ fe_modal::ModalOptions modal_options(const Study& study, mesher::Mesh& mesh) {
   return study.geometry ? neck_options(study) : structure_options(study, mesh);
 }
 
+/// What --certify adds to a row of the table.
+std::vector<std::string> mesh_error_cells(const fe_modal::MeshError& estimate) {
+  return {fmt::format("{:.3f}", estimate.refined_Hz),
+          estimate.error < 1 ? fmt::format("{:.3f}", 100 * estimate.error) : "not found again",
+          fmt::format("{:.4f}", estimate.mac)};
+}
+
 std::string mode_table(const fe_modal::ModalBody& body) {
   std::vector<std::vector<std::string>> rows = {
       {"mode", "kind", "Hz", "fore-aft %", "lateral %", "twist %", "axial %", "residual"}};
+  if (body.modes.front().mesh_error) {
+    for (const char* title : {"refined Hz", "mesh error %", "MAC"}) rows[0].emplace_back(title);
+  }
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
     const fe_modal::ModeRecord& mode = body.modes[static_cast<std::size_t>(k)];
     std::vector<std::string> row = {mode.name, mode.kind,
                                     fmt::format("{:.3f}", body.frequencies_Hz[k])};
     for (const double share : mode.shares_percent) row.push_back(fmt::format("{:.2f}", share));
     row.push_back(fmt::format("{:.1e}", mode.residual));
+    if (mode.mesh_error) {
+      for (std::string& cell : mesh_error_cells(*mode.mesh_error)) row.push_back(std::move(cell));
+    }
     rows.push_back(std::move(row));
   }
   return text_table(rows, {0, 1});
@@ -79,34 +94,76 @@ void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
   if (partition != mesh.partitions.end()) options.element_ranks = partition->second;
 }
 
-}  // namespace
-
-bool modes_command(const CommandInput& input) {
-  mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
-  require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, "flexneck mesh");
-  if (!input.study.geometry && !input.study.structure) {
-    throw InputError(input.study.file.string() +
-                     ": there is no [geometry] that names the interfaces");
+/// The mesh with each material's modulus of static tests.
+mesher::Mesh with_static_moduli(mesher::Mesh mesh, const MaterialModels& models) {
+  for (mesher::Material& material : mesh.materials) {
+    const auto model = models.find(material.name);
+    if (model != models.end()) material.youngs_modulus_Pa *= model->second.static_modulus_ratio;
   }
-  input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
-  std::optional<fe_modal::PetscSession> session;
-  if (input.ranks == nullptr) session.emplace();
+  return mesh;
+}
+
+/// Solves and writes the file.
+fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
+                          const fe_modal::ModalOptions& options, const std::filesystem::path& path,
+                          StepTimes& times) {
   fe_modal::ModalBodyFile file;
-  fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
-  share_work(input, mesh, options);
-  file.body = fe_modal::analyse_modes(mesh.mesh, options, input.console.detail());
+  file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times);
+  times.start("write");
   const std::string attached = "body." + input.study.modes.attached_body + ".";
   file.provenance =
       provenance_of(input.study, {"geometry.", "mesh.", "modes.", "interface.", attached});
   file.provenance.inputs.push_back(
       {input.folder.mesh().filename().string(), hash_of_file(input.folder.mesh().string())});
   file.provenance.libraries = fe_modal::library_versions();
-  fe_modal::write_modal_body(input.folder.modes(), file);
+  fe_modal::write_modal_body(path, file);
+  times.stop();
+  return file.body;
+}
 
-  input.console.result(
-      fmt::format("\nModes: {}, {}; mass {}  ({})\n{}{}", file.body.boundary, file.body.certificate,
-                  mass_text(input.study, file.body.invariants.mass), input.folder.modes().string(),
-                  mode_table(file.body), basis_text(file.body)));
+/// The modes that the static test is made of, where a material has a modulus of its own there.
+void solve_static(const CommandInput& input, const mesher::Mesh& mesh,
+                  fe_modal::ModalOptions options) {
+  if (!input.study.has_static_moduli()) {
+    std::filesystem::remove(input.folder.static_modes());
+    return;
+  }
+  input.console.step("Solving again with the static moduli");
+  options.certify = false;
+  StepTimes times;
+  const fe_modal::ModalBody body =
+      solve(input, with_static_moduli(mesh, input.study.material_models()), options,
+            input.folder.static_modes(), times);
+  input.console.result(fmt::format("\nModes with the static moduli: first {:.3f} Hz  ({})",
+                                   body.frequencies_Hz[0], input.folder.static_modes().string()));
+}
+
+}  // namespace
+
+bool modes_command(const CommandInput& input) {
+  StepTimes times;
+  times.start("read");
+  mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
+  require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, "flexneck mesh");
+  if (!input.study.geometry && !input.study.structure) {
+    throw InputError(input.study.file.string() +
+                     ": there is no [geometry] that names the interfaces");
+  }
+  fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
+  share_work(input, mesh, options);
+  for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, options.formulation)) {
+    input.console.step("Warning: " + line);
+  }
+  input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
+  std::optional<fe_modal::PetscSession> session;
+  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::ModalBody body = solve(input, mesh.mesh, options, input.folder.modes(), times);
+  input.console.detail()("seconds: " + times.summary());
+  input.console.result(fmt::format("\nModes: {}, {}; mass {}  ({})\n{}{}", body.boundary,
+                                   body.certificate, mass_text(input.study, body.invariants.mass),
+                                   input.folder.modes().string(), mode_table(body),
+                                   basis_text(body)));
+  solve_static(input, mesh.mesh, options);
   return true;
 }
 

@@ -11,8 +11,11 @@
 namespace flexneck::pipeline {
 
 bool static_command(const CommandInput& input) {
-  const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(input.folder.modes());
-  require_same_inputs(input.folder.modes(), modes.provenance, input.study, "flexneck modes");
+  const bool has_own_moduli = input.study.has_static_moduli();
+  const std::filesystem::path path =
+      has_own_moduli ? input.folder.static_modes() : input.folder.modes();
+  const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(path);
+  require_same_inputs(path, modes.provenance, input.study, "flexneck modes");
   const double deg = factor_from_si("rad", "deg");
   const double in_lbf = factor_from_si("N*m", "in*lbf");
   std::vector<std::vector<std::string>> rows = {{"case", "rotation deg", "deflection in",
@@ -26,8 +29,7 @@ bool static_command(const CommandInput& input) {
                                        input.study.solver,
                                        {experiment.duration_s, input.study.output_interval_s});
     file.provenance = provenance_of(input.study);
-    file.provenance.inputs.push_back(
-        {input.folder.modes().filename().string(), hash_of_file(input.folder.modes().string())});
+    file.provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
     multibody::write_history(input.folder.history(experiment), file);
 
     const StaticTestResult result = static_test_result(file.history, experiment);
@@ -37,7 +39,9 @@ bool static_command(const CommandInput& input) {
                     fmt::format("{:.2f}", result.initial_stiffness * in_lbf / deg),
                     fmt::format("{:.2f}", result.final_stiffness * in_lbf / deg)});
   }
-  input.console.result("\nStatic neck tester, at the end of the ramp\n" + text_table(rows));
+  input.console.result("\nStatic neck tester, at the end of the ramp" +
+                       std::string(has_own_moduli ? ", with the static moduli" : "") + "\n" +
+                       text_table(rows));
   return true;
 }
 

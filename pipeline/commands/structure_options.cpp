@@ -61,13 +61,22 @@ void attach_body(const Study& study, fe_modal::ModalOptions& options) {
 
 }  // namespace
 
+fe_modal::FormulationChoice formulation_of(const Study& study) {
+  fe_modal::FormulationChoice choice = study.modes.formulation;
+  for (const auto& [material, model] : study.material_models()) {
+    if (model.formulation) choice.of_material[material] = *model.formulation;
+  }
+  return choice;
+}
+
 fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh) {
   fe_modal::ModalOptions options;
   options.mode_count = study.modes.count;
-  options.formulation = study.modes.formulation;
+  options.formulation = formulation_of(study);
   options.basis = study.modes.basis;
   options.basis_interfaces = study.modes.basis_interfaces;
   options.geometric_stiffness = study.modes.stress_stiffening;
+  options.certify = study.modes.certify;
   options.rigid_parts = study.modes.rigid_parts;
   options.length_m = mesher::bounding_box(mesh).extent_m().norm();
   try {

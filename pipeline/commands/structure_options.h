@@ -13,4 +13,7 @@ namespace flexneck::pipeline {
 /// @throws InputError naming study and key, with the nearest set where one is unknown.
 fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh);
 
+/// The formulation of each material: its own, or that of [modes].
+fe_modal::FormulationChoice formulation_of(const Study& study);
+
 }  // namespace flexneck::pipeline

@@ -70,14 +70,21 @@ geometry::NeckDivisions read_divisions(const StudyTable& table) {
 
 }  // namespace
 
-void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
-                    std::map<std::string, std::string>& material_of_part) {
+MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
+                              std::map<std::string, std::string>& material_of_part) {
+  MaterialModels models;
   const StudyTable table = geometry.table("materials");
   for (const std::string& name : table.keys()) {
     const StudyTable material = table.table(name);
     materials.push_back({name, material.quantity("youngs_modulus", "Pa"),
                          material.number("poissons_ratio"),
                          material.quantity("density", "kg/m^3")});
+    MaterialModel& model = models[name];
+    if (material.has("formulation")) model.formulation = read_formulation(material);
+    model.static_modulus_ratio = material.number_or("static_modulus_ratio", 1);
+    if (!(model.static_modulus_ratio > 0)) {
+      material.refuse("static_modulus_ratio", "expected a positive number");
+    }
     for (const std::string& part : material.texts("parts")) {
       if (!material_of_part.emplace(part, name).second) {
         material.refuse("parts", "the part '" + part + "' has another material already");
@@ -85,6 +92,7 @@ void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& m
     }
     material.finish();
   }
+  return models;
 }
 
 void read_script_options(const StudyTable& geometry, const StudyTable& mesh,
@@ -110,7 +118,7 @@ GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh
   const std::vector<double> point = geometry.quantities("joint_point", "m", 3);
   section.joint_point_m = Eigen::Map<const Eigen::Vector3d>(point.data());
   if (geometry.has("fitted_to")) section.fitted_to = geometry.texts("fitted_to");
-  read_materials(geometry, section.materials, section.material_of_part);
+  section.material_models = read_materials(geometry, section.materials, section.material_of_part);
   geometry.finish();
   section.divisions = read_divisions(mesh);
   section.element = read_element(mesh);

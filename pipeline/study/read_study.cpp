@@ -8,18 +8,13 @@
 
 namespace flexneck::pipeline {
 
-namespace {
-
-fe_modal::Formulation read_formulation(const StudyTable& table, fe_modal::Formulation fallback) {
-  if (!table.has("formulation")) return fallback;
+fe_modal::Formulation read_formulation(const StudyTable& table) {
   try {
     return fe_modal::formulation_from(table.text("formulation"));
   } catch (const InputError& error) {
     table.refuse("formulation", error.what());
   }
 }
-
-}  // namespace
 
 MeshOrders read_mesh_orders(const StudyTable& mesh) {
   MeshOrders orders;
@@ -40,7 +35,8 @@ MeshOrders read_mesh_orders(const StudyTable& mesh) {
 ModesSection read_modes(const StudyTable& table) {
   ModesSection modes;
   modes.count = table.count_or("count", 1, modes.count);
-  modes.formulation = read_formulation(table, modes.formulation);
+  if (table.has("formulation")) modes.formulation = read_formulation(table);
+  modes.certify = table.flag_or("certify", modes.certify);
   if (table.has("basis")) {
     modes.basis = static_cast<fe_modal::BasisKind>(choice(table, "basis", fe_modal::basis_names()));
   }
@@ -161,6 +157,17 @@ void check_references(const Study& study) {
 }
 
 }  // namespace
+
+const MaterialModels& Study::material_models() const {
+  static const MaterialModels none;
+  return geometry ? geometry->material_models : structure ? structure->material_models : none;
+}
+
+bool Study::has_static_moduli() const {
+  const MaterialModels& models = material_models();
+  return std::any_of(models.begin(), models.end(),
+                     [](const auto& entry) { return entry.second.static_modulus_ratio != 1; });
+}
 
 const BodySection& Study::body(const std::string& name) const {
   return bodies[find_name(names_of(bodies), name, "body")];

@@ -15,11 +15,13 @@ InterfaceSection read_interface(const StudyTable& interface);
 void read_script_options(const StudyTable& geometry, const StudyTable& mesh,
                          mesher::ScriptMeshOptions& options);
 /// [geometry.materials]
-void read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
-                    std::map<std::string, std::string>& material_of_part);
+MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
+                              std::map<std::string, std::string>& material_of_part);
 GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh);
 /// The keys partitions and node_order of [mesh].
 MeshOrders read_mesh_orders(const StudyTable& mesh);
+/// The key formulation. @throws InputError if there is none of that name.
+fe_modal::Formulation read_formulation(const StudyTable& table);
 ModesSection read_modes(const StudyTable& modes);
 BodySection read_body(const StudyTable& body);
 MarkerSection read_marker(const StudyTable& marker);

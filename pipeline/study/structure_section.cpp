@@ -113,7 +113,10 @@ StructureSection read_structure(const StudyTable& geometry, const StudyTable& me
     section.source = std::move(options);
   }
   std::visit(
-      [&](auto& options) { read_materials(geometry, options.materials, options.material_of_part); },
+      [&](auto& options) {
+        section.material_models =
+            read_materials(geometry, options.materials, options.material_of_part);
+      },
       section.source);
   geometry.finish();
   mesh.finish();

@@ -2,19 +2,31 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include <Eigen/Core>
 
+#include "fe_modal/formulation.h"
 #include "mesher/exchange/mesh_import.h"
 #include "mesher/script_mesher.h"
 
 namespace flexneck::pipeline {
 
+/// What [geometry.materials.<name>] says beyond the mesh.
+struct MaterialModel {
+  std::optional<fe_modal::Formulation> formulation;  ///< in place of that of [modes]
+  double static_modulus_ratio = 1;  ///< Young's modulus in static tests over that of the modes
+};
+/// By the materials' names.
+using MaterialModels = std::map<std::string, MaterialModel>;
+
 /// [geometry] and [mesh] of a structure that is not the neck: a gmsh script, or a file.
 struct StructureSection {
   std::variant<mesher::ScriptMeshOptions, mesher::ImportOptions> source;
+  MaterialModels material_models;
 
   const std::filesystem::path& file() const;
 };

@@ -29,6 +29,7 @@ struct GeometrySection {
   mesher::ElementKind element = mesher::ElementKind::hex27;
   std::vector<mesher::Material> materials;
   std::map<std::string, std::string> material_of_part;
+  MaterialModels material_models;
   Eigen::Vector3d joint_point_m = Eigen::Vector3d::Zero();
   std::vector<std::string> fitted_to;  ///< published figures that the dimensions were fitted to
 };
@@ -46,7 +47,8 @@ struct ModesSection {
   fe_modal::BasisKind basis = fe_modal::BasisKind::normal;
   bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
-  std::vector<std::string> held;         ///< node sets held in all directions; empty: a free body
+  bool certify = false;           ///< prove that no mode is missing, estimate the error of the mesh
+  std::vector<std::string> held;  ///< node sets held in all directions; empty: a free body
   std::vector<std::string> rigid_parts;  ///< parts whose motion names the modes
   std::string attached_body;  ///< rigid body set on an interface for the loaded frequencies
   std::string attached_to;    ///< that interface; empty: the first
@@ -133,6 +135,9 @@ struct Study {
   std::vector<Parameter> parameters;
 
   const BodySection& body(const std::string& name) const;
+  const MaterialModels& material_models() const;
+  /// True if a material has another modulus in static tests than in the modes.
+  bool has_static_moduli() const;
 };
 
 /// @throws InputError with file, line, column and key for everything that is not right.

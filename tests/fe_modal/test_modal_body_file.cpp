@@ -21,6 +21,8 @@ ModalBodyFile sample() {
     file.body.modes[k] = {
         "bending " + std::to_string(k + 1), "normal", {10 * v, 20 * v, 30 * v, 40 * v}, 1e-9 * v};
   }
+  file.body.modes[0].mesh_error = MeshError{0.5, 0.875, 0.25};
+  file.body.modes[2].mesh_error = MeshError{1.5, 0.75, 1};
   file.body.orthogonality = 3e-12;
   file.body.attached = {{"head", "tip", Eigen::Vector3d(1.5, 2.5, 3.5)}};
   file.provenance.program = "flexneck test";
@@ -66,6 +68,11 @@ TEST_CASE("a modal body comes back from its file bit by bit") {
     CHECK(found.modes[k].kind == expected.modes[k].kind);
     CHECK(found.modes[k].shares_percent == expected.modes[k].shares_percent);
     CHECK(found.modes[k].residual == expected.modes[k].residual);
+    REQUIRE(found.modes[k].mesh_error.has_value() == expected.modes[k].mesh_error.has_value());
+    if (!found.modes[k].mesh_error) continue;
+    CHECK(found.modes[k].mesh_error->refined_Hz == expected.modes[k].mesh_error->refined_Hz);
+    CHECK(found.modes[k].mesh_error->mac == expected.modes[k].mesh_error->mac);
+    CHECK(found.modes[k].mesh_error->error == expected.modes[k].mesh_error->error);
   }
   REQUIRE(found.interfaces.size() == expected.interfaces.size());
   for (const Interface& interface : expected.interfaces) {

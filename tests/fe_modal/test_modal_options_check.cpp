@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -67,6 +69,60 @@ TEST_CASE("impossible options are refused") {
   check_refused([](ModalOptions& o) { o.attachments[0].mass_kg = -1; }, "negative");
   check_refused([](ModalOptions& o) { o.held_interface = "tip"; }, "tip");
   check_refused([](ModalOptions& o) { o.held_set.clear(); }, "free body");
+}
+
+TEST_CASE("materials and sets that cannot be are refused, whoever made the mesh") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto check_mesh_refused = [](const std::function<void(mesher::Mesh&)>& spoil,
+                                     const std::string& text) {
+    mesher::Mesh mesh = bar();
+    spoil(mesh);
+    CHECK_THROWS_AS(analyse_modes(mesh, sound_options(), {}), InputError);
+    CHECK_THROWS_WITH(analyse_modes(mesh, sound_options(), {}), Catch::Contains(text));
+  };
+  for (const double density : {-1.0, 0.0, kNan}) {
+    check_mesh_refused([&](mesher::Mesh& mesh) { mesh.materials[0].density_kg_m3 = density; },
+                       "material 'steel': density must be > 0");
+  }
+  for (const double ratio : {0.5, 0.6, kNan}) {
+    check_mesh_refused([&](mesher::Mesh& mesh) { mesh.materials[0].poissons_ratio = ratio; },
+                       "material 'steel': Poisson's ratio must lie between -1 and 0.5");
+  }
+  check_mesh_refused([](mesher::Mesh& mesh) { mesh.node_sets[0].nodes.clear(); },
+                     "node set 'bottom' is empty");
+}
+
+TEST_CASE("each material has its formulation; one that locks is warned of") {
+  testing::BlockMesh pad = testing::box({1, 1, 1}, {0.08, 0.08, 0.03}, {});
+  pad.slices = {{"pad", 2, {"rubber", 8.3e6, 0.49, 950}},
+                {"plate", 1, {"steel", 2.1e11, 0.3, 7850}}};
+  const mesher::Mesh mesh = pad.make();
+  const auto lowest = [&](const FormulationChoice& choice) {
+    ModalOptions options;
+    options.held_set = "bottom";
+    options.mode_count = 1;
+    options.formulation = choice;
+    return analyse_modes(mesh, options, {}).frequencies_Hz[0];
+  };
+  FormulationChoice rubber_locks;
+  rubber_locks.of_material["rubber"] = Formulation::displacement;
+  FormulationChoice plate_only;
+  plate_only.of_material["steel"] = Formulation::displacement;
+  const double mixed = lowest({});
+  CHECK(lowest(rubber_locks) > 1.01 * mixed);
+  CHECK(std::abs(lowest(plate_only) / mixed - 1) < 1e-3);
+  CHECK(lowest(Formulation::displacement) > 1.01 * mixed);
+
+  CHECK(locking_warnings(mesh, {}).empty());
+  CHECK(locking_warnings(mesh, plate_only).empty());
+  const auto warnings = locking_warnings(mesh, rubber_locks);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Catch::Contains("'rubber' with Poisson's ratio 0.49"));
+
+  ModalOptions unknown;
+  unknown.held_set = "bottom";
+  unknown.formulation.of_material["ruber"] = Formulation::displacement;
+  CHECK_THROWS_WITH(analyse_modes(mesh, unknown, {}), Catch::Contains("did you mean 'rubber'"));
 }
 
 TEST_CASE("a held set that lets the body turn is refused") {

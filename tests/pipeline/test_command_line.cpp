@@ -8,6 +8,7 @@
 
 #include "fe_modal/body/modal_body_file.h"
 #include "mesher/mesh/mesh_file.h"
+#include "multibody/history_file.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -170,6 +171,79 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
     check_refused(run_flexneck("verify -o " + out + kCoarse),
                   "modes.h5: no such file; make it with 'flexneck modes'");
   }
+}
+
+TEST_CASE("modes --certify proves that no mode is missing and estimates the mesh's error") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + folder.path().string() + kCoarse;
+  REQUIRE(run_flexneck("mesh -q" + out).exit_code == 0);
+  const CommandOutcome outcome = run_flexneck("modes -v --certify" + out);
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("certified: no mode is missing below") &&
+                               Contains("mesh error %") && Contains("seconds: read ") &&
+                               Contains("factorise "));
+  const fe_modal::ModalBody body = fe_modal::read_modal_body(folder / "modes.h5").body;
+  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    const auto& mode = body.modes[static_cast<std::size_t>(k)];
+    if (mode.kind != "normal") continue;
+    REQUIRE(mode.mesh_error.has_value());
+    CHECK(mode.mesh_error->refined_Hz == Approx(body.frequencies_Hz[k]).epsilon(0.1));
+    CHECK(mode.mesh_error->error < 0.2);
+  }
+  // Another stage does not mind.
+  CHECK(run_flexneck("static -q" + out).exit_code == 0);
+}
+
+TEST_CASE("a static modulus softens the static test alone") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + folder.path().string() + kCoarse;
+  REQUIRE(run_flexneck("mesh -q" + out).exit_code == 0);
+  REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
+  REQUIRE(run_flexneck("static -q" + out).exit_code == 0);
+  const auto tip = [&] {
+    return multibody::read_history(folder / "static-flexion.h5")
+        .history.marker("neck.top")
+        .position_m(0, 100);
+  };
+  const std::string modes = bytes_of(folder / "modes.h5");
+  const double stiff = tip();
+  const std::string quarter = " --set geometry.materials.butyl.static_modulus_ratio=0.25";
+  const CommandOutcome outcome = run_flexneck("modes" + out + quarter);
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(fs::exists(folder / "modes_static.h5"));
+  REQUIRE(run_flexneck("static -q" + out + quarter).exit_code == 0);
+  // Small loads at the start of the ramp; the plates of aluminium keep their stiffness.
+  CHECK(tip() / stiff == Approx(4).epsilon(0.02));
+  const auto frequencies = [&](const char* file) {
+    return fe_modal::read_modal_body(folder / file).body.frequencies_Hz;
+  };
+  CHECK(frequencies("modes_static.h5")[0] / frequencies("modes.h5")[0] ==
+        Approx(0.5).epsilon(1e-3));
+  // Without the ratio nothing of it is left.
+  REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
+  CHECK(bytes_of(folder / "modes.h5") == modes);
+  CHECK_FALSE(fs::exists(folder / "modes_static.h5"));
+}
+
+TEST_CASE("materials that cannot be, and ones that lock, are told") {
+  const TemporaryFolder folder;
+  const std::string out = " -q -o " + folder.path().string() + kCoarse;
+  const std::string butyl = " --set geometry.materials.butyl.";
+  check_refused(run_flexneck("mesh" + out + butyl + "density='-1 kg/m^3'"),
+                "material 'butyl': density must be > 0");
+  check_refused(run_flexneck("mesh" + out + butyl + "poissons_ratio=0.5"),
+                "material 'butyl': Poisson's ratio must lie between -1 and 0.5");
+  check_refused(run_flexneck("mesh" + out + butyl + "static_modulus_ratio=0"),
+                "static_modulus_ratio: expected a positive number");
+  check_refused(run_flexneck("mesh" + out + butyl + "formulation=mixd"),
+                "unknown formulation 'mixd'");
+  REQUIRE(run_flexneck("mesh" + out).exit_code == 0);
+  const CommandOutcome outcome = run_flexneck("modes -o " + folder.path().string() + kCoarse +
+                                              butyl + "formulation=displacement");
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("Warning: material 'butyl' with Poisson's ratio 0.49"));
 }
 
 TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no file") {

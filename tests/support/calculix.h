@@ -12,12 +12,9 @@
 
 namespace flexneck::testing {
 
-/// Frequencies in Hz that CalculiX (package calculix-ccx) finds for a deck; seven digits.
-inline std::vector<double> calculix_frequencies(const std::filesystem::path& deck) {
-  const std::string job = deck.stem().string();
-  const CommandOutcome outcome =
-      run_shell("cd '" + deck.parent_path().string() + "' && OMP_NUM_THREADS=1 ccx -i " + job);
-  std::ifstream file(deck.parent_path() / (job + ".dat"));
+/// Frequencies in Hz from what CalculiX printed, the file .dat; seven digits. Empty if it has none.
+inline std::vector<double> read_calculix_frequencies(const std::filesystem::path& printed) {
+  std::ifstream file(printed);
   std::vector<double> frequencies;
   bool in_table = false;
   for (std::string line; std::getline(file, line);) {
@@ -30,6 +27,16 @@ inline std::vector<double> calculix_frequencies(const std::filesystem::path& dec
     double hertz = 0;
     if (in_table && numbers >> mode >> eigenvalue >> radians >> hertz) frequencies.push_back(hertz);
   }
+  return frequencies;
+}
+
+/// Those that CalculiX (package calculix-ccx) finds for a deck.
+inline std::vector<double> calculix_frequencies(const std::filesystem::path& deck) {
+  const std::string job = deck.stem().string();
+  const CommandOutcome outcome =
+      run_shell("cd '" + deck.parent_path().string() + "' && OMP_NUM_THREADS=1 ccx -i " + job);
+  const std::vector<double> frequencies =
+      read_calculix_frequencies(deck.parent_path() / (job + ".dat"));
   if (frequencies.empty()) throw std::runtime_error("ccx found no frequency: " + outcome.text);
   return frequencies;
 }

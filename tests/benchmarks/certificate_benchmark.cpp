@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Estimated over true error of frequencies. README.md says what is compared.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "fe_modal/modal_analysis.h"
+#include "mesher/mesh/refinement.h"
+#include "tests/support/block_mesh.h"
+#include "tests/support/element_meshes.h"
+#include "tests/support/neck_mesh.h"
+
+namespace {
+
+using namespace flexneck;
+using namespace flexneck::fe_modal;
+using mesher::ElementKind;
+
+ModalOptions options_of(const std::string& held, int count) {
+  ModalOptions options;
+  options.held_set = held;
+  options.mode_count = count;
+  return options;
+}
+
+/// A steel plate on a rubber ring, bonded to it and to the ground.
+mesher::Mesh bonded_ring(int refinement) {
+  testing::BlockMesh ring =
+      testing::tube({2 * refinement, 8 * refinement, 1}, 0.01, 0.04, 0.03, {});
+  ring.slices = {{"pad", 2 * refinement, {"rubber", 8.3e6, 0.49, 950}},
+                 {"plate", refinement, {"steel", 2.1e11, 0.3, 7850}}};
+  return ring.make();
+}
+
+mesher::Mesh tube(const mesher::Material& material) {
+  return testing::tube({1, 8, 3}, 0.04, 0.06, 0.3, material).make();
+}
+
+mesher::Mesh neck(const std::string& set, int layers) {
+  geometry::NeckDivisions divisions;
+  if (layers < 3) {
+    divisions.inner_ring = 2;
+    divisions.rubber_layers = layers;
+  }
+  return testing::neck_mesh(set, divisions);
+}
+
+/// Frequencies with every element cut in eight so many times.
+Eigen::VectorXd reference_Hz(const mesher::Mesh& mesh, const ModalOptions& options, int cuts) {
+  mesher::Mesh finest = mesh;
+  for (int k = 0; k < cuts; ++k) finest = mesher::refine(finest).mesh;
+  return analyse_modes(finest, options, {}).frequencies_Hz;
+}
+
+void print_problem(const char* title, const mesher::Mesh& mesh, ModalOptions options,
+                   const Eigen::VectorXd& reference) {
+  options.certify = true;
+  const auto start = std::chrono::steady_clock::now();
+  const ModalBody body = analyse_modes(mesh, options, {});
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  std::printf("%s: %zu nodes, %.1f s\n", title, mesh.nodes.size(), spent.count());
+  std::printf("  %12s %12s %12s %10s %10s %8s %8s\n", "Hz", "refined", "reference", "true %",
+              "estimate %", "ratio", "MAC");
+  for (Eigen::Index k = 0; k < reference.size(); ++k) {
+    const MeshError& error = *body.modes[static_cast<std::size_t>(k)].mesh_error;
+    const double truth = body.frequencies_Hz[k] / reference[k] - 1;
+    std::printf("  %12.5f %12.5f %12.5f %10.5f %10.5f %8.2f %8.5f\n", body.frequencies_Hz[k],
+                error.refined_Hz, reference[k], 100 * truth, 100 * error.error,
+                error.error / std::abs(truth), error.mac);
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int effort = argc > 1 ? std::atoi(argv[1]) : 1;
+  try {
+    const PetscSession session;
+    const ModalOptions bottom = options_of("bottom", 6);
+    const mesher::Mesh ring = bonded_ring(1);
+    print_problem("bonded rubber ring", ring, bottom,
+                  reference_Hz(ring, bottom, effort > 0 ? 3 : 2));
+    for (const ElementKind kind : {ElementKind::tet10, ElementKind::hex20, ElementKind::hex8}) {
+      const mesher::Mesh other = testing::with_kind(ring, kind);
+      print_problem(std::string(mesher::name_of(kind)).c_str(), other, bottom,
+                    reference_Hz(ring, bottom, 2));
+    }
+    const mesher::Mesh steel = tube({"steel", 2.1e11, 0.3, 7850});
+    print_problem("steel tube", steel, bottom, reference_Hz(steel, bottom, 2));
+    if (effort > 0) {
+      const ModalOptions bolts = options_of("bolts", 10);
+      for (const char* set : {"A", "C"}) {
+        const mesher::Mesh coarse = neck(set, 2);
+        const mesher::Mesh usual = neck(set, 3);
+        const Eigen::VectorXd reference = reference_Hz(usual, bolts, 1);
+        print_problem("neck, coarse", coarse, bolts, reference);
+        print_problem("neck, default", usual, bolts, reference);
+      }
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
