@@ -124,9 +124,12 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
     held = mesh.node_set(options.held_set).nodes;
   }
   const Eigen::Index dofs = FreeNodes(mesh, held).dof_count();
-  if (options.mode_count < 1 || options.mode_count > dofs) {
-    throw InputError("the number of modes must lie between 1 and the " + std::to_string(dofs) +
-                     " degrees of freedom, found " + std::to_string(options.mode_count));
+  // Static shapes alone make a basis too.
+  const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
+  if (options.mode_count < least || options.mode_count > dofs) {
+    throw InputError("the number of modes must lie between " + std::to_string(least) + " and the " +
+                     std::to_string(dofs) + " degrees of freedom, found " +
+                     std::to_string(options.mode_count));
   }
   check_interfaces(mesh, options);
   check_basis(options, dofs);

@@ -21,6 +21,10 @@ class ResultsFolder {
   std::filesystem::path modes() const { return path_ / "modes.h5"; }
   /// Modes with the static moduli, where a material has one.
   std::filesystem::path static_modes() const { return path_ / "modes_static.h5"; }
+  /// Modes of one piece of the structure.
+  std::filesystem::path substructure(const std::string& piece) const {
+    return path_ / ("substructure_" + piece + ".h5");
+  }
   std::filesystem::path mesh_picture() const { return path_ / "mesh.png"; }
   std::filesystem::path modes_picture() const { return path_ / "modes.png"; }
   std::filesystem::path history(const CaseSection& experiment) const;

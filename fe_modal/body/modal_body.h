@@ -76,7 +76,7 @@ struct ModeRecord {
   /// Per cent of the kinetic energy of the plates' rigid motions: fore-aft (x with theta_y),
   /// lateral (y with theta_x), twist (theta_z), axial (z).
   std::array<double, 4> shares_percent{};
-  double residual = 0;  ///< ||K x - lambda M x|| / ||K x||
+  double residual = 0;                       ///< ||K x - lambda M x|| / ||K x||
   std::optional<MeshError> mesh_error = {};  ///< of a normal mode, where it was estimated
 };
 

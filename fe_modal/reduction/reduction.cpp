@@ -124,10 +124,11 @@ Reduction craig_bampton(const BodyOperators& body, Mat mass, const ModeSolver& s
   const Eigen::MatrixXd combinations = correcting_loads(shapes, interfaces, progress);
   const Eigen::MatrixXd responses = shapes.beyond * combinations;
   const ConstrainedMass constrained(mass, shapes.loads * combinations, responses);
-  const Eigen::MatrixXd inner =
-      constrained.project(solve_modes(constrained.matrix(), count).vectors);
-  Eigen::MatrixXd vectors(inner.rows(), count + responses.cols());
-  vectors << inner, responses;
+  Eigen::MatrixXd vectors(responses.rows(), count + responses.cols());
+  vectors.rightCols(responses.cols()) = responses;
+  if (count > 0) {
+    vectors.leftCols(count) = constrained.project(solve_modes(constrained.matrix(), count).vectors);
+  }
 
   Reduction reduction;
   reduction.pairs = ritz_pairs(body, Eigen::MatrixXd(), std::move(vectors));

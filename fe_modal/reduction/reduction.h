@@ -52,7 +52,7 @@ Reduction complete_modes(const BodyOperators& body, const EigenPairs& normal,
 
 /// Modes with the average motions of the interfaces held, and the interfaces' static shapes (Craig
 /// and Bampton, AIAA J. 6 (1968)), made orthonormal by the reduced eigenproblem. Of its vectors the
-/// `count` lowest stand for modes, the others are corrections.
+/// `count` lowest, perhaps none, stand for modes, the others are corrections.
 /// @pre the body is held
 Reduction craig_bampton(const BodyOperators& body, Mat mass, const ModeSolver& solve_modes,
                         Eigen::Index count, const std::vector<InterfaceLoads>& interfaces,

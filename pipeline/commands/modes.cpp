@@ -13,6 +13,7 @@
 #include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/structure_options.h"
+#include "pipeline/commands/substructures.h"
 #include "pipeline/text_table.h"
 
 namespace flexneck::pipeline {
@@ -103,6 +104,16 @@ mesher::Mesh with_static_moduli(mesher::Mesh mesh, const MaterialModels& models)
   return mesh;
 }
 
+Provenance modes_provenance(const CommandInput& input) {
+  const std::string attached = "body." + input.study.modes.attached_body + ".";
+  Provenance provenance = provenance_of(
+      input.study, {"geometry.", "mesh.", "modes.", "substructures.", "interface.", attached});
+  provenance.inputs.push_back(
+      {input.folder.mesh().filename().string(), hash_of_file(input.folder.mesh().string())});
+  provenance.libraries = fe_modal::library_versions();
+  return provenance;
+}
+
 /// Solves and writes the file.
 fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
                           const fe_modal::ModalOptions& options, const std::filesystem::path& path,
@@ -110,12 +121,7 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
   fe_modal::ModalBodyFile file;
   file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times);
   times.start("write");
-  const std::string attached = "body." + input.study.modes.attached_body + ".";
-  file.provenance =
-      provenance_of(input.study, {"geometry.", "mesh.", "modes.", "interface.", attached});
-  file.provenance.inputs.push_back(
-      {input.folder.mesh().filename().string(), hash_of_file(input.folder.mesh().string())});
-  file.provenance.libraries = fe_modal::library_versions();
+  file.provenance = modes_provenance(input);
   fe_modal::write_modal_body(path, file);
   times.stop();
   return file.body;
@@ -164,6 +170,7 @@ bool modes_command(const CommandInput& input) {
                                    input.folder.modes().string(), mode_table(body),
                                    basis_text(body)));
   solve_static(input, mesh.mesh, options);
+  write_substructures(input, mesh.mesh, options, modes_provenance(input));
   return true;
 }
 

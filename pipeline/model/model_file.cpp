@@ -27,6 +27,10 @@ void read_solver(const StudyTable& table, ModelFile& file) {
   if (table.has("formulation"))
     file.solver.formulation = static_cast<multibody::Formulation>(
         choice(table, "formulation", {"descriptor", "recursive", "automatic"}));
+  if (table.has("integrator"))
+    file.solver.integrator = static_cast<multibody::Integrator>(
+        choice(table, "integrator", {"dormand_prince", "generalised_alpha"}));
+  file.solver.spectral_radius = table.number_or("spectral_radius", file.solver.spectral_radius);
   if (table.has("start"))
     file.start = static_cast<ModelFile::Start>(choice(table, "start", {"given", "equilibrium"}));
   if (table.has("gravity")) file.model.gravity_m_s2 = quantity_vector(table, "gravity", "m/s^2");

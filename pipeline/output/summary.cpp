@@ -13,6 +13,8 @@ std::string run_summary(const multibody::History& history) {
       "  {} output times to {:.6g} s; {} steps, {} rejected, {} evaluations of the equations",
       history.time_s.size(), history.time_s.size() > 0 ? history.time_s.tail<1>()[0] : 0.0,
       steps.accepted, steps.rejected, steps.evaluations);
+  for (const multibody::StepLimit& limit : steps.limits)
+    text += fmt::format("\n  {} of the steps limited by {}", limit.steps, limit.what);
   // Joint coordinates have no constraints.
   if (steps.largest_position_residual > 0 || steps.largest_velocity_residual > 0)
     text += fmt::format(

@@ -182,6 +182,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.mesh_orders = read_mesh_orders(mesh);
   if (root.has("geometry")) read_what_is_meshed(root.table("geometry"), mesh, study);
   study.modes = read_modes(root.table("modes"));
+  study.substructures = read_substructures(root.table("substructures"));
   study.interfaces = read_all(root, "interface", read_interface);
   study.bodies = read_all(root, "body", read_body);
   study.markers = read_all(root, "marker", read_marker);

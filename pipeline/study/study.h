@@ -17,6 +17,7 @@
 #include "multibody/model.h"
 #include "multibody/simulation.h"
 #include "pipeline/study/structure_section.h"
+#include "pipeline/study/substructure_section.h"
 
 namespace flexneck::pipeline {
 
@@ -121,6 +122,7 @@ struct Study {
   std::vector<InterfaceSection> interfaces;   ///< of another structure; the neck has its own
   MeshOrders mesh_orders;
   ModesSection modes;
+  SubstructuresSection substructures;
   std::vector<BodySection> bodies;
   std::vector<MarkerSection> markers;
   std::vector<JointSection> joints;

@@ -9,6 +9,7 @@
 #include "fe_modal/element_kernel.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
+#include "tests/fe_modal/element_choices.h"
 #include "tests/support/block_mesh.h"
 
 namespace flexneck::fe_modal {
@@ -16,13 +17,6 @@ namespace {
 
 using mesher::ElementKind;
 using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
-
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
-const mesher::Material kRubber{"rubber", 8.3e6, 0.49, 950};
-
-constexpr std::array kFull = {Formulation::mixed_pressure, Formulation::displacement};
-constexpr std::array kVolumes = {ElementKind::hex8,    ElementKind::hex20,   ElementKind::hex27,
-                                 ElementKind::prism15, ElementKind::prism18, ElementKind::tet10};
 
 Eigen::Matrix3Xd mapped_element(ElementKind kind, const Map& map) {
   const auto reference = mesher::reference_nodes(kind);

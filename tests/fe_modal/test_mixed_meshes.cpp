@@ -14,6 +14,7 @@
 #include "fe_modal/modal_analysis.h"
 #include "fe_modal/rigid_average.h"
 #include "tests/fe_modal/dense.h"
+#include "tests/fe_modal/element_choices.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
 
@@ -22,13 +23,6 @@ namespace {
 
 using mesher::ElementKind;
 using Field = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
-
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
-const mesher::Material kRubber{"rubber", 8.3e6, 0.49, 950};
-
-constexpr std::array kFull = {Formulation::mixed_pressure, Formulation::displacement};
-constexpr std::array kVolumes = {ElementKind::hex8,    ElementKind::hex20,   ElementKind::hex27,
-                                 ElementKind::prism15, ElementKind::prism18, ElementKind::tet10};
 
 struct NamedMesh {
   std::string name;

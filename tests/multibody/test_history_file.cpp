@@ -49,7 +49,7 @@ HistoryFile random_history() {
       {"neck", {"fore-aft bending 1", "twist 1"}, random_columns<Eigen::MatrixXd>(random, 2)}};
   history.energy = {random.vector(kTimes), random.vector(kTimes), random.vector(kTimes),
                     random.vector(kTimes), random.vector(kTimes)};
-  history.statistics = {311, 4, 2196, 1.5e-16, 2.5e-15};
+  history.statistics = {311, 4, 2196, 1.5e-16, 2.5e-15, {}};
   file.provenance.program = "flexneck 0.1.0";
   file.provenance.git_hash = "unknown";
   return file;

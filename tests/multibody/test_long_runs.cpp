@@ -43,8 +43,8 @@ double drift(Formulation formulation, double tolerance) {
   const SolverOptions solver{.relative_tolerance = tolerance,
                              .absolute_tolerance = 1e-3 * tolerance,
                              .formulation = formulation};
-  const History history = simulate(flexible_pendulum(), solver,
-                                   {.end_time_s = 100 * period_s, .interval_s = period_s});
+  const History history =
+      simulate(flexible_pendulum(), solver, {.end_time_s = 100 * period_s, .interval_s = period_s});
   const EnergyHistory& energy = history.energy;
   const VectorXd total = energy.kinetic_J + energy.gravitational_J + energy.strain_J;
   CHECK(energy.strain_J.maxCoeff() > 2e-3 * energy.kinetic_J.maxCoeff());

@@ -119,14 +119,20 @@ TEST_CASE("a tree's markers and energies are those of the descriptor form") {
     const MarkerState found = dynamics.marker_state(k);
     const NodeKinematics& expected = equations.marker(k);
     Eigen::Vector3d acceleration = expected.gp;
-    if (const std::size_t b = system.markers[k].free_body; b != JointPlace::kNoBody)
-      acceleration += expected.P * equations.accelerations().segment(system.bodies[b].velocity,
-                                                                     expected.P.cols());
+    Eigen::Vector3d angular_acceleration = expected.gr;
+    if (const std::size_t b = system.markers[k].free_body; b != JointPlace::kNoBody) {
+      const auto rates =
+          equations.accelerations().segment(system.bodies[b].velocity, expected.P.cols());
+      acceleration += expected.P * rates;
+      angular_acceleration += expected.W * rates;
+    }
     CHECK((found.position_m - expected.p).norm() < 1e-14);
     CHECK((found.rotation - expected.R).norm() < 1e-14);
     CHECK((found.velocity_m_s - expected.pd).norm() < 1e-13);
     CHECK((found.angular_velocity_rad_s - expected.Om).norm() < 1e-13);
     CHECK((found.acceleration_m_s2 - acceleration).norm() < kAgreement * 1e3);
+    CHECK((found.angular_acceleration_rad_s2 - angular_acceleration).norm() <
+          kAgreement * std::max(1e3, angular_acceleration.norm()));
   }
   Energies expected;
   expected.strain_J = equations.forces().stored_J();

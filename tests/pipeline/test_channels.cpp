@@ -72,8 +72,7 @@ TEST_CASE("motion seen from a frame that turns is what differences of its positi
   const Eigen::MatrixXd turning = swing.channel(3).values;
   CHECK(turning.bottomRows<2>().cwiseAbs().maxCoeff() < kRounding * turning.cwiseAbs().maxCoeff());
   CHECK(difference_error(swing.channel(5).values, turning.row(0), 1e-3) < kDifference);
-  CHECK(swing.channel(5).values(0, 0) ==
-        Approx(-70 * std::numbers::pi / 180).epsilon(kRounding));
+  CHECK(swing.channel(5).values(0, 0) == Approx(-70 * std::numbers::pi / 180).epsilon(kRounding));
 }
 
 TEST_CASE("an accelerometer reads its acceleration less gravity in its own axes") {

@@ -201,10 +201,11 @@ TEST_CASE("a static modulus softens the static test alone") {
   REQUIRE(run_flexneck("mesh -q" + out).exit_code == 0);
   REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
   REQUIRE(run_flexneck("static -q" + out).exit_code == 0);
+  // How much the tip moves while the ramp rises, once the lag that damping makes is steady.
   const auto tip = [&] {
-    return multibody::read_history(folder / "static-flexion.h5")
-        .history.marker("neck.top")
-        .position_m(0, 100);
+    const auto top =
+        multibody::read_history(folder / "static-flexion.h5").history.marker("neck.top");
+    return top.position_m(0, 300) - top.position_m(0, 200);
   };
   const std::string modes = bytes_of(folder / "modes.h5");
   const double stiff = tip();
@@ -214,7 +215,7 @@ TEST_CASE("a static modulus softens the static test alone") {
   REQUIRE(outcome.exit_code == 0);
   CHECK(fs::exists(folder / "modes_static.h5"));
   REQUIRE(run_flexneck("static -q" + out + quarter).exit_code == 0);
-  // Small loads at the start of the ramp; the plates of aluminium keep their stiffness.
+  // The plates of aluminium keep their stiffness.
   CHECK(tip() / stiff == Approx(4).epsilon(0.02));
   const auto frequencies = [&](const char* file) {
     return fe_modal::read_modal_body(folder / file).body.frequencies_Hz;

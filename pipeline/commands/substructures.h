@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fe_modal/modal_analysis.h"
+#include "mesher/mesh/pieces.h"
+#include "pipeline/commands/commands.h"
+#include "pipeline/study/substructure_section.h"
+
+namespace flexneck::pipeline {
+
+/// A piece of the structure that becomes a body of its own.
+struct Substructure {
+  std::string name;
+  mesher::Mesh mesh;
+  fe_modal::ModalOptions options;
+};
+
+/// Cuts the structure and says how each piece is analysed: the first is held as the whole is, each
+/// other where it meets the earliest of those before it. All other cuts, and the whole's interfaces
+/// on the piece, are interfaces whose static shapes are kept. The interface on a cut has the cut's
+/// name (mesher::cut_name) and lies in the middle of its nodes, so that two pieces meet at a point.
+/// @param whole how the whole is analysed
+/// @throws InputError for pieces that cannot be cut, that hang together with no earlier one, or
+/// that divide an interface of the whole.
+std::vector<Substructure> substructures(const SubstructuresSection& section,
+                                        const mesher::Mesh& mesh,
+                                        const fe_modal::ModalOptions& whole);
+
+/// Analyses the study's substructures, if it has any, writes a file of modes for each into the
+/// results' folder and prints what they are.
+/// @param provenance of the whole
+void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
+                         const fe_modal::ModalOptions& whole, const Provenance& provenance);
+
+}  // namespace flexneck::pipeline

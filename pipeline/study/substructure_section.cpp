@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/study/substructure_section.h"
+
+#include "geometry/foundation/names.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+namespace {
+
+PieceSection read_piece(const StudyTable& table) {
+  PieceSection piece;
+  piece.name = table.text("name");
+  if (table.has("parts")) piece.parts = table.texts("parts");
+  if (table.has("up_to")) piece.up_to_m = table.quantity("up_to", "m");
+  if (!piece.parts.empty() && piece.up_to_m) {
+    table.refuse("up_to", "expected parts or up_to, found both");
+  }
+  table.finish();
+  return piece;
+}
+
+/// Parts in every piece, or a plane in every one but the last.
+void check_pieces(const StudyTable& table, const SubstructuresSection& section) {
+  for (std::size_t p = 0; p < section.pieces.size(); ++p) {
+    const PieceSection& piece = section.pieces[p];
+    const bool is_last = p + 1 == section.pieces.size();
+    if (!section.by_planes && piece.parts.empty()) {
+      table.refuse("piece", "expected parts in '" + piece.name + "', as in the pieces before");
+    }
+    if (section.by_planes && (is_last ? piece.up_to_m.has_value() || !piece.parts.empty()
+                                      : !piece.up_to_m.has_value())) {
+      table.refuse("piece",
+                   is_last ? "expected neither parts nor up_to in the last piece '" + piece.name +
+                                 "', which has the rest"
+                           : "expected up_to in '" + piece.name + "', as in the pieces before");
+    }
+  }
+}
+
+}  // namespace
+
+SubstructuresSection read_substructures(const StudyTable& table) {
+  SubstructuresSection section;
+  for (const StudyTable& piece : table.tables("piece")) {
+    section.pieces.push_back(read_piece(piece));
+  }
+  check_names(names_of(section.pieces), "piece");
+  section.modes = table.count_or("modes", 0, section.modes);
+  if (table.has("normal")) section.normal = unit_vector(table, "normal");
+  if (section.pieces.size() == 1) {
+    table.refuse("piece", "expected two pieces at least, found one");
+  }
+  section.by_planes = !section.pieces.empty() && section.pieces.front().up_to_m.has_value();
+  check_pieces(table, section);
+  table.finish();
+  return section;
+}
+
+}  // namespace flexneck::pipeline

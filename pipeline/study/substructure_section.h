@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "pipeline/study/study_document.h"
+
+namespace flexneck::pipeline {
+
+/// [[substructures.piece]]: made of parts, or of what lies below a plane and above the one before.
+struct PieceSection {
+  std::string name;
+  std::vector<std::string> parts;
+  std::optional<double> up_to_m;  ///< along the normal; none for the last piece
+};
+
+/// [substructures]: bodies that the structure is cut into.
+struct SubstructuresSection {
+  std::vector<PieceSection> pieces;  ///< none: the structure stays one body
+  bool by_planes = false;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  int modes = 2;  ///< of each piece with its ends held, besides the static shapes of the ends
+};
+
+SubstructuresSection read_substructures(const StudyTable& table);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "fe_modal/formulation.h"
+#include "mesher/mesh/mesh.h"
+
+/// What the tests of elements go through.
+namespace flexneck::fe_modal {
+
+inline const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
+inline const mesher::Material kRubber{"rubber", 8.3e6, 0.49, 950};
+
+inline constexpr std::array kFull = {Formulation::mixed_pressure, Formulation::displacement};
+inline constexpr std::array kVolumes = {mesher::ElementKind::hex8,    mesher::ElementKind::hex20,
+                                        mesher::ElementKind::hex27,   mesher::ElementKind::prism15,
+                                        mesher::ElementKind::prism18, mesher::ElementKind::tet10};
+
+}  // namespace flexneck::fe_modal

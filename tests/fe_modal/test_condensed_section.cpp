@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include "fe_modal/body/condensed_section.h"
+#include "fe_modal/modal_analysis.h"
+#include "geometry/foundation/error.h"
+#include "mesher/mesh/pieces.h"
+#include "tests/support/block_mesh.h"
+#include "tests/support/neck_mesh.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+
+/// Static shapes of "top" alone, with "bottom" held.
+ModalOptions section_options(const std::string& bottom, const Eigen::Vector3d& base_m,
+                             const std::string& top, const Eigen::Vector3d& top_m) {
+  ModalOptions options;
+  options.basis = BasisKind::craig_bampton;
+  options.mode_count = 0;
+  options.held_set = bottom;
+  options.held_interface = "base";
+  options.held_position_m = base_m;
+  options.interfaces = {{"top", top, top_m}};
+  return options;
+}
+
+/// Both faces moved as one rigid body.
+Vector12d rigid_motion(const CondensedSection& section, const Eigen::Vector3d& translation,
+                       const Eigen::Vector3d& rotation) {
+  Vector12d motion;
+  motion << translation + rotation.cross(section.base_m), rotation,
+      translation + rotation.cross(section.top_m), rotation;
+  return motion;
+}
+
+/// Frequencies of a chain of sections whose first base is held.
+Eigen::VectorXd chain_frequencies_Hz(const std::vector<CondensedSection>& chain) {
+  const auto size = static_cast<Eigen::Index>(6 * (chain.size() + 1));
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
+  Eigen::MatrixXd mass = stiffness;
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(6 * k);
+    stiffness.block<12, 12>(at, at) += chain[k].stiffness;
+    mass.block<12, 12>(at, at) += chain[k].mass;
+  }
+  const Eigen::Index free = size - 6;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      stiffness.bottomRightCorner(free, free), mass.bottomRightCorner(free, free));
+  return solver.eigenvalues().cwiseSqrt() / (2 * std::numbers::pi);
+}
+
+}  // namespace
+
+TEST_CASE("a section of a slender bar is a beam element between two faces") {
+  // Without Poisson's ratio the faces need not hold the cross section's shape.
+  const mesher::Material material{"steel", 2e11, 0, 7800};
+  constexpr double kLength = 0.4;
+  constexpr double kDepth = 0.02;  // along x
+  constexpr double kWidth = 0.01;  // along y
+  testing::BlockMesh block;
+  block.slices = {{"bar", 32, material}};
+  block.position = [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d((p[0] - 0.5) * kDepth, (p[1] - 0.5) * kWidth, p[2] * kLength);
+  };
+  const ModalBody body =
+      analyse_modes(block.make(), section_options("bottom", {0, 0, 0}, "top", {0, 0, kLength}), {});
+  const CondensedSection section = condense(body, "base", "top");
+
+  const double area = kDepth * kWidth;
+  const double axial = material.youngs_modulus_Pa * area / kLength;
+  CHECK(section.stiffness(8, 8) == Approx(axial).epsilon(1e-9));
+  CHECK(section.stiffness(2, 8) == Approx(-axial).epsilon(1e-9));
+
+  // Timoshenko's beam with the shear coefficient 5/6.
+  const double second_moment = kWidth * kDepth * kDepth * kDepth / 12;
+  const double bending = material.youngs_modulus_Pa * second_moment;
+  const double shear = 5.0 / 6 * material.youngs_modulus_Pa / 2 * area;
+  const double phi = 12 * bending / (shear * kLength * kLength);
+  const double transverse = 12 * bending / (std::pow(kLength, 3) * (1 + phi));
+  constexpr double kClampedFaces = 1e-3;  // warping is held at the base
+  CHECK(section.stiffness(6, 6) == Approx(transverse).epsilon(kClampedFaces));
+  CHECK(section.stiffness(6, 10) == Approx(-transverse * kLength / 2).epsilon(kClampedFaces));
+  CHECK(section.stiffness(0, 6) == Approx(-transverse).epsilon(kClampedFaces));
+
+  // Rigid motions: no force, and the whole mass and inertia.
+  for (int direction = 0; direction < 6; ++direction) {
+    const Vector6d unit = Vector6d::Unit(direction);
+    const Vector12d motion = rigid_motion(section, unit.head<3>(), unit.tail<3>());
+    CHECK((section.stiffness * motion).norm() < 1e-9 * section.stiffness.norm() * motion.norm());
+    const double expected =
+        direction < 3 ? body.invariants.mass : body.invariants.J0(direction - 3, direction - 3);
+    CHECK(motion.dot(section.mass * motion) == Approx(expected).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a chain of condensed sections has the modes of the whole neck within one per cent") {
+  const mesher::Mesh neck = testing::neck_mesh("C");
+  const std::vector<std::string> names = {"one", "two", "three", "four"};
+  const auto pieces =
+      mesher::cut_apart(neck,
+                        mesher::pieces_by_parts(neck, {{"base_plate", "rubber_1", "plate_1"},
+                                                       {"rubber_2", "plate_2"},
+                                                       {"rubber_3", "plate_3"},
+                                                       {"rubber_4", "top_plate"}}),
+                        names);
+  std::vector<CondensedSection> chain;
+  double base_z = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const mesher::Mesh& mesh = pieces[k].mesh;
+    const std::string held = k == 0 ? "bolts" : mesher::cut_name(names[k - 1]);
+    const std::string top = k + 1 == names.size() ? "top" : mesher::cut_name(names[k + 1]);
+    const auto node = static_cast<std::size_t>(mesh.node_set(top).nodes.front());
+    const double top_z = mesh.nodes[node][2];
+    chain.push_back(
+        condense(analyse_modes(mesh, section_options(held, {0, 0, base_z}, top, {0, 0, top_z}), {}),
+                 "base", "top"));
+    base_z = top_z;
+  }
+  const Eigen::VectorXd found = chain_frequencies_Hz(chain);
+
+  ModalOptions options;
+  options.mode_count = 6;
+  options.held_set = "bolts";
+  const Eigen::VectorXd expected = analyse_modes(neck, options, {}).frequencies_Hz;
+  for (Eigen::Index k = 0; k < expected.size(); ++k) {
+    CAPTURE(k, expected[k], found[k]);
+    CHECK(std::abs(found[k] / expected[k] - 1) < 0.01);
+  }
+}
+
+TEST_CASE("a body with other modes is no section") {
+  testing::BlockMesh block;
+  block.slices = {{"bar", 2, {"steel", 2e11, 0.3, 7800}}};
+  block.position = [](const Eigen::Vector3d& p) { return p; };
+  ModalOptions options = section_options("bottom", {0, 0, 0}, "top", {0, 0, 1});
+  options.basis = BasisKind::normal;
+  options.mode_count = 5;
+  const mesher::Mesh mesh = block.make();
+  CHECK_THROWS_WITH(condense(analyse_modes(mesh, options, {}), "base", "top"),
+                    Catch::Matchers::Contains("6 modes") && Catch::Matchers::Contains("found 5"));
+}
+
+}  // namespace flexneck::fe_modal
