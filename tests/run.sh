@@ -23,4 +23,4 @@ fi
 
 echo '== tests'
 export OMP_NUM_THREADS=1
-ctest --preset ci
+ctest --preset ci --parallel "$(nproc)"
