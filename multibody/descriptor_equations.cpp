@@ -16,10 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-double largest(const VectorXd& residual) {
-  return residual.size() == 0 ? 0 : residual.lpNorm<Eigen::Infinity>();
-}
-
 /// pdd = P Vdot + gp, Omd = W Vdot + gr.
 MarkerState marker_state(const EquationsOfMotion& equations, std::size_t index) {
   const System& system = equations.system();
@@ -134,8 +130,11 @@ class DescriptorEquations final : public Equations {
     projection_.apply(time_s, state, false);
     equations_.solve();
     equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
-    recorder.residuals(largest(equations_.position_residual()),
-                       largest(equations_.velocity_residual()));
+    for (std::size_t k = 0; k < system_.joints.size(); ++k) {
+      const JointRows& joint = equations_.joint(k);
+      recorder.residuals(column, violation(joint, joint.position_residual),
+                         violation(joint, joint.velocity_residual));
+    }
     for (std::size_t k = 0; k < system_.markers.size(); ++k)
       recorder.marker(column, k, marker_state(equations_, k));
     for (std::size_t k = 0; k < system_.joints.size(); ++k)

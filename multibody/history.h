@@ -46,6 +46,13 @@ struct EnergyHistory {
   Eigen::VectorXd work_J;  ///< done by forces and driven bodies, since the start
 };
 
+/// By how much the bodies' motion misses the joints, the largest over the joints; zero in the
+/// recursive form, whose coordinates cannot miss them.
+struct ConstraintHistory {
+  Eigen::VectorXd position_m, orientation_rad;           ///< of positions and of orientations
+  Eigen::VectorXd velocity_m_s, angular_velocity_rad_s;  ///< their rates
+};
+
 /// What set the length of accepted steps, and of how many.
 struct StepLimit {
   std::string what;  ///< e.g. "error: rate of deformation of body 'neck'"
@@ -68,6 +75,7 @@ struct History {
   std::vector<JointHistory> joints;
   std::vector<ModalHistory> modal;
   EnergyHistory energy;
+  ConstraintHistory constraints;
   StepStatistics statistics;
   /// Constraints left out at the start because others hold the same, such as "joint 'a', row 4".
   std::vector<std::string> redundant_constraints;

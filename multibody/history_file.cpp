@@ -15,6 +15,7 @@ constexpr const char* kJoints = "/joints";
 constexpr const char* kModal = "/modal";
 constexpr const char* kChannels = "/channels";
 constexpr const char* kEnergy = "/energy";
+constexpr const char* kConstraints = "/constraints";
 constexpr const char* kStatistics = "/statistics";
 /// Position of a group in the model's list: HDF5 itself lists them by name.
 constexpr const char* kIndex = "index";
@@ -50,6 +51,14 @@ void visit_energies(Energies& energy, const Visit& visit) {
   visit("strain", energy.strain_J);
   visit("dissipated", energy.dissipated_J);
   visit("work", energy.work_J);
+}
+
+template <class Constraints, class Visit>
+void visit_constraints(Constraints& constraints, const Visit& visit) {
+  visit("position", constraints.position_m, "m");
+  visit("orientation", constraints.orientation_rad, "rad");
+  visit("velocity", constraints.velocity_m_s, "m/s");
+  visit("angular_velocity", constraints.angular_velocity_rad_s, "rad/s");
 }
 
 /// An Eigen matrix with one column per time is, by its memory, a row-major (n, rows) array.
@@ -265,6 +274,10 @@ void write_history(const std::filesystem::path& path, const HistoryFile& file) {
   visit_energies(history.energy, [&](const char* name, const Eigen::VectorXd& values) {
     write_vector(writer, path_of(kEnergy, name), values, "J");
   });
+  visit_constraints(history.constraints,
+                    [&](const char* name, const Eigen::VectorXd& values, const char* unit) {
+                      write_vector(writer, path_of(kConstraints, name), values, unit);
+                    });
   write_statistics(writer, history.statistics);
   if (!history.redundant_constraints.empty())
     writer.write(kRedundant, history.redundant_constraints);
@@ -295,6 +308,12 @@ HistoryFile read_history(const std::filesystem::path& path) {
   visit_energies(history.energy, [&](const char* name, Eigen::VectorXd& values) {
     values = read_vector(reader, path_of(kEnergy, name), times, "J");
   });
+  // Files of earlier versions have none.
+  if (reader.has(kConstraints))
+    visit_constraints(history.constraints,
+                      [&](const char* name, Eigen::VectorXd& values, const char* unit) {
+                        values = read_vector(reader, path_of(kConstraints, name), times, unit);
+                      });
   history.statistics = read_statistics(reader);
   if (reader.has(kRedundant)) history.redundant_constraints = reader.read_strings(kRedundant);
   if (has_attribute(reader, kStatistics, kIncomplete))

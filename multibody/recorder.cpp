@@ -13,6 +13,15 @@ namespace flexneck::multibody {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace {
+
+std::array<VectorXd*, 4> parts_of(ConstraintHistory& constraints) {
+  return {&constraints.position_m, &constraints.orientation_rad, &constraints.velocity_m_s,
+          &constraints.angular_velocity_rad_s};
+}
+
+}  // namespace
+
 Recorder::Recorder(const Model& model, const VectorXd& times_s)
     : modal_of_body_(model.bodies.size(), 0),
       undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {
@@ -40,6 +49,7 @@ Recorder::Recorder(const Model& model, const VectorXd& times_s)
                          &energy.dissipated_J, &energy.work_J}) {
     part->setZero(n);
   }
+  for (VectorXd* part : parts_of(history_.constraints)) part->setZero(n);
 }
 
 void Recorder::marker(Index column, std::size_t index, const MarkerState& motion) {
@@ -76,10 +86,16 @@ void Recorder::energy(Index column, const Energies& stored, double dissipated_J,
   energy.work_J[column] = work_J;
 }
 
-void Recorder::residuals(double position, double velocity) {
+void Recorder::residuals(Index column, const Violation& position, const Violation& velocity) {
+  const auto keep = [](double& largest, double value) { largest = std::max(largest, value); };
+  ConstraintHistory& constraints = history_.constraints;
+  keep(constraints.position_m[column], position.translation);
+  keep(constraints.orientation_rad[column], position.rotation);
+  keep(constraints.velocity_m_s[column], velocity.translation);
+  keep(constraints.angular_velocity_rad_s[column], velocity.rotation);
   StepStatistics& statistics = history_.statistics;
-  statistics.largest_position_residual = std::max(statistics.largest_position_residual, position);
-  statistics.largest_velocity_residual = std::max(statistics.largest_velocity_residual, velocity);
+  keep(statistics.largest_position_residual, std::max(position.translation, position.rotation));
+  keep(statistics.largest_velocity_residual, std::max(velocity.translation, velocity.rotation));
 }
 
 void Recorder::undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& components) {
@@ -122,6 +138,7 @@ History Recorder::take_incomplete(Index columns, const std::string& why) {
   for (VectorXd* part : {&energy.kinetic_J, &energy.gravitational_J, &energy.strain_J,
                          &energy.dissipated_J, &energy.work_J})
     part->conservativeResize(columns);
+  for (VectorXd* part : parts_of(history_.constraints)) part->conservativeResize(columns);
   return take();
 }
 

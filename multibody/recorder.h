@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "multibody/history.h"
+#include "multibody/joint_check.h"
 #include "multibody/model.h"
 #include "multibody/motion_state.h"
 
@@ -25,7 +26,8 @@ class Recorder {
   /// @param body  among the model's bodies; nothing is recorded of one that has no modes
   void modal(Eigen::Index column, std::size_t body, const Eigen::VectorXd& a);
   void energy(Eigen::Index column, const Energies& stored, double dissipated_J, double work_J);
-  void residuals(double position, double velocity);
+  /// Of one joint; the largest of all counts.
+  void residuals(Eigen::Index column, const Violation& position, const Violation& velocity);
 
   StepStatistics& statistics() { return history_.statistics; }
   /// Adds to what is undetermined of a joint's reaction.

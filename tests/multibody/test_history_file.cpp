@@ -49,6 +49,8 @@ HistoryFile random_history() {
       {"neck", {"fore-aft bending 1", "twist 1"}, random_columns<Eigen::MatrixXd>(random, 2)}};
   history.energy = {random.vector(kTimes), random.vector(kTimes), random.vector(kTimes),
                     random.vector(kTimes), random.vector(kTimes)};
+  history.constraints = {random.vector(kTimes), random.vector(kTimes), random.vector(kTimes),
+                         random.vector(kTimes)};
   history.statistics = {311, 4, 2196, 1.5e-16, 2.5e-15, {}};
   file.provenance.program = "flexneck 0.1.0";
   file.provenance.git_hash = "unknown";
@@ -95,6 +97,10 @@ TEST_CASE("A history comes back from its file to the last bit and in its order")
   CHECK(read.energy.strain_J == written.energy.strain_J);
   CHECK(read.energy.dissipated_J == written.energy.dissipated_J);
   CHECK(read.energy.work_J == written.energy.work_J);
+  CHECK(read.constraints.position_m == written.constraints.position_m);
+  CHECK(read.constraints.orientation_rad == written.constraints.orientation_rad);
+  CHECK(read.constraints.velocity_m_s == written.constraints.velocity_m_s);
+  CHECK(read.constraints.angular_velocity_rad_s == written.constraints.angular_velocity_rad_s);
   CHECK(read.statistics.accepted == 311);
   CHECK(read.statistics.rejected == 4);
   CHECK(read.statistics.evaluations == 2196);

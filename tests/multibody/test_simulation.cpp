@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -67,6 +68,33 @@ TEST_CASE("the energies of a braked sled balance to the tolerance") {
     CHECK(e.work_J.tail(1)[0] < -10);
     CHECK(history.statistics.largest_position_residual < 1e-12);
     CHECK(history.statistics.largest_velocity_residual < 1e-12);
+  }
+}
+
+TEST_CASE("joints stay closed at every output time, to rounding") {
+  // Positions of some decimetres, speeds of some metres a second.
+  constexpr double kRounding = 1e-13;
+  for (const Formulation formulation : {Formulation::descriptor, Formulation::recursive}) {
+    SolverOptions solver = tolerance(1e-5);
+    solver.formulation = formulation;
+    const History history = simulate(sled(), solver, kShort);
+    const ConstraintHistory& missed = history.constraints;
+    for (const VectorXd* each : {&missed.position_m, &missed.orientation_rad, &missed.velocity_m_s,
+                                 &missed.angular_velocity_rad_s}) {
+      REQUIRE(each->size() == history.time_s.size());
+      CHECK(each->maxCoeff() < 10 * kRounding);
+    }
+    CHECK((missed.position_m.maxCoeff() > 0) == (formulation == Formulation::descriptor));
+    // What the motion of the markers says itself, in either form.
+    for (const auto& [i, j] : {std::pair{"sled", "root"}, std::pair{"tip", "head"}}) {
+      const MarkerHistory& lower = history.marker(i);
+      const MarkerHistory& upper = history.marker(j);
+      CHECK((lower.position_m - upper.position_m).cwiseAbs().maxCoeff() < kRounding);
+      CHECK((lower.velocity_m_s - upper.velocity_m_s).cwiseAbs().maxCoeff() < 10 * kRounding);
+      CHECK((lower.rotation - upper.rotation).cwiseAbs().maxCoeff() < kRounding);
+      CHECK((lower.angular_velocity_rad_s - upper.angular_velocity_rad_s).cwiseAbs().maxCoeff() <
+            100 * kRounding);
+    }
   }
 }
 
