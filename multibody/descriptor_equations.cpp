@@ -111,17 +111,18 @@ class DescriptorEquations final : public Equations {
     equations_.residual(time_s, state, accelerations, multipliers, residual);
   }
   void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const override {
-    mass = assembled_mass(equations_);
-    rows_transposed = assembled_rows_transposed(equations_);
+    assemble_mass(equations_, mass);
+    assemble_rows_transposed(equations_, rows_transposed);
   }
   void rate(const Vector& state, const Vector& accelerations, Vector& rate) const override {
     equations_.fill_rate(state, accelerations, rate);
   }
-  std::vector<Index> redundant_rows() const override {
-    std::vector<Index> rows;
-    for (const KktSolver::RedundantRow& each : equations_.solver().redundant_rows())
-      rows.push_back(equations_.solver().joint_offset(each.joint) + each.row);
-    return rows;
+  void redundant_rows(std::vector<Index>& rows) const override {
+    rows.clear();
+    const KktSolver& solver = equations_.solver();
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      for (Index row = 0; row < equations_.joint(k).rows; ++row)
+        if (solver.is_left_out(k, row)) rows.push_back(solver.joint_offset(k) + row);
   }
 
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
@@ -154,7 +155,9 @@ class DescriptorEquations final : public Equations {
   void record_undetermined(Recorder& recorder) const {
     Eigen::FullPivLU<Eigen::MatrixXd> factors;
     factors.setThreshold(1e-9);
-    factors.compute(assembled_rows_transposed(equations_));
+    Eigen::MatrixXd rows_transposed;
+    assemble_rows_transposed(equations_, rows_transposed);
+    factors.compute(rows_transposed);
     const Eigen::MatrixXd free = factors.kernel();
     for (std::size_t k = 0; k < system_.joints.size(); ++k) {
       const JointRows& joint = equations_.joint(k);

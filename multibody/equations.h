@@ -55,7 +55,7 @@ class Equations {
   /// The rate of a state like the one whose residual() was last.
   virtual void rate(const Vector& state, const Vector& accelerations, Vector& rate) const = 0;
   /// Indices of constraints that others hold already, as of the last derivative().
-  virtual std::vector<Eigen::Index> redundant_rows() const { return {}; }
+  virtual void redundant_rows(std::vector<Eigen::Index>& rows) const { rows.clear(); }
 
   /// Records an interpolated state, put onto the joints first.
   virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;

@@ -15,7 +15,7 @@ constexpr double kDifference = 1e-7;
 
 }  // namespace
 
-IterationMatrix::IterationMatrix(const Equations& equations)
+IterationMatrix::IterationMatrix(const Equations& equations, Index state_size)
     : nq_(equations.layout().positions),
       nv_(equations.layout().velocities),
       nc_(equations.layout().constraints),
@@ -27,15 +27,18 @@ IterationMatrix::IterationMatrix(const Equations& equations)
       factors_(nv_ + nc_),
       base_(nv_ + nc_),
       moved_(nv_ + nc_),
-      right_(nv_ + nc_) {}
+      state_(state_size),
+      right_(nv_ + nc_),
+      change_(Vector::Zero(nv_)) {
+  redundant_.reserve(static_cast<std::size_t>(nc_));
+}
 
 void IterationMatrix::linearise(Equations& equations, double time_s, const Vector& state,
                                 const Vector& accelerations, const Vector& multipliers) {
   equations.residual(time_s, state, accelerations, multipliers, base_);
   equations.inertia(mass_, rows_transposed_);
-  redundant_ = equations.redundant_rows();
+  equations.redundant_rows(redundant_);
   state_ = state;
-  Vector change = Vector::Zero(nv_);
   for (Index i = 0; i < nv_; ++i) {
     const double rate = state[nq_ + i];
     const double step = kDifference * std::max(1.0, std::abs(rate));
@@ -44,12 +47,12 @@ void IterationMatrix::linearise(Equations& equations, double time_s, const Vecto
     damping_.col(i) = (moved_ - base_).head(nv_) / step;
     state_[nq_ + i] = rate;
 
-    change[i] = kDifference;
-    equations.retract(state_.head(nq_), change);
+    change_[i] = kDifference;
+    equations.retract(state_.head(nq_), change_);
     equations.residual(time_s, state_, accelerations, multipliers, moved_);
     stiffness_.col(i) = (moved_ - base_).head(nv_) / kDifference;
     state_.head(nq_) = state.head(nq_);
-    change[i] = 0;
+    change_[i] = 0;
   }
 }
 

@@ -14,12 +14,13 @@ namespace flexneck::multibody {
 /// and dV = v dV',
 ///   [mass + v damping + q stiffness, B^T; B, 0] [dV'; dlambda] = [-r; -Phi / q].
 /// Damping and stiffness are differences of the residual, so that every force counts. Dense: meant
-/// for models of up to about a hundred velocities.
+/// for models of up to about a hundred velocities. Nothing of its own
+/// is allocated after construction.
 class IterationMatrix {
  public:
   using Vector = Eigen::VectorXd;
 
-  explicit IterationMatrix(const Equations& equations);
+  IterationMatrix(const Equations& equations, Eigen::Index state_size);
 
   /// About a state with its accelerations and multipliers.
   void linearise(Equations& equations, double time_s, const Vector& state,
@@ -36,7 +37,7 @@ class IterationMatrix {
   std::vector<Eigen::Index> redundant_;  ///< constraints that others hold: their multiplier is zero
   Eigen::MatrixXd mass_, damping_, stiffness_, rows_transposed_, matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
-  Vector base_, moved_, state_, right_;
+  Vector base_, moved_, state_, right_, change_;
   double q_ = 0;
 };
 

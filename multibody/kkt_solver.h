@@ -48,6 +48,9 @@ class KktSolver {
   };
   /// Those that the last factorisation left out.
   std::vector<RedundantRow> redundant_rows() const;
+  bool is_left_out(std::size_t joint, Eigen::Index row) const {
+    return joints_[joint].left_out[static_cast<std::size_t>(row)];
+  }
 
  private:
   using Block = Eigen::Matrix<double, kMaxRows, kMaxRows>;

@@ -22,20 +22,19 @@ constexpr double kRank = 1e-9;
 
 }  // namespace
 
-MatrixXd assembled_mass(const EquationsOfMotion& equations) {
+void assemble_mass(const EquationsOfMotion& equations, MatrixXd& M) {
   const System& system = equations.system();
-  MatrixXd M = MatrixXd::Zero(system.velocity_count, system.velocity_count);
+  M.setZero(system.velocity_count, system.velocity_count);
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     const FreeBody& body = system.bodies[b];
     const Index size = body.constants.velocity_count();
     M.block(body.velocity, body.velocity, size, size) = equations.body(b).mass;
   }
-  return M;
 }
 
-MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations) {
+void assemble_rows_transposed(const EquationsOfMotion& equations, MatrixXd& B_transposed) {
   const System& system = equations.system();
-  MatrixXd B_transposed = MatrixXd::Zero(system.velocity_count, system.constraint_count);
+  B_transposed.setZero(system.velocity_count, system.constraint_count);
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const JointRows& joint = equations.joint(k);
     const Index column = equations.solver().joint_offset(k);
@@ -47,16 +46,18 @@ MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations) {
     add(system.places[k].body_i, joint.B_i);
     add(system.places[k].body_j, joint.B_j);
   }
-  return B_transposed;
 }
 
 ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& positions)
     : equations_(equations), projection_(equations), origin_(positions) {
   equations_.set_positions(0, origin_);
   // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
-  const MatrixXd M = assembled_mass(equations_);
+  MatrixXd M;
+  MatrixXd rows;
+  assemble_mass(equations_, M);
+  assemble_rows_transposed(equations_, rows);
   const Eigen::LLT<MatrixXd> cholesky(M);
-  const MatrixXd rows = cholesky.matrixL().solve(assembled_rows_transposed(equations_));
+  cholesky.matrixL().solveInPlace(rows);
   Eigen::ColPivHouseholderQR<MatrixXd> factors;
   factors.setThreshold(kRank);
   if (rows.cols() > 0) factors.compute(rows);

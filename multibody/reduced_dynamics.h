@@ -9,9 +9,9 @@
 namespace flexneck::multibody {
 
 /// M, (velocity_count, velocity_count), of equations whose positions are updated.
-Eigen::MatrixXd assembled_mass(const EquationsOfMotion& equations);
+void assemble_mass(const EquationsOfMotion& equations, Eigen::MatrixXd& M);
 /// B^T, (velocity_count, constraint_count), of equations whose positions are updated.
-Eigen::MatrixXd assembled_rows_transposed(const EquationsOfMotion& equations);
+void assemble_rows_transposed(const EquationsOfMotion& equations, Eigen::MatrixXd& B_transposed);
 
 /// The system seen in k independent coordinates about a configuration that keeps the joints: xi
 /// displaces along the columns of N, a basis of the null space of B that is orthonormal in M

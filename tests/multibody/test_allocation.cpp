@@ -2,11 +2,14 @@
 #include <atomic>
 #include <cstdlib>
 #include <functional>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "multibody/dormand_prince.h"
+#include "multibody/equations.h"
 #include "multibody/equations_of_motion.h"
+#include "multibody/generalised_alpha.h"
 #include "multibody/initial_state.h"
 #include "multibody/projection.h"
 #include "multibody/state_error.h"
@@ -15,7 +18,8 @@
 #include "multibody/tree/tree_start.h"
 #include "tests/support/point_mass_body.h"
 
-// The linker sends every call of malloc in our objects, Eigen's included, through here
+// The linker sends every call of malloc, calloc (which the compiler makes of malloc and zeros) and
+// operator new in our objects, those of Eigen and of containers included, through here
 // (tests/multibody/CMakeLists.txt).
 namespace {
 std::atomic<long> allocations{0};
@@ -28,6 +32,18 @@ void* __wrap_malloc(std::size_t size) {
   ++allocations;
   return __real_malloc(size);
 }
+void* __real_calloc(std::size_t count, std::size_t size);  // NOLINT
+void* __wrap_calloc(std::size_t count, std::size_t size);  // NOLINT
+void* __wrap_calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __real_calloc(count, size);
+}
+void* __real__Znwm(std::size_t size);  // NOLINT
+void* __wrap__Znwm(std::size_t size);  // NOLINT
+void* __wrap__Znwm(std::size_t size) {
+  ++allocations;
+  return __real__Znwm(size);
+}
 }
 
 using Eigen::Vector3d;
@@ -35,6 +51,8 @@ using Eigen::VectorXd;
 using namespace flexneck::multibody;
 
 namespace {
+
+constexpr StepLimits kLimits{0.05, 1e-10};
 
 Model neck_and_head() {
   const auto body = flexneck::testing::make_point_mass_body(71, 4).body;
@@ -56,12 +74,13 @@ Model neck_and_head() {
 }
 
 /// Steps and outputs of a run whose equations are given.
-void check_no_allocation(const InitialValueProblem& problem, VectorXd state,
+void check_no_allocation(TimeIntegrator& integrator,
                          const std::function<void(double, VectorXd&)>& output) {
-  DormandPrince integrator(problem, {0.05, 1e-10}, 0, state);
-  // That the count works at all: a copy that the compiler cannot do away with.
+  VectorXd state = integrator.state();
+  // That the count works at all: copies that the compiler cannot do away with.
   const long before_control = allocations;
   const VectorXd control = state;
+  const std::vector<double> other(static_cast<std::size_t>(state.size()));
   const long control_count = allocations - before_control;
   const long before = allocations;
   for (int k = 0; k < 20; ++k) {
@@ -70,8 +89,8 @@ void check_no_allocation(const InitialValueProblem& problem, VectorXd state,
     output(integrator.time_s() - 1e-6, state);
   }
   const long during_steps = allocations - before;
-  REQUIRE(control_count == 1);
-  REQUIRE(control.size() == state.size());
+  REQUIRE(control_count == 2);
+  REQUIRE(static_cast<std::size_t>(control.size()) == other.size());
   CHECK(during_steps == 0);
 }
 
@@ -96,7 +115,8 @@ TEST_CASE("a step of the descriptor form allocates nothing") {
   problem.measure = [&](const VectorXd& begin, const VectorXd& end, const VectorXd& difference) {
     return error(begin, end, difference);
   };
-  check_no_allocation(problem, state, [&](double t, VectorXd& y) {
+  DormandPrince integrator(problem, kLimits, 0, state);
+  check_no_allocation(integrator, [&](double t, VectorXd& y) {
     projection.apply(t, y, false);
     equations.solve();
   });
@@ -117,10 +137,26 @@ TEST_CASE("a step of the recursive form allocates nothing") {
   problem.measure = [&](const VectorXd& begin, const VectorXd& end, const VectorXd& difference) {
     return error(begin, end, difference);
   };
-  check_no_allocation(problem, tree::given_state(tree), [&](double t, VectorXd& y) {
+  DormandPrince integrator(problem, kLimits, 0, tree::given_state(tree));
+  check_no_allocation(integrator, [&](double t, VectorXd& y) {
     dynamics.update(t, y);
     dynamics.solve();
     for (std::size_t k = 0; k < model.markers.size(); ++k) dynamics.marker_state(k);
     dynamics.energies();
   });
+}
+
+TEST_CASE("a step of the generalised-alpha method allocates nothing in either form") {
+  const Model model = neck_and_head();
+  const SolverOptions solver{.relative_tolerance = 1e-4, .absolute_tolerance = 1e-7};
+  for (const bool recursive : {true, false}) {
+    CAPTURE(recursive);
+    const auto equations =
+        recursive ? recursive_equations(model, solver) : descriptor_equations(model, solver);
+    const VectorXd start = equations->given_state();
+    GeneralisedAlpha integrator(*equations, 0.8, kLimits, 0, start);
+    check_no_allocation(integrator, [](double, VectorXd&) {});
+    // Linearisations were among the steps.
+    CHECK(integrator.linearisations() > 0);
+  }
 }
