@@ -7,6 +7,8 @@
 
 #include "multibody/equations.h"
 #include "multibody/simulation.h"
+#include "tests/benchmarks/chain_models.h"
+#include "tests/benchmarks/simbody_chain.h"
 #include "tests/benchmarks/timing.h"
 #include "tests/support/test_models.h"
 
@@ -17,6 +19,8 @@ using namespace flexneck::testing;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using flexneck::benchmarks::measure;
+using flexneck::benchmarks::rigid_chain;
+using flexneck::benchmarks::rod;
 using flexneck::benchmarks::Timing;
 
 /// Equations of motion and how they are integrated.
@@ -31,10 +35,6 @@ constexpr Method kRecursiveAlpha{"recursive, alpha", Formulation::recursive,
                                  Integrator::generalised_alpha};
 constexpr Method kDescriptorAlpha{"descriptor, alpha", Formulation::descriptor,
                                   Integrator::generalised_alpha};
-
-RigidBody rod(double mass_kg, double length_m, const Vector3d& moments_kg_m2) {
-  return {mass_kg, {0, 0, -length_m / 2}, moments_kg_m2.asDiagonal()};
-}
 
 /// Links of 0.1 m on pins with axes in turn along x and y, hanging straight.
 Model hanging_chain(int links) {
@@ -78,33 +78,6 @@ void report_growth() {
     std::printf("%8d %12.2f %11.3f %12.2f %11.3f\n", links, recursive, recursive / links,
                 descriptor, descriptor / links);
   }
-}
-
-/// ground - pin - arm - ball - neck - fixed - head, released at 60 degrees.
-Model rigid_chain() {
-  ModelBuilder build;
-  constexpr double kArm_m = 1.657;
-  constexpr double kNeck_m = 0.1438;
-  const Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 3, Vector3d::UnitY()));
-  const Vector3d arm_end = turn * Vector3d(0, 0, -kArm_m);
-  const Vector3d neck_end = arm_end + turn * Vector3d(0, 0, -kNeck_m);
-  const double moment = 29.57 * kArm_m * kArm_m / 12;
-  const auto ground = build.ground();
-  const auto arm =
-      build.body("arm", rod(29.57, kArm_m, {moment, moment, 0.1}), {Vector3d::Zero(), turn});
-  const auto neck = build.body("neck", rod(1, kNeck_m, {2e-3, 2e-3, 1e-3}), {arm_end, turn});
-  const Vector3d head_center(0.01, 0, -0.1);
-  const auto head =
-      build.body("head", RigidBody{4.5, head_center, Vector3d(0.016, 0.024, 0.022).asDiagonal()},
-                 {neck_end, turn});
-  build.joint("pivot", JointKind::pin, build.marker("ground", ground), build.marker("eye", arm));
-  build.joint("shoulder", JointKind::ball, build.marker("arm end", arm, {0, 0, -kArm_m}),
-              build.marker("neck base", neck));
-  build.joint("OC", JointKind::fixed, build.marker("neck top", neck, {0, 0, -kNeck_m}),
-              build.marker("head joint", head));
-  build.marker("head cg", head, head_center);
-  build.model.gravity_m_s2 = {0, 0.5, -9.81};
-  return build.model;
 }
 
 /// ground - pin - arm - fixed - flexible bar - fixed - head; the ground is jerked for 0.05 s. The
@@ -186,6 +159,7 @@ int main(int argc, char** argv) {
   }
   report_growth();
   report_run("rigid chain", rigid_chain(), {kRecursive, kDescriptor}, {1e-5, 1e-6, 1e-7}, runs);
+  flexneck::benchmarks::report_simbody_chain(runs);
   report_run("flexible chain", flexible_chain(),
              {kRecursive, kDescriptor, kRecursiveAlpha, kDescriptorAlpha}, {1e-4, 1e-5, 1e-6},
              runs);
