@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -166,6 +167,7 @@ EigenPairs merge(const EigenPairs& one, const EigenPairs& other) {
 
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count, const Eigen::VectorXd& start) {
+  if (std::optional<EigenPairs> own = inverse.iterate(mass, count)) return *std::move(own);
   const Problem problem{stiffness, mass, &inverse};
   EigenPairs pairs = search(problem, count, kFine, Eigen::MatrixXd(), start);
   const Eigen::Index size = pairs.vectors.rows();

@@ -3,16 +3,11 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/eigen_pairs.h"
 #include "fe_modal/petsc_handles.h"
 #include "fe_modal/shift_inverse.h"
 
 namespace flexneck::fe_modal {
-
-/// The lowest eigenpairs of K x = lambda M x.
-struct EigenPairs {
-  Eigen::VectorXd values;   ///< (m), ascending, 1/s^2
-  Eigen::MatrixXd vectors;  ///< (dofs, m), x^T M x = 1
-};
 
 /// Krylov-Schur on the shift-inverted problem (K - shift M)^-1 M. Multiple eigenvalues are found by
 /// a second search, M-orthogonal to what the first has found, until it yields none that belongs

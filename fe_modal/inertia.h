@@ -7,6 +7,9 @@
 
 namespace flexneck::fe_modal {
 
+/// Number of negative eigenvalues of a symmetric matrix, upper half stored; the same way.
+Eigen::Index negative_eigenvalues(Mat shifted);
+
 /// Number of eigenvalues of K x = lambda M x below sigma: as many as K - sigma M has negative ones
 /// (Sylvester's law of inertia). By an indefinite factorisation of its own, with MUMPS: it owes
 /// nothing to the eigensolver.

@@ -22,6 +22,9 @@ class LocalSystem : public ModalSystem {
   std::unique_ptr<ShiftInverse> shift_inverse(double shift) const override;
   Eigen::Index eigenvalues_below(double sigma) const override;
 
+ protected:
+  const SystemMatrices& matrices() const { return matrices_; }
+
  private:
   SystemMatrices matrices_;
   std::vector<std::int32_t> node_order_;

@@ -6,7 +6,9 @@
 
 #include "fe_modal/distributed/distributed_system.h"
 #include "fe_modal/distributed/ranks.h"
+#include "fe_modal/iterative/iterative_system.h"
 #include "fe_modal/local_system.h"
+#include "geometry/foundation/error.h"
 #include "mesher/partition/element_partition.h"
 
 namespace flexneck::fe_modal {
@@ -31,6 +33,13 @@ std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_or
 std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
                                          const ModalOptions& options) {
   std::vector<std::int32_t> order = order_of_free(options.node_order, free_nodes);
+  if (options.solver == Solver::iterative) {
+    if (options.ranks != nullptr && options.ranks->count() > 1) {
+      throw InputError("the iterative solver works in one process: start it without mpirun");
+    }
+    return std::make_unique<IterativeSystem>(assemble(mesh, free_nodes, options.formulation), mesh,
+                                             free_nodes);
+  }
   if (options.ranks == nullptr || options.ranks->count() == 1) {
     return std::make_unique<LocalSystem>(assemble(mesh, free_nodes, options.formulation),
                                          std::move(order));

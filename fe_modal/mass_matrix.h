@@ -3,15 +3,11 @@
 
 #include <memory>
 
-#include <Eigen/SparseCore>
-
+#include "fe_modal/nodal_mass.h"
 #include "fe_modal/node_graph.h"
 #include "fe_modal/petsc_handles.h"
 
 namespace flexneck::fe_modal {
-
-/// Consistent mass between nodes, (n, n), kg: the same in each direction.
-using NodalMass = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 
 /// The mass of the free degrees of freedom as an operator for PETSc. A third of the entries of the
 /// matrix itself: one for each pair of nodes, which serves three directions.

@@ -272,6 +272,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   body.attached = attach_bodies(options, free_nodes, system, *inverse,
                                 pairs.vectors(Eigen::all, eigenvectors), averages);
+  body.solver = inverse->describe();
   times.stop();
   return body;
 }

@@ -12,6 +12,7 @@
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/formulation.h"
+#include "fe_modal/solver.h"
 #include "geometry/foundation/progress.h"
 #include "geometry/foundation/step_times.h"
 #include "mesher/mesh/mesh.h"
@@ -53,6 +54,7 @@ struct RigidAttachment {
 struct ModalOptions {
   int mode_count = 10;
   FormulationChoice formulation;
+  Solver solver = Solver::direct;
   BasisKind basis = BasisKind::normal;
   /// Interfaces whose static shapes join the basis; empty: all.
   std::vector<std::string> basis_interfaces;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fe_modal/free_nodes.h"
@@ -17,6 +18,10 @@ class NodeGraph {
   explicit NodeGraph(const mesher::Mesh& mesh);
   /// Of the free nodes, by their indices.
   NodeGraph(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+
+  /// As found elsewhere.
+  NodeGraph(std::vector<std::int32_t> offsets, std::vector<std::int32_t> columns)
+      : offsets_(std::move(offsets)), columns_(std::move(columns)) {}
 
   std::int32_t node_count() const { return static_cast<std::int32_t>(offsets_.size()) - 1; }
   /// Nodes that share an element with this one, itself among them, ascending.

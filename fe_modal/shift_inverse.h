@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
 
+#include "fe_modal/eigen_pairs.h"
 #include "fe_modal/petsc_handles.h"
 
 namespace flexneck::fe_modal {
@@ -23,7 +25,12 @@ class ShiftInverse {
   virtual void solve(Vec right_hand_side, Vec solution) const = 0;
   /// For each column, (N, k).
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const = 0;
-  /// What was made, for the user: "the factor has 12.3 million entries".
+  /// The lowest eigenpairs of K x = lambda M x by a method of its own, where solves are dear;
+  /// nothing where a Krylov method serves.
+  virtual std::optional<EigenPairs> iterate(Mat /*mass*/, Eigen::Index /*count*/) const {
+    return std::nullopt;
+  }
+  /// What was made and done, for the user: "the factor has 12.3 million entries".
   virtual std::string describe() const = 0;
 
  private:

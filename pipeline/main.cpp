@@ -61,9 +61,14 @@ void describe(CLI::App& app, Arguments& arguments) {
       "--certify",
       [&](std::int64_t /*times*/) { arguments.settings.emplace_back("modes.certify=true"); },
       "Prove that no mode is missing and estimate the mesh's error; as --set modes.certify=true");
+  app.add_option_function<std::string>(
+         "--solver",
+         [&](const std::string& name) { arguments.settings.push_back("modes.solver=" + name); },
+         "Of modes: direct, or iterative in less memory; as --set modes.solver=NAME")
+      ->option_text("NAME");
   app.add_flag("--show", arguments.show, "With mesh: print dimensions and a section, mesh nothing");
   app.add_option("--to", arguments.target, "With export: the file to write")
-      ->option_text("FILE.msh|FILE.inp");
+      ->option_text("FILE.msh|.inp|.mtx|.petsc|.dat");
   app.add_flag("--binary", arguments.is_binary, "With export: a .msh in bytes instead of text");
   CLI::Option* const quiet = app.add_flag("-q,--quiet", arguments.quiet, "Print errors only");
   app.add_flag("-v,--verbose", arguments.verbose, "Print what each stage does")->excludes(quiet);

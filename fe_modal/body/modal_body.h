@@ -96,6 +96,7 @@ struct ModalBody {
   std::vector<ModeRecord> modes;         ///< m of them
   std::string boundary;                  ///< what was held, e.g. "fixed: bolts"
   std::string certificate;               ///< "not certified" until completeness has been proved
+  std::string solver;                    ///< how the modes were solved for; may be empty
   double orthogonality = 0;              ///< largest |Psi^T M Psi - I|
   Eigen::Matrix3Xd nodes_m;              ///< (3, n)
   std::vector<Eigen::Matrix3Xd> shapes;  ///< m of (3, n), kg^(-1/2)

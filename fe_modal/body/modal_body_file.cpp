@@ -111,6 +111,7 @@ void write_basis(Hdf5Writer& file, const ModalBody& body) {
   file.write("/basis/shares", shares, {m, 4}, "percent");
   file.write("/basis/residual", residuals, {m}, "1");
   file.write_attribute("/basis", "boundary", std::string_view(body.boundary));
+  if (!body.solver.empty()) file.write("/basis/solver", std::vector<std::string>{body.solver});
 }
 
 /// What readers could work out from the rest, for those who look.
@@ -139,6 +140,7 @@ void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
     body.modes.push_back(mode);
   }
   body.boundary = file.string_attribute("/basis", "boundary");
+  if (file.has("/basis/solver")) body.solver = file.read_strings("/basis/solver").at(0);
 }
 
 void write_interfaces(Hdf5Writer& file, const ModalBody& body) {

@@ -16,7 +16,10 @@ const std::vector<Command>& commands() {
       {"static", "static neck tester: static-<case>.h5", static_command},
       {"pendulum", "head/neck pendulum: pendulum-<case>.h5", pendulum_command},
       {"verify", "compare with published figures: verification.json", verify_command},
-      {"export", "write the mesh for gmsh or CalculiX: --to FILE.msh or FILE.inp", export_command},
+      {"export",
+       "write the mesh for gmsh or CalculiX, its K and M, or its modes for the ATB: --to FILE.msh, "
+       ".inp, .mtx, .petsc, .dat",
+       export_command},
       {"simulate", "run a model file: <model>.h5 and <model>.csv", nullptr},
       {"study", "print every input with its origin", study_command},
   };
@@ -50,6 +53,7 @@ std::string origin_table(const Study& study) {
 }  // namespace
 
 bool run_command(const CommandInput& input) {
+  if (input.study.matrices) return modes_command(input);
   if (input.study.structure) {  // the experiments below are the neck's
     return mesh_command(input) && modes_command(input) && pictures_command(input);
   }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/body/modal_body_file.h"
+#include "fe_modal/exchange/atb_modal_file.h"
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/inp_writer.h"
 #include "mesher/exchange/msh_writer.h"
 #include "mesher/mesh/mesh_file.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/matrices.h"
 
 namespace flexneck::pipeline {
 
@@ -15,14 +18,25 @@ std::vector<std::string> held_sets(const Study& study) {
   return study.modes.held;
 }
 
+/// The modes of this mesh for the ATB.
+void export_modes(const CommandInput& input, const mesher::Mesh& mesh) {
+  const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(input.folder.modes());
+  require_same_inputs(input.folder.modes(), modes.provenance, input.study, "flexneck modes");
+  if (modes.body.nodes_m.cols() != static_cast<Eigen::Index>(mesh.nodes.size())) {
+    throw InputError(input.folder.modes().string() + ": belongs to another mesh than " +
+                     input.folder.mesh().string() + "; make it again with 'flexneck modes'");
+  }
+  fe_modal::write_atb_modal_file(input.target, mesh, modes.body);
+}
+
 }  // namespace
 
 bool export_command(const CommandInput& input) {
   const std::filesystem::path& target = input.target;
   if (target.empty()) {
-    throw InputError("export: name the file to write, --to FILE.msh or --to FILE.inp");
+    throw InputError("export: name the file to write, --to FILE.msh, .inp, .mtx, .petsc or .dat");
   }
-  const mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
+  mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, "flexneck mesh");
   input.console.step("Writing " + target.string());
   try {
@@ -33,8 +47,12 @@ bool export_command(const CommandInput& input) {
       const bool is_reduced = input.study.modes.formulation == fe_modal::Formulation::reduced;
       mesher::write_inp(target, mesh.mesh,
                         {is_reduced, held_sets(input.study), input.study.modes.count});
+    } else if (is_matrix_file(target)) {
+      export_matrices(input, mesh.mesh);
+    } else if (target.extension() == ".dat") {
+      export_modes(input, mesh.mesh);
     } else {
-      throw InputError("expected a file with the ending .msh or .inp");
+      throw InputError("expected a file with the ending .msh, .inp, .mtx, .petsc or .dat");
     }
   } catch (const InputError& error) {
     throw InputError(target.string() + ": " + error.what());

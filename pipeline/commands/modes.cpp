@@ -5,6 +5,7 @@
 
 #include "fe_modal/body/modal_body_file.h"
 #include "fe_modal/distributed/ranks.h"
+#include "fe_modal/exchange/modes_xdmf.h"
 #include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/step_times.h"
@@ -12,9 +13,10 @@
 #include "mesher/mesh/mesh_file.h"
 #include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/matrices.h"
+#include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/structure_options.h"
 #include "pipeline/commands/substructures.h"
-#include "pipeline/text_table.h"
 
 namespace flexneck::pipeline {
 
@@ -52,33 +54,6 @@ fe_modal::ModalOptions modal_options(const Study& study, mesher::Mesh& mesh) {
   return study.geometry ? neck_options(study) : structure_options(study, mesh);
 }
 
-/// What --certify adds to a row of the table.
-std::vector<std::string> mesh_error_cells(const fe_modal::MeshError& estimate) {
-  return {fmt::format("{:.3f}", estimate.refined_Hz),
-          estimate.error < 1 ? fmt::format("{:.3f}", 100 * estimate.error) : "not found again",
-          fmt::format("{:.4f}", estimate.mac)};
-}
-
-std::string mode_table(const fe_modal::ModalBody& body) {
-  std::vector<std::vector<std::string>> rows = {
-      {"mode", "kind", "Hz", "fore-aft %", "lateral %", "twist %", "axial %", "residual"}};
-  if (body.modes.front().mesh_error) {
-    for (const char* title : {"refined Hz", "mesh error %", "MAC"}) rows[0].emplace_back(title);
-  }
-  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
-    const fe_modal::ModeRecord& mode = body.modes[static_cast<std::size_t>(k)];
-    std::vector<std::string> row = {mode.name, mode.kind,
-                                    fmt::format("{:.3f}", body.frequencies_Hz[k])};
-    for (const double share : mode.shares_percent) row.push_back(fmt::format("{:.2f}", share));
-    row.push_back(fmt::format("{:.1e}", mode.residual));
-    if (mode.mesh_error) {
-      for (std::string& cell : mesh_error_cells(*mode.mesh_error)) row.push_back(std::move(cell));
-    }
-    rows.push_back(std::move(row));
-  }
-  return text_table(rows, {0, 1});
-}
-
 /// The neck's paper weighs in pounds.
 std::string mass_text(const Study& study, double mass_kg) {
   return study.geometry ? fmt::format("{:.3f} lb", mass_kg * factor_from_si("kg", "lb"))
@@ -88,6 +63,7 @@ std::string mass_text(const Study& study, double mass_kg) {
 /// Tells the analysis what stands in the mesh file for it.
 void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
                 fe_modal::ModalOptions& options) {
+  options.solver = input.study.modes.solver;
   options.ranks = input.ranks;
   options.node_order = mesh.node_order;
   if (input.ranks == nullptr) return;
@@ -114,7 +90,7 @@ Provenance modes_provenance(const CommandInput& input) {
   return provenance;
 }
 
-/// Solves and writes the file.
+/// Solves and writes the file, and what ParaView opens.
 fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
                           const fe_modal::ModalOptions& options, const std::filesystem::path& path,
                           StepTimes& times) {
@@ -123,6 +99,7 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
   times.start("write");
   file.provenance = modes_provenance(input);
   fe_modal::write_modal_body(path, file);
+  fe_modal::write_modes_xdmf(path, input.folder.mesh(), mesh, file.body);
   times.stop();
   return file.body;
 }
@@ -147,6 +124,7 @@ void solve_static(const CommandInput& input, const mesher::Mesh& mesh,
 }  // namespace
 
 bool modes_command(const CommandInput& input) {
+  if (input.study.matrices) return modes_of_matrices(input);
   StepTimes times;
   times.start("read");
   mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
@@ -165,10 +143,10 @@ bool modes_command(const CommandInput& input) {
   if (input.ranks == nullptr) session.emplace();
   const fe_modal::ModalBody body = solve(input, mesh.mesh, options, input.folder.modes(), times);
   input.console.detail()("seconds: " + times.summary());
-  input.console.result(fmt::format("\nModes: {}, {}; mass {}  ({})\n{}{}", body.boundary,
-                                   body.certificate, mass_text(input.study, body.invariants.mass),
-                                   input.folder.modes().string(), mode_table(body),
-                                   basis_text(body)));
+  input.console.result(
+      fmt::format("\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary,
+                  body.certificate, mass_text(input.study, body.invariants.mass),
+                  input.folder.modes().string(), body.solver, mode_table(body), basis_text(body)));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, modes_provenance(input));
   return true;

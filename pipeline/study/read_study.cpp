@@ -44,6 +44,11 @@ ModesSection read_modes(const StudyTable& table) {
   if (table.has("stress_stiffening")) {
     modes.stress_stiffening = choice(table, "stress_stiffening", {"none", "unit-loads"}) == 1;
   }
+  if (table.has("solver")) {
+    modes.solver = choice(table, "solver", {"direct", "iterative"}) == 0
+                       ? fe_modal::Solver::direct
+                       : fe_modal::Solver::iterative;
+  }
   if (table.has("held")) modes.held = table.texts("held");
   if (table.has("rigid_parts")) modes.rigid_parts = table.texts("rigid_parts");
   modes.attached_body = table.text_or("attached_body", "");
@@ -181,6 +186,12 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   const StudyTable mesh = root.table("mesh");
   study.mesh_orders = read_mesh_orders(mesh);
   if (root.has("geometry")) read_what_is_meshed(root.table("geometry"), mesh, study);
+  if (root.has("matrices")) {
+    if (root.has("geometry")) {
+      root.refuse("matrices", "expected [geometry] or [matrices], not both");
+    }
+    study.matrices = read_matrices(root.table("matrices"));
+  }
   study.modes = read_modes(root.table("modes"));
   study.substructures = read_substructures(root.table("substructures"));
   study.interfaces = read_all(root, "interface", read_interface);

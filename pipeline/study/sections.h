@@ -10,6 +10,7 @@ namespace flexneck::pipeline {
 /// neck's dimensions.
 bool is_structure(const StudyTable& geometry);
 StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh);
+MatricesSection read_matrices(const StudyTable& matrices);
 InterfaceSection read_interface(const StudyTable& interface);
 /// What [geometry] and [mesh] say of a script that is not the neck's: element, slits, slit_faces.
 void read_script_options(const StudyTable& geometry, const StudyTable& mesh,

@@ -123,6 +123,13 @@ StructureSection read_structure(const StudyTable& geometry, const StudyTable& me
   return section;
 }
 
+MatricesSection read_matrices(const StudyTable& table) {
+  const auto file = [&](const std::string& key) { return table.folder_of(key) / table.text(key); };
+  MatricesSection section{file("stiffness"), file("mass"), file("nodes")};
+  table.finish();
+  return section;
+}
+
 InterfaceSection read_interface(const StudyTable& table) {
   InterfaceSection interface { table.text("name"), {}, Eigen::Vector3d::Zero() };
   interface.set = table.text_or("set", interface.name);

@@ -31,6 +31,13 @@ struct StructureSection {
   const std::filesystem::path& file() const;
 };
 
+/// [matrices]: K and M in place of a mesh. The files' endings tell their formats.
+struct MatricesSection {
+  std::filesystem::path stiffness;  ///< (3n, 3n), N/m, without what is held
+  std::filesystem::path mass;       ///< likewise, kg
+  std::filesystem::path nodes;      ///< (n, 3), m
+};
+
 /// [[interface]]: where other bodies attach.
 struct InterfaceSection {
   std::string name;

@@ -11,6 +11,7 @@
 
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/formulation.h"
+#include "fe_modal/solver.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/neck_slits.h"
 #include "mesher/mesh/mesh.h"
@@ -45,6 +46,7 @@ struct MeshOrders {
 struct ModesSection {
   int count = 10;
   fe_modal::Formulation formulation = fe_modal::Formulation::mixed_pressure;
+  fe_modal::Solver solver = fe_modal::Solver::direct;
   fe_modal::BasisKind basis = fe_modal::BasisKind::normal;
   bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
@@ -119,6 +121,7 @@ struct Study {
   std::filesystem::path file;
   std::optional<GeometrySection> geometry;    ///< the neck, or …
   std::optional<StructureSection> structure;  ///< … another structure
+  std::optional<MatricesSection> matrices;    ///< … or matrices from elsewhere
   std::vector<InterfaceSection> interfaces;   ///< of another structure; the neck has its own
   MeshOrders mesh_orders;
   ModesSection modes;

@@ -69,6 +69,7 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
                                              "mesh_view.h5",
                                              "modes.h5",
                                              "modes.png",
+                                             "modes.xdmf",
                                              "pendulum-flexion-120.h5",
                                              "pendulum-flexion-20.h5",
                                              "pendulum-flexion-60.h5",
@@ -147,6 +148,13 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
         "assert abs(f['interfaces/base/translation'][:]).max() == 0; "
         "assert 'published' in f['provenance/parameters/origin'].asstr()[:]";
     const CommandOutcome outcome = testing::run_shell("/usr/bin/python3 -c \"" + script + "\"");
+    INFO(outcome.text);
+    CHECK(outcome.exit_code == 0);
+  }
+  SECTION("ParaView's file shows each mode by name, and all that it refers to is there") {
+    const CommandOutcome outcome =
+        testing::run_shell("/usr/bin/python3 " + std::string(FLEXNECK_SOURCE_DIR) +
+                           "/tests/support/check_xdmf.py " + out + "/modes.xdmf");
     INFO(outcome.text);
     CHECK(outcome.exit_code == 0);
   }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/exchange/exported_matrices.h"
+
+#include "fe_modal/assembly.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+UpperMatrix stiffness_of(SymmetricMatrix& matrix) {
+  return Eigen::Map<const UpperMatrix>(
+      matrix.size(), matrix.size(), static_cast<Eigen::Index>(matrix.columns().size()),
+      matrix.offsets().data(), matrix.columns().data(), matrix.values().data());
+}
+
+}  // namespace
+
+ImportedBody export_matrices(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                             const FormulationChoice& formulation) {
+  SystemMatrices system = assemble(mesh, free_nodes, formulation);
+  ImportedBody body{stiffness_of(system.stiffness), expand_mass(system.mass.between_nodes()), {}};
+  body.nodes_m.resize(3, free_nodes.free_count());
+  // From the last one on, so that the first of tied nodes stands.
+  for (auto node = static_cast<std::int32_t>(free_nodes.node_count()); node-- > 0;) {
+    if (free_nodes.index(node) < 0) continue;
+    body.nodes_m.col(free_nodes.index(node)) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data());
+  }
+  return body;
+}
+
+}  // namespace flexneck::fe_modal

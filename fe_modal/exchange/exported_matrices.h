@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fe_modal/exchange/imported_body.h"
+#include "fe_modal/formulation.h"
+#include "fe_modal/free_nodes.h"
+
+namespace flexneck::fe_modal {
+
+/// K and M of a mesh for other programs, without what is held; of nodes that are tied the first one
+/// stands for all.
+/// @throws what assemble() throws.
+ImportedBody export_matrices(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                             const FormulationChoice& formulation);
+
+}  // namespace flexneck::fe_modal

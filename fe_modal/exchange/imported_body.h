@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/exchange/matrix_file.h"
+#include "fe_modal/nodal_mass.h"
+#include "geometry/foundation/progress.h"
+
+namespace flexneck::fe_modal {
+
+/// A body from another program: matrices of n free nodes in place of a mesh. Degree of freedom
+/// 3 k + a is direction a of node k; what is held has been left out.
+struct ImportedBody {
+  UpperMatrix stiffness;  ///< (3n, 3n), N/m
+  UpperMatrix mass;       ///< (3n, 3n), kg
+  Eigen::Matrix3Xd nodes_m;
+};
+
+/// The mass of all degrees of freedom from that between nodes.
+UpperMatrix expand_mass(const NodalMass& nodal);
+
+/// @throws InputError unless the sizes agree and the mass is the same in each direction, as that of
+/// solid elements is: then the inertia invariants follow from it.
+void check(const ImportedBody& body);
+
+/// Normal modes of a body that is held, with its invariants; it has no interfaces.
+/// @throws InputError as check(), or for more modes than degrees of freedom.
+/// @throws ComputationError if the stiffness is not positive definite, or the eigensolver fails.
+ModalBody analyse_matrices(const ImportedBody& body, int mode_count, bool certify,
+                           const Progress& progress);
+
+}  // namespace flexneck::fe_modal

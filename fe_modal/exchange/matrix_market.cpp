@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/exchange/matrix_market.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/error.h"
+#include "mesher/exchange/output_file.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Numbers of a file line by line, comments left out.
+class NumberLines {
+ public:
+  explicit NumberLines(const std::filesystem::path& path) : path_(path), stream_(path) {
+    if (!stream_) throw InputError(path.string() + ": cannot be read");
+    next_line();
+    header_ = line_;
+    std::transform(header_.begin(), header_.end(), header_.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (!header_.starts_with("%%matrixmarket matrix")) {
+      refuse("expected a file that starts with %%MatrixMarket matrix");
+    }
+  }
+
+  bool header_has(const std::string& word) const {
+    return header_.find(" " + word) != std::string::npos;
+  }
+
+  /// The numbers of the next line that has any, `count` of them.
+  std::vector<double> next(std::size_t count) {
+    do {
+      next_line();
+    } while (line_.starts_with('%') || line_.find_first_not_of(" \t\r") == std::string::npos);
+    std::vector<double> numbers;
+    const char* place = line_.data();
+    const char* const end = place + line_.size();
+    for (;;) {
+      while (place != end && std::isspace(static_cast<unsigned char>(*place)) != 0) ++place;
+      if (place == end) break;
+      if (*place == '+' && place + 1 != end) ++place;  // Fortran's; from_chars has none
+      double number = 0;
+      const auto [after, error] = std::from_chars(place, end, number);
+      if (error != std::errc()) refuse("expected a number");
+      numbers.push_back(number);
+      place = after;
+    }
+    if (numbers.size() != count) {
+      refuse("expected " + std::to_string(count) + " numbers, found " +
+             std::to_string(numbers.size()));
+    }
+    return numbers;
+  }
+
+  std::int32_t integer(double number, double least, double most) const {
+    if (!(number >= least && number <= most) ||
+        number != static_cast<double>(static_cast<std::int64_t>(number))) {
+      refuse("expected a whole number from " + std::to_string(static_cast<std::int64_t>(least)) +
+             " to " + std::to_string(static_cast<std::int64_t>(most)));
+    }
+    return static_cast<std::int32_t>(number);
+  }
+
+  [[noreturn]] void refuse(const std::string& problem) const {
+    throw InputError(path_.string() + ":" + std::to_string(number_) + ": " + problem);
+  }
+
+ private:
+  void next_line() {
+    ++number_;
+    if (!std::getline(stream_, line_)) refuse("the file ends too early");
+  }
+
+  std::filesystem::path path_;
+  std::ifstream stream_;
+  std::string header_;
+  std::string line_;
+  std::int64_t number_ = 0;
+};
+
+constexpr double kMostRows = std::numeric_limits<std::int32_t>::max();
+
+}  // namespace
+
+void write_matrix_market(const std::filesystem::path& path,
+                         const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& upper) {
+  mesher::OutputFile file(path);
+  const std::string size = std::to_string(upper.rows());
+  file.write("%%MatrixMarket matrix coordinate real symmetric\n" + size + " " + size + " " +
+             std::to_string(upper.nonZeros()) + "\n");
+  for (Eigen::Index row = 0; row < upper.rows(); ++row) {
+    const std::string column = " " + std::to_string(row + 1) + " ";
+    for (decltype(upper.nonZeros()) k = upper.outerIndexPtr()[row];
+         k < upper.outerIndexPtr()[row + 1]; ++k) {
+      file.write(std::to_string(upper.innerIndexPtr()[k] + 1) + column +
+                 mesher::exact_text(upper.valuePtr()[k]) + "\n");
+    }
+  }
+  file.commit();
+}
+
+MatrixEntries read_matrix_market(const std::filesystem::path& path) {
+  NumberLines lines(path);
+  const bool is_half = lines.header_has("symmetric");
+  if (!lines.header_has("coordinate") || !lines.header_has("real") ||
+      !(is_half || lines.header_has("general"))) {
+    lines.refuse("expected \"coordinate real symmetric\" or \"coordinate real general\"");
+  }
+  const std::vector<double> sizes = lines.next(3);
+  MatrixEntries matrix{
+      lines.integer(sizes[0], 1, kMostRows), lines.integer(sizes[1], 1, kMostRows), is_half, {}};
+  const std::int32_t count = lines.integer(sizes[2], 0, kMostRows);
+  matrix.entries.reserve(static_cast<std::size_t>(count));
+  for (std::int32_t k = 0; k < count; ++k) {
+    const std::vector<double> entry = lines.next(3);
+    const std::int32_t row = lines.integer(entry[0], 1, matrix.rows) - 1;
+    const std::int32_t column = lines.integer(entry[1], 1, matrix.columns) - 1;
+    if (is_half && column > row) lines.refuse("expected entries of the lower half only");
+    matrix.entries.emplace_back(row, column, entry[2]);
+  }
+  return matrix;
+}
+
+void write_matrix_market_array(const std::filesystem::path& path, const Eigen::MatrixXd& table) {
+  mesher::OutputFile file(path);
+  file.write("%%MatrixMarket matrix array real general\n" + std::to_string(table.rows()) + " " +
+             std::to_string(table.cols()) + "\n");
+  for (const double value : table.reshaped()) file.write(mesher::exact_text(value) + "\n");
+  file.commit();
+}
+
+Eigen::MatrixXd read_matrix_market_array(const std::filesystem::path& path) {
+  NumberLines lines(path);
+  if (!lines.header_has("array") || !lines.header_has("real") || !lines.header_has("general")) {
+    lines.refuse("expected \"array real general\"");
+  }
+  const std::vector<double> sizes = lines.next(2);
+  Eigen::MatrixXd table(lines.integer(sizes[0], 1, kMostRows),
+                        lines.integer(sizes[1], 1, kMostRows));
+  for (double& value : table.reshaped()) value = lines.next(1)[0];
+  return table;
+}
+
+}  // namespace flexneck::fe_modal

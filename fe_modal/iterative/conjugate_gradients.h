@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fe_modal/iterative/block_davidson.h"
+
+namespace flexneck::fe_modal {
+
+struct ConjugateGradientResult {
+  Eigen::MatrixXd solutions;
+  int iterations = 0;
+};
+
+/// A x = b for each column by preconditioned conjugate gradients, side by side. Each ends when
+/// r^T P r, near the square of the error in the energy norm, has fallen by 1e-24.
+/// @throws ComputationError if one does not converge.
+ConjugateGradientResult conjugate_gradients(const BlockOperator& matrix,
+                                            const BlockOperator& preconditioner,
+                                            const Eigen::MatrixXd& right_hand_sides);
+
+}  // namespace flexneck::fe_modal

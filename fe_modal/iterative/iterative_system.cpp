@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/iterative/iterative_system.h"
+
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "fe_modal/iterative/conjugate_gradients.h"
+#include "fe_modal/iterative/schwarz.h"
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr const char* kSolving = "solving by iteration";
+
+/// As if the columns were vectors of PETSc's.
+Eigen::MatrixXd multiply(Mat matrix, const Eigen::MatrixXd& x) {
+  Eigen::MatrixXd y(x.rows(), x.cols());
+  const auto size = static_cast<PetscInt>(x.rows());
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    VecHandle in;
+    VecHandle out;
+    require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, size, x.col(k).data(), in.out()), kSolving);
+    require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, size, y.col(k).data(), out.out()), kSolving);
+    require(MatMult(matrix, in.get(), out.get()), kSolving);
+  }
+  return y;
+}
+
+}  // namespace
+
+class IterativeSystem::Inverse : public ShiftInverse {
+ public:
+  Inverse(const SystemMatrices& system, double shift, Regions regions)
+      : ShiftInverse(shift), matrix_(shifted_stiffness(system, shift)) {
+    preconditioner_.emplace(matrix_, system.graph, std::move(regions.subdomains),
+                            std::move(regions.parts));
+  }
+
+  void solve(Vec right_hand_side, Vec solution) const override {
+    const PetscScalar* in = nullptr;
+    PetscScalar* out = nullptr;
+    require(VecGetArrayRead(right_hand_side, &in), kSolving);
+    require(VecGetArray(solution, &out), kSolving);
+    Eigen::Map<Eigen::MatrixXd>(out, matrix_.size(), 1) =
+        solve(Eigen::Map<const Eigen::MatrixXd>(in, matrix_.size(), 1));
+    require(VecRestoreArray(solution, &out), kSolving);
+    require(VecRestoreArrayRead(right_hand_side, &in), kSolving);
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override {
+    const ConjugateGradientResult result = conjugate_gradients(
+        [&](const Eigen::MatrixXd& x) { return multiply(matrix_.get(), x); },
+        [&](const Eigen::MatrixXd& r) { return preconditioner_->apply(r); }, right_hand_sides);
+    gradient_iterations_ += result.iterations;
+    return result.solutions;
+  }
+
+  std::optional<EigenPairs> iterate(Mat mass, Eigen::Index count) const override {
+    DavidsonResult result = block_davidson(
+        [&](const Eigen::MatrixXd& x) { return multiply(matrix_.get(), x); },
+        [&](const Eigen::MatrixXd& x) { return multiply(mass, x); },
+        [&](const Eigen::MatrixXd& r) { return preconditioner_->apply(r); }, matrix_.size(), count);
+    davidson_iterations_ += result.iterations;
+    result.pairs.values.array() += shift();
+    return std::move(result.pairs);
+  }
+
+  std::string describe() const override {
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "iterative: %zu subdomains, whose factors have %.4g million entries; %d block "
+                  "Davidson and %d conjugate gradient iterations",
+                  preconditioner_->subdomain_count(), preconditioner_->nonzeros() / 1e6,
+                  davidson_iterations_, gradient_iterations_);
+    return text.data();
+  }
+
+ private:
+  SymmetricMatrix matrix_;
+  std::optional<SchwarzPreconditioner> preconditioner_;
+  mutable int davidson_iterations_ = 0;
+  mutable int gradient_iterations_ = 0;
+};
+
+std::unique_ptr<ShiftInverse> IterativeSystem::shift_inverse(double shift) const {
+  return std::make_unique<Inverse>(matrices(), shift,
+                                   find_regions(mesh_, free_nodes_, matrices().graph));
+}
+
+Eigen::Index IterativeSystem::eigenvalues_below(double) const {
+  throw InputError(
+      "counting modes by inertia takes a factorisation, which the iterative solver does without: "
+      "use the direct solver, or no certificate");
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/xdmf_document.h"
+
+#include <algorithm>
+#include <map>
+
+namespace flexneck::mesher {
+namespace {
+
+/// Names of the XDMF model, version 2 and 3.
+std::string topology_of(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::hex8:
+      return "Hexahedron";
+    case ElementKind::hex20:
+      return "Hexahedron_20";
+    case ElementKind::hex27:
+      return "Hexahedron_27";
+    case ElementKind::prism15:
+      return "Wedge_15";
+    case ElementKind::prism18:
+      return "Wedge_18";
+    case ElementKind::tet10:
+      return "Tetrahedron_10";
+    case ElementKind::quad4:
+      return "Quadrilateral";
+    case ElementKind::quad8:
+      return "Quadrilateral_8";
+    case ElementKind::quad9:
+      return "Quadrilateral_9";
+    case ElementKind::tri6:
+      return "Triangle_6";
+  }
+  return {};
+}
+
+std::string escaped(const std::string& text) {
+  static const std::map<char, std::string> kEscapes = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string result;
+  for (const char c : text) {
+    const auto found = kEscapes.find(c);
+    result += found == kEscapes.end() ? std::string(1, c) : found->second;
+  }
+  return result;
+}
+
+std::string text_of(const Shape& shape) {
+  std::string text;
+  for (const std::size_t extent : shape) text += (text.empty() ? "" : " ") + std::to_string(extent);
+  return text;
+}
+
+std::string dataset_xml(const XdmfItem& item) {
+  return "<DataItem Format=\"HDF\" NumberType=\"" + std::string(item.is_double ? "Float" : "Int") +
+         "\" Precision=\"" + (item.is_double ? "8" : "4") + "\" Dimensions=\"" +
+         text_of(item.shape) + "\">" + escaped(item.file.filename().string()) + ":" +
+         escaped(item.dataset) + "</DataItem>";
+}
+
+/// A hyperslab says first places, strides and counts of each extent, then of what.
+std::string xml_of(const XdmfItem& item) {
+  if (!item.place) return dataset_xml(item);
+  const Shape counts = {1, item.shape.at(1), item.shape.at(2)};
+  return "<DataItem ItemType=\"HyperSlab\" Type=\"HyperSlab\" Dimensions=\"" + text_of(counts) +
+         "\"><DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 3\">" +
+         text_of({*item.place, 0, 0}) + " " + text_of({1, 1, 1}) + " " + text_of(counts) +
+         "</DataItem>" + dataset_xml(item) + "</DataItem>";
+}
+
+}  // namespace
+
+XdmfDocument::XdmfDocument(const std::filesystem::path& path, const std::string& name)
+    : file_(path) {
+  file_.write("<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"" +
+              escaped(name) + "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n");
+}
+
+void XdmfDocument::begin(const std::string& name, const std::string& topology,
+                         const XdmfItem& connectivity, const XdmfItem& positions) {
+  file_.write("<Grid Name=\"" + escaped(name) + "\">\n<Topology TopologyType=" + topology +
+              " NumberOfElements=\"" + std::to_string(connectivity.shape.at(0)) + "\">" +
+              xml_of(connectivity) + "</Topology>\n<Geometry GeometryType=\"XYZ\">" +
+              xml_of(positions) + "</Geometry>\n");
+}
+
+void XdmfDocument::begin_grid(const std::string& name, ElementKind kind,
+                              const XdmfItem& connectivity, const XdmfItem& positions) {
+  begin(name, "\"" + topology_of(kind) + "\"", connectivity, positions);
+}
+
+void XdmfDocument::begin_points(const std::string& name, const XdmfItem& nodes,
+                                const XdmfItem& positions) {
+  begin(name, "\"Polyvertex\" NodesPerElement=\"1\"", nodes, positions);
+}
+
+void XdmfDocument::end_grid() { file_.write("</Grid>\n"); }
+
+void XdmfDocument::attribute(const std::string& name, const std::string& type,
+                             const XdmfItem& values) {
+  file_.write("<Attribute Name=\"" + escaped(name) + "\" " + type + ">" + xml_of(values) +
+              "</Attribute>\n");
+}
+
+void XdmfDocument::element_scalar(const std::string& name, const XdmfItem& values) {
+  attribute(name, "AttributeType=\"Scalar\" Center=\"Cell\"", values);
+}
+
+void XdmfDocument::node_vector(const std::string& name, const XdmfItem& values) {
+  attribute(name, "AttributeType=\"Vector\" Center=\"Node\"", values);
+}
+
+void XdmfDocument::commit() {
+  file_.write("</Grid>\n</Domain>\n</Xdmf>\n");
+  file_.commit();
+}
+
+std::string grid_name(const Mesh& mesh, const ElementBlock& block) {
+  const bool is_mixed =
+      std::count_if(mesh.blocks.begin(), mesh.blocks.end(),
+                    [&](const ElementBlock& other) { return other.part == block.part; }) > 1;
+  return block.part + (is_mixed ? " " + std::string(name_of(block.kind)) : "");
+}
+
+std::filesystem::path view_file(const std::filesystem::path& mesh_file) {
+  return mesh_file.parent_path() / (mesh_file.stem().string() + "_view.h5");
+}
+
+XdmfItem view_connectivity(const std::filesystem::path& mesh_file, const ElementBlock& block) {
+  return {view_file(mesh_file),
+          "/parts/" + block.part + "/" + std::string(name_of(block.kind)) + "/connectivity",
+          {block.size(), nodes_per_element(block.kind)}};
+}
+
+}  // namespace flexneck::mesher

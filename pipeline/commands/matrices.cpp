@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/matrices.h"
+
+#include <optional>
+
+#include <fmt/core.h>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "fe_modal/exchange/exported_matrices.h"
+#include "fe_modal/modal_analysis.h"
+#include "geometry/foundation/error.h"
+#include "pipeline/commands/mode_table.h"
+#include "pipeline/commands/structure_options.h"
+
+namespace flexneck::pipeline {
+
+bool modes_of_matrices(const CommandInput& input) {
+  const MatricesSection& files = *input.study.matrices;
+  if (input.study.modes.solver != fe_modal::Solver::direct) {
+    throw InputError(
+        input.study.file.string() +
+        ": the iterative solver needs a mesh for its subdomains, [matrices] have none");
+  }
+  input.folder.make();
+  input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
+  std::optional<fe_modal::PetscSession> session;
+  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::ImportedBody matrices{fe_modal::read_matrix(files.stiffness),
+                                        fe_modal::read_matrix(files.mass),
+                                        fe_modal::read_positions(files.nodes)};
+  fe_modal::ModalBodyFile file;
+  file.body = fe_modal::analyse_matrices(matrices, input.study.modes.count,
+                                         input.study.modes.certify, input.console.detail());
+  file.provenance = provenance_of(input.study, {"matrices.", "modes."});
+  for (const std::filesystem::path& path : {files.stiffness, files.mass, files.nodes}) {
+    file.provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
+  }
+  file.provenance.libraries = fe_modal::library_versions();
+  fe_modal::write_modal_body(input.folder.modes(), file);
+  input.console.result(fmt::format("\nModes: {}, {}; moving mass {:.4g} kg  ({})\nSolver: {}\n{}",
+                                   file.body.boundary, file.body.certificate,
+                                   file.body.invariants.mass, input.folder.modes().string(),
+                                   file.body.solver, mode_table(file.body)));
+  return true;
+}
+
+bool is_matrix_file(const std::filesystem::path& target) {
+  return target.extension() == ".mtx" || target.extension() == ".petsc";
+}
+
+void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
+  const Study& study = input.study;
+  const std::string held =
+      study.structure ? structure_options(study, mesh).held_set : std::string("bolts");
+  const fe_modal::FreeNodes free_nodes(
+      mesh, held.empty() ? std::vector<std::int32_t>{} : mesh.node_set(held).nodes);
+  std::optional<fe_modal::PetscSession> session;
+  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::ImportedBody body =
+      fe_modal::export_matrices(mesh, free_nodes, formulation_of(study));
+  const auto named = [&](const std::string& what) {
+    std::filesystem::path path = input.target;
+    path.replace_filename(path.stem().string() + what + path.extension().string());
+    return path;
+  };
+  fe_modal::write_matrix(named("_K"), body.stiffness);
+  fe_modal::write_matrix(named("_M"), body.mass);
+  fe_modal::write_positions(named("_nodes"), body.nodes_m);
+}
+
+}  // namespace flexneck::pipeline

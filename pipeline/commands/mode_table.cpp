@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/mode_table.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "pipeline/text_table.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// Of a body that came as matrices nothing is known of parts.
+bool has_shares(const fe_modal::ModalBody& body) {
+  return std::any_of(body.modes.begin(), body.modes.end(), [](const fe_modal::ModeRecord& mode) {
+    return mode.shares_percent != std::array<double, 4>{};
+  });
+}
+
+/// What --certify adds to a row of the table.
+std::vector<std::string> mesh_error_cells(const fe_modal::MeshError& estimate) {
+  return {fmt::format("{:.3f}", estimate.refined_Hz),
+          estimate.error < 1 ? fmt::format("{:.3f}", 100 * estimate.error) : "not found again",
+          fmt::format("{:.4f}", estimate.mac)};
+}
+
+std::vector<std::string> head(const fe_modal::ModalBody& body) {
+  std::vector<std::string> cells = {"mode", "kind", "Hz"};
+  if (has_shares(body)) {
+    for (const char* title : {"fore-aft %", "lateral %", "twist %", "axial %"}) {
+      cells.emplace_back(title);
+    }
+  }
+  cells.emplace_back("residual");
+  if (body.modes.front().mesh_error) {
+    for (const char* title : {"refined Hz", "mesh error %", "MAC"}) cells.emplace_back(title);
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::string mode_table(const fe_modal::ModalBody& body) {
+  const bool with_shares = has_shares(body);
+  std::vector<std::vector<std::string>> rows = {head(body)};
+  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    const fe_modal::ModeRecord& mode = body.modes[static_cast<std::size_t>(k)];
+    std::vector<std::string> row = {mode.name, mode.kind,
+                                    fmt::format("{:.3f}", body.frequencies_Hz[k])};
+    if (with_shares) {
+      for (const double share : mode.shares_percent) row.push_back(fmt::format("{:.2f}", share));
+    }
+    row.push_back(fmt::format("{:.1e}", mode.residual));
+    if (mode.mesh_error) {
+      for (std::string& cell : mesh_error_cells(*mode.mesh_error)) row.push_back(std::move(cell));
+    }
+    rows.push_back(std::move(row));
+  }
+  return text_table(rows, {0, 1});
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "fe_modal/exchange/exported_matrices.h"
+#include "fe_modal/modal_analysis.h"
+#include "geometry/foundation/error.h"
+#include "tests/support/block_mesh.h"
+#include "tests/support/temporary_folder.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+mesher::Mesh column() {
+  return testing::box({1, 2, 3}, {0.05, 0.06, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
+}
+
+ImportedBody matrices(const mesher::Mesh& mesh) {
+  return export_matrices(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes),
+                         Formulation::mixed_pressure);
+}
+
+}  // namespace
+
+TEST_CASE("matrices that went out and came back have the frequencies of the mesh") {
+  const mesher::Mesh mesh = column();
+  ModalOptions options;
+  options.mode_count = 5;
+  options.held_set = "bottom";
+  const ModalBody truth = analyse_modes(mesh, options, {});
+  const ImportedBody out = matrices(mesh);
+  for (const std::string ending : {".mtx", ".petsc"}) {
+    INFO(ending);
+    const testing::TemporaryFolder folder;
+    write_matrix(folder / ("K" + ending), out.stiffness);
+    write_matrix(folder / ("M" + ending), out.mass);
+    write_positions(folder / ("nodes" + ending), out.nodes_m);
+    const ModalBody body = analyse_matrices(
+        {read_matrix(folder / ("K" + ending)), read_matrix(folder / ("M" + ending)),
+         read_positions(folder / ("nodes" + ending))},
+        5, true, {});
+    CHECK(body.frequencies_Hz.isApprox(truth.frequencies_Hz, 1e-9));
+    CHECK(body.certificate.starts_with("certified"));
+    CHECK(body.orthogonality < 1e-9);
+    // What moves: the mass but for that on the held nodes, S2 but for its share of them, which is
+    // zero.
+    CHECK(body.invariants.mass < truth.invariants.mass);
+    CHECK(body.invariants.Maa.isApprox(truth.invariants.Maa, 1e-9));
+  }
+}
+
+TEST_CASE("matrices that do not belong together are refused") {
+  ImportedBody fewer_nodes = matrices(column());
+  fewer_nodes.nodes_m.conservativeResize(Eigen::NoChange, 3);
+  CHECK_THROWS_AS(check(fewer_nodes), InputError);
+  ImportedBody uneven = matrices(column());
+  uneven.mass.coeffRef(0, 0) *= 1.001;
+  CHECK_THROWS_AS(check(uneven), InputError);
+  CHECK_THROWS_AS(analyse_matrices(matrices(column()), 100000, false, {}), InputError);
+}
+
+}  // namespace flexneck::fe_modal

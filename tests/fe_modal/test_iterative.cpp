@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "fe_modal/modal_analysis.h"
+#include "geometry/foundation/error.h"
+#include "tests/support/block_mesh.h"
+#include "tests/support/neck_mesh.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+void check_same_modes(const mesher::Mesh& mesh, ModalOptions options) {
+  const ModalBody direct = analyse_modes(mesh, options, {});
+  options.solver = Solver::iterative;
+  const ModalBody iterative = analyse_modes(mesh, options, {});
+  // What it took stands there, and it is no factor of the whole.
+  CHECK_THAT(iterative.solver, Catch::Matchers::Matches("iterative: [0-9]+ subdomains, .* "
+                                                        "[1-9][0-9]* block Davidson and .*"));
+  REQUIRE(iterative.mode_count() == direct.mode_count());
+  for (Eigen::Index k = 0; k < direct.mode_count(); ++k) {
+    INFO("mode " << k);
+    // Of a rigid-body motion, zero, the iteration leaves some ten-thousandths of a hertz.
+    CHECK(iterative.frequencies_Hz[k] == Approx(direct.frequencies_Hz[k])
+                                             .epsilon(1e-9)
+                                             .margin(1e-6 * direct.frequencies_Hz.maxCoeff()));
+  }
+  CHECK(iterative.orthogonality < 1e-9);
+  REQUIRE(iterative.attached.size() == direct.attached.size());
+  for (std::size_t k = 0; k < direct.attached.size(); ++k) {
+    CHECK(iterative.attached[k].frequencies_Hz.isApprox(direct.attached[k].frequencies_Hz, 1e-8));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("by iteration the neck, of metal and nearly incompressible rubber, has its frequencies") {
+  geometry::NeckDivisions divisions;
+  divisions.quadrant = 2;
+  divisions.inner_ring = 2;
+  divisions.outer_ring = 1;
+  divisions.rubber_layers = 1;
+  geometry::NeckParameters neck = testing::neck_parameters("C");
+  neck.bolt_patch_radius = parse_quantity("0.4 in", "m");
+  const mesher::Mesh mesh = mesher::mesh_script(testing::neck_mesh_options(neck, divisions), {});
+  ModalOptions options;
+  options.mode_count = 6;
+  options.held_set = "bolts";
+  options.interfaces = {{"top", "top", {0, 0, neck.length}}};
+  options.attachments = {
+      {"head", "top", 4.5, {0, 0, neck.length + 0.05}, 0.02 * Eigen::Matrix3d::Identity()}};
+  check_same_modes(mesh, options);
+}
+
+TEST_CASE("by iteration double frequencies and rigid-body motions are found") {
+  const mesher::Mesh mesh =
+      testing::box({2, 2, 4}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
+  ModalOptions options;
+  options.mode_count = 5;
+  options.held_set = "bottom";
+  check_same_modes(mesh, options);
+  options.mode_count = 9;
+  options.held_set = "";
+  check_same_modes(mesh, options);
+}
+
+TEST_CASE("the iterative solver does not factorise the whole to certify") {
+  const mesher::Mesh mesh =
+      testing::box({1, 1, 2}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
+  ModalOptions options;
+  options.mode_count = 2;
+  options.held_set = "bottom";
+  options.solver = Solver::iterative;
+  options.certify = true;
+  CHECK_THROWS_AS(analyse_modes(mesh, options, {}), InputError);
+}
+
+}  // namespace flexneck::fe_modal
