@@ -29,9 +29,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, Drive drive)
       drive_(drive),
       interval_begin_s_(-kInfinity),
       interval_end_s_(kInfinity),
-      driven_positions_(system.driven.size(), Vector3d::Zero()),
-      driven_velocities_(system.driven.size(), Vector3d::Zero()),
-      driven_accelerations_(system.driven.size(), Vector3d::Zero()),
+      driven_(system.driven.size()),
       forces_(system.model),
       solver_(system.body_sizes(), system.places),
       right_hand_side_(VectorXd::Zero(system.velocity_count)),
@@ -66,11 +64,13 @@ double EquationsOfMotion::table_time(double time_s) const {
 
 void EquationsOfMotion::update_driven_bodies() {
   for (std::size_t d = 0; d < system_.driven.size(); ++d) {
-    const DrivenPath& path = system_.driven[d];
-    driven_positions_[d] = path.position_m(time_s_);
-    if (drive_ == Drive::held) continue;
-    driven_velocities_[d] = path.velocity_m_s(time_s_);
-    driven_accelerations_[d] = path.acceleration_m_s2(table_time(time_s_));
+    const DrivenMotion motion = system_.driven[d].at(time_s_, table_time(time_s_));
+    if (drive_ == Drive::prescribed) {
+      driven_[d] = motion;
+    } else {
+      driven_[d].position_m = motion.position_m;
+      driven_[d].rotation = motion.rotation;
+    }
   }
 }
 
@@ -82,9 +82,9 @@ void EquationsOfMotion::update_marker_configuration(std::size_t index) {
     return;
   }
   // Section 4, driven base: P and W stay empty.
-  const Eigen::Quaterniond& rotation = system_.driven[marker.driven_body].start.rotation;
-  motion.p = driven_positions_[marker.driven_body] + rotation * marker.node.s0;
-  motion.R = rotation.toRotationMatrix() * marker.node.R0;
+  const DrivenMotion& body = driven_[marker.driven_body];
+  motion.p = body.position_m + body.rotation * marker.node.s0;
+  motion.R = body.rotation * marker.node.R0;
 }
 
 void EquationsOfMotion::update_marker_velocities(std::size_t index, const ConstVector& velocities) {
@@ -96,10 +96,14 @@ void EquationsOfMotion::update_marker_velocities(std::size_t index, const ConstV
                       velocities.segment(body.velocity, body.constants.velocity_count()), motion);
     return;
   }
-  motion.pd = driven_velocities_[marker.driven_body];
-  motion.gp = driven_accelerations_[marker.driven_body];
-  motion.Om.setZero();
-  motion.gr.setZero();
+  const DrivenMotion& driven = driven_[marker.driven_body];
+  const Vector3d arm = driven.rotation * marker.node.s0;
+  const Vector3d& w = driven.angular_velocity_rad_s;
+  motion.pd = driven.velocity_m_s + w.cross(arm);
+  motion.gp = driven.acceleration_m_s2 + driven.angular_acceleration_rad_s2.cross(arm) +
+              w.cross(w.cross(arm));
+  motion.Om = w;
+  motion.gr = driven.angular_acceleration_rad_s2;
 }
 
 void EquationsOfMotion::set_positions(double time_s, const ConstVector& positions) {
@@ -283,12 +287,16 @@ double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {
 
 double EquationsOfMotion::work_W() const {
   double power = forces_.work_W();
-  // A driven body only translates: through a joint it does the force's work. Body i bears -f, j +f.
+  // What driven bodies do at the place of marker j, where the reaction acts. Body i bears -f, j +f.
   for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const Joint& joint = system_.joints[k];
-    const Eigen::Vector3d f = joint_reaction(k).force_N;
-    if (system_.places[k].body_i == kNone) power += f.dot(markers_[joint.marker_i].pd);
-    if (system_.places[k].body_j == kNone) power -= f.dot(markers_[joint.marker_j].pd);
+    if (system_.places[k].body_i != kNone && system_.places[k].body_j != kNone) continue;
+    const NodeKinematics& i = markers_[system_.joints[k].marker_i];
+    const NodeKinematics& j = markers_[system_.joints[k].marker_j];
+    const Reaction on_j = joint_reaction(k);
+    if (system_.places[k].body_i == kNone)
+      power += on_j.force_N.dot(i.pd + i.Om.cross(j.p - i.p)) + on_j.moment_Nm.dot(i.Om);
+    if (system_.places[k].body_j == kNone)
+      power -= on_j.force_N.dot(j.pd) + on_j.moment_Nm.dot(j.Om);
   }
   return power;
 }

@@ -87,7 +87,7 @@ class EquationsOfMotion {
   double interval_end_s_;
   double time_s_ = 0;
   std::vector<BodyTerms> bodies_;
-  std::vector<Eigen::Vector3d> driven_positions_, driven_velocities_, driven_accelerations_;
+  std::vector<DrivenMotion> driven_;
   std::vector<NodeKinematics> markers_;
   std::vector<std::size_t> active_markers_, idle_markers_;
   std::vector<JointRows> joints_;

@@ -79,7 +79,7 @@ class Carriers {
     if (target == JointPlace::kNoBody) return;
     const std::optional<Vector3d> velocity =
         source.free_body == JointPlace::kNoBody
-            ? std::optional<Vector3d>(system_.driven[source.driven_body].velocity_m_s(0))
+            ? std::optional<Vector3d>(system_.driven[source.driven_body].at(0).velocity_m_s)
             : velocities_[source.free_body];
     if (!velocity) return;
     if (velocities_[target] && (*velocities_[target] - *velocity).norm() > 0)

@@ -35,13 +35,24 @@ struct DeformableBody {
   Eigen::VectorXd offset = {};
 };
 
-/// A body that translates in a given way, whatever acts on it: the sum of an initial velocity, a
-/// table and a function of time. With none of them it is the ground.
+/// Rotation of a driven body about an axis through a point, which translates with the body. The
+/// angle is the sum of an initial rate, a table and a function of time; by default zero.
+struct DrivenTurn {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();    ///< unit vector in the world
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< world, at time zero
+  double initial_rate_rad_s = 0;
+  TimeTable acceleration_rad_s2;  ///< zero outside
+  SmoothMotion motion = {};       ///< in rad where that says m
+};
+
+/// A body that translates and turns in a given way, whatever acts on it. Its travel is the sum of
+/// an initial velocity, a table and a function of time. With nothing of it it is the ground.
 struct DrivenBody {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
   double initial_velocity_m_s = 0;                       ///< along `direction`
   TimeTable acceleration_m_s2;                           ///< along `direction`; zero outside
   SmoothMotion motion = {};                              ///< along `direction`
+  DrivenTurn turn = {};
 };
 
 struct Body {

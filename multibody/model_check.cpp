@@ -163,6 +163,10 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
 void check_kind(const std::string& who, const DrivenBody& driven) {
   check_unit_vector(who, "direction of motion", driven.direction);
   if (!std::isfinite(driven.initial_velocity_m_s)) refuse(who, "initial velocity is not finite");
+  check_unit_vector(who, "axis of rotation", driven.turn.axis);
+  check_finite(who, "point of rotation", driven.turn.point_m);
+  if (!std::isfinite(driven.turn.initial_rate_rad_s))
+    refuse(who, "initial rate of rotation is not finite");
 }
 
 void check_body(const Body& body) {

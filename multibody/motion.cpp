@@ -10,6 +10,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/dormand_prince.h"
+#include "multibody/driven_path.h"
 #include "multibody/forces/force_set.h"
 #include "multibody/generalised_alpha.h"
 #include "multibody/recorder.h"
@@ -38,10 +39,7 @@ std::vector<double> breakpoints(const Model& model, double end_s) {
   for (const Body& body : model.bodies) {
     const auto* driven = std::get_if<DrivenBody>(&body.kind);
     if (driven == nullptr) continue;
-    const std::vector<double>& rows = driven->acceleration_m_s2.times_s();
-    times.insert(times.end(), rows.begin(), rows.end());
-    const std::vector<double>& cuts = driven->motion.breakpoints_s();
-    times.insert(times.end(), cuts.begin(), cuts.end());
+    DrivenPath(body.initial_pose, *driven).add_breakpoints(times);
   }
   ForceSet(model).add_breakpoints(times);
   std::erase_if(times, [&](double time) { return !(time > 0 && time < end_s); });

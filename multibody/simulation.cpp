@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "multibody/driven_path.h"
 #include "multibody/equations.h"
 #include "multibody/equilibrium.h"
 #include "multibody/linearisation.h"
@@ -45,6 +46,19 @@ std::unique_ptr<Equations> equations_of(const Model& model, const SolverOptions&
   return recursive ? recursive_equations(model, solver) : descriptor_equations(model, solver);
 }
 
+/// Bodies on one that turns would be pulled outwards: they have no static equilibrium.
+void check_nothing_turns(const Model& model) {
+  for (const Body& body : model.bodies) {
+    const auto* driven = std::get_if<DrivenBody>(&body.kind);
+    if (driven == nullptr) continue;
+    const DrivenMotion motion = DrivenPath(body.initial_pose, *driven).at(0);
+    if (motion.angular_velocity_rad_s.isZero(0)) continue;
+    throw InputError("body '" + body.name +
+                     "' turns at time zero; a start from equilibrium needs driven bodies that do "
+                     "not turn then");
+  }
+}
+
 }  // namespace
 
 History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output) {
@@ -58,6 +72,7 @@ History simulate_from_equilibrium(const Model& model, const SolverOptions& solve
                                   const OutputOptions& output) {
   check(model);
   check_options(solver, output);
+  check_nothing_turns(model);
   const std::unique_ptr<Equations> equations = equations_of(model, solver);
   return integrate(model, *equations, equations->equilibrium_state(), solver, output);
 }

@@ -69,7 +69,7 @@ History simulate(const Model& model, const SolverOptions& solver, const OutputOp
 
 /// Runs a model from the static equilibrium of its free bodies relative to the driven ones under
 /// gravity and the forces at time zero, all moving with the driven bodies' initial velocity.
-/// @throws InputError besides if a body hangs on no driven body.
+/// @throws InputError besides if a body hangs on no driven body, or if one turns at time zero.
 /// @throws ComputationError besides if no equilibrium is found.
 History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
                                   const OutputOptions& output);

@@ -23,6 +23,17 @@ class SmoothMotion {
   /// @throws InputError if it is not, or not finite.
   static SmoothMotion of_acceleration(const Function& acceleration_m_s2, double end_s);
 
+  /// Through the rows of a table: the cubic spline with two continuous derivatives whose third does
+  /// not jump at the second row and the last but one (de Boor, A Practical Guide to Splines, IV),
+  /// exact for a cubic. Its third derivative jumps at the rows between, which are breakpoints.
+  /// @param times_s  strictly increasing, four or more
+  /// @throws InputError otherwise, or for values that are not finite.
+  static SmoothMotion of_displacement_table(const std::vector<double>& times_s,
+                                            const std::vector<double>& displacement_m);
+
+  /// That of the default: none.
+  bool is_none() const { return pieces_.empty(); }
+
   // Beyond [0, end_s] the outermost pieces go on.
   double displacement_m(double time_s) const;
   double velocity_m_s(double time_s) const;

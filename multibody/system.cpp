@@ -34,7 +34,7 @@ System::System(const Model& of) : model(of), joints(of.joints), gravity_m_s2(of.
     const Body& body = model.bodies[b];
     if (const auto* driven_body = std::get_if<DrivenBody>(&body.kind)) {
       driven_index[b] = driven.size();
-      driven.push_back({body.initial_pose, *driven_body});
+      driven.emplace_back(body.initial_pose, *driven_body);
       continue;
     }
     const BodyConstants constants = std::visit(ConstantsOf{}, body.kind).front();

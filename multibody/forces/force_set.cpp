@@ -62,7 +62,8 @@ void ForceSet::evaluate(double time_s) {
     apply(model_.resistances[k], resistance_pairs_[k]);
   // So far only loads between markers: what they take from driven bodies is these bodies' work.
   for (std::size_t k = 0; k < slots_.size(); ++k)
-    if (driven_[k]) work_W_ -= slots_[k].force_N.dot(slots_[k].v);
+    if (driven_[k])
+      work_W_ -= slots_[k].force_N.dot(slots_[k].v) + slots_[k].moment_Nm.dot(slots_[k].w);
   for (std::size_t k = 0; k < force_slots_.size(); ++k) {
     ForceMarker& slot = slots_[force_slots_[k]];
     if (driven_[force_slots_[k]]) continue;

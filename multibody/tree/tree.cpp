@@ -108,7 +108,7 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
     const auto* body = std::get_if<DrivenBody>(&model.bodies[b].kind);
     if (body == nullptr) continue;
     carriers[b].driven = driven.size();
-    driven.push_back({model.bodies[b].initial_pose, *body});
+    driven.emplace_back(model.bodies[b].initial_pose, *body);
   }
   bodies.reserve(walked.order.size());
   for (const Visit& visit : walked.order) {

@@ -45,8 +45,6 @@ TreeDynamics::TreeDynamics(const Tree& tree, Drive drive)
       extra_forces_(VectorXd::Zero(tree.velocity_count)),
       accelerations_(VectorXd::Zero(tree.velocity_count)) {
   world_.acceleration.head<3>() = -gravity_;
-  for (std::size_t d = 0; d < driven_.size(); ++d)
-    driven_[d].A = tree.driven[d].start.rotation.toRotationMatrix();
   work_.reserve(tree.bodies.size());
   for (const TreeBody& body : tree.bodies) work_.emplace_back(body);
   for (const TreeMarker& marker : tree.markers) marker_nodes_.emplace_back(marker.node);
@@ -68,13 +66,16 @@ const TreeDynamics::Frame& TreeDynamics::frame_of(const Carrier& carrier) const 
 
 void TreeDynamics::update_driven_bodies() {
   for (std::size_t d = 0; d < driven_.size(); ++d) {
-    const DrivenPath& path = tree_.driven[d];
+    const DrivenMotion motion = tree_.driven[d].at(time_s_, table_time(time_s_));
     Frame& frame = driven_[d];
-    frame.x = path.position_m(time_s_);
+    frame.x = motion.position_m;
+    frame.A = motion.rotation;
     Vector3d acceleration = -gravity_;
     if (drive_ == Drive::prescribed) {
-      frame.v = frame.A.transpose() * path.velocity_m_s(time_s_);
-      acceleration += path.acceleration_m_s2(table_time(time_s_));
+      frame.v = frame.A.transpose() * motion.velocity_m_s;
+      frame.w = frame.A.transpose() * motion.angular_velocity_rad_s;
+      acceleration += motion.acceleration_m_s2;
+      frame.acceleration.tail<3>() = frame.A.transpose() * motion.angular_acceleration_rad_s2;
     }
     frame.acceleration.head<3>() = frame.A.transpose() * acceleration;
   }

@@ -24,19 +24,21 @@ MarkerState TreeDynamics::marker_state(std::size_t index) {
   NodeMotion& node = marker_nodes_[index];
   const Frame& frame = frame_of(marker.carrier);
   MarkerState state;
-  Vector3d acceleration = frame.acceleration.head<3>() + frame.acceleration.tail<3>().cross(node.s);
-  Vector3d turning = frame.acceleration.tail<3>();
-  if (marker.carrier.body != kNone) {
+  const bool moves = marker.node.moves;
+  if (moves) {
     const Work& work = work_[marker.carrier.body];
     tree::update(marker.node, work.a, work.a_rate, node);
-    acceleration = frame.acceleration.head<3>() + frame.acceleration.tail<3>().cross(node.s) +
-                   frame.w.cross(frame.w.cross(node.s) + 2 * node.s_dot);
-    if (marker.node.moves) {
-      turning += frame.w.cross(node.turn) + node.turn_rate;
-      for (Index l = 0; l < work.a.size(); ++l) {
-        acceleration += work.a_acceleration[l] * marker.node.psi.col(l);
-        turning += work.a_acceleration[l] * node.jm.col(l);
-      }
+  }
+  Vector3d acceleration = frame.acceleration.head<3>() +
+                          frame.acceleration.tail<3>().cross(node.s) +
+                          frame.w.cross(frame.w.cross(node.s) + 2 * node.s_dot);
+  Vector3d turning = frame.acceleration.tail<3>();
+  if (moves) {
+    const Work& work = work_[marker.carrier.body];
+    turning += frame.w.cross(node.turn) + node.turn_rate;
+    for (Index l = 0; l < work.a.size(); ++l) {
+      acceleration += work.a_acceleration[l] * marker.node.psi.col(l);
+      turning += work.a_acceleration[l] * node.jm.col(l);
     }
   }
   state.position_m = frame.x + frame.A * node.s;
@@ -94,12 +96,17 @@ double TreeDynamics::dissipation_W() const {
 
 double TreeDynamics::work_W() const {
   double power = forces_.work_W();
-  // A driven body only translates: through a joint it does the force's work.
+  // What the driven body's point at M does on the body that it carries.
   for (std::size_t b = 0; b < work_.size(); ++b) {
     const Carrier& carrier = tree_.bodies[b].carrier;
     if (carrier.driven == kNone) continue;
     const Frame& driven = driven_[carrier.driven];
-    power += (work_[b].frame.A * work_[b].reaction().head<3>()).dot(driven.A * driven.v);
+    const Work& work = work_[b];
+    const Vector6d reaction = work.reaction();
+    const Vector3d velocity = driven.v + driven.w.cross(work.inner.s + work.d);
+    // R takes this body's axes to the driven one's.
+    power +=
+        (work.R * reaction.head<3>()).dot(velocity) + (work.R * reaction.tail<3>()).dot(driven.w);
   }
   return power;
 }

@@ -35,8 +35,10 @@ FrameState node_state(const TreeNode& node, const BodyState& body) {
 }
 
 FrameState driven_state(const DrivenPath& path, const TreeNode& node) {
-  const Matrix3d A = path.start.rotation.toRotationMatrix();
-  return {path.position_m(0) + A * node.s0, A * node.R0, path.velocity_m_s(0), Vector3d::Zero()};
+  const DrivenMotion body = path.at(0);
+  const Vector3d arm = body.rotation * node.s0;
+  return {body.position_m + arm, body.rotation * node.R0,
+          body.velocity_m_s + body.angular_velocity_rad_s.cross(arm), body.angular_velocity_rad_s};
 }
 
 /// A joint's coordinates and rates, and what is left of the markers' relative motion.

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <array>
-
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "pipeline/model/expression.h"
 #include "pipeline/model/model_sections.h"
-#include "pipeline/model/pulse.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
@@ -15,20 +10,8 @@ namespace flexneck::pipeline {
 using multibody::DeformableBody;
 using multibody::DrivenBody;
 using multibody::RigidBody;
-using multibody::SmoothMotion;
-using multibody::TimeTable;
 
 namespace {
-
-/// Calls make() and puts the key in front of what it refuses.
-template <class Make>
-auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
-  try {
-    return make();
-  } catch (const InputError& error) {
-    table.refuse(key, error.what());
-  }
-}
 
 /// The inertia's axes may be turned against the body's.
 RigidBody rigid_body(const StudyTable& table) {
@@ -60,60 +43,6 @@ DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
   if (table.has("offset")) {
     const std::vector<double> offset = table.numbers("offset", static_cast<std::size_t>(modes));
     body.offset = Eigen::Map<const Eigen::VectorXd>(offset.data(), modes);
-  }
-  return body;
-}
-
-TimeTable acceleration_table(const StudyTable& table, Assembly& assembly) {
-  const TableColumns columns =
-      read_columns(table, {"times", "s", "acceleration", "m/s^2"}, assembly.files);
-  return at_key(table, table.has("table") ? "table" : "times",
-                [&] { return TimeTable(columns.x, columns.y, TimeTable::Outside::zero); });
-}
-
-TimeTable pulse(const StudyTable& table, double velocity_m_s) {
-  const std::vector<double> times = table.quantities("pulse_times", "s", 0);
-  const std::vector<double> values = table.quantities("pulse_deceleration", "m/s^2", times.size());
-  return at_key(table, "pulse_deceleration",
-                [&] { return braking_pulse(times, values, velocity_m_s); });
-}
-
-SmoothMotion expressed_motion(const StudyTable& table, const std::string& key, double end_s) {
-  return at_key(table, key, [&] {
-    const Expression expression(table.text(key));
-    return key == "displacement" ? SmoothMotion::of_displacement(expression, end_s)
-                                 : SmoothMotion::of_acceleration(expression, end_s);
-  });
-}
-
-/// The keys that give a driven body its motion; one of them may be there.
-std::string motion_key(const StudyTable& table) {
-  constexpr std::array kKeys = {"table", "acceleration", "pulse_times", "displacement"};
-  std::string found;
-  for (const char* const key : kKeys) {
-    if (!table.has(key)) continue;
-    if (!found.empty())
-      table.refuse(key, "the body is driven already by '" + found + "'; give one motion only");
-    found = key;
-  }
-  return found;
-}
-
-DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
-  DrivenBody body;
-  if (table.has("direction")) body.direction = unit_vector(table, "direction");
-  body.initial_velocity_m_s = table.quantity_or("initial_velocity", "m/s", 0);
-  const std::string key = motion_key(table);
-  if (key == "pulse_times") {
-    body.acceleration_m_s2 = pulse(table, body.initial_velocity_m_s);
-  } else if (key == "displacement" || (key == "acceleration" && table.is_text(key))) {
-    body.motion = expressed_motion(table, key, assembly.end_time_s);
-  } else if (!key.empty()) {
-    body.acceleration_m_s2 = acceleration_table(table, assembly);
-  } else if (!table.has("initial_velocity")) {
-    table.refuse("name",
-                 "a driven body needs a motion: times and acceleration, table, pulse_times, "
-                 "displacement or initial_velocity; without one it is a ground");
   }
   return body;
 }

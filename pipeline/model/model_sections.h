@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/foundation/error.h"
 #include "multibody/model.h"
 #include "pipeline/model/csv_table.h"
 #include "pipeline/model/placement.h"
@@ -36,11 +37,25 @@ std::size_t reference(const StudyTable& table, const std::string& key,
 /// A rotation vector, axis times angle; none if the key is not there.
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key);
 
-/// Names and units of the two columns of a table.
+/// The motion that a [[body]] of kind "driven" gives.
+multibody::DrivenBody driven_body(const StudyTable& table, Assembly& assembly);
+
+/// Calls make() and puts the key in front of what it refuses.
+template <class Make>
+auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    table.refuse(key, error.what());
+  }
+}
+
+/// Names and units of the two columns of a table, and the key of its file.
 struct ColumnKeys {
   std::string x, x_unit, y, y_unit;
+  std::string file = "table";
 };
-/// Two lists under the keys x and y, or the CSV file under the key `table`.
+/// Two lists under the keys x and y, or a CSV file.
 TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
                           std::vector<InputFile>& files);
 

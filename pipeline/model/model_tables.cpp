@@ -23,15 +23,16 @@ Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& 
 
 TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
                           std::vector<InputFile>& files) {
-  if (!table.has("table")) {
+  if (!table.has(keys.file)) {
     TableColumns columns;
     columns.x = table.quantities(keys.x, keys.x_unit, 0);
     columns.y = table.quantities(keys.y, keys.y_unit, columns.x.size());
     return columns;
   }
   for (const std::string& key : {keys.x, keys.y})
-    if (table.has(key)) table.refuse(key, "is given twice, here and by the key 'table'");
-  const std::filesystem::path path = table.folder_of("table") / table.text("table");
+    if (table.has(key))
+      table.refuse(key, "is given twice, here and by the key '" + keys.file + "'");
+  const std::filesystem::path path = table.folder_of(keys.file) / table.text(keys.file);
   TableColumns columns =
       read_csv_columns(path, keys.x_unit, keys.y_unit, table.text_or("column", ""));
   files.push_back({path.filename().string(), hash_of_file(path.string())});

@@ -40,6 +40,14 @@ Pose marker_pose(const Model& model, const Marker& marker) {
           Quaterniond(multibody::rotation_exp(theta)) * marker.rotation};
 }
 
+/// Where a body is at time zero: a driven one's motion need not start from where it is given.
+Pose pose_of(const Body& body) {
+  const auto* driven = std::get_if<DrivenBody>(&body.kind);
+  if (driven == nullptr) return body.initial_pose;
+  const multibody::DrivenMotion motion = multibody::DrivenPath(body.initial_pose, *driven).at(0);
+  return {motion.position_m, Quaterniond(motion.rotation)};
+}
+
 Pose start_pose(const Joint& joint, const JointStart& start) {
   return {start.distance_m * joint.axis,
           Quaterniond(Eigen::AngleAxisd(start.angle_rad, joint.axis))};
@@ -70,8 +78,8 @@ struct Motion {
 
 Motion motion_of(const Body& body) {
   if (const auto* driven = std::get_if<DrivenBody>(&body.kind)) {
-    const multibody::DrivenPath path{body.initial_pose, *driven};
-    return {path.velocity_m_s(0), Vector3d::Zero()};
+    const multibody::DrivenMotion motion = multibody::DrivenPath(body.initial_pose, *driven).at(0);
+    return {motion.velocity_m_s, motion.angular_velocity_rad_s};
   }
   return {body.initial_velocity_m_s,
           body.initial_pose.rotation * body.initial_angular_velocity_rad_s};
@@ -85,7 +93,7 @@ void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
     const Pose step = start_pose(joint, starts[k]);
     const bool outwards = &from == &model.markers[joint.marker_i];
     model.bodies[to.body].initial_pose =
-        model.bodies[from.body].initial_pose * marker_pose(model, from) *
+        pose_of(model.bodies[from.body]) * marker_pose(model, from) *
         (outwards ? step : inverse(step)) * inverse(marker_pose(model, to));
     model.bodies[to.body].initial_pose.rotation.normalize();
   });
@@ -101,7 +109,7 @@ void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
     moving[b] = moving[b] || std::holds_alternative<DrivenBody>(model.bodies[b].kind);
   walk(model, moving, [&](std::size_t k, const Marker& from, const Marker& to) {
     const Joint& joint = model.joints[k];
-    const Pose frame = model.bodies[from.body].initial_pose * marker_pose(model, from);
+    const Pose frame = pose_of(model.bodies[from.body]) * marker_pose(model, from);
     const bool outwards = &from == &model.markers[joint.marker_i];
     const Body& carrier = model.bodies[from.body];
     Body& body = model.bodies[to.body];
@@ -110,8 +118,8 @@ void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
     const Vector3d axis = (outwards ? 1 : -1) * (frame.rotation * joint.axis);
     const Vector3d w = motion.w + starts[k].rate_rad_s * axis;
     const Vector3d at = (body.initial_pose * marker_pose(model, to)).position_m;
-    const Vector3d v = motion.v + motion.w.cross(at - carrier.initial_pose.position_m) +
-                       starts[k].speed_m_s * axis;
+    const Vector3d v =
+        motion.v + motion.w.cross(at - pose_of(carrier).position_m) + starts[k].speed_m_s * axis;
     body.initial_velocity_m_s = v + w.cross(body.initial_pose.position_m - at);
     body.initial_angular_velocity_rad_s = body.initial_pose.rotation.conjugate() * w;
   });

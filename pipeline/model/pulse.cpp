@@ -15,7 +15,7 @@ TimeTable braking_pulse(const std::vector<double>& times_s,
   const double area = times_s.empty() ? 0 : pulse.integral(times_s.back());
   if (!(area > 0)) {
     throw InputError("expected a pulse that brakes, found one whose integral is " +
-                     std::to_string(area) + " m/s");
+                     std::to_string(area) + " in SI units");
   }
   std::vector<double> acceleration = deceleration_m_s2;
   for (double& value : acceleration) value *= -velocity_m_s / area;

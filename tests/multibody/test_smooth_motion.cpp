@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -68,4 +70,51 @@ TEST_CASE("a motion that is not smooth enough or not a number is refused") {
   CHECK(step.breakpoints_s() == std::vector<double>{0.5});
   const SmoothMotion none;
   CHECK(none.displacement_m(3) == 0);
+}
+
+TEST_CASE("the spline through a table of displacements is exact for a cubic and of order four") {
+  const auto cubic = [](double t) { return 1 + t * (2 + t * (-3 + 4 * t)); };
+  const std::vector<double> times = {0, 0.1, 0.35, 0.4, 0.8, 1.0};
+  std::vector<double> values;
+  for (const double t : times) values.push_back(cubic(t));
+  const auto motion = SmoothMotion::of_displacement_table(times, values);
+  for (const double t : {0.0, 0.05, 0.2, 0.39, 0.77, 1.0}) {
+    CHECK(motion.displacement_m(t) == Approx(cubic(t)).epsilon(1e-13));
+    CHECK(motion.velocity_m_s(t) == Approx(2 + t * (-6 + 12 * t)).epsilon(1e-12));
+    CHECK(motion.acceleration_m_s2(t) == Approx(-6 + 24 * t).margin(1e-11));
+  }
+  CHECK(motion.breakpoints_s() == std::vector<double>{0.35, 0.4});
+
+  // Its fourth derivative is not zero at the ends, where the spline is worst.
+  const auto wave = [](double t) { return std::cos(kRate * t); };
+  const auto error = [&](int rows, bool of_acceleration) {
+    std::vector<double> t;
+    std::vector<double> y;
+    for (int k = 0; k < rows; ++k) {
+      t.push_back(static_cast<double>(k) / (rows - 1));
+      y.push_back(wave(t.back()));
+    }
+    const auto spline = SmoothMotion::of_displacement_table(t, y);
+    double largest = 0;
+    for (int k = 0; k <= 1000; ++k) {
+      const double at = k / 1000.0;
+      largest =
+          std::max(largest, of_acceleration
+                                ? std::abs(spline.acceleration_m_s2(at) + kRate * kRate * wave(at))
+                                : std::abs(spline.displacement_m(at) - wave(at)));
+    }
+    return largest;
+  };
+  CHECK(std::log2(error(201, false) / error(401, false)) == Approx(4).margin(0.2));
+  CHECK(std::log2(error(201, true) / error(401, true)) == Approx(2).margin(0.2));
+}
+
+TEST_CASE("tables of displacements that no spline goes through are refused") {
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(SmoothMotion::of_displacement_table({0, 1, 2}, {0, 0, 0}),
+                    Contains("four rows or more"));
+  CHECK_THROWS_WITH(SmoothMotion::of_displacement_table({0, 1, 1, 2}, {0, 0, 0, 0}),
+                    Contains("do not increase, at 1 s"));
+  CHECK_THROWS_WITH(SmoothMotion::of_displacement_table({0, 1, 2, 3}, {0, 0, std::nan(""), 0}),
+                    Contains("is not a finite number at 2 s"));
 }

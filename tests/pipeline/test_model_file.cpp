@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/hdf5_file.h"
+#include "multibody/history_file.h"
 #include "pipeline/model/csv_table.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/modal_files.h"
@@ -161,6 +164,44 @@ TEST_CASE("a driven body follows a table, a pulse or an expression, and one of t
              Contains("is not a finite number"));
   CHECK_THAT(refusal(folder, sled("displacement = \"abs(t - 0.1)\"")), Contains("must be smooth"));
   CHECK_THAT(refusal(folder, sled("")), Contains("a driven body needs a motion"));
+}
+
+TEST_CASE("a driven body turns by the same kinds of motion, and its body starts with it") {
+  const TemporaryFolder folder;
+  const auto turntable = [&](const std::string& motion) {
+    return with(double_pendulum_text(), "kind = \"ground\"",
+                "kind = \"driven\"\n[body.turn]\naxis = [0, 0, 1]\n" + motion);
+  };
+  const auto turn = [&](const std::string& motion) {
+    return std::get<multibody::DrivenBody>(read(folder, turntable(motion)).model.bodies[0].kind)
+        .turn;
+  };
+  CHECK(turn("angle = \"0.2 * sin(10 * t)\"").motion.velocity_m_s(0) == Approx(2));
+  CHECK(turn("initial_rate = \"90 deg/s\"").initial_rate_rad_s == Approx(std::numbers::pi / 2));
+  CHECK(turn("point = [\"1 m\", \"0 m\", \"0 m\"]\ntimes = [\"0 s\", \"1 s\"]\n"
+             "acceleration = [\"0 deg/s^2\", \"180 deg/s^2\"]")
+            .acceleration_rad_s2.integral(1) == Approx(std::numbers::pi / 2));
+  CHECK(turn("initial_rate = \"3 rad/s\"\npulse_times = [\"0 s\", \"1 s\"]\n"
+             "pulse_deceleration = [\"5 rad/s^2\", \"0 rad/s^2\"]")
+            .acceleration_rad_s2.integral(1) == Approx(-3));
+  write_text(folder / "angle.csv", "time [ms], angle [deg]\n0, 30\n100, 35\n200, 37\n300, 30\n");
+  const auto tabulated = turn("angle_table = \"angle.csv\"");
+  CHECK(tabulated.motion.displacement_m(0.1) == Approx(35 * std::numbers::pi / 180));
+  // What hangs on the body is turned with it by the 30 degrees of the first row.
+  const auto upper =
+      read(folder, turntable("angle_table = \"angle.csv\"")).model.bodies[1].initial_pose.rotation;
+  CHECK(upper.z() / upper.w() == Approx(std::tan(std::numbers::pi / 12)).epsilon(1e-12));
+
+  CHECK_THAT(refusal(folder, turntable("")), Contains("a turn needs a motion"));
+  CHECK_THAT(refusal(folder, turntable("angle = \"t\"\nangle_table = \"angle.csv\"")),
+             Contains("is driven already by 'angle'"));
+  CHECK_THAT(refusal(folder, turntable("initial_rate = \"3 m/s\"")),
+             Contains("body.ground.turn.initial_rate"));
+  write_text(folder / "short.csv", "time [ms], angle [deg]\n0, 30\n50, 35\n100, 37\n150, 30\n");
+  CHECK_THAT(refusal(folder, turntable("angle_table = \"short.csv\"")),
+             Contains("must cover the run, from 0 to 0.2 s, but are from 0 to 0.15 s"));
+  write_text(folder / "back.csv", "time [ms], angle [deg]\n0, 30\n50, 35\n40, 37\n300, 30\n");
+  CHECK_THAT(refusal(folder, turntable("angle_table = \"back.csv\"")), Contains("back.csv:4"));
 }
 
 TEST_CASE("what a model gets wrong is told in one line with the place and the remedy") {
@@ -329,6 +370,24 @@ upper = "weight.face"
   CHECK_THAT(refusal(folder, beam(two + "damping_ratio = [0.1]")), Contains("list of 2 entries"));
   CHECK_THAT(refusal(folder, with(beam("damping_ratio = 0.1"), "beam.h5", "none.h5")),
              Contains("none.h5: no such file; make it with 'flexneck modes'"));
+  // Of a later version, of another kind, not mass-normalised, not finite.
+  const auto wrote = [&](const FileFormat& format) {
+    Hdf5Writer(folder / "beam.h5", format).commit();
+    return refusal(folder, beam("damping_ratio = 0.1"));
+  };
+  const FileFormat& known = fe_modal::kModalBodyFormat;
+  CHECK_THAT(wrote({known.name, known.schema_version + 1, known.made_by}),
+             Contains("beam.h5") && Contains("schema_version"));
+  CHECK_THAT(wrote(multibody::kHistoryFormat), Contains("beam.h5") && Contains("flexneck history"));
+  const auto spoilt = [&](double value) {
+    fe_modal::ModalBodyFile beam_file;
+    beam_file.body = testing::make_beam_body(testing::Beam());
+    beam_file.body.invariants.Maa(0, 0) = value;
+    fe_modal::write_modal_body(folder / "beam.h5", beam_file);
+    return refusal(folder, beam("damping_ratio = 0.1"));
+  };
+  CHECK_THAT(spoilt(1.01), Contains("beam.h5") && Contains("not mass-normalised"));
+  CHECK_THAT(spoilt(std::nan("")), Contains("beam.h5"));
   write_text(folder / "beam.h5", "not HDF5");
   CHECK_THAT(refusal(folder, beam("damping_ratio = 0.1")), Contains("beam.h5"));
 }

@@ -67,6 +67,10 @@ inline multibody::Model forest() {
   sled.direction = random.vector().normalized();
   sled.initial_velocity_m_s = 3;
   sled.acceleration_m_s2 = constant_table(7);
+  sled.turn.axis = Eigen::Vector3d(2, -1, 2) / 3;
+  sled.turn.point_m = {0.3, -0.2, 0.1};
+  sled.turn.initial_rate_rad_s = 1.5;
+  sled.turn.acceleration_rad_s2 = constant_table(4);
   const auto driven = build.body("sled", sled, {random.vector(), random.rotation()});
   const auto rigid = [&](const char* name) { return build.body(name, random_rigid_body(random)); };
   const auto soft = [&](const char* name, unsigned seed, int modes) {

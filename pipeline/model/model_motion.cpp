@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a driven body moves: along a direction, and about an axis.
+#include <array>
+#include <sstream>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/model/expression.h"
+#include "pipeline/model/model_sections.h"
+#include "pipeline/model/pulse.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+using multibody::DrivenBody;
+using multibody::SmoothMotion;
+using multibody::TimeTable;
+
+namespace {
+
+/// Names and units of the keys of one coordinate. Its acceleration has the same names in both.
+struct MotionKeys {
+  std::string value, value_table, value_unit;
+  std::string rate, rate_unit;
+  std::string acceleration_unit;
+};
+const MotionKeys kTravel = {"displacement", "displacement_table", "m", "initial_velocity", "m/s",
+                            "m/s^2"};
+const MotionKeys kAngle = {"angle", "angle_table", "rad", "initial_rate", "rad/s", "rad/s^2"};
+
+struct Motion {
+  double initial_rate = 0;
+  TimeTable acceleration;
+  SmoothMotion function;
+};
+
+/// The key that gives the motion; one of them may be there. Empty if none is.
+std::string motion_key(const StudyTable& table, const MotionKeys& keys) {
+  const std::array<std::string, 5> all = {"table", "acceleration", "pulse_times", keys.value,
+                                          keys.value_table};
+  std::string found;
+  for (const std::string& key : all) {
+    if (!table.has(key)) continue;
+    if (!found.empty())
+      table.refuse(key, "the body is driven already by '" + found + "'; give one motion only");
+    found = key;
+  }
+  return found;
+}
+
+TimeTable acceleration_table(const StudyTable& table, const MotionKeys& keys, Assembly& assembly) {
+  const TableColumns columns =
+      read_columns(table, {"times", "s", "acceleration", keys.acceleration_unit}, assembly.files);
+  return at_key(table, table.has("table") ? "table" : "times",
+                [&] { return TimeTable(columns.x, columns.y, TimeTable::Outside::zero); });
+}
+
+TimeTable pulse(const StudyTable& table, const MotionKeys& keys, double rate) {
+  const std::vector<double> times = table.quantities("pulse_times", "s", 0);
+  const std::vector<double> values =
+      table.quantities("pulse_deceleration", keys.acceleration_unit, times.size());
+  return at_key(table, "pulse_deceleration", [&] { return braking_pulse(times, values, rate); });
+}
+
+SmoothMotion expressed_motion(const StudyTable& table, const std::string& key, double end_s) {
+  return at_key(table, key, [&] {
+    const Expression expression(table.text(key));
+    return key == "acceleration" ? SmoothMotion::of_acceleration(expression, end_s)
+                                 : SmoothMotion::of_displacement(expression, end_s);
+  });
+}
+
+SmoothMotion tabulated_motion(const StudyTable& table, const MotionKeys& keys,
+                              const std::string& key, Assembly& assembly) {
+  const TableColumns columns = read_columns(
+      table, {"times", "s", keys.value, keys.value_unit, keys.value_table}, assembly.files);
+  return at_key(table, key, [&] {
+    SmoothMotion motion = SmoothMotion::of_displacement_table(columns.x, columns.y);
+    if (columns.x.front() > 0 || columns.x.back() < assembly.end_time_s) {
+      std::ostringstream text;
+      text << "the times must cover the run, from 0 to " << assembly.end_time_s
+           << " s, but are from " << columns.x.front() << " to " << columns.x.back() << " s";
+      throw InputError(text.str());
+    }
+    return motion;
+  });
+}
+
+Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& assembly) {
+  Motion motion;
+  motion.initial_rate = table.quantity_or(keys.rate, keys.rate_unit, 0);
+  const std::string key = motion_key(table, keys);
+  if (key.empty()) return motion;
+  if (key == "pulse_times") {
+    motion.acceleration = pulse(table, keys, motion.initial_rate);
+  } else if (table.is_text(key) && (key == keys.value || key == "acceleration")) {
+    motion.function = expressed_motion(table, key, assembly.end_time_s);
+  } else if (key == keys.value || key == keys.value_table) {
+    motion.function = tabulated_motion(table, keys, key, assembly);
+  } else {
+    motion.acceleration = acceleration_table(table, keys, assembly);
+  }
+  return motion;
+}
+
+multibody::DrivenTurn read_turn(const StudyTable& table, const Eigen::Vector3d& position_m,
+                                Assembly& assembly) {
+  multibody::DrivenTurn turn;
+  turn.axis = unit_vector(table, "axis");
+  turn.point_m = table.has("point") ? quantity_vector(table, "point", "m") : position_m;
+  const Motion motion = read_motion(table, kAngle, assembly);
+  turn.initial_rate_rad_s = motion.initial_rate;
+  turn.acceleration_rad_s2 = motion.acceleration;
+  turn.motion = motion.function;
+  if (motion_key(table, kAngle).empty() && !table.has(kAngle.rate))
+    table.refuse("axis",
+                 "a turn needs a motion: angle, angle_table, times and acceleration, table, "
+                 "pulse_times or initial_rate");
+  table.finish();
+  return turn;
+}
+
+}  // namespace
+
+DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
+  DrivenBody body;
+  if (table.has("direction")) body.direction = unit_vector(table, "direction");
+  const Motion motion = read_motion(table, kTravel, assembly);
+  body.initial_velocity_m_s = motion.initial_rate;
+  body.acceleration_m_s2 = motion.acceleration;
+  body.motion = motion.function;
+  if (table.has("turn")) {
+    const Eigen::Vector3d position_m =
+        table.has("position") ? quantity_vector(table, "position", "m") : Eigen::Vector3d::Zero();
+    body.turn = read_turn(table.table("turn"), position_m, assembly);
+  } else if (motion_key(table, kTravel).empty() && !table.has(kTravel.rate)) {
+    table.refuse("name",
+                 "a driven body needs a motion: times and acceleration, table, pulse_times, "
+                 "displacement, displacement_table, initial_velocity or [body.turn]; without one "
+                 "it is a ground");
+  }
+  return body;
+}
+
+}  // namespace flexneck::pipeline
