@@ -137,6 +137,11 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
   if (m > 0) terms.bias_r.tail<3>() += unpacked(sums.J_dot) * w;
 }
 
+void update_rigid_bias(const BodyInertia& body, const Vector3d& w, InertiaTerms& terms) {
+  terms.bias_r.head<3>() = w.cross(w.cross(body.S1));
+  terms.bias_r.tail<3>() = w.cross(terms.M_rr.bottomRightCorner<3, 3>() * w);
+}
+
 double kinetic_energy_J(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate,
                         const Vector3d& v, const Vector3d& w) {
   const Index m = body.mode_count();

@@ -49,6 +49,9 @@ struct InertiaTerms {
 void update(const BodyInertia& body, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,
             const Eigen::Vector3d& w, InertiaTerms& terms);
 
+/// The same for a rigid body whose M is there already.
+void update_rigid_bias(const BodyInertia& body, const Eigen::Vector3d& w, InertiaTerms& terms);
+
 /// With the velocity v of the origin in body axes.
 double kinetic_energy_J(const BodyInertia& body, const Eigen::VectorXd& a,
                         const Eigen::VectorXd& a_rate, const Eigen::Vector3d& v,

@@ -101,7 +101,8 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
   const Walk walked = walk(model);
   if (walked.closing_joint)
     throw InputError("joint '" + model.joints[*walked.closing_joint].name +
-                     "' closes a loop of joints, which the recursive formulation does not treat; "
+                     "' closes a loop of joints, which the recursive "
+                     "formulation does not treat; "
                      "use the descriptor formulation");
   std::vector<Carrier> carriers(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -148,6 +149,12 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
     carriers[visit.body].body = bodies.size();
     bodies.push_back(std::move(added));
   }
+  std::vector<bool> carries(bodies.size(), false);
+  for (const TreeBody& body : bodies)
+    if (body.carrier.body != kNone) carries[body.carrier.body] = true;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    bodies[b].is_rigid_end =
+        bodies[b].is_fixed() && bodies[b].inertia.mode_count() == 0 && !carries[b];
   for (const Marker& marker : model.markers)
     markers.push_back({TreeNode(model.bodies[marker.body], marker), carriers[marker.body]});
 }

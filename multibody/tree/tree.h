@@ -35,6 +35,11 @@ struct TreeBody {
   TreeNode outer;         ///< M, on this body
   Eigen::Index position;  ///< of the joint's coordinates, then the modes', in the positions
   Eigen::Index velocity;  ///< of their rates in the velocities
+  /// Rigid, fixed to its carrier, and nothing hangs on it: its inertia stays
+  /// what it is.
+  bool is_rigid_end = false;
+
+  bool is_fixed() const { return joint.kind == TreeJoint::Kind::fixed; }
 };
 
 struct TreeMarker {

@@ -40,7 +40,6 @@ void TreeDynamics::accelerate(const TreeBody& body, Work& work) {
       node_acceleration(body.inner, work.inner, carrier.acceleration,
                         deforms ? work_[body.carrier.body].a_acceleration : no_modes(), carrier.w);
   Vector6d at_M = rotated(work.R.transpose(), carried(at_F, work.d)) + work.joint_bias;
-  work.at_M = at_M;
 
   // Joint: u' = L^-T (residual - U^T a), with U and residual scaled by L^-1 already.
   auto u_rate = accelerations_.segment(body.velocity, nu);

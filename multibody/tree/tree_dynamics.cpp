@@ -26,13 +26,19 @@ TreeDynamics::Work::Work(const TreeBody& body)
       a_acceleration(a),
       inner(body.inner),
       outer(body.outer),
+      R(inner.R * outer.R.transpose()),
+      d(Vector3d::Zero()),
       S(Matrix6d::Zero()),
+      joint_bias(Vector6d::Zero()),
       terms(body.inertia),
       coupling(6, body.inertia.mode_count()),
       z(a),
       U(Matrix6d::Zero()),
-      D(Matrix6d::Zero()),
-      at_M(Vector6d::Zero()) {}
+      D(Matrix6d::Zero()) {
+  // Of a rigid end this stays; of others it is set anew at each state.
+  tree::update(body.inertia, a, a_rate, Vector3d::Zero(), terms);
+  inertia = shifted(terms.M_rr, Vector3d(-outer.s));
+}
 
 TreeDynamics::TreeDynamics(const Tree& tree, Drive drive)
     : tree_(tree),
@@ -95,12 +101,16 @@ void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVect
     tree::update(body.inner, inner.a, inner.a_rate, work.inner);
   }
   tree::update(body.outer, work.a, work.a_rate, work.outer);
-  tree::update(body.joint, q, u, work.joint);
 
-  // Orientation and place.
+  // Orientation and place. Of a fixed joint d and its bias are zero.
   const JointMotion& joint = work.joint;
-  work.R.noalias() = (work.inner.R * joint.R) * work.outer.R.transpose();
-  work.d.noalias() = work.inner.R * joint.d;
+  if (!body.is_fixed()) {
+    tree::update(body.joint, q, u, work.joint);
+    work.R.noalias() = (work.inner.R * joint.R) * work.outer.R.transpose();
+    work.d.noalias() = work.inner.R * joint.d;
+  } else if (body.inner.moves || body.outer.moves) {
+    work.R.noalias() = work.inner.R * work.outer.R.transpose();
+  }
   Frame& frame = work.frame;
   frame.A.noalias() = carrier.A * work.R;
   frame.x = carrier.x + carrier.A * (work.inner.s + work.d) - frame.A * work.outer.s;
@@ -122,10 +132,15 @@ void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVect
 
   work.inner_bias = node_bias(work.inner, carrier.w);
   work.outer_bias = node_bias(work.outer, frame.w);
-  work.joint_bias.head<3>() =
-      work.R.transpose() * w_F.cross(w_F.cross(work.d)) + 2 * w_carried.cross(relative.head<3>());
-  work.joint_bias.tail<3>() = w_carried.cross(relative.tail<3>()) + work.outer.R * joint.S_dot_u;
-  tree::update(body.inertia, work.a, work.a_rate, frame.w, work.terms);
+  if (!body.is_fixed()) {
+    work.joint_bias.head<3>() =
+        work.R.transpose() * w_F.cross(w_F.cross(work.d)) + 2 * w_carried.cross(relative.head<3>());
+    work.joint_bias.tail<3>() = w_carried.cross(relative.tail<3>()) + work.outer.R * joint.S_dot_u;
+  }
+  if (body.is_rigid_end)
+    update_rigid_bias(body.inertia, frame.w, work.terms);
+  else
+    tree::update(body.inertia, work.a, work.a_rate, frame.w, work.terms);
 }
 
 void TreeDynamics::update(double time_s, const ConstVector& state) {

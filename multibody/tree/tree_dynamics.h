@@ -82,10 +82,10 @@ class TreeDynamics {
     Matrix6d U;         ///< inertia S
     Matrix6d D;         ///< factor of S^T U
     Vector6d residual;  ///< tau - S^T bias
-    Vector6d at_M;      ///< M's acceleration before the joint's own, body axes
 
-    /// Force above moment at M on this body, body axes.
-    Vector6d reaction() const { return bias + inertia * at_M; }
+    /// Force above moment at M on this body, body axes: what its articulated
+    /// inertia takes.
+    Vector6d reaction() const;
   };
 
   double table_time(double time_s) const;
@@ -98,6 +98,7 @@ class TreeDynamics {
   void eliminate_modes(const TreeBody& body, Work& work);
   void eliminate_joint(const TreeBody& body, Work& work);
   void pass_inwards(const TreeBody& body, Work& work);
+  void pass_inwards_from_rigid_end(const TreeBody& body, Work& work);
   void accelerate(const TreeBody& body, Work& work);
 
   const Tree& tree_;

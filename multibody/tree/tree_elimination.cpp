@@ -17,11 +17,13 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
   const Vector3d back = -work.outer.s;
   const bool shifts = !body.outer.at_origin;
   InertiaTerms& terms = work.terms;
-  work.inertia = shifts ? shifted(terms.M_rr, back) : terms.M_rr;
+  if (!body.is_rigid_end) work.inertia = shifts ? shifted(terms.M_rr, back) : terms.M_rr;
   work.bias = shifts ? shifted(terms.bias_r, back) : terms.bias_r;
   // Where M is the origin, the bias of its acceleration is zero.
   if (shifts) work.bias.noalias() -= work.inertia * work.outer_bias;
   if (m == 0) return;
+  // Nobody asks what is left of a body that a driven one holds.
+  const bool is_held = body.carrier.body == kNone && body.is_fixed();
   Matrix6Xd& coupling = work.coupling;
   for (Index l = 0; l < m; ++l) {
     coupling.col(l) = terms.M_ra.col(l);
@@ -59,6 +61,7 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
       coupling.col(l) -= terms.M_aa(l, k) * coupling.col(k);
       work.z[l] -= terms.M_aa(l, k) * work.z[k];
     }
+    if (is_held) continue;
     work.inertia.noalias() -= coupling.col(k) * coupling.col(k).transpose();
     work.bias -= work.z[k] * coupling.col(k);
   }
@@ -92,6 +95,10 @@ void TreeDynamics::eliminate_joint(const TreeBody& body, Work& work) {
 
 void TreeDynamics::pass_inwards(const TreeBody& body, Work& work) {
   if (body.carrier.body == kNone) return;
+  if (body.is_rigid_end) {
+    pass_inwards_from_rigid_end(body, work);
+    return;
+  }
   Work& carrier = work_[body.carrier.body];
   Vector6d load = work.bias;
   load.noalias() += work.inertia * work.joint_bias;
@@ -117,6 +124,45 @@ void TreeDynamics::pass_inwards(const TreeBody& body, Work& work) {
     for (Index k = l; k < m; ++k)
       terms.M_aa(k, l) +=
           body.inner.psi.col(k).dot(loaded.head<3>()) + work.inner.jm.col(k).dot(loaded.tail<3>());
+  }
+}
+
+/// The same with an inertia [m, -~S; ~S, J]: only S and J need to be turned and
+/// moved.
+void TreeDynamics::pass_inwards_from_rigid_end(const TreeBody& body, Work& work) {
+  Work& carrier = work_[body.carrier.body];
+  const Vector3d& s = work.inner.s;
+  const double mass = body.inertia.mass;
+  const Vector3d S = work.R * Vector3d(work.inertia(1, 5), work.inertia(2, 3), work.inertia(0, 4));
+  const Eigen::Matrix3d J = work.R * work.inertia.bottomRightCorner<3, 3>() * work.R.transpose();
+  const auto loaded = [&](const Vector3d& along, const Vector3d& about) {
+    Vector6d load;
+    load.head<3>() = mass * along - S.cross(about);
+    load.tail<3>() = S.cross(along) + J * about;
+    return load;
+  };
+  const Vector6d load =
+      rotated(work.R, work.bias) + loaded(work.inner_bias.head<3>(), work.inner_bias.tail<3>());
+  InertiaTerms& terms = carrier.terms;
+  const Eigen::Matrix3d crossed = skew(Vector3d(S + mass * s));
+  const Eigen::Matrix3d sS = s * (S + 0.5 * mass * s).transpose();
+  terms.M_rr.topLeftCorner<3, 3>().diagonal().array() += mass;
+  terms.M_rr.topRightCorner<3, 3>() -= crossed;
+  terms.M_rr.bottomLeftCorner<3, 3>() += crossed;
+  terms.M_rr.bottomRightCorner<3, 3>() += J - sS - sS.transpose();
+  terms.M_rr.bottomRightCorner<3, 3>().diagonal().array() += 2 * sS.trace();
+  terms.bias_r += shifted(load, s);
+  if (!body.inner.moves) return;
+  const Index m = carrier.a.size();
+  for (Index l = 0; l < m; ++l) {
+    const Vector3d psi = body.inner.psi.col(l);
+    const Vector3d jm = work.inner.jm.col(l);
+    const Vector6d at_node = loaded(psi, jm);
+    terms.M_ra.col(l) += shifted(at_node, s);
+    terms.bias_a[l] += psi.dot(load.head<3>()) + jm.dot(load.tail<3>());
+    for (Index k = l; k < m; ++k)
+      terms.M_aa(k, l) += body.inner.psi.col(k).dot(at_node.head<3>()) +
+                          work.inner.jm.col(k).dot(at_node.tail<3>());
   }
 }
 

@@ -66,29 +66,6 @@ TreeJoint::TreeJoint(const Joint& joint, bool inner_is_i)
   R0 = Quaterniond::FromTwoVectors(axis_m, across).toRotationMatrix();
 }
 
-Index TreeJoint::velocity_count() const {
-  switch (kind) {
-    case Kind::fixed:
-      return 0;
-    case Kind::pin:
-    case Kind::slider:
-      return 1;
-    case Kind::cylindrical:
-    case Kind::universal:
-      return 2;
-    case Kind::ball:
-      return 3;
-    case Kind::floating:
-      break;
-  }
-  return 6;
-}
-
-Index TreeJoint::position_count() const {
-  const bool has_quaternion = kind == Kind::ball || kind == Kind::floating;
-  return velocity_count() + (has_quaternion ? 1 : 0);
-}
-
 void update(const TreeJoint& joint, const ConstVector& q, const ConstVector& u,
             JointMotion& motion) {
   switch (joint.kind) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "multibody/model.h"
@@ -33,8 +36,15 @@ struct TreeJoint {
   Eigen::Vector3d axis_f = Eigen::Vector3d::UnitY();  ///< F axes
   Eigen::Vector3d axis_m = Eigen::Vector3d::UnitY();  ///< M axes
   Eigen::Matrix3d R0 = Eigen::Matrix3d::Identity();   ///< universal: M to F at angles zero
-  Eigen::Index position_count() const;
-  Eigen::Index velocity_count() const;
+  Eigen::Index velocity_count() const { return kCounts[static_cast<std::size_t>(kind)]; }
+  Eigen::Index position_count() const {
+    const bool has_quaternion = kind == Kind::ball || kind == Kind::floating;
+    return velocity_count() + (has_quaternion ? 1 : 0);
+  }
+
+ private:
+  /// In the order of Kind.
+  static constexpr std::array<Eigen::Index, 7> kCounts = {0, 1, 1, 2, 2, 3, 6};
 };
 
 /// Relative motion at given coordinates.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is read off a tree once its equations are solved.
+#include "multibody/tree/spatial.h"
 #include "multibody/tree/tree_dynamics.h"
 
 namespace flexneck::multibody::tree {
@@ -7,6 +8,13 @@ namespace flexneck::multibody::tree {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+Vector6d TreeDynamics::Work::reaction() const {
+  Vector6d load = terms.bias_r;
+  load.noalias() += terms.M_rr * frame.acceleration;
+  for (Index l = 0; l < a.size(); ++l) load += a_acceleration[l] * terms.M_ra.col(l);
+  return shifted(load, Vector3d(-outer.s));
+}
 
 BodyState TreeDynamics::body_state(std::size_t body) const {
   const Work& work = work_[body];
