@@ -72,6 +72,8 @@ Eigen::MatrixXd AttachedMass::loads() const { return terms_->average.transpose()
 
 Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
                                    const Eigen::MatrixXd& modes, Eigen::Index count) {
+  // Its own method needs no exact solves, which are dear there and never quite exact.
+  if (const auto own = inverse.iterate(mass.matrix(), count)) return own->values;
   // Each iteration divides the error of an eigenvalue by the square of its distance to the first
   // one outside the space, tens to hundreds.
   constexpr double kSettled = 1e-10;

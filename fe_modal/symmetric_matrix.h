@@ -28,6 +28,7 @@ class SymmetricMatrix {
   std::span<const PetscInt> offsets() const { return arrays_->offsets; }
   std::span<const PetscInt> columns() const { return arrays_->columns; }
   std::span<double> values() { return arrays_->values; }
+  std::span<const double> values() const { return arrays_->values; }
 
   /// Columns to the right of the diagonal block in the rows of a node, ascending nodes.
   std::span<const std::int32_t> later(std::int32_t node) const;
@@ -35,12 +36,19 @@ class SymmetricMatrix {
   /// Entry (3 node + a, 3 other + b) with b >= a in the diagonal block (place = -1), or in that of
   /// later(node)[place].
   double& entry(std::int32_t node, int a, std::ptrdiff_t place, int b) {
-    const auto first = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(a);
-    const auto row = static_cast<std::size_t>(arrays_->offsets[first]);
-    return arrays_->values[row + static_cast<std::size_t>(3 * (place + 1) + b - a)];
+    return arrays_->values[index(node, a, place, b)];
+  }
+  double entry(std::int32_t node, int a, std::ptrdiff_t place, int b) const {
+    return arrays_->values[index(node, a, place, b)];
   }
 
  private:
+  std::size_t index(std::int32_t node, int a, std::ptrdiff_t place, int b) const {
+    const auto first = 3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(a);
+    const auto row = static_cast<std::size_t>(arrays_->offsets[first]);
+    return row + static_cast<std::size_t>(3 * (place + 1) + b - a);
+  }
+
   struct Arrays {
     std::vector<std::int32_t> node_offsets;
     std::vector<std::int32_t> later_nodes;

@@ -25,26 +25,48 @@ constexpr double kTolerance = 1e-14;
 constexpr double kNothingNew = 1e-10;
 
 /// V, K V, M V with V^T M V = 1.
-struct Basis {
+struct Columns {
   Eigen::MatrixXd vectors;
   Eigen::MatrixXd forces;
   Eigen::MatrixXd momenta;
+};
 
+/// As many of them as have been found, in memory that is taken once: at a million degrees of
+/// freedom it would not do to copy it.
+class Basis {
+ public:
+  Basis(Eigen::Index size, Eigen::Index capacity)
+      : all_{Eigen::MatrixXd(size, capacity), Eigen::MatrixXd(size, capacity),
+             Eigen::MatrixXd(size, capacity)} {}
+
+  Eigen::Index count() const { return count_; }
+  auto vectors() const { return all_.vectors.leftCols(count_); }
+  auto forces() const { return all_.forces.leftCols(count_); }
+  auto momenta() const { return all_.momenta.leftCols(count_); }
+
+  void append(const Columns& more) {
+    const Eigen::Index columns = more.vectors.cols();
+    all_.vectors.middleCols(count_, columns) = more.vectors;
+    all_.forces.middleCols(count_, columns) = more.forces;
+    all_.momenta.middleCols(count_, columns) = more.momenta;
+    count_ += columns;
+  }
+  /// Keeps combinations of the columns.
   void turn(const Eigen::MatrixXd& combination) {
-    vectors = (vectors * combination).eval();
-    forces = (forces * combination).eval();
-    momenta = (momenta * combination).eval();
+    constexpr Eigen::Index kRows = 4096;
+    for (Eigen::MatrixXd* const matrix : {&all_.vectors, &all_.forces, &all_.momenta}) {
+      for (Eigen::Index first = 0; first < matrix->rows(); first += kRows) {
+        auto rows = matrix->middleRows(first, std::min(kRows, matrix->rows() - first));
+        const Eigen::MatrixXd turned = rows.leftCols(count_) * combination;
+        rows.leftCols(combination.cols()) = turned;
+      }
+    }
+    count_ = combination.cols();
   }
-  void append(const Basis& more) {
-    const auto join = [](Eigen::MatrixXd& own, const Eigen::MatrixXd& other) {
-      const Eigen::Index columns = own.cols();
-      own.conservativeResize(other.rows(), columns + other.cols());
-      own.rightCols(other.cols()) = other;
-    };
-    join(vectors, more.vectors);
-    join(forces, more.forces);
-    join(momenta, more.momenta);
-  }
+
+ private:
+  Columns all_;
+  Eigen::Index count_ = 0;
 };
 
 Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns) {
@@ -58,14 +80,14 @@ Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns) {
 }
 
 /// What of the columns is M-orthogonal to the basis, M-orthonormal among themselves.
-Basis orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperator& stiffness,
-                  const BlockOperator& mass) {
+Columns orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperator& stiffness,
+                    const BlockOperator& mass) {
   Eigen::MatrixXd momenta = mass(block);
   for (int pass = 0; pass < 2; ++pass) {
-    if (basis.vectors.cols() > 0) {
-      const Eigen::MatrixXd shares = basis.vectors.transpose() * momenta;
-      block -= basis.vectors * shares;
-      momenta -= basis.momenta * shares;
+    if (basis.count() > 0) {
+      const Eigen::MatrixXd shares = basis.vectors().transpose() * momenta;
+      block.noalias() -= basis.vectors() * shares;
+      momenta.noalias() -= basis.momenta() * shares;
     }
     Eigen::MatrixXd gram = block.transpose() * momenta;
     const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -79,7 +101,8 @@ Basis orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperator
     block = (block * combination).eval();
     momenta = (momenta * combination).eval();
   }
-  return {block, stiffness(block), momenta};
+  Eigen::MatrixXd forces = stiffness(block);
+  return {std::move(block), std::move(forces), std::move(momenta)};
 }
 
 }  // namespace
@@ -88,25 +111,27 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
                               const BlockOperator& preconditioner, Eigen::Index size,
                               Eigen::Index count) {
   const Eigen::Index width = std::min(count + kGuards, size);
-  Basis basis;
+  // Of a small body a block may be added when little is left to find.
+  const Eigen::Index capacity = std::min(kBlocksOfBasis * width, size + width);
+  Basis basis(size, capacity);
   Eigen::MatrixXd block = preconditioner(mass(random_block(size, width)));
   for (int iteration = 1; iteration <= kMostIterations; ++iteration) {
-    const Basis more = orthonormal(basis, std::move(block), stiffness, mass);
-    if (more.vectors.cols() == 0) break;
-    basis.append(more);
-    const Eigen::MatrixXd reduced = basis.vectors.transpose() * basis.forces;
+    const Eigen::Index before = basis.count();
+    basis.append(orthonormal(basis, std::move(block), stiffness, mass));
+    if (basis.count() == before) break;
+    const Eigen::MatrixXd reduced = basis.vectors().transpose() * basis.forces();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
     const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, reduced.rows()));
     const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
-    const Eigen::MatrixXd residuals =
-        basis.forces * best - basis.momenta * (best * values.asDiagonal());
+    Eigen::MatrixXd residuals = basis.forces() * best;
+    residuals.noalias() -= basis.momenta() * (best * values.asDiagonal());
     block = preconditioner(residuals);
     const Eigen::VectorXd errors =
         block.cwiseProduct(residuals).colwise().sum().transpose().cwiseQuotient(values);
-    if (errors.head(count).maxCoeff() < kTolerance || basis.vectors.cols() == size) {
-      return {{values.head(count), basis.vectors * best.leftCols(count)}, iteration};
+    if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
+      return {{values.head(count), basis.vectors() * best.leftCols(count)}, iteration};
     }
-    if (basis.vectors.cols() + width > kBlocksOfBasis * width) {
+    if (basis.count() + width > capacity) {
       basis.turn(ritz.eigenvectors().leftCols(2 * width));
     }
     // What has converged needs no more.

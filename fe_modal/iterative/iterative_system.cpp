@@ -34,10 +34,11 @@ Eigen::MatrixXd multiply(Mat matrix, const Eigen::MatrixXd& x) {
 class IterativeSystem::Inverse : public ShiftInverse {
  public:
   Inverse(const SystemMatrices& system, double shift, Regions regions)
-      : ShiftInverse(shift), matrix_(shifted_stiffness(system, shift)) {
-    preconditioner_.emplace(matrix_, system.graph, std::move(regions.subdomains),
-                            std::move(regions.parts));
-  }
+      : ShiftInverse(shift),
+        shifted_(shift == 0 ? std::nullopt : std::optional(shifted_stiffness(system, shift))),
+        matrix_(shifted_ ? *shifted_ : system.stiffness),
+        preconditioner_(matrix_, system.graph, std::move(regions.subdomains),
+                        std::move(regions.parts)) {}
 
   void solve(Vec right_hand_side, Vec solution) const override {
     const PetscScalar* in = nullptr;
@@ -53,7 +54,7 @@ class IterativeSystem::Inverse : public ShiftInverse {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override {
     const ConjugateGradientResult result = conjugate_gradients(
         [&](const Eigen::MatrixXd& x) { return multiply(matrix_.get(), x); },
-        [&](const Eigen::MatrixXd& r) { return preconditioner_->apply(r); }, right_hand_sides);
+        [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, right_hand_sides);
     gradient_iterations_ += result.iterations;
     return result.solutions;
   }
@@ -62,7 +63,7 @@ class IterativeSystem::Inverse : public ShiftInverse {
     DavidsonResult result = block_davidson(
         [&](const Eigen::MatrixXd& x) { return multiply(matrix_.get(), x); },
         [&](const Eigen::MatrixXd& x) { return multiply(mass, x); },
-        [&](const Eigen::MatrixXd& r) { return preconditioner_->apply(r); }, matrix_.size(), count);
+        [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, matrix_.size(), count);
     davidson_iterations_ += result.iterations;
     result.pairs.values.array() += shift();
     return std::move(result.pairs);
@@ -73,14 +74,15 @@ class IterativeSystem::Inverse : public ShiftInverse {
     std::snprintf(text.data(), text.size(),
                   "iterative: %zu subdomains, whose factors have %.4g million entries; %d block "
                   "Davidson and %d conjugate gradient iterations",
-                  preconditioner_->subdomain_count(), preconditioner_->nonzeros() / 1e6,
+                  preconditioner_.subdomain_count(), preconditioner_.nonzeros() / 1e6,
                   davidson_iterations_, gradient_iterations_);
     return text.data();
   }
 
  private:
-  SymmetricMatrix matrix_;
-  std::optional<SchwarzPreconditioner> preconditioner_;
+  std::optional<SymmetricMatrix> shifted_;  ///< without a shift the stiffness itself serves
+  const SymmetricMatrix& matrix_;
+  SchwarzPreconditioner preconditioner_;
   mutable int davidson_iterations_ = 0;
   mutable int gradient_iterations_ = 0;
 };

@@ -25,7 +25,7 @@ NodeGraph restrict_to(const NodeGraph& graph, const std::vector<std::int32_t>& n
 }
 
 /// The rows and columns of some nodes.
-SymmetricMatrix principal_part(SymmetricMatrix& matrix, const NodeGraph& part,
+SymmetricMatrix principal_part(const SymmetricMatrix& matrix, const NodeGraph& part,
                                const std::vector<std::int32_t>& nodes) {
   SymmetricMatrix result(part);
   for (std::int32_t row = 0; row < part.node_count(); ++row) {
@@ -54,7 +54,7 @@ using SixMotions = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 /// y = K x where x is zero but on some nodes.
 class SparseProduct {
  public:
-  SparseProduct(SymmetricMatrix& matrix, const NodeGraph& graph)
+  SparseProduct(const SymmetricMatrix& matrix, const NodeGraph& graph)
       : matrix_(matrix),
         graph_(graph),
         x_(SixMotions::Zero(matrix.size(), 6)),
@@ -93,7 +93,7 @@ class SparseProduct {
   }
 
  private:
-  SymmetricMatrix& matrix_;
+  const SymmetricMatrix& matrix_;
   const NodeGraph& graph_;
   SixMotions x_;
   SixMotions y_;
@@ -120,8 +120,8 @@ void add(const Eigen::MatrixXd& part, const std::vector<std::int32_t>& nodes,
 
 }  // namespace
 
-SchwarzPreconditioner::SchwarzPreconditioner(SymmetricMatrix& stiffness, const NodeGraph& graph,
-                                             std::vector<Region> subdomains,
+SchwarzPreconditioner::SchwarzPreconditioner(const SymmetricMatrix& stiffness,
+                                             const NodeGraph& graph, std::vector<Region> subdomains,
                                              std::vector<Region> more)
     : subdomain_count_(subdomains.size()), regions_(std::move(subdomains)) {
   for (const Region& region : regions_) factorise(stiffness, graph, region);
@@ -129,7 +129,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(SymmetricMatrix& stiffness, const N
   make_coarse(stiffness, graph);
 }
 
-void SchwarzPreconditioner::factorise(SymmetricMatrix& stiffness, const NodeGraph& graph,
+void SchwarzPreconditioner::factorise(const SymmetricMatrix& stiffness, const NodeGraph& graph,
                                       const Region& region) {
   const NodeGraph part = restrict_to(graph, region.nodes);
   const SymmetricMatrix matrix = principal_part(stiffness, part, region.nodes);
@@ -138,13 +138,13 @@ void SchwarzPreconditioner::factorise(SymmetricMatrix& stiffness, const NodeGrap
   nonzeros_ += factors_.back()->nonzeros();
 }
 
-void SchwarzPreconditioner::make_coarse(SymmetricMatrix& stiffness, const NodeGraph& graph) {
+void SchwarzPreconditioner::make_coarse(const SymmetricMatrix& stiffness, const NodeGraph& graph) {
   const auto size = static_cast<Eigen::Index>(6 * regions_.size());
   Eigen::MatrixXd matrix(size, size);
   SparseProduct product(stiffness, graph);
   for (std::size_t i = 0; i < regions_.size(); ++i) {
     const SixMotions& forces = product.multiply(regions_[i]);
-    for (std::size_t j = 0; j < regions_.size(); ++j) {
+    for (std::size_t j = i; j < regions_.size(); ++j) {  // the lower half is enough
       matrix.block<6, 6>(static_cast<Eigen::Index>(6 * j), static_cast<Eigen::Index>(6 * i)) =
           regions_[j].motions.transpose() * take(forces, regions_[j].nodes);
     }

@@ -32,7 +32,7 @@ class SchwarzPreconditioner {
   /// @param graph its sparsity
   /// @param subdomains solved exactly; together they cover all nodes
   /// @param more regions that move rigidly at little cost: parts
-  SchwarzPreconditioner(SymmetricMatrix& stiffness, const NodeGraph& graph,
+  SchwarzPreconditioner(const SymmetricMatrix& stiffness, const NodeGraph& graph,
                         std::vector<Region> subdomains, std::vector<Region> more);
 
   /// For each column, (dofs, k).
@@ -41,8 +41,8 @@ class SchwarzPreconditioner {
   std::size_t subdomain_count() const { return subdomain_count_; }
 
  private:
-  void factorise(SymmetricMatrix& stiffness, const NodeGraph& graph, const Region& region);
-  void make_coarse(SymmetricMatrix& stiffness, const NodeGraph& graph);
+  void factorise(const SymmetricMatrix& stiffness, const NodeGraph& graph, const Region& region);
+  void make_coarse(const SymmetricMatrix& stiffness, const NodeGraph& graph);
 
   std::size_t subdomain_count_;
   std::vector<Region> regions_;  ///< subdomains, then the others
