@@ -23,7 +23,8 @@ BodyConstants::BodyConstants(const RigidBody& body)
       J0(body.inertia_kg_m2 - body.mass_kg * skew(body.center_m) * skew(body.center_m)),
       N0(3, 0) {}
 
-BodyConstants::BodyConstants(const DeformableBody& body) : springs(body) {
+BodyConstants::BodyConstants(const DeformableBody& body)
+    : slopes(inertia_slopes(body)), springs(body) {
   const fe_modal::InertiaInvariants& from = body.modes.invariants;
   const Index m = body.modes.mode_count();
   mass = from.mass;
@@ -39,7 +40,7 @@ BodyConstants::BodyConstants(const DeformableBody& body) : springs(body) {
     Eigen::Map<Matrix3d>(G0.data() + 9 * l) = from.G0[static_cast<std::size_t>(l)];
     for (Index j = 0; j < m; ++j) {
       const auto jl = static_cast<std::size_t>(j * m + l);
-      Eigen::Map<Matrix3d>(&G(9 * l, j)) = from.G[jl];
+      Eigen::Map<Matrix3d>(&G(9 * l, j)) = from.G[jl] + inertia_curvature(body, j, l);
       N.block<3, 1>(3 * l, j) = from.N[jl];
     }
   }
@@ -49,6 +50,7 @@ double BodyConstants::radius_m() const { return std::sqrt(J0.trace() / (2 * mass
 
 BodyTerms::BodyTerms(const BodyConstants& body)
     : a(VectorXd::Zero(body.mode_count())),
+      S2(body.S2),
       G(9 * body.mode_count()),
       N(3, body.mode_count()),
       mass(Eigen::MatrixXd::Zero(body.velocity_count(), body.velocity_count())),
@@ -69,6 +71,12 @@ void update_configuration(const BodyConstants& body, BodyTerms& terms) {
     Eigen::Map<VectorXd> columns(terms.N.data(), 3 * m);
     columns = Eigen::Map<const VectorXd>(body.N0.data(), 3 * m);
     columns.noalias() += body.N * terms.a;
+    if (body.stiffens()) {
+      terms.S += 0.5 * contracted(body.slopes.S2, terms.a, terms.a);
+      terms.S2 = body.S2;
+      add_slopes(body.slopes.S2, terms.a, terms.S2);
+      add_slopes(body.slopes.N, terms.a, terms.N);
+    }
     // sum_l a_l (G0_l + G0_l^T) + sum_jl a_j a_l G_jl = sum_l a_l (G0_l^T + G_l(a)).
     for (Index l = 0; l < m; ++l)
       terms.J += terms.a[l] * (ConstMatrix3Map(body.G0.data() + 9 * l).transpose() +
@@ -80,7 +88,7 @@ void update_configuration(const BodyConstants& body, BodyTerms& terms) {
   M.block<3, 3>(3, 0) = M_tr.transpose();
   M.block<3, 3>(3, 3) = terms.J;
   for (Index l = 0; l < m; ++l) {
-    const Vector3d M_tl = terms.A * body.S2.col(l);
+    const Vector3d M_tl = terms.A * terms.S2.col(l);
     M.block<3, 1>(0, 6 + l) = M_tl;
     M.block<1, 3>(6 + l, 0) = M_tl.transpose();
     M.block<3, 1>(3, 6 + l) = terms.N.col(l);
@@ -95,17 +103,24 @@ void update_right_hand_side(const BodyConstants& body, const Vector3d& gravity_m
   const auto adot = velocity.tail(m);
   const Vector3d gravity = terms.A.transpose() * gravity_m_s2;
 
-  // u_t = -A ~w (~w S + 2 S2 adot) + m g,  u_r = -~w J w - 2 sum_l adot_l G_l w + ~S A^T g.
+  // u_t = -A ~w (~w S + 2 S2 adot) + m g,  u_r = -~w J w - 2 sum_l adot_l G_l w + ~S A^T g, and
+  // what section 3a adds.
   Vector3d moved = w.cross(terms.S);
   Vector3d u_r = terms.S.cross(gravity) - w.cross(terms.J * w);
   if (m > 0) {
-    moved.noalias() += 2 * (body.S2 * adot);
+    moved.noalias() += 2 * (terms.S2 * adot);
     Matrix3d G_rate = Matrix3d::Zero();
     for (Index l = 0; l < m; ++l) G_rate += adot[l] * ConstMatrix3Map(terms.G.data() + 9 * l);
     u_r -= 2 * (G_rate * w);
     terms.work_modes.noalias() = body.N * adot;
   }
-  terms.u.head<3>() = body.mass * gravity_m_s2 - terms.A * w.cross(moved);
+  Vector3d u_t = -w.cross(moved);
+  if (body.stiffens()) {
+    u_t -= contracted(body.slopes.S2, adot, adot);
+    u_r -=
+        w.cross(contracted(body.slopes.N, terms.a, adot)) + contracted(body.slopes.N, adot, adot);
+  }
+  terms.u.head<3>() = body.mass * gravity_m_s2 + terms.A * u_t;
   terms.u.segment<3>(3) = u_r;
 
   // u_a,l = w^T G_l w - 2 w . sum_j N_jl adot_j - omega^2 a - 2 zeta omega adot + S2_l . A^T g.
@@ -113,7 +128,7 @@ void update_right_hand_side(const BodyConstants& body, const Vector3d& gravity_m
     const double centrifugal = w.dot(ConstMatrix3Map(terms.G.data() + 9 * l) * w);
     const double coriolis = -2 * w.dot(terms.work_modes.segment<3>(3 * l));
     terms.u[6 + l] = centrifugal + coriolis - body.springs.load(l, terms.a[l], adot[l]) +
-                     body.S2.col(l).dot(gravity);
+                     terms.S2.col(l).dot(gravity);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "multibody/modal_springs.h"
 #include "multibody/model.h"
+#include "multibody/stress_stiffening.h"
 
 namespace flexneck::multibody {
 
@@ -18,6 +19,7 @@ struct BodyConstants {
   Eigen::Index velocity_count() const { return 6 + mode_count(); }
   /// Root mean square distance of the mass from the origin: what a radian weighs in metres.
   double radius_m() const;
+  bool stiffens() const { return slopes.S2.size() > 0; }
 
   double mass = 0;
   Eigen::Vector3d S1 = Eigen::Vector3d::Zero();
@@ -28,6 +30,7 @@ struct BodyConstants {
   Eigen::Matrix3Xd N0;
   Eigen::MatrixXd N;  ///< (3m, m): column j holds N_j1 … N_jm
   Eigen::MatrixXd Maa;
+  InertiaSlopes slopes;  ///< empty without stress stiffening, whose share in G is in G
   ModalSprings springs;
 };
 
@@ -40,6 +43,7 @@ struct BodyTerms {
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();  ///< body axes to world
   Eigen::VectorXd a;                                ///< modal coordinates
   Eigen::Vector3d S;
+  Eigen::Matrix3Xd S2;  ///< (3, m): S2(a)
   Eigen::Matrix3d J;
   Eigen::VectorXd G;     ///< (9m): G_l(a)
   Eigen::Matrix3Xd N;    ///< (3, m): N(a)

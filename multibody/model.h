@@ -33,6 +33,9 @@ struct DeformableBody {
   /// Modal coordinates of the body without load, a permanent set, kg^(1/2) m; empty for none. The
   /// body starts there.
   Eigen::VectorXd offset = {};
+  /// Whether its loads stiffen and soften it, by the geometric stiffness in its modes file
+  /// (equations.md section 3a). Without, it is linear in its own frame.
+  bool stress_stiffening = false;
 };
 
 /// Rotation of a driven body about an axis through a point, which translates with the body. The

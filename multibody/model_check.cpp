@@ -9,6 +9,7 @@
 #include "geometry/foundation/names.h"
 #include "multibody/forces/forces_check.h"
 #include "multibody/model.h"
+#include "multibody/stress_stiffening.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -150,6 +151,7 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
     refuse(who, "its offset must have one coordinate per mode, " + std::to_string(m) +
                     ", but has " + std::to_string(deformable.offset.size()));
   check_finite(who, "offset", deformable.offset);
+  check_stress_stiffening(who, deformable);
   for (Eigen::Index k = 0; k < m; ++k) {
     const double zeta = deformable.damping_ratio[k];
     if (!(zeta >= 0) || !std::isfinite(zeta)) {

@@ -5,6 +5,7 @@
 
 #include "multibody/body_dynamics.h"
 #include "multibody/model.h"
+#include "multibody/stress_stiffening.h"
 
 namespace flexneck::multibody {
 
@@ -16,6 +17,7 @@ struct NodeConstants {
   Eigen::Vector3d s0;  ///< undeformed position, body axes
   Eigen::Matrix3Xd psi;
   Eigen::Matrix3Xd mu;
+  NodeSlopes slopes;   ///< empty without stress stiffening
   Eigen::Matrix3d R0;  ///< marker axes to node axes
   bool moves = false;  ///< with the modes
 };
@@ -32,6 +34,8 @@ struct NodeKinematics {
   Eigen::Matrix3d R;       ///< marker axes to world
   Eigen::Matrix3Xd P;      ///< (3, 6+m): pd = P V
   Eigen::Matrix3Xd W;      ///< (3, 6+m): Om = W V
+  Eigen::Matrix3Xd psi;    ///< (3, m): psi(a)
+  Eigen::Matrix3Xd mu;     ///< (3, m): mu(a)
   Eigen::Matrix3Xd Jl_mu;  ///< (3, m)
 
   // Of the velocities besides:

@@ -42,7 +42,7 @@ BodyInertia::BodyInertia(const RigidBody& body)
               mass * (c.squaredNorm() * Matrix3d::Identity() - c * c.transpose()));
 }
 
-BodyInertia::BodyInertia(const DeformableBody& body) : springs(body) {
+BodyInertia::BodyInertia(const DeformableBody& body) : slopes(inertia_slopes(body)), springs(body) {
   const fe_modal::InertiaInvariants& from = body.modes.invariants;
   const Index m = body.modes.mode_count();
   mass = from.mass;
@@ -59,7 +59,8 @@ BodyInertia::BodyInertia(const DeformableBody& body) : springs(body) {
     D.col(l) = packed(G0 + G0.transpose());
     for (Index j = 0; j < m; ++j) {
       const auto jl = static_cast<std::size_t>(j * m + l);
-      E.block<6, 1>(6 * l, j) = packed(from.G[jl] + from.G[jl].transpose());
+      E.block<6, 1>(6 * l, j) =
+          packed(from.G[jl] + from.G[jl].transpose() + 2 * inertia_curvature(body, j, l));
       N.block<3, 1>(3 * l, j) = from.N[jl];
     }
   }
@@ -111,6 +112,18 @@ struct ModalSums {
   sums.angular += a_rate[l] * N_l;
 }
 
+/// What S2 and N gain with the deformation.
+void add_slopes_of_inertia(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate,
+                           ModalSums& sums, InertiaTerms& terms) {
+  auto S2 = terms.M_ra.topRows<3>();
+  auto N = terms.M_ra.bottomRows<3>();
+  add_slopes(body.slopes.S2, a, S2);
+  add_slopes(body.slopes.N, a, N);
+  sums.S += 0.5 * contracted(body.slopes.S2, a, a);
+  sums.momentum += contracted(body.slopes.S2, a, a_rate);
+  sums.angular += contracted(body.slopes.N, a, a_rate);
+}
+
 }  // namespace
 
 void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, const Vector3d& w,
@@ -120,6 +133,7 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
   if (m > 0) {
     const Vector6d form = quadratic_form(w);
     for (Index l = 0; l < m; ++l) add_mode(body, a, a_rate, w, form, l, sums, terms);
+    if (body.stiffens()) add_slopes_of_inertia(body, a, a_rate, sums, terms);
     terms.M_aa = body.Maa;
   }
   const Matrix3d inertia = unpacked(sums.J);
@@ -135,6 +149,10 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
   terms.bias_r.head<3>() = w.cross(momentum);
   terms.bias_r.tail<3>() = w.cross(angular);
   if (m > 0) terms.bias_r.tail<3>() += unpacked(sums.J_dot) * w;
+  if (body.stiffens()) {
+    terms.bias_r.head<3>() += contracted(body.slopes.S2, a_rate, a_rate);
+    terms.bias_r.tail<3>() += contracted(body.slopes.N, a_rate, a_rate);
+  }
 }
 
 void update_rigid_bias(const BodyInertia& body, const Vector3d& w, InertiaTerms& terms) {
@@ -160,6 +178,11 @@ double kinetic_energy_J(const BodyInertia& body, const VectorXd& a, const Vector
       angular += (a_rate[l] * a[j]) * body.N.block<3, 1>(3 * l, j);
       deformation += a_rate[l] * a_rate[j] * body.Maa(l, j);
     }
+  }
+  if (body.stiffens()) {
+    S += 0.5 * contracted(body.slopes.S2, a, a);
+    momentum += contracted(body.slopes.S2, a, a_rate);
+    angular += contracted(body.slopes.N, a, a_rate);
   }
   return 0.5 * (body.mass * v.squaredNorm() + w.dot(unpacked(J) * w) + deformation) +
          v.dot(w.cross(S) + momentum) + w.dot(angular);

@@ -5,6 +5,7 @@
 
 #include "multibody/modal_springs.h"
 #include "multibody/model.h"
+#include "multibody/stress_stiffening.h"
 
 namespace flexneck::multibody::tree {
 
@@ -30,7 +31,10 @@ struct BodyInertia {
   Eigen::Matrix3Xd N0;
   Eigen::MatrixXd N;  ///< (3m, m): column j holds N_j1 … N_jm
   Eigen::MatrixXd Maa;
+  InertiaSlopes slopes;  ///< empty without stress stiffening, whose share in E is in E
   ModalSprings springs;
+
+  bool stiffens() const { return slopes.S2.size() > 0; }
 };
 
 /// Inertia of a body in its own axes, and what is left of its equations when its accelerations

@@ -62,7 +62,7 @@ namespace flexneck::multibody::tree {
 /// What a node's acceleration has besides [acc + wdot x s + psi a''; wdot + jm a''].
 [[gnu::always_inline]] inline Vector6d node_bias(const NodeMotion& node, const Eigen::Vector3d& w) {
   Vector6d bias;
-  bias.head<3>() = w.cross(w.cross(node.s) + 2 * node.s_dot);
+  bias.head<3>() = w.cross(w.cross(node.s) + 2 * node.s_dot) + node.s_dot_rate;
   bias.tail<3>() = w.cross(node.turn) + node.turn_rate;
   return bias;
 }

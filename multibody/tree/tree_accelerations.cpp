@@ -17,7 +17,7 @@ Vector6d node_acceleration(const TreeNode& node, const NodeMotion& motion,
   Vector6d result = carried(of_origin, motion.s) + node_bias(motion, w);
   if (!node.moves) return result;
   for (Index l = 0; l < a_acceleration.size(); ++l) {
-    result.head<3>() += a_acceleration[l] * node.psi.col(l);
+    result.head<3>() += a_acceleration[l] * motion.psi.col(l);
     result.tail<3>() += a_acceleration[l] * motion.jm.col(l);
   }
   return result;
@@ -61,7 +61,7 @@ void TreeDynamics::accelerate(const TreeBody& body, Work& work) {
   Vector6d at_origin = at_M - work.outer_bias;
   if (body.outer.moves)
     for (Index l = 0; l < m; ++l) {
-      at_origin.head<3>() -= work.a_acceleration[l] * body.outer.psi.col(l);
+      at_origin.head<3>() -= work.a_acceleration[l] * work.outer.psi.col(l);
       at_origin.tail<3>() -= work.a_acceleration[l] * work.outer.jm.col(l);
     }
   work.frame.acceleration = carried(at_origin, -work.outer.s);

@@ -182,7 +182,7 @@ void TreeDynamics::apply(const TreeMarker& marker, const NodeMotion& node, const
   work.terms.bias_r.tail<3>() -= node.s.cross(f) + t;
   if (!marker.node.moves) return;
   for (Index l = 0; l < work.a.size(); ++l)
-    work.terms.bias_a[l] -= marker.node.psi.col(l).dot(f) + node.jm.col(l).dot(t);
+    work.terms.bias_a[l] -= node.psi.col(l).dot(f) + node.jm.col(l).dot(t);
 }
 
 void TreeDynamics::evaluate(double time_s, const ConstVector& state, VectorXd& rate) {

@@ -35,20 +35,20 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
   if (body.outer.moves) {
     for (Index l = 0; l < m; ++l) {
       Vector6d shape;
-      shape << body.outer.psi.col(l), work.outer.jm.col(l);
+      shape << work.outer.psi.col(l), work.outer.jm.col(l);
       work.z[l] -= shape.dot(work.bias);
       // M_aa <- M_aa - Phi^T X^T M_ra - (its transpose) + Phi^T X^T M_rr X Phi.
       const Vector6d loaded = work.inertia * shape;
       for (Index k = 0; k < m; ++k) {
         Vector6d other;
-        other << body.outer.psi.col(k), work.outer.jm.col(k);
+        other << work.outer.psi.col(k), work.outer.jm.col(k);
         terms.M_aa(k, l) +=
             other.dot(loaded) - other.dot(coupling.col(l)) - coupling.col(k).dot(shape);
       }
     }
     for (Index l = 0; l < m; ++l) {
       Vector6d shape;
-      shape << body.outer.psi.col(l), work.outer.jm.col(l);
+      shape << work.outer.psi.col(l), work.outer.jm.col(l);
       coupling.col(l).noalias() -= work.inertia * shape;
     }
   }
@@ -117,13 +117,13 @@ void TreeDynamics::pass_inwards(const TreeBody& body, Work& work) {
   const Index m = carrier.a.size();
   for (Index l = 0; l < m; ++l) {
     Vector6d shape;
-    shape << body.inner.psi.col(l), work.inner.jm.col(l);
+    shape << work.inner.psi.col(l), work.inner.jm.col(l);
     const Vector6d loaded = inertia * shape;
     terms.M_ra.col(l) += shifted(loaded, work.inner.s);
     terms.bias_a[l] += shape.dot(load);
     for (Index k = l; k < m; ++k)
       terms.M_aa(k, l) +=
-          body.inner.psi.col(k).dot(loaded.head<3>()) + work.inner.jm.col(k).dot(loaded.tail<3>());
+          work.inner.psi.col(k).dot(loaded.head<3>()) + work.inner.jm.col(k).dot(loaded.tail<3>());
   }
 }
 

@@ -15,13 +15,18 @@ TreeNode::TreeNode(const Body& body, const Marker& marker)
     s0 = place.position_m;
     psi = place.translation;
     mu = place.rotation;
+    slopes = node_slopes(*deformable, marker.interface);
     moves = !(psi.isZero(0) && mu.isZero(0));
   }
   at_origin = !moves && s0.isZero(0);
 }
 
 NodeMotion::NodeMotion(const TreeNode& node)
-    : s(node.s0), R(node.R0), jm(Eigen::Matrix3Xd::Zero(3, node.mu.cols())) {}
+    : s(node.s0),
+      R(node.R0),
+      psi(node.psi),
+      jm(Eigen::Matrix3Xd::Zero(3, node.mu.cols())),
+      mu(node.mu) {}
 
 void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,
             NodeMotion& motion) {
@@ -30,11 +35,23 @@ void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorX
   Vector3d theta_dot = Vector3d::Zero();
   motion.s = node.s0;
   motion.s_dot.setZero();
+  const bool stiffens = node.slopes.psi.size() > 0;
+  if (stiffens) {
+    motion.psi = node.psi;
+    motion.mu = node.mu;
+    add_slopes(node.slopes.psi, a, motion.psi);
+    add_slopes(node.slopes.mu, a, motion.mu);
+    // Half of what the slopes make has the shapes without them.
+    for (Eigen::Index l = 0; l < a.size(); ++l) {
+      motion.s += (0.5 * a[l]) * (node.psi.col(l) - motion.psi.col(l));
+      theta += (0.5 * a[l]) * (node.mu.col(l) - motion.mu.col(l));
+    }
+  }
   for (Eigen::Index l = 0; l < a.size(); ++l) {
-    motion.s += a[l] * node.psi.col(l);
-    motion.s_dot += a_rate[l] * node.psi.col(l);
-    theta += a[l] * node.mu.col(l);
-    theta_dot += a_rate[l] * node.mu.col(l);
+    motion.s += a[l] * motion.psi.col(l);
+    motion.s_dot += a_rate[l] * motion.psi.col(l);
+    theta += a[l] * motion.mu.col(l);
+    theta_dot += a_rate[l] * motion.mu.col(l);
   }
   // From the quaternion of the rotation: turn = p theta' + c (theta . theta') theta
   // + b theta x theta' with p = sin t / t = 1 - c t^2, and its rate while theta' stays.
@@ -47,8 +64,14 @@ void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorX
                      (k.c_rate * along * along + k.c * theta_dot.squaredNorm()) * theta +
                      (k.b_rate * along) * across;
   for (Eigen::Index l = 0; l < a.size(); ++l) {
-    const Vector3d column = node.mu.col(l);
+    const Vector3d column = motion.mu.col(l);
     motion.jm.col(l) = k.a * column + (k.c * theta.dot(column)) * theta + k.b * theta.cross(column);
+  }
+  if (stiffens) {
+    motion.s_dot_rate = contracted(node.slopes.psi, a_rate, a_rate);
+    const Vector3d curved = contracted(node.slopes.mu, a_rate, a_rate);
+    motion.turn_rate +=
+        k.a * curved + (k.c * theta.dot(curved)) * theta + k.b * theta.cross(curved);
   }
   // cos t I + (sin t / t) ~theta + b theta theta^T.
   Matrix3d turned = k.b * theta * theta.transpose() + k.a * skew(theta);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "multibody/model.h"
+#include "multibody/stress_stiffening.h"
 
 namespace flexneck::multibody::tree {
 
@@ -15,6 +16,7 @@ struct TreeNode {
   Eigen::Vector3d s0 = Eigen::Vector3d::Zero();  ///< body axes
   Eigen::Matrix3Xd psi{3, 0};
   Eigen::Matrix3Xd mu{3, 0};
+  NodeSlopes slopes;                                 ///< empty without stress stiffening
   Eigen::Matrix3d R0 = Eigen::Matrix3d::Identity();  ///< marker axes to body axes, undeformed
   bool moves = false;                                ///< with the modes
   bool at_origin = true;                             ///< of the body, whatever its modes do
@@ -24,12 +26,15 @@ struct TreeNode {
 struct NodeMotion {
   explicit NodeMotion(const TreeNode& node);
 
-  Eigen::Vector3d s;    ///< position
-  Eigen::Matrix3d R;    ///< marker axes to body axes
-  Eigen::Matrix3Xd jm;  ///< (3, m): angular velocity against the body by the modal rates
+  Eigen::Vector3d s;     ///< position
+  Eigen::Matrix3d R;     ///< marker axes to body axes
+  Eigen::Matrix3Xd psi;  ///< (3, m): velocity against the body by the modal rates
+  Eigen::Matrix3Xd jm;   ///< (3, m): angular velocity against the body by the modal rates
   Eigen::Vector3d s_dot = Eigen::Vector3d::Zero();
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();       ///< angular velocity against the body
-  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< of `turn`, while the rates stay
+  Eigen::Vector3d s_dot_rate = Eigen::Vector3d::Zero();  ///< of `s_dot`, while the rates stay
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();        ///< angular velocity against the body
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();   ///< of `turn`, while the rates stay
+  Eigen::Matrix3Xd mu;  ///< (3, m): rate of the rotation vector by the modal rates
 };
 
 void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,

@@ -39,13 +39,13 @@ MarkerState TreeDynamics::marker_state(std::size_t index) {
   }
   Vector3d acceleration = frame.acceleration.head<3>() +
                           frame.acceleration.tail<3>().cross(node.s) +
-                          frame.w.cross(frame.w.cross(node.s) + 2 * node.s_dot);
+                          frame.w.cross(frame.w.cross(node.s) + 2 * node.s_dot) + node.s_dot_rate;
   Vector3d turning = frame.acceleration.tail<3>();
   if (moves) {
     const Work& work = work_[marker.carrier.body];
     turning += frame.w.cross(node.turn) + node.turn_rate;
     for (Index l = 0; l < work.a.size(); ++l) {
-      acceleration += work.a_acceleration[l] * marker.node.psi.col(l);
+      acceleration += work.a_acceleration[l] * node.psi.col(l);
       turning += work.a_acceleration[l] * node.jm.col(l);
     }
   }
@@ -88,6 +88,7 @@ Energies TreeDynamics::energies() const {
     const Frame& frame = work.frame;
     Vector3d S = body.S1;
     for (Index l = 0; l < work.a.size(); ++l) S += work.a[l] * body.S2.col(l);
+    if (body.stiffens()) S += 0.5 * contracted(body.slopes.S2, work.a, work.a);
     sum.strain_J += body.springs.energy_J(work.a);
     sum.kinetic_J += kinetic_energy_J(body, work.a, work.a_rate, frame.v, frame.w);
     sum.gravitational_J -= gravity_.dot(body.mass * frame.x + frame.A * S);

@@ -54,12 +54,13 @@ namespace {
 
 constexpr StepLimits kLimits{0.05, 1e-10};
 
-Model neck_and_head() {
+Model neck_and_head(bool stiffens) {
   const auto body = flexneck::testing::make_point_mass_body(71, 4).body;
   Model model;
   model.gravity_m_s2 = {0, 0, -9.81};
   model.bodies.push_back({"ground", DrivenBody{}, {}});
-  model.bodies.push_back({"neck", DeformableBody{body, VectorXd::Constant(4, 0.5)}, {}});
+  model.bodies.push_back(
+      {"neck", DeformableBody{body, VectorXd::Constant(4, 0.5), {}, stiffens}, {}});
   RigidBody head;
   head.mass_kg = 3;
   head.center_m = {0.02, 0.01, 0.05};
@@ -97,7 +98,7 @@ void check_no_allocation(TimeIntegrator& integrator,
 }  // namespace
 
 TEST_CASE("a step of the descriptor form allocates nothing") {
-  const Model model = neck_and_head();
+  const Model model = neck_and_head(GENERATE(false, true));
   const System system(model);
   EquationsOfMotion equations(system);
   Projection projection(equations);
@@ -123,7 +124,7 @@ TEST_CASE("a step of the descriptor form allocates nothing") {
 }
 
 TEST_CASE("a step of the recursive form allocates nothing") {
-  const Model model = neck_and_head();
+  const Model model = neck_and_head(GENERATE(false, true));
   const tree::Tree tree(model);
   tree::TreeDynamics dynamics(tree);
   const tree::TreeError error(tree, 1e-6, 1e-9);
@@ -147,7 +148,7 @@ TEST_CASE("a step of the recursive form allocates nothing") {
 }
 
 TEST_CASE("a step of the generalised-alpha method allocates nothing in either form") {
-  const Model model = neck_and_head();
+  const Model model = neck_and_head(GENERATE(false, true));
   const SolverOptions solver{.relative_tolerance = 1e-4, .absolute_tolerance = 1e-7};
   for (const bool recursive : {true, false}) {
     CAPTURE(recursive);

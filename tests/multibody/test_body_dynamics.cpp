@@ -16,6 +16,8 @@
 // V = (xdot, w, adot) and zddot is Vdot (the right Jacobian and its rate applied to phidot are the
 // identity and zero), and a variation of phi is dpi. So at phi = 0 Lagrange's equations
 //   d/dt dL/dzdot - dL/dz = 0   must read   M Vdot - u = 0.
+// With stress stiffening points have second-order displacements too, whose velocity counts against
+// that of the undeformed body alone (section 3a).
 
 using Eigen::Index;
 using Eigen::Matrix3d;
@@ -38,10 +40,17 @@ constexpr double kTolerance = 1e-8;
 /// The body's points on a frame with orientation A0 exp(~phi).
 class Points {
  public:
-  Points(const PointMassBody& body, const Matrix3d& A0) : body_(body), A0_(A0) {}
+  Points(const PointMassBody& body, const Matrix3d& A0, bool stiffens = false)
+      : body_(body), A0_(A0), stiffens_(stiffens) {}
 
   Vector3d position(Index k, const VectorXd& z) const {
     return z.head<3>() + A0_ * turned(z.segment<3>(3)) * body_.point(k, z.tail(z.size() - 6));
+  }
+  Vector3d undeformed(Index k, const VectorXd& z) const {
+    return z.head<3>() + A0_ * turned(z.segment<3>(3)) * body_.body.nodes_m.col(k);
+  }
+  Vector3d second_order(Index k, const VectorXd& z) const {
+    return A0_ * turned(z.segment<3>(3)) * body_.second_order(k, z.tail(z.size() - 6));
   }
 
   double kinetic_energy(const VectorXd& z, const VectorXd& zdot) const {
@@ -50,14 +59,22 @@ class Points {
       const Vector3d velocity =
           first_derivative([&](double t) { return position(k, z + t * zdot); }, kStep);
       energy += 0.5 * body_.masses_kg[k] * velocity.squaredNorm();
+      if (!stiffens_) continue;
+      const auto rate_of = [&](auto part) {
+        return first_derivative([&](double t) { return (this->*part)(k, z + t * zdot); }, kStep);
+      };
+      energy +=
+          body_.masses_kg[k] * rate_of(&Points::undeformed).dot(rate_of(&Points::second_order));
     }
     return energy;
   }
 
   double potential_energy(const VectorXd& z, const Vector3d& gravity) const {
     double energy = 0;
-    for (Index k = 0; k < body_.point_count(); ++k)
+    for (Index k = 0; k < body_.point_count(); ++k) {
       energy -= body_.masses_kg[k] * gravity.dot(position(k, z));
+      if (stiffens_) energy -= body_.masses_kg[k] * gravity.dot(second_order(k, z));
+    }
     for (Index l = 0; l < z.size() - 6; ++l) {
       const double omega = 2 * std::numbers::pi * body_.body.frequencies_Hz[l];
       energy += 0.5 * omega * omega * z[6 + l] * z[6 + l];
@@ -68,6 +85,7 @@ class Points {
  private:
   const PointMassBody& body_;
   Matrix3d A0_;
+  bool stiffens_;
 };
 
 using Lagrangian = std::function<double(const VectorXd& z, const VectorXd& zdot)>;
@@ -90,12 +108,12 @@ VectorXd lagrange(const Lagrangian& L, const VectorXd& z, const VectorXd& zdot,
 }
 
 struct Fixture {
-  explicit Fixture(int modes)
+  explicit Fixture(int modes, bool stiffens = false)
       : points(make_point_mass_body(11, modes)),
-        constants(DeformableBody{points.body, VectorXd::Zero(modes)}),
+        constants(DeformableBody{points.body, VectorXd::Zero(modes), {}, stiffens}),
         terms(constants),
         A(RandomNumbers(5).rotation().toRotationMatrix()),
-        truth(points, A) {
+        truth(points, A, stiffens) {
     RandomNumbers random(6);
     z = VectorXd::Zero(6 + modes);
     z.head<3>() = random.vector();
@@ -126,7 +144,7 @@ double relative_error(const VectorXd& found, const VectorXd& expected) {
 }  // namespace
 
 TEST_CASE("the mass matrix of a deformed body is that of its points") {
-  Fixture body(3);
+  Fixture body(3, GENERATE(false, true));
   const Lagrangian kinetic = [&](const VectorXd& z, const VectorXd& zdot) {
     return body.truth.kinetic_energy(z, zdot);
   };
@@ -139,7 +157,7 @@ TEST_CASE("the mass matrix of a deformed body is that of its points") {
 }
 
 TEST_CASE("centrifugal, Coriolis and gyroscopic terms follow from the points' kinetic energy") {
-  Fixture body(3);
+  Fixture body(3, GENERATE(false, true));
   const Lagrangian kinetic = [&](const VectorXd& z, const VectorXd& zdot) {
     return body.truth.kinetic_energy(z, zdot);
   };
@@ -161,7 +179,7 @@ TEST_CASE("centrifugal, Coriolis and gyroscopic terms follow from the points' ki
 }
 
 TEST_CASE("gravity and elastic forces follow from the points' potential energy") {
-  Fixture body(3);
+  Fixture body(3, GENERATE(false, true));
   const Vector3d gravity(1.5, -2.5, -9.81);
   const Lagrangian potential = [&](const VectorXd& z, const VectorXd&) {
     return -body.truth.potential_energy(z, gravity);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <string>
+
 #include <catch2/catch.hpp>
 
 #include "multibody/node_kinematics.h"
@@ -31,6 +33,12 @@ Vector3d turn_since_start(const MarkerMotion& motion, double t) {
   return rotation_log(motion.frame(t).R * motion.frame(0).R.transpose());
 }
 
+const flexneck::fe_modal::GeometricStiffness::OfInterface& loads_on(const PointMassBody& points,
+                                                                    const std::string& interface) {
+  const auto& all = points.body.geometric_stiffness->interfaces;
+  return interface == all[0].name ? all[0] : all[1];
+}
+
 }  // namespace
 
 TEST_CASE("velocity and acceleration of an interface are derivatives of its position") {
@@ -38,7 +46,8 @@ TEST_CASE("velocity and acceleration of an interface are derivatives of its posi
   const Index m = 3;
   RandomNumbers random(22);
   Body body;
-  body.kind = DeformableBody{points.body, VectorXd::Zero(m)};
+  const bool stiffens = GENERATE(false, true);
+  body.kind = DeformableBody{points.body, VectorXd::Zero(m), {}, stiffens};
   Marker marker;
   marker.interface = "tip";
   marker.rotation = random.rotation();
@@ -60,7 +69,8 @@ TEST_CASE("velocity and acceleration of an interface are derivatives of its posi
                            terms.A,
                            terms.a,
                            V,
-                           Vdot};
+                           Vdot,
+                           stiffens ? &loads_on(points, "tip") : nullptr};
   const auto position = [&](double t) { return truth.frame(t).p; };
   const auto turn = [&](double t) { return turn_since_start(truth, t); };
   REQUIRE(motion.theta.norm() > 0.2);
@@ -78,7 +88,8 @@ TEST_CASE("the generalised force of a point force does its virtual work") {
   const PointMassBody points = make_point_mass_body(23, 3);
   RandomNumbers random(24);
   Body body;
-  body.kind = DeformableBody{points.body, VectorXd::Zero(3)};
+  const bool stiffens = GENERATE(false, true);
+  body.kind = DeformableBody{points.body, VectorXd::Zero(3), {}, stiffens};
   Marker marker;
   marker.interface = "side";
   const NodeConstants node(body, marker);
@@ -93,9 +104,14 @@ TEST_CASE("the generalised force of a point force does its virtual work") {
   const VectorXd generalised = motion.P.transpose() * force;
   for (Index i = 0; i < 9; ++i) {
     // dW / d(variation i) = F . dp / d(variation i).
-    const MarkerMotion varied{
-        points.body.interface("side"), Matrix3d::Identity(), terms.x, terms.A, terms.a,
-        VectorXd::Unit(9, i),          VectorXd::Zero(9)};
+    const MarkerMotion varied{points.body.interface("side"),
+                              Matrix3d::Identity(),
+                              terms.x,
+                              terms.A,
+                              terms.a,
+                              VectorXd::Unit(9, i),
+                              VectorXd::Zero(9),
+                              stiffens ? &loads_on(points, "side") : nullptr};
     const double work =
         first_derivative([&](double t) { return force.dot(varied.frame(t).p); }, kStep);
     CHECK(generalised[i] == Approx(work).margin(1e-8 * force.norm()));

@@ -55,7 +55,7 @@ VectorXd descriptor_state(const System& system, const tree::TreeDynamics& dynami
 }  // namespace
 
 TEST_CASE("both formulations give the same accelerations, reactions and powers at equal state") {
-  const Model model = forest();
+  const Model model = forest(GENERATE(false, true));
   const tree::Tree tree(model);
   tree::TreeDynamics dynamics(tree);
   const VectorXd state = random_state(tree);
@@ -100,7 +100,7 @@ TEST_CASE("both formulations give the same accelerations, reactions and powers a
 }
 
 TEST_CASE("a tree's markers and energies are those of the descriptor form") {
-  const Model model = forest();
+  const Model model = forest(GENERATE(false, true));
   const tree::Tree tree(model);
   tree::TreeDynamics dynamics(tree);
   const VectorXd state = random_state(tree);

@@ -30,13 +30,20 @@ struct MarkerMotion {
   Eigen::Vector3d x;
   Eigen::Matrix3d A;
   Eigen::VectorXd a, V, Vdot;
+  /// With stress stiffening: minus half the work of unit loads is the second-order motion.
+  const fe_modal::GeometricStiffness::OfInterface* loads = nullptr;
 
   Frame frame(double t) const {
     const Eigen::VectorXd d = t * V + t * t / 2 * Vdot;
     const Eigen::Matrix3d body = A * turned(d.segment<3>(3));
     const Eigen::VectorXd deformed = a + d.tail(a.size());
-    return {x + d.head<3>() + body * (place.position_m + place.translation * deformed),
-            body * turned(place.rotation * deformed) * R0};
+    Eigen::Vector3d s = place.position_m + place.translation * deformed;
+    Eigen::Vector3d theta = place.rotation * deformed;
+    for (std::size_t i = 0; loads != nullptr && i < 3; ++i) {
+      s[static_cast<Eigen::Index>(i)] -= deformed.dot(loads->force[i] * deformed) / 2;
+      theta[static_cast<Eigen::Index>(i)] -= deformed.dot(loads->moment[i] * deformed) / 2;
+    }
+    return {x + d.head<3>() + body * s, body * turned(theta) * R0};
   }
 };
 

@@ -46,7 +46,9 @@ class RandomNumbers {
 /// its points, without any of the formulas under test.
 struct PointMassBody {
   Eigen::VectorXd masses_kg;  ///< (n)
-  fe_modal::ModalBody body;   ///< points, shapes, interfaces and the sums as invariants
+  /// m * m displacements of all points, [j * m + l], symmetric in j and l.
+  std::vector<Eigen::Matrix3Xd> second_shapes;
+  fe_modal::ModalBody body;  ///< points, shapes, interfaces and the sums as invariants
 
   Eigen::Index point_count() const { return masses_kg.size(); }
   /// Position of point k in the body frame at modal coordinates a.
@@ -54,6 +56,14 @@ struct PointMassBody {
     Eigen::Vector3d s = body.nodes_m.col(k);
     for (std::size_t l = 0; l < body.shapes.size(); ++l)
       s += a[static_cast<Eigen::Index>(l)] * body.shapes[l].col(k);
+    return s;
+  }
+  /// What stress stiffening adds to it.
+  Eigen::Vector3d second_order(Eigen::Index k, const Eigen::VectorXd& a) const {
+    Eigen::Vector3d s = Eigen::Vector3d::Zero();
+    for (Eigen::Index j = 0; j < a.size(); ++j)
+      for (Eigen::Index l = 0; l < a.size(); ++l)
+        s += 0.5 * a[j] * a[l] * second_shapes[static_cast<std::size_t>(j * a.size() + l)].col(k);
     return s;
   }
 };
@@ -116,12 +126,88 @@ inline fe_modal::InertiaInvariants invariants_of_points(
   return sums;
 }
 
+/// The geometric stiffness of loads is minus their work on the second-order displacements.
+inline Eigen::MatrixXd work_on(const std::vector<Eigen::Matrix3Xd>& second_shapes,
+                               const Eigen::Matrix3Xd& loads) {
+  const auto m = static_cast<Eigen::Index>(std::lround(std::sqrt(second_shapes.size())));
+  Eigen::MatrixXd work(m, m);
+  for (Eigen::Index j = 0; j < m; ++j)
+    for (Eigen::Index l = 0; l < m; ++l)
+      work(j, l) = -loads.cwiseProduct(second_shapes[static_cast<std::size_t>(j * m + l)]).sum();
+  return work;
+}
+
+/// For the loads -rho (a + alpha x s0 + w x (w x s0)) of unit accelerations.
+inline fe_modal::GeometricStiffness inertial_stiffness_of_points(
+    const Eigen::VectorXd& masses, const Eigen::Matrix3Xd& points,
+    const std::vector<Eigen::Matrix3Xd>& second_shapes) {
+  fe_modal::GeometricStiffness stiffness;
+  const auto of_field = [&](const auto& acceleration_at) {
+    Eigen::Matrix3Xd loads(3, points.cols());
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+      loads.col(k) = -masses[k] * acceleration_at(Eigen::Vector3d(points.col(k)));
+    return work_on(second_shapes, loads);
+  };
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::Vector3d e = axes.col(i);
+    stiffness.acceleration.push_back(of_field([&](const Eigen::Vector3d&) { return e; }));
+    stiffness.angular_acceleration.push_back(
+        of_field([&](const Eigen::Vector3d& s) -> Eigen::Vector3d { return e.cross(s); }));
+  }
+  // A product of unlike components comes twice in w x (w x s).
+  for (const auto& [i, j] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}) {
+    const Eigen::Vector3d e = axes.col(i);
+    const Eigen::Vector3d f = axes.col(j);
+    const double share = i == j ? 0.5 : 1;
+    stiffness.velocity_products.push_back(
+        of_field([&](const Eigen::Vector3d& s) -> Eigen::Vector3d {
+          return share * (e.cross(f.cross(s)) + f.cross(e.cross(s)));
+        }));
+  }
+  return stiffness;
+}
+
+/// Random second-order displacements and rotations, a few centimetres at coordinates of 0.1, and
+/// the geometric stiffness that goes with them.
+inline void add_second_order(unsigned seed, PointMassBody& points) {
+  fe_modal::ModalBody& body = points.body;
+  const Eigen::Index m = body.mode_count();
+  RandomNumbers random(seed);
+  const auto symmetric = [&] {
+    Eigen::MatrixXd matrix(m, m);
+    random.fill(matrix);
+    return Eigen::MatrixXd(matrix + matrix.transpose());
+  };
+  points.second_shapes.assign(static_cast<std::size_t>(m * m),
+                              Eigen::Matrix3Xd(3, points.point_count()));
+  for (Eigen::Index k = 0; k < points.point_count(); ++k)
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const Eigen::MatrixXd values = 2 * symmetric();
+      for (Eigen::Index j = 0; j < m; ++j)
+        for (Eigen::Index l = 0; l < m; ++l)
+          points.second_shapes[static_cast<std::size_t>(j * m + l)](i, k) = values(j, l);
+    }
+  body.geometric_stiffness =
+      inertial_stiffness_of_points(points.masses_kg, body.nodes_m, points.second_shapes);
+  for (const auto& [name, point] : {std::pair("tip", points.point_count() - 1), {"side", 0}}) {
+    fe_modal::GeometricStiffness::OfInterface loads{name, {}, {}};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, points.point_count());
+      force(i, point) = 1;
+      loads.force.push_back(work_on(points.second_shapes, force));
+      loads.moment.push_back(10 * symmetric());
+    }
+    body.geometric_stiffness->interfaces.push_back(loads);
+  }
+}
+
 }  // namespace detail
 
 /// A random body about 0.2 m long and 2 kg heavy. Interfaces: "root" at the origin, which no mode
 /// moves (the body frame rides on it); "tip" and "side", which translate with a point and turn by
 /// random modal matrices, a few degrees per centimetre of motion. Nothing else is held, so every
-/// invariant is full.
+/// invariant is full. Its geometric stiffness belongs to random second-order displacements.
 inline PointMassBody make_point_mass_body(unsigned seed, int mode_count = 3, int point_count = 12) {
   RandomNumbers random(seed);
   PointMassBody result;
@@ -154,6 +240,7 @@ inline PointMassBody make_point_mass_body(unsigned seed, int mode_count = 3, int
     random.fill(rotation);
     body.interfaces.push_back({name, body.nodes_m.col(point), translation, 5.0 * rotation});
   }
+  detail::add_second_order(seed + 1000, result);
   return result;
 }
 

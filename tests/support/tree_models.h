@@ -58,7 +58,8 @@ inline void add_forces(ModelBuilder& build, RandomNumbers& random) {
 /// A forest with every kind of joint between rigid, deformable and driven bodies: branches, joints
 /// given from either end, deformable bodies that hang on nodes that move, a floating root, a free
 /// joint, forces. Where the bodies are at the start is left open.
-inline multibody::Model forest() {
+/// @param stiffens  whether the deformable bodies have stress stiffening
+inline multibody::Model forest(bool stiffens = false) {
   using multibody::JointKind;
   RandomNumbers random(51);
   ModelBuilder build;
@@ -74,7 +75,9 @@ inline multibody::Model forest() {
   const auto driven = build.body("sled", sled, {random.vector(), random.rotation()});
   const auto rigid = [&](const char* name) { return build.body(name, random_rigid_body(random)); };
   const auto soft = [&](const char* name, unsigned seed, int modes) {
-    return build.body(name, deformable(make_point_mass_body(seed, modes).body, 0.2));
+    multibody::DeformableBody body = deformable(make_point_mass_body(seed, modes).body, 0.2);
+    body.stress_stiffening = stiffens;
+    return build.body(name, body);
   };
   const auto on = [&](const std::string& name, std::size_t body) {
     return build.marker(name, body, 0.2 * random.vector(), random.rotation());

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/stress_stiffening.h"
+
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using fe_modal::GeometricStiffness;
+
+/// From the geometric stiffnesses of loads along x, y and z.
+ShapeSlopes packed(const std::vector<Eigen::MatrixXd>& along, double factor) {
+  const Index m = along.front().rows();
+  ShapeSlopes slopes(3 * m, m);
+  for (Index j = 0; j < m; ++j)
+    for (Index l = 0; l < m; ++l)
+      for (Index i = 0; i < 3; ++i)
+        slopes(3 * l + i, j) = factor * along[static_cast<std::size_t>(i)](j, l);
+  return slopes;
+}
+
+const GeometricStiffness::OfInterface* loads_on(const GeometricStiffness& stiffness,
+                                                const std::string& interface) {
+  const auto found = std::find_if(
+      stiffness.interfaces.begin(), stiffness.interfaces.end(),
+      [&](const GeometricStiffness::OfInterface& loads) { return loads.name == interface; });
+  return found == stiffness.interfaces.end() ? nullptr : &*found;
+}
+
+bool moves(const fe_modal::Interface& interface) {
+  return !(interface.translation.isZero(0) && interface.rotation.isZero(0));
+}
+
+/// Symmetric matrices of m modes, as many as there should be.
+bool sound(const std::vector<Eigen::MatrixXd>& matrices, std::size_t count, Index m) {
+  const auto is_sound = [m](const Eigen::MatrixXd& matrix) {
+    return matrix.rows() == m && matrix.cols() == m && matrix.allFinite() &&
+           (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <=
+               1e-9 * matrix.cwiseAbs().maxCoeff();
+  };
+  return matrices.size() == count && std::all_of(matrices.begin(), matrices.end(), is_sound);
+}
+
+}  // namespace
+
+InertiaSlopes inertia_slopes(const DeformableBody& body) {
+  if (!body.stress_stiffening) return {};
+  const GeometricStiffness& stiffness = *body.modes.geometric_stiffness;
+  return {packed(stiffness.acceleration, 1), packed(stiffness.angular_acceleration, 1)};
+}
+
+Eigen::Matrix3d inertia_curvature(const DeformableBody& body, Index j, Index l) {
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  if (!body.stress_stiffening) return curvature;
+  const std::vector<Eigen::MatrixXd>& products = body.modes.geometric_stiffness->velocity_products;
+  const double xy = products[3](j, l) / 2;
+  const double xz = products[4](j, l) / 2;
+  const double yz = products[5](j, l) / 2;
+  curvature << products[0](j, l), xy, xz, xy, products[1](j, l), yz, xz, yz, products[2](j, l);
+  return -curvature;
+}
+
+NodeSlopes node_slopes(const DeformableBody& body, const std::string& interface) {
+  if (!body.stress_stiffening || !moves(body.modes.interface(interface))) return {};
+  const auto* loads = loads_on(*body.modes.geometric_stiffness, interface);
+  return {packed(loads->force, -1), packed(loads->moment, -1)};
+}
+
+void check_stress_stiffening(const std::string& who, const DeformableBody& body) {
+  if (!body.stress_stiffening) return;
+  if (!body.modes.geometric_stiffness)
+    throw InputError(who +
+                     ": stress_stiffening needs the geometric stiffness of the modes, which the "
+                     "modes file lacks; make it again with stress_stiffening = \"unit-loads\" in "
+                     "the [modes] of its study");
+  const GeometricStiffness& stiffness = *body.modes.geometric_stiffness;
+  const Index m = body.modes.mode_count();
+  const auto require = [&](bool is_sound, const std::string& what) {
+    if (!is_sound)
+      throw InputError(who + ": the geometric stiffness " + what +
+                       " is not made of finite symmetric matrices of " + std::to_string(m) +
+                       " modes");
+  };
+  require(sound(stiffness.acceleration, 3, m), "for accelerations");
+  require(sound(stiffness.angular_acceleration, 3, m), "for angular accelerations");
+  require(sound(stiffness.velocity_products, 6, m), "for products of angular velocities");
+  for (const fe_modal::Interface& interface : body.modes.interfaces) {
+    if (!moves(interface)) continue;
+    const auto* loads = loads_on(stiffness, interface.name);
+    if (loads == nullptr)
+      throw InputError(who + ": there is no geometric stiffness for loads on interface '" +
+                       interface.name + "'");
+    require(sound(loads->force, 3, m) && sound(loads->moment, 3, m),
+            "for loads on interface '" + interface.name + "'");
+  }
+}
+
+}  // namespace flexneck::multibody
