@@ -155,13 +155,13 @@ void TreeDynamics::pass_inwards_from_rigid_end(const TreeBody& body, Work& work)
   if (!body.inner.moves) return;
   const Index m = carrier.a.size();
   for (Index l = 0; l < m; ++l) {
-    const Vector3d psi = body.inner.psi.col(l);
+    const Vector3d psi = work.inner.psi.col(l);
     const Vector3d jm = work.inner.jm.col(l);
     const Vector6d at_node = loaded(psi, jm);
     terms.M_ra.col(l) += shifted(at_node, s);
     terms.bias_a[l] += psi.dot(load.head<3>()) + jm.dot(load.tail<3>());
     for (Index k = l; k < m; ++k)
-      terms.M_aa(k, l) += body.inner.psi.col(k).dot(at_node.head<3>()) +
+      terms.M_aa(k, l) += work.inner.psi.col(k).dot(at_node.head<3>()) +
                           work.inner.jm.col(k).dot(at_node.tail<3>());
   }
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <numbers>
+
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -21,12 +23,19 @@ RigidBody rigid_body(const StudyTable& table) {
   return body;
 }
 
-/// One number for each mode, or one for all.
-Eigen::VectorXd damping_ratios(const StudyTable& table, Eigen::Index modes) {
+/// The ratios given, one number for each mode or one for all, and those of a material whose stress
+/// leads by a time: its damping is its stiffness times that.
+Eigen::VectorXd damping_ratios(const StudyTable& table, const Eigen::VectorXd& frequencies_Hz) {
   const std::string key = "damping_ratio";
-  if (!table.is_list(key)) return Eigen::VectorXd::Constant(modes, table.number(key));
-  const std::vector<double> ratios = table.numbers(key, static_cast<std::size_t>(modes));
-  return Eigen::Map<const Eigen::VectorXd>(ratios.data(), modes);
+  const Eigen::Index modes = frequencies_Hz.size();
+  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(modes);
+  if (table.has("damping_time")) {
+    ratios = std::numbers::pi * table.quantity("damping_time", "s") * frequencies_Hz;
+    if (!table.has(key)) return ratios;
+  }
+  if (!table.is_list(key)) return ratios.array() + table.number(key);
+  const std::vector<double> given = table.numbers(key, static_cast<std::size_t>(modes));
+  return ratios + Eigen::Map<const Eigen::VectorXd>(given.data(), modes);
 }
 
 DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
@@ -39,11 +48,17 @@ DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
                             [&] { return fe_modal::select_modes(all, table.texts("modes")); })
                    : std::move(all);
   const Eigen::Index modes = body.modes.mode_count();
-  body.damping_ratio = damping_ratios(table, modes);
+  body.damping_ratio = damping_ratios(table, body.modes.frequencies_Hz);
   if (table.has("offset")) {
     const std::vector<double> offset = table.numbers("offset", static_cast<std::size_t>(modes));
     body.offset = Eigen::Map<const Eigen::VectorXd>(offset.data(), modes);
   }
+  body.stress_stiffening = table.flag_or("stress_stiffening", false);
+  if (body.stress_stiffening && !body.modes.geometric_stiffness)
+    table.refuse("stress_stiffening",
+                 path.string() +
+                     " has no geometric stiffness of the modes; make it again with "
+                     "stress_stiffening = \"unit-loads\" in the [modes] of its study");
   return body;
 }
 
