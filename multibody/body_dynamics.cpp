@@ -127,9 +127,10 @@ void update_right_hand_side(const BodyConstants& body, const Vector3d& gravity_m
   for (Index l = 0; l < m; ++l) {
     const double centrifugal = w.dot(ConstMatrix3Map(terms.G.data() + 9 * l) * w);
     const double coriolis = -2 * w.dot(terms.work_modes.segment<3>(3 * l));
-    terms.u[6 + l] = centrifugal + coriolis - body.springs.load(l, terms.a[l], adot[l]) +
-                     terms.S2.col(l).dot(gravity);
+    terms.u[6 + l] = centrifugal + coriolis + terms.S2.col(l).dot(gravity);
+    if (!body.stiffens()) terms.u[6 + l] -= body.springs.load(l, terms.a[l], adot[l]);
   }
+  if (body.stiffens()) body.springs.add_loads(terms.a, adot, -1, terms.u.tail(m));
 }
 
 double kinetic_energy_J(const BodyTerms& terms, const Eigen::Ref<const VectorXd>& velocity) {

@@ -278,9 +278,10 @@ Reaction EquationsOfMotion::joint_reaction(std::size_t joint) const {
 
 double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {
   double power = forces_.lost_W();
-  for (const FreeBody& body : system_.bodies) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const FreeBody& body = system_.bodies[b];
     const Index m = body.constants.mode_count();
-    power += body.constants.springs.lost_W(velocities.segment(body.velocity + 6, m));
+    power += body.constants.springs.lost_W(bodies_[b].a, velocities.segment(body.velocity + 6, m));
   }
   return power;
 }

@@ -3,9 +3,12 @@
 
 #include <numbers>
 
+#include "multibody/stress_stiffening.h"
+
 namespace flexneck::multibody {
 
-ModalSprings::ModalSprings(const DeformableBody& body) : offset(body.offset) {
+ModalSprings::ModalSprings(const DeformableBody& body)
+    : offset(body.offset), curvatures(modal_curvatures(body)) {
   const Eigen::VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
   stiffness = omega.cwiseAbs2();
   damping = 2 * body.damping_ratio.cwiseProduct(omega);

@@ -11,14 +11,18 @@ namespace {
 using Eigen::Index;
 using fe_modal::GeometricStiffness;
 
-/// From the geometric stiffnesses of loads along x, y and z.
-ShapeSlopes packed(const std::vector<Eigen::MatrixXd>& along, double factor) {
-  const Index m = along.front().rows();
+/// What loads along x, y and z do on the second-order displacements that are M-orthogonal to the
+/// modes: `along` on all, `shapes` (3, m) on the modes' share in them.
+ShapeSlopes packed(const DeformableBody& body, const std::vector<Eigen::MatrixXd>& along,
+                   double factor, const Eigen::Matrix3Xd& shapes) {
+  const std::vector<Eigen::MatrixXd>& T = body.modes.geometric_stiffness->modal_acceleration;
+  const Index m = shapes.cols();
   ShapeSlopes slopes(3 * m, m);
-  for (Index j = 0; j < m; ++j)
-    for (Index l = 0; l < m; ++l)
-      for (Index i = 0; i < 3; ++i)
-        slopes(3 * l + i, j) = factor * along[static_cast<std::size_t>(i)](j, l);
+  for (Index i = 0; i < 3; ++i) {
+    Eigen::MatrixXd slope = factor * along[static_cast<std::size_t>(i)];
+    for (Index k = 0; k < m; ++k) slope -= shapes(i, k) * T[static_cast<std::size_t>(k)];
+    for (Index l = 0; l < m; ++l) slopes.row(3 * l + i) = slope.row(l);
+  }
   return slopes;
 }
 
@@ -49,24 +53,44 @@ bool sound(const std::vector<Eigen::MatrixXd>& matrices, std::size_t count, Inde
 InertiaSlopes inertia_slopes(const DeformableBody& body) {
   if (!body.stress_stiffening) return {};
   const GeometricStiffness& stiffness = *body.modes.geometric_stiffness;
-  return {packed(stiffness.acceleration, 1), packed(stiffness.angular_acceleration, 1)};
+  const fe_modal::InertiaInvariants& invariants = body.modes.invariants;
+  return {packed(body, stiffness.acceleration, 1, invariants.S2),
+          packed(body, stiffness.angular_acceleration, 1, invariants.N0)};
 }
 
 Eigen::Matrix3d inertia_curvature(const DeformableBody& body, Index j, Index l) {
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
   if (!body.stress_stiffening) return curvature;
-  const std::vector<Eigen::MatrixXd>& products = body.modes.geometric_stiffness->velocity_products;
+  const GeometricStiffness& stiffness = *body.modes.geometric_stiffness;
+  const std::vector<Eigen::MatrixXd>& products = stiffness.velocity_products;
   const double xy = products[3](j, l) / 2;
   const double xz = products[4](j, l) / 2;
   const double yz = products[5](j, l) / 2;
   curvature << products[0](j, l), xy, xz, xy, products[1](j, l), yz, xz, yz, products[2](j, l);
+  for (std::size_t k = 0; k < stiffness.modal_acceleration.size(); ++k) {
+    const Eigen::Matrix3d& G0 = body.modes.invariants.G0[k];
+    curvature += stiffness.modal_acceleration[k](j, l) / 2 * (G0 + G0.transpose());
+  }
   return -curvature;
 }
 
 NodeSlopes node_slopes(const DeformableBody& body, const std::string& interface) {
-  if (!body.stress_stiffening || !moves(body.modes.interface(interface))) return {};
+  if (!body.stress_stiffening) return {};
+  const fe_modal::Interface& place = body.modes.interface(interface);
+  if (!moves(place)) return {};
   const auto* loads = loads_on(*body.modes.geometric_stiffness, interface);
-  return {packed(loads->force, -1), packed(loads->moment, -1)};
+  return {packed(body, loads->force, -1, place.translation),
+          packed(body, loads->moment, -1, place.rotation)};
+}
+
+Eigen::MatrixXd modal_curvatures(const DeformableBody& body) {
+  if (!body.stress_stiffening) return {};
+  const Index m = body.modes.mode_count();
+  Eigen::MatrixXd curvatures(m * m, m);
+  for (Index k = 0; k < m; ++k)
+    curvatures.middleRows(m * k, m) =
+        body.modes.geometric_stiffness->modal_acceleration[static_cast<std::size_t>(k)];
+  return curvatures;
 }
 
 void check_stress_stiffening(const std::string& who, const DeformableBody& body) {
@@ -87,6 +111,8 @@ void check_stress_stiffening(const std::string& who, const DeformableBody& body)
   require(sound(stiffness.acceleration, 3, m), "for accelerations");
   require(sound(stiffness.angular_acceleration, 3, m), "for angular accelerations");
   require(sound(stiffness.velocity_products, 6, m), "for products of angular velocities");
+  require(sound(stiffness.modal_acceleration, static_cast<std::size_t>(m), m),
+          "for accelerations of the modes");
   for (const fe_modal::Interface& interface : body.modes.interfaces) {
     if (!moves(interface)) continue;
     const auto* loads = loads_on(stiffness, interface.name);

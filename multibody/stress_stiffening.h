@@ -34,6 +34,9 @@ struct NodeSlopes {
 };
 NodeSlopes node_slopes(const DeformableBody& body, const std::string& interface);
 
+/// The T_k of section 3a, one below the other: (m m, m), rows m k to m k + m - 1 are T_k.
+Eigen::MatrixXd modal_curvatures(const DeformableBody& body);
+
 /// Adds to the shapes, (3, m), what they gain at the modal coordinates a.
 template <typename Shapes, typename Modal>
 void add_slopes(const ShapeSlopes& slopes, const Modal& a, Shapes& shapes) {

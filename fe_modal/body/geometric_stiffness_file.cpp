@@ -5,6 +5,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kGroup = "/geometric_stiffness";
+constexpr std::string_view kPerModeUnit = "kg^-0.5 m^-1";
 constexpr std::string_view kPerForceUnit = "1/(kg m)";
 constexpr std::string_view kPerMomentUnit = "1/(kg m^2)";
 
@@ -39,6 +40,7 @@ void write_geometric_stiffness(Hdf5Writer& file, const GeometricStiffness& stiff
   write_squares(file, group + "/acceleration", stiffness.acceleration, "1/m");
   write_squares(file, group + "/angular_acceleration", stiffness.angular_acceleration, "1");
   write_squares(file, group + "/velocity_products", stiffness.velocity_products, "1");
+  write_squares(file, group + "/modal_acceleration", stiffness.modal_acceleration, kPerModeUnit);
   for (const GeometricStiffness::OfInterface& loads : stiffness.interfaces) {
     const std::string interface = group + "/interfaces/" + loads.name;
     write_squares(file, interface + "/force", loads.force, kPerForceUnit);
@@ -49,10 +51,12 @@ void write_geometric_stiffness(Hdf5Writer& file, const GeometricStiffness& stiff
 std::optional<GeometricStiffness> read_geometric_stiffness(const Hdf5Reader& file, std::size_t m) {
   if (!file.has(kGroup)) return std::nullopt;
   const std::string group = kGroup;
-  GeometricStiffness stiffness{read_squares(file, group + "/acceleration", 3, m, "1/m"),
-                               read_squares(file, group + "/angular_acceleration", 3, m, "1"),
-                               read_squares(file, group + "/velocity_products", 6, m, "1"),
-                               {}};
+  GeometricStiffness stiffness{
+      read_squares(file, group + "/acceleration", 3, m, "1/m"),
+      read_squares(file, group + "/angular_acceleration", 3, m, "1"),
+      read_squares(file, group + "/velocity_products", 6, m, "1"),
+      read_squares(file, group + "/modal_acceleration", m, m, kPerModeUnit),
+      {}};
   for (const std::string& name : file.members(group + "/interfaces")) {
     const std::string interface = group + "/interfaces/" + name;
     stiffness.interfaces.push_back(

@@ -37,7 +37,10 @@ GeometricStiffness select(const GeometricStiffness& all, const std::vector<Eigen
     return selected;
   };
   GeometricStiffness selected{
-      part(all.acceleration), part(all.angular_acceleration), part(all.velocity_products), {}};
+      part(all.acceleration), part(all.angular_acceleration), part(all.velocity_products), {}, {}};
+  for (const Eigen::Index k : kept)
+    selected.modal_acceleration.emplace_back(
+        all.modal_acceleration.at(static_cast<std::size_t>(k))(kept, kept));
   for (const GeometricStiffness::OfInterface& loads : all.interfaces) {
     selected.interfaces.push_back({loads.name, part(loads.force), part(loads.moment)});
   }

@@ -59,6 +59,8 @@ struct GeometricStiffness {
   std::vector<Eigen::MatrixXd> angular_acceleration;
   /// w_x^2, w_y^2, w_z^2, w_x w_y, w_x w_z, w_y w_z: loads -rho w x (w x s0).
   std::vector<Eigen::MatrixXd> velocity_products;
+  /// Of the modal coordinates' accelerations, m of them: loads -rho psi_k, kg^-0.5 m^-1.
+  std::vector<Eigen::MatrixXd> modal_acceleration;
   std::vector<OfInterface> interfaces;
 };
 

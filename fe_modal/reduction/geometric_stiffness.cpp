@@ -170,7 +170,8 @@ GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
                                        const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
                                        const std::vector<Eigen::Matrix3Xd>& modes) {
-  const std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(positions_of(mesh));
+  std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(positions_of(mesh));
+  accelerations.insert(accelerations.end(), modes.begin(), modes.end());
   const auto inertial = static_cast<Eigen::Index>(accelerations.size());
   Eigen::MatrixXd loads(free_nodes.dof_count(),
                         inertial + static_cast<Eigen::Index>(6 * interfaces.size()));
@@ -192,10 +193,10 @@ GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
     return std::vector<Eigen::MatrixXd>(begin, begin + static_cast<std::ptrdiff_t>(count));
   };
-  GeometricStiffness stiffness{group(0, 3), group(3, 3), group(6, 6), {}};
+  GeometricStiffness stiffness{group(0, 3), group(3, 3), group(6, 6), group(12, modes.size()), {}};
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
-    stiffness.interfaces.push_back(
-        {interfaces[k].name, group(12 + 6 * k, 3), group(15 + 6 * k, 3)});
+    stiffness.interfaces.push_back({interfaces[k].name, group(accelerations.size() + 6 * k, 3),
+                                    group(accelerations.size() + 6 * k + 3, 3)});
   }
   return stiffness;
 }

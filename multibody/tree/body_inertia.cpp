@@ -102,8 +102,8 @@ struct ModalSums {
   const Vector3d S2_l = body.S2.col(l);
   terms.M_ra.block<3, 1>(0, l) = S2_l;
   terms.M_ra.block<3, 1>(3, l) = N_l;
-  terms.bias_a[l] =
-      2 * w.dot(N_rate) - 0.5 * form.dot(slope) + body.springs.load(l, a[l], a_rate[l]);
+  terms.bias_a[l] = 2 * w.dot(N_rate) - 0.5 * form.dot(slope) +
+                    (body.stiffens() ? 0 : body.springs.load(l, a[l], a_rate[l]));
   sums.S += a[l] * S2_l;
   // J = J0 + D a + E a a / 2 = J0 + (D + dJ/da) a / 2.
   sums.J += (0.5 * a[l]) * (body.D.col(l) + slope);
@@ -133,7 +133,10 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
   if (m > 0) {
     const Vector6d form = quadratic_form(w);
     for (Index l = 0; l < m; ++l) add_mode(body, a, a_rate, w, form, l, sums, terms);
-    if (body.stiffens()) add_slopes_of_inertia(body, a, a_rate, sums, terms);
+    if (body.stiffens()) {
+      add_slopes_of_inertia(body, a, a_rate, sums, terms);
+      body.springs.add_loads(a, a_rate, 1, terms.bias_a);
+    }
     terms.M_aa = body.Maa;
   }
   const Matrix3d inertia = unpacked(sums.J);

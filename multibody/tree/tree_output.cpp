@@ -99,7 +99,7 @@ Energies TreeDynamics::energies() const {
 double TreeDynamics::dissipation_W() const {
   double power = forces_.lost_W();
   for (std::size_t b = 0; b < work_.size(); ++b)
-    power += tree_.bodies[b].inertia.springs.lost_W(work_[b].a_rate);
+    power += tree_.bodies[b].inertia.springs.lost_W(work_[b].a, work_[b].a_rate);
   return power;
 }
 

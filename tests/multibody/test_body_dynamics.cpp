@@ -77,7 +77,10 @@ class Points {
     }
     for (Index l = 0; l < z.size() - 6; ++l) {
       const double omega = 2 * std::numbers::pi * body_.body.frequencies_Hz[l];
-      energy += 0.5 * omega * omega * z[6 + l] * z[6 + l];
+      double stretch = z[6 + l];
+      if (stiffens_)
+        stretch -= body_.modal_share(static_cast<std::size_t>(l), z.tail(z.size() - 6));
+      energy += 0.5 * omega * omega * stretch * stretch;
     }
     return energy;
   }
@@ -169,7 +172,7 @@ TEST_CASE("centrifugal, Coriolis and gyroscopic terms follow from the points' ki
   SECTION("all together") {}
   // Without elastic and gravity terms, which have a case of their own.
   VectorXd elastic = VectorXd::Zero(V.size());
-  elastic.tail(3) = body.constants.springs.stiffness.cwiseProduct(body.terms.a);
+  body.constants.springs.add_loads(body.terms.a, Vector3d::Zero(), 1, elastic.tail(3));
   const VectorXd u = body.right_hand_side(V, Vector3d::Zero()) + elastic;
   const VectorXd expected = -lagrange(kinetic, body.z, V, VectorXd::Zero(V.size()));
   const double size = body.terms.mass.norm() * V.squaredNorm();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -70,7 +71,9 @@ TEST_CASE("velocity and acceleration of an interface are derivatives of its posi
                            terms.a,
                            V,
                            Vdot,
-                           stiffens ? &loads_on(points, "tip") : nullptr};
+                           stiffens ? &loads_on(points, "tip") : nullptr,
+                           stiffens ? points.body.geometric_stiffness->modal_acceleration
+                                    : std::vector<Eigen::MatrixXd>()};
   const auto position = [&](double t) { return truth.frame(t).p; };
   const auto turn = [&](double t) { return turn_since_start(truth, t); };
   REQUIRE(motion.theta.norm() > 0.2);
@@ -111,7 +114,9 @@ TEST_CASE("the generalised force of a point force does its virtual work") {
                               terms.a,
                               VectorXd::Unit(9, i),
                               VectorXd::Zero(9),
-                              stiffens ? &loads_on(points, "side") : nullptr};
+                              stiffens ? &loads_on(points, "side") : nullptr,
+                              stiffens ? points.body.geometric_stiffness->modal_acceleration
+                                       : std::vector<Eigen::MatrixXd>()};
     const double work =
         first_derivative([&](double t) { return force.dot(varied.frame(t).p); }, kStep);
     CHECK(generalised[i] == Approx(work).margin(1e-8 * force.norm()));

@@ -66,6 +66,8 @@ struct BeamMode {
   Eigen::Matrix3Xd shape;
   Eigen::Vector3d top_translation;
   Eigen::Vector3d top_rotation;
+  std::size_t number = 0;                           ///< of bending along `along`
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< zero for twist
 };
 
 inline std::vector<BeamMode> beam_modes(const Beam& beam, const Eigen::Matrix3Xd& points) {
@@ -86,6 +88,8 @@ inline std::vector<BeamMode> beam_modes(const Beam& beam, const Eigen::Matrix3Xd
       const auto [top, slope] = clamped_free_shape(n, 1);
       mode.top_translation = unit * top * along;
       mode.top_rotation = unit * slope / length * about;
+      mode.number = n;
+      mode.along = along;
       modes.push_back(std::move(mode));
     }
   };
@@ -111,6 +115,50 @@ inline std::vector<BeamMode> beam_modes(const Beam& beam, const Eigen::Matrix3Xd
     return left.frequency_Hz < right.frequency_Hz;
   });
   return modes;
+}
+
+/// By how much bending in two modes at once draws a section at z of an inextensible beam towards
+/// the root: int_0^z w_j' w_l' dz for each pair of modes.
+inline Eigen::MatrixXd foreshortening(const Beam& beam, const std::vector<BeamMode>& modes,
+                                      double z) {
+  static const auto rule = gauss_rule(40);
+  const auto count = static_cast<Eigen::Index>(modes.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(count, count);
+  Eigen::MatrixXd slopes(3, count);
+  for (Eigen::Index k = 0; k < rule.first.size(); ++k) {
+    for (Eigen::Index l = 0; l < count; ++l) {
+      const BeamMode& mode = modes[static_cast<std::size_t>(l)];
+      const double slope =
+          clamped_free_shape(mode.number, rule.first[k] * z / beam.length_m).second;
+      slopes.col(l) = slope / (beam.length_m * std::sqrt(beam.mass_kg)) * mode.along;
+    }
+    sum += rule.second[k] * z * slopes.transpose() * slopes;
+  }
+  return sum;
+}
+
+/// Of bending alone: twist and twisting moments have no part in it.
+inline fe_modal::GeometricStiffness beam_stiffness(const Beam& beam,
+                                                   const std::vector<BeamMode>& modes,
+                                                   const Eigen::VectorXd& masses,
+                                                   const Eigen::Matrix3Xd& points) {
+  const auto count = static_cast<Eigen::Index>(modes.size());
+  std::vector<Eigen::Matrix3Xd> second(modes.size() * modes.size(),
+                                       Eigen::Matrix3Xd::Zero(3, points.cols()));
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    const Eigen::MatrixXd drawn = foreshortening(beam, modes, points(2, k));
+    for (Eigen::Index j = 0; j < count; ++j)
+      for (Eigen::Index l = 0; l < count; ++l)
+        second[static_cast<std::size_t>(j * count + l)](2, k) = -drawn(j, l);
+  }
+  std::vector<Eigen::Matrix3Xd> shapes;
+  for (const BeamMode& mode : modes) shapes.push_back(mode.shape);
+  fe_modal::GeometricStiffness stiffness =
+      inertial_stiffness_of_points(masses, points, shapes, second);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(count, count);
+  stiffness.interfaces = {
+      {"top", {none, none, foreshortening(beam, modes, beam.length_m)}, {none, none, none}}};
+  return stiffness;
 }
 
 }  // namespace detail
@@ -149,6 +197,7 @@ inline fe_modal::ModalBody make_beam_body(const Beam& beam) {
   }
   body.interfaces = {{"base", Eigen::Vector3d::Zero(), none, none}, top};
   body.invariants = detail::invariants_of_points(masses, points, body.shapes);
+  body.geometric_stiffness = detail::beam_stiffness(beam, modes, masses, points);
   return body;
 }
 

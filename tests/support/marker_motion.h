@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -30,15 +32,20 @@ struct MarkerMotion {
   Eigen::Vector3d x;
   Eigen::Matrix3d A;
   Eigen::VectorXd a, V, Vdot;
-  /// With stress stiffening: minus half the work of unit loads is the second-order motion.
+  /// With stress stiffening: minus half the work of unit loads is the second-order motion, in which
+  /// the modes have a share.
   const fe_modal::GeometricStiffness::OfInterface* loads = nullptr;
+  std::vector<Eigen::MatrixXd> modal_acceleration = {};
 
   Frame frame(double t) const {
     const Eigen::VectorXd d = t * V + t * t / 2 * Vdot;
     const Eigen::Matrix3d body = A * turned(d.segment<3>(3));
     const Eigen::VectorXd deformed = a + d.tail(a.size());
-    Eigen::Vector3d s = place.position_m + place.translation * deformed;
-    Eigen::Vector3d theta = place.rotation * deformed;
+    Eigen::VectorXd first = deformed;
+    for (std::size_t k = 0; k < modal_acceleration.size(); ++k)
+      first[static_cast<Eigen::Index>(k)] -= deformed.dot(modal_acceleration[k] * deformed) / 2;
+    Eigen::Vector3d s = place.position_m + place.translation * first;
+    Eigen::Vector3d theta = place.rotation * first;
     for (std::size_t i = 0; loads != nullptr && i < 3; ++i) {
       s[static_cast<Eigen::Index>(i)] -= deformed.dot(loads->force[i] * deformed) / 2;
       theta[static_cast<Eigen::Index>(i)] -= deformed.dot(loads->moment[i] * deformed) / 2;

@@ -16,6 +16,7 @@ inline void write_beam_modes(const std::filesystem::path& path, const Beam& beam
   file.body = make_beam_body(beam);
   file.body.interfaces[0].name = root;
   file.body.interfaces[1].name = tip;
+  file.body.geometric_stiffness->interfaces[0].name = tip;
   file.provenance.program = "test";
   fe_modal::write_modal_body(path, file);
 }

@@ -47,7 +47,7 @@ class RandomNumbers {
 struct PointMassBody {
   Eigen::VectorXd masses_kg;  ///< (n)
   /// m * m displacements of all points, [j * m + l], symmetric in j and l.
-  std::vector<Eigen::Matrix3Xd> second_shapes;
+  std::vector<Eigen::Matrix3Xd> second_shapes = {};
   fe_modal::ModalBody body;  ///< points, shapes, interfaces and the sums as invariants
 
   Eigen::Index point_count() const { return masses_kg.size(); }
@@ -58,9 +58,15 @@ struct PointMassBody {
       s += a[static_cast<Eigen::Index>(l)] * body.shapes[l].col(k);
     return s;
   }
-  /// What stress stiffening adds to it.
+  /// The share of mode k in the second-order displacements of all.
+  double modal_share(std::size_t k, const Eigen::VectorXd& a) const {
+    return a.dot(body.geometric_stiffness->modal_acceleration[k] * a) / 2;
+  }
+  /// What stress stiffening adds to it: the rest of the second-order displacement.
   Eigen::Vector3d second_order(Eigen::Index k, const Eigen::VectorXd& a) const {
     Eigen::Vector3d s = Eigen::Vector3d::Zero();
+    for (std::size_t l = 0; l < body.shapes.size(); ++l)
+      s -= modal_share(l, a) * body.shapes[l].col(k);
     for (Eigen::Index j = 0; j < a.size(); ++j)
       for (Eigen::Index l = 0; l < a.size(); ++l)
         s += 0.5 * a[j] * a[l] * second_shapes[static_cast<std::size_t>(j * a.size() + l)].col(k);
@@ -137,9 +143,10 @@ inline Eigen::MatrixXd work_on(const std::vector<Eigen::Matrix3Xd>& second_shape
   return work;
 }
 
-/// For the loads -rho (a + alpha x s0 + w x (w x s0)) of unit accelerations.
+/// For the loads -rho (a + alpha x s0 + w x (w x s0) + psi q'') of unit accelerations.
 inline fe_modal::GeometricStiffness inertial_stiffness_of_points(
     const Eigen::VectorXd& masses, const Eigen::Matrix3Xd& points,
+    const std::vector<Eigen::Matrix3Xd>& shapes,
     const std::vector<Eigen::Matrix3Xd>& second_shapes) {
   fe_modal::GeometricStiffness stiffness;
   const auto of_field = [&](const auto& acceleration_at) {
@@ -165,6 +172,8 @@ inline fe_modal::GeometricStiffness inertial_stiffness_of_points(
           return share * (e.cross(f.cross(s)) + f.cross(e.cross(s)));
         }));
   }
+  for (const Eigen::Matrix3Xd& shape : shapes)
+    stiffness.modal_acceleration.push_back(work_on(second_shapes, -shape * masses.asDiagonal()));
   return stiffness;
 }
 
@@ -188,8 +197,8 @@ inline void add_second_order(unsigned seed, PointMassBody& points) {
         for (Eigen::Index l = 0; l < m; ++l)
           points.second_shapes[static_cast<std::size_t>(j * m + l)](i, k) = values(j, l);
     }
-  body.geometric_stiffness =
-      inertial_stiffness_of_points(points.masses_kg, body.nodes_m, points.second_shapes);
+  body.geometric_stiffness = inertial_stiffness_of_points(points.masses_kg, body.nodes_m,
+                                                          body.shapes, points.second_shapes);
   for (const auto& [name, point] : {std::pair("tip", points.point_count() - 1), {"side", 0}}) {
     fe_modal::GeometricStiffness::OfInterface loads{name, {}, {}};
     for (Eigen::Index i = 0; i < 3; ++i) {
