@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fe_modal/block_product.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -50,15 +51,6 @@ PetscErrorCode apply_inverse(PC preconditioner, Vec x, Vec y) {
   return 0;
 }
 
-/// A vector of PETSc's on memory of `size` numbers that outlives it.
-VecHandle wrap(const double* values, Eigen::Index size) {
-  VecHandle vector;
-  require(
-      VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(size), values, vector.out()),
-      kSolving);
-  return vector;
-}
-
 EpsHandle make_solver(const Problem& problem) {
   EpsHandle handle;
   require(EPSCreate(PETSC_COMM_SELF, handle.out()), kSolving);
@@ -90,7 +82,7 @@ EigenPairs take_over(EPS eps, const Problem& problem, Eigen::Index count, Eigen:
   VecHandle momentum;
   require(MatCreateVecs(problem.mass, nullptr, momentum.out()), kSolving);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const VecHandle vector = wrap(pairs.vectors.col(k).data(), size);
+    const VecHandle vector = column_vector(pairs.vectors, k);
     require(EPSGetEigenpair(eps, static_cast<PetscInt>(k), &pairs.values[k], nullptr, vector.get(),
                             nullptr),
             kSolving);
@@ -122,7 +114,7 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& ac
   std::vector<VecHandle> handles;
   std::vector<Vec> deflated;
   for (Eigen::Index k = 0; k < found.cols(); ++k) {
-    handles.push_back(wrap(found.col(k).data(), found.rows()));
+    handles.push_back(column_vector(found, k));
     deflated.push_back(handles.back().get());
   }
   if (!deflated.empty()) {
@@ -131,7 +123,7 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& ac
   }
   const Eigen::VectorXd start =
       given_start.size() > 0 ? given_start : start_vector(size, found.cols());
-  const VecHandle start_handle = wrap(start.data(), start.size());
+  const VecHandle start_handle = vector_on({start.data(), static_cast<std::size_t>(size)});
   Vec start_space = start_handle.get();
   require(EPSSetInitialSpace(eps, 1, &start_space), kSolving);
   const auto wanted = static_cast<PetscInt>(count);
@@ -181,16 +173,10 @@ EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& invers
 }
 
 Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const EigenPairs& pairs, double shift) {
-  const Eigen::Index size = pairs.vectors.rows();
-  Eigen::VectorXd force(size);
-  Eigen::VectorXd momentum(size);
-  const VecHandle force_vector = wrap(force.data(), size);
-  const VecHandle momentum_vector = wrap(momentum.data(), size);
   Eigen::VectorXd residuals(pairs.values.size());
   for (Eigen::Index k = 0; k < residuals.size(); ++k) {
-    const VecHandle shape = wrap(pairs.vectors.col(k).data(), size);
-    require(MatMult(stiffness, shape.get(), force_vector.get()), kSolving);
-    require(MatMult(mass, shape.get(), momentum_vector.get()), kSolving);
+    const Eigen::VectorXd force = block_product(stiffness, pairs.vectors.col(k));
+    const Eigen::VectorXd momentum = block_product(mass, pairs.vectors.col(k));
     const double scale = pairs.values[k] == 0 ? std::abs(shift) * momentum.norm() : force.norm();
     residuals[k] = (force - pairs.values[k] * momentum).norm() / scale;
   }

@@ -25,11 +25,8 @@ Formulation formulation_from(std::string_view name);
 
 /// The formulation of each material.
 struct FormulationChoice {
-  // NOLINTNEXTLINE(google-explicit-constructor): one formulation is a choice for all materials
-  FormulationChoice(Formulation all = Formulation::mixed_pressure) : of_others(all) {}
-
-  Formulation of_others;                           ///< of materials that are not named
-  std::map<std::string, Formulation> of_material;  ///< by name
+  Formulation of_others = Formulation::mixed_pressure;  ///< of materials that are not named
+  std::map<std::string, Formulation> of_material = {};  ///< by name
 
   Formulation of(const mesher::Material& material) const;
 };

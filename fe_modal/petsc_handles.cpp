@@ -16,4 +16,12 @@ void require(PetscErrorCode code, std::string_view doing) {
                          std::to_string(static_cast<int>(code)) + ")");
 }
 
+VecHandle vector_on(std::span<const double> values) {
+  VecHandle vector;
+  require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(values.size()),
+                                values.data(), vector.out()),
+          "laying a vector on memory");
+  return vector;
+}
+
 }  // namespace flexneck::fe_modal

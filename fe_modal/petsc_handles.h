@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -54,5 +55,8 @@ using MatHandle = PetscHandle<Mat, MatDestroy>;
 using IsHandle = PetscHandle<IS, ISDestroy>;
 using VecHandle = PetscHandle<Vec, VecDestroy>;
 using EpsHandle = PetscHandle<EPS, EPSDestroy>;
+
+/// A vector of this process on memory that outlives it.
+VecHandle vector_on(std::span<const double> values);
 
 }  // namespace flexneck::fe_modal

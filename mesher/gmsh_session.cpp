@@ -50,7 +50,8 @@ GmshSession::GmshSession() {
 GmshSession::~GmshSession() {
   try {
     gmsh::finalize();
-  } catch (...) {  // NOLINT(bugprone-empty-catch): nothing is left to save
+  } catch (...) {
+    // Nothing is left to save.
   }
   gmsh_in_use.clear();
 }

@@ -48,21 +48,6 @@ std::vector<double> breakpoints(const Model& model, double end_s) {
   return times;
 }
 
-std::unique_ptr<TimeIntegrator> integrator_of(Equations& equations, const VectorXd& state,
-                                              const SolverOptions& solver) {
-  const StepLimits limits{solver.largest_step_s, solver.smallest_step_s};
-  if (solver.integrator == Integrator::generalised_alpha)
-    return std::make_unique<GeneralisedAlpha>(equations, solver.spectral_radius, limits, 0, state);
-  InitialValueProblem problem{
-      [&](double t, const VectorXd& y, VectorXd& rate) { equations.derivative(t, y, rate); },
-      [&](double t, VectorXd& y, VectorXd& rate) { equations.finish_step(t, y, rate); },
-      [&](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
-        return equations.measure(begin, end, error);
-      },
-      [&](std::size_t component) { return equations.name_of(component); }};
-  return std::make_unique<DormandPrince>(std::move(problem), limits, 0, state);
-}
-
 /// Counts what set the lengths of steps.
 class LimitCounter {
  public:
@@ -107,7 +92,7 @@ class Run {
       : equations_(equations),
         most_steps_(solver.most_steps),
         recorder_(model, output_times(output)),
-        integrator_(integrator_of(equations, state, solver)),
+        integrator_(time_integrator(equations, state, solver)),
         output_state_(state) {}
 
   /// Steps over an interval in which no table has a kink.
@@ -166,6 +151,21 @@ class Run {
 };
 
 }  // namespace
+
+std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const VectorXd& state,
+                                                const SolverOptions& solver) {
+  const StepLimits limits{solver.largest_step_s, solver.smallest_step_s};
+  if (solver.integrator == Integrator::generalised_alpha)
+    return std::make_unique<GeneralisedAlpha>(equations, solver.spectral_radius, limits, 0, state);
+  InitialValueProblem problem{
+      [&](double t, const VectorXd& y, VectorXd& rate) { equations.derivative(t, y, rate); },
+      [&](double t, VectorXd& y, VectorXd& rate) { equations.finish_step(t, y, rate); },
+      [&](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
+        return equations.measure(begin, end, error);
+      },
+      [&](std::size_t component) { return equations.name_of(component); }};
+  return std::make_unique<DormandPrince>(std::move(problem), limits, 0, state);
+}
 
 History integrate(const Model& model, Equations& equations, const VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output) {

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include <Eigen/Core>
 
 #include "multibody/equations.h"
 #include "multibody/history.h"
 #include "multibody/model.h"
 #include "multibody/simulation.h"
+#include "multibody/time_integrator.h"
 
 namespace flexneck::multibody {
+
+/// Steps from a state at time zero as the options say. The equations must outlive it.
+std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const Eigen::VectorXd& state,
+                                                const SolverOptions& solver);
 
 /// Integrates from a state at time zero that keeps the joints, and records at the output times.
 /// @throws IncompleteRun as simulate().

@@ -10,49 +10,49 @@ using Eigen::VectorXd;
 Projection::Projection(EquationsOfMotion& equations)
     : equations_(equations), change_(VectorXd::Zero(equations.system().velocity_count)) {}
 
-void Projection::correct_positions(Eigen::Ref<VectorXd>& positions) {
+void Projection::correct_positions(Segment& positions) {
   equations_.remove_residual(equations_.position_residual(), change_);
   equations_.system().retract(positions, change_);
 }
 
-template <typename Velocities>
-void Projection::correct_velocities(Velocities&& velocities) {
-  equations_.update_velocity_residual(velocities);
-  equations_.remove_residual(equations_.velocity_residual(), change_);
-  velocities += change_;
+void Projection::step_positions(double time_s, Segment& positions) {
+  if (equations_.system().constraint_count == 0) return;
+  correct_positions(positions);
+  equations_.update_positions(time_s, positions);
 }
 
-void Projection::apply(double time_s, Eigen::Ref<VectorXd> state, bool refactorise) {
+void Projection::correct_velocities(Segment& velocities) {
+  if (equations_.system().constraint_count > 0) {
+    equations_.update_velocity_residual(velocities);
+    equations_.remove_residual(equations_.velocity_residual(), change_);
+    velocities += change_;
+  }
+  equations_.set_velocities(velocities);
+}
+
+void Projection::apply(double time_s, Segment state, bool refactorise) {
   const System& system = equations_.system();
-  Eigen::Ref<VectorXd> positions = state.head(system.position_count);
-  auto velocities = state.segment(system.position_count, system.velocity_count);
+  Segment positions = state.head(system.position_count);
+  Segment velocities = state.segment(system.position_count, system.velocity_count);
   system.normalise(positions);
   equations_.set_positions(time_s, positions);
-  if (system.constraint_count > 0) {
-    correct_positions(positions);
-    equations_.update_positions(time_s, positions);
-    if (refactorise) equations_.factorise();
-    correct_velocities(velocities);
-  }
-  equations_.set_velocities(velocities);
+  step_positions(time_s, positions);
+  if (refactorise && system.constraint_count > 0) equations_.factorise();
+  correct_velocities(velocities);
 }
 
-void Projection::apply_behind_step(double time_s, Eigen::Ref<VectorXd> state) {
+void Projection::apply_behind_step(double time_s, Segment state) {
   const System& system = equations_.system();
-  Eigen::Ref<VectorXd> positions = state.head(system.position_count);
-  auto velocities = state.segment(system.position_count, system.velocity_count);
+  Segment positions = state.head(system.position_count);
+  Segment velocities = state.segment(system.position_count, system.velocity_count);
   system.normalise(positions);
   equations_.update_positions(time_s, positions);
-  if (system.constraint_count > 0) {
-    correct_positions(positions);
-    equations_.update_positions(time_s, positions);
-  }
+  step_positions(time_s, positions);
   equations_.factorise();
-  if (system.constraint_count > 0) correct_velocities(velocities);
-  equations_.set_velocities(velocities);
+  correct_velocities(velocities);
 }
 
-double Projection::converge_positions(double time_s, Eigen::Ref<VectorXd> positions) {
+double Projection::converge_positions(double time_s, Segment positions) {
   constexpr int kMostSteps = 10;
   equations_.system().normalise(positions);
   equations_.set_positions(time_s, positions);

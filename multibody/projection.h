@@ -29,9 +29,12 @@ class Projection {
   double converge_positions(double time_s, Eigen::Ref<Eigen::VectorXd> positions);
 
  private:
-  void correct_positions(Eigen::Ref<Eigen::VectorXd>& positions);
-  template <typename Velocities>
-  void correct_velocities(Velocities&& velocities);
+  using Segment = Eigen::Ref<Eigen::VectorXd>;
+
+  void correct_positions(Segment& positions);
+  /// One Newton step, behind which `equations_` are updated. Nothing without constraints.
+  void step_positions(double time_s, Segment& positions);
+  void correct_velocities(Segment& velocities);
 
   EquationsOfMotion& equations_;
   Eigen::VectorXd change_;

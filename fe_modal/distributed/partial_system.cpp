@@ -10,14 +10,6 @@ namespace {
 
 constexpr const char* kMultiplying = "multiplying with a rank's stiffness";
 
-VecHandle wrap(std::span<const double> values) {
-  VecHandle vector;
-  require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(values.size()),
-                                values.data(), vector.out()),
-          kMultiplying);
-  return vector;
-}
-
 }  // namespace
 
 PartialSystem::PartialSystem(const Share& share)
@@ -26,8 +18,8 @@ PartialSystem::PartialSystem(const Share& share)
                          share.formulation)) {}
 
 void PartialSystem::multiply_stiffness(std::span<const double> x, std::span<double> y) const {
-  const VecHandle in = wrap(x);
-  const VecHandle out = wrap(y);
+  const VecHandle in = vector_on(x);
+  const VecHandle out = vector_on(y);
   require(MatMult(matrices_.stiffness.get(), in.get(), out.get()), kMultiplying);
 }
 

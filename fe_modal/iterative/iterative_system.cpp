@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "fe_modal/block_product.h"
 #include "fe_modal/iterative/conjugate_gradients.h"
 #include "fe_modal/iterative/schwarz.h"
 #include "geometry/foundation/error.h"
@@ -14,20 +15,6 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kSolving = "solving by iteration";
-
-/// As if the columns were vectors of PETSc's.
-Eigen::MatrixXd multiply(Mat matrix, const Eigen::MatrixXd& x) {
-  Eigen::MatrixXd y(x.rows(), x.cols());
-  const auto size = static_cast<PetscInt>(x.rows());
-  for (Eigen::Index k = 0; k < x.cols(); ++k) {
-    VecHandle in;
-    VecHandle out;
-    require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, size, x.col(k).data(), in.out()), kSolving);
-    require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, size, y.col(k).data(), out.out()), kSolving);
-    require(MatMult(matrix, in.get(), out.get()), kSolving);
-  }
-  return y;
-}
 
 }  // namespace
 
@@ -53,7 +40,7 @@ class IterativeSystem::Inverse : public ShiftInverse {
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override {
     const ConjugateGradientResult result = conjugate_gradients(
-        [&](const Eigen::MatrixXd& x) { return multiply(matrix_.get(), x); },
+        [&](const Eigen::MatrixXd& x) { return block_product(matrix_.get(), x); },
         [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, right_hand_sides);
     gradient_iterations_ += result.iterations;
     return result.solutions;
@@ -61,8 +48,8 @@ class IterativeSystem::Inverse : public ShiftInverse {
 
   std::optional<EigenPairs> iterate(Mat mass, Eigen::Index count) const override {
     DavidsonResult result = block_davidson(
-        [&](const Eigen::MatrixXd& x) { return multiply(matrix_.get(), x); },
-        [&](const Eigen::MatrixXd& x) { return multiply(mass, x); },
+        [&](const Eigen::MatrixXd& x) { return block_product(matrix_.get(), x); },
+        [&](const Eigen::MatrixXd& x) { return block_product(mass, x); },
         [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, matrix_.size(), count);
     davidson_iterations_ += result.iterations;
     result.pairs.values.array() += shift();

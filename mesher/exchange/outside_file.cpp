@@ -6,7 +6,6 @@
 #include <cctype>
 #include <fstream>
 #include <sstream>
-#include <stdlib.h>  // mkdtemp is POSIX
 #include <string>
 
 #include "geometry/foundation/error.h"
@@ -63,14 +62,6 @@ std::string contents_of(const fs::path& file) {
   return contents.str();
 }
 
-fs::path fresh_folder() {
-  std::string name = (fs::temp_directory_path() / "flexneck-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) {
-    throw ComputationError(name + ": a temporary folder cannot be made");
-  }
-  return name;
-}
-
 }  // namespace
 
 OutsideFormat outside_format_of(const fs::path& file) { return record_of(file).format; }
@@ -86,23 +77,13 @@ std::string checked_contents(const fs::path& file) {
   return contents;
 }
 
-CheckedCopy::CheckedCopy(const fs::path& file) : format_(outside_format_of(file)) {
+CheckedCopy::CheckedCopy(const fs::path& file)
+    : format_(outside_format_of(file)), path_(folder_ / record_of(file).safe_name) {
   const std::string contents = checked_contents(file);
-  folder_ = fresh_folder();
-  path_ = folder_ / record_of(file).safe_name;
   std::ofstream copy(path_, std::ios::binary);
   copy << contents;
   copy.close();
-  if (!copy) {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-    throw ComputationError(path_.string() + ": cannot be written");
-  }
-}
-
-CheckedCopy::~CheckedCopy() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
+  if (!copy) throw ComputationError(path_.string() + ": cannot be written");
 }
 
 }  // namespace flexneck::mesher

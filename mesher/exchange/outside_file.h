@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/foundation/temporary_folder.h"
+
 namespace flexneck::mesher {
 
 /// Kinds of files that a mesh or a geometry may come from. Each is data, none a program.
@@ -38,16 +40,13 @@ class CheckedCopy {
  public:
   /// @throws InputError if the file cannot be read or is something else than its ending says.
   explicit CheckedCopy(const std::filesystem::path& file);
-  ~CheckedCopy();
-  CheckedCopy(const CheckedCopy&) = delete;
-  CheckedCopy& operator=(const CheckedCopy&) = delete;
 
   OutsideFormat format() const { return format_; }
   const std::filesystem::path& path() const { return path_; }
 
  private:
   OutsideFormat format_;
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::filesystem::path path_;
 };
 

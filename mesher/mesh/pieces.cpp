@@ -29,24 +29,14 @@ std::pair<double, double> extent_along(const Mesh& mesh, const Eigen::Vector3d& 
   return extent;
 }
 
-/// Collects one piece.
+/// Adds the sets and slits of the whole to one piece.
 class PieceBuilder {
  public:
   PieceBuilder(const Mesh& whole, const PieceOfElement& piece_of_element, std::int32_t piece)
-      : whole_(whole), number_(whole.nodes.size(), -1) {
-    std::size_t element = 0;
-    for (const ElementBlock& block : whole.blocks) {
-      const std::size_t width = nodes_per_element(block.kind);
-      ElementBlock own{block.part, block.kind, block.material, {}};
-      for (std::size_t e = 0; e < block.size(); ++e, ++element) {
-        if (piece_of_element[element] != piece) continue;
-        const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(e * width);
-        own.nodes.insert(own.nodes.end(), first, first + static_cast<std::ptrdiff_t>(width));
-      }
-      if (!own.nodes.empty()) result_.mesh.blocks.push_back(std::move(own));
+      : result_(submesh(whole, piece_of_element, piece)), number_(whole.nodes.size(), -1) {
+    for (std::size_t n = 0; n < result_.nodes.size(); ++n) {
+      number_[static_cast<std::size_t>(result_.nodes[n])] = static_cast<std::int32_t>(n);
     }
-    number_nodes();
-    keep_used_materials();
   }
 
   bool has(std::span<const std::int32_t> nodes) const {
@@ -86,31 +76,8 @@ class PieceBuilder {
     for (std::int32_t& node : nodes) node = of(node);
   }
 
-  void number_nodes() {
-    for (const ElementBlock& block : result_.mesh.blocks) {
-      for (const std::int32_t node : block.nodes) number_[static_cast<std::size_t>(node)] = 0;
-    }
-    for (std::size_t n = 0; n < number_.size(); ++n) {
-      if (number_[n] < 0) continue;
-      number_[n] = static_cast<std::int32_t>(result_.nodes.size());
-      result_.nodes.push_back(static_cast<std::int32_t>(n));
-      result_.mesh.nodes.push_back(whole_.nodes[n]);
-    }
-    for (ElementBlock& block : result_.mesh.blocks) renumber(block.nodes);
-  }
-
-  void keep_used_materials() {
-    std::map<std::size_t, std::size_t> own;
-    for (ElementBlock& block : result_.mesh.blocks) {
-      const auto [entry, is_new] = own.emplace(block.material, own.size());
-      if (is_new) result_.mesh.materials.push_back(whole_.materials[block.material]);
-      block.material = entry->second;
-    }
-  }
-
-  const Mesh& whole_;
-  std::vector<std::int32_t> number_;  ///< in the piece, by node of the whole; -1 outside
   MeshPiece result_;
+  std::vector<std::int32_t> number_;  ///< in the piece, by node of the whole; -1 outside
 };
 
 /// The faces of a set whose nodes all belong to the piece.

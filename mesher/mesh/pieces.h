@@ -8,12 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "mesher/mesh/mesh.h"
+#include "mesher/mesh/submesh.h"
 
 namespace flexneck::mesher {
-
-/// The piece of each element, the mesh's blocks in their order.
-using PieceOfElement = std::vector<std::int32_t>;
 
 /// Pieces made of whole parts. @param parts of each piece
 /// @throws InputError for an unknown part, and for one that belongs to no piece or to two.
@@ -27,12 +24,6 @@ PieceOfElement pieces_by_parts(const Mesh& mesh,
 /// pass through an element.
 PieceOfElement pieces_by_planes(const Mesh& mesh, const Eigen::Vector3d& normal,
                                 std::span<const double> offsets_m);
-
-/// A piece as a mesh of its own, in the frame of the whole.
-struct MeshPiece {
-  Mesh mesh;
-  std::vector<std::int32_t> nodes;  ///< of the whole, by node of the piece; ascending
-};
 
 /// Name of the face set of a piece that it has in common with another.
 std::string cut_name(const std::string& other_piece);

@@ -62,7 +62,7 @@ void attach_body(const Study& study, fe_modal::ModalOptions& options) {
 }  // namespace
 
 fe_modal::FormulationChoice formulation_of(const Study& study) {
-  fe_modal::FormulationChoice choice = study.modes.formulation;
+  fe_modal::FormulationChoice choice = {.of_others = study.modes.formulation};
   for (const auto& [material, model] : study.material_models()) {
     if (model.formulation) choice.of_material[material] = *model.formulation;
   }

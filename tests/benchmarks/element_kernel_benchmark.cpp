@@ -10,11 +10,11 @@
 
 #include "fe_modal/element_kernel.h"
 #include "fe_modal/matrix_product.h"
-#include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/benchmarks/timing.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
 
 namespace {
@@ -22,11 +22,6 @@ namespace {
 using namespace flexneck;
 using namespace flexneck::fe_modal;
 using mesher::ElementKind;
-
-constexpr std::array kKinds = {ElementKind::hex8,    ElementKind::hex20,   ElementKind::hex27,
-                               ElementKind::prism15, ElementKind::prism18, ElementKind::tet10};
-constexpr std::array kFormulations = {Formulation::mixed_pressure, Formulation::displacement,
-                                      Formulation::reduced};
 
 /// GFLOP/s of a b^T with a and b (rows, depth).
 double product_speed(Eigen::Index rows, Eigen::Index depth, int runs) {
@@ -53,27 +48,22 @@ double product_operations(const ElementScheme& scheme) {
 }
 
 void print_row(ElementKind kind, Formulation formulation, double peak, int runs) {
-  const ElementScheme* scheme = nullptr;
-  try {
-    scheme = &element_scheme(kind, formulation);
-  } catch (const InputError&) {
-    return;  // not offered
-  }
+  const ElementScheme& scheme = element_scheme(kind, formulation);
   testing::BlockMesh block = testing::box({1, 1, 1}, {1, 1, 1}, {"rubber", 8.3e6, 0.49, 950});
   block.position = testing::distorted;
   const mesher::Mesh mesh = testing::with_kind(block.make(), kind);
   const Eigen::Matrix3Xd nodes = mesher::positions_of(
       mesh, std::span(mesh.blocks[0].nodes).first(mesher::nodes_per_element(kind)));
-  ElementKernel kernel(*scheme);
+  ElementKernel kernel(scheme);
   ElementMatrices matrices;
   constexpr int kRepeats = 20;
   const auto timing = benchmarks::measure(runs, [&] {
     for (int k = 0; k < kRepeats; ++k) kernel.compute(nodes, mesh.materials[0], matrices);
   });
   const double seconds = timing.fastest_ms / 1e3 / kRepeats;
-  const double speed = product_operations(*scheme) / seconds / 1e9;
+  const double speed = product_operations(scheme) / seconds / 1e9;
   const auto n = static_cast<Eigen::Index>(mesher::nodes_per_element(kind));
-  const Eigen::Index q = mesher::gauss_rule(kind, scheme->strength).weights.size();
+  const Eigen::Index q = mesher::gauss_rule(kind, scheme.strength).weights.size();
   std::printf("%-8s %-15s %9.2f %10.2f %7.0f %% %18.1f\n",
               std::string(mesher::name_of(kind)).c_str(), std::string(name_of(formulation)).c_str(),
               1e6 * seconds, speed, 100 * speed / peak, product_speed(3 * n, q, runs));
@@ -93,8 +83,10 @@ int main(int argc, char** argv) {
     std::printf("peak, 256 x 256 x 256: %.1f GFLOP/s\n", peak);
     std::printf("%-8s %-15s %9s %10s %9s %18s\n", "kind", "formulation", "us each", "GFLOP/s",
                 "of peak", "its product alone");
-    for (const ElementKind kind : kKinds) {
-      for (const Formulation formulation : kFormulations) print_row(kind, formulation, peak, runs);
+    for (const ElementKind kind : kVolumes) {
+      for (const Formulation formulation : kFormulations) {
+        if (offered(kind, formulation)) print_row(kind, formulation, peak, runs);
+      }
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

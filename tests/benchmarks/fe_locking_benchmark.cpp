@@ -15,6 +15,7 @@
 #include "geometry/foundation/error.h"
 #include "mesher/partition/node_order.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
 
 namespace {
@@ -22,11 +23,6 @@ namespace {
 using namespace flexneck;
 using namespace flexneck::fe_modal;
 using mesher::ElementKind;
-
-constexpr std::array kKinds = {ElementKind::hex8,    ElementKind::hex20,   ElementKind::hex27,
-                               ElementKind::prism15, ElementKind::prism18, ElementKind::tet10};
-constexpr std::array kFormulations = {Formulation::mixed_pressure, Formulation::displacement,
-                                      Formulation::reduced};
 
 /// 80 x 80 mm, held below: 20 mm of rubber and on it 10 mm of steel.
 mesher::Mesh pad(int refinement, double poissons_ratio) {
@@ -37,22 +33,13 @@ mesher::Mesh pad(int refinement, double poissons_ratio) {
   return block.make();
 }
 
-bool offered(ElementKind kind, Formulation formulation) {
-  try {
-    static_cast<void>(element_scheme(kind, formulation));
-  } catch (const InputError&) {
-    return false;
-  }
-  return true;
-}
-
 void print_row(ElementKind kind, Formulation formulation, double poissons_ratio, int finest) {
   std::printf("%-8s %-15s", std::string(mesher::name_of(kind)).c_str(),
               std::string(name_of(formulation)).c_str());
   for (int refinement = 1; refinement <= finest; ++refinement) {
     const mesher::Mesh mesh = testing::with_kind(pad(refinement, poissons_ratio), kind);
     const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-    const SystemMatrices system = assemble(mesh, free_nodes, formulation);
+    const SystemMatrices system = assemble(mesh, free_nodes, {formulation});
     const CholeskyFactor factor(
         system.stiffness.get(), 0,
         mesher::nested_dissection(system.graph.offsets(), system.graph.columns()));
@@ -79,7 +66,7 @@ int main(int argc, char** argv) {
     for (const double poissons_ratio : {0.3, 0.49, 0.4999}) {
       std::printf("Poisson's ratio %g: DOF, rocking, twist, stretch in Hz by refinement\n",
                   poissons_ratio);
-      for (const ElementKind kind : kKinds) {
+      for (const ElementKind kind : kVolumes) {
         for (const Formulation formulation : kFormulations) {
           if (offered(kind, formulation)) print_row(kind, formulation, poissons_ratio, finest);
         }

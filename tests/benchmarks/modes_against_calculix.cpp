@@ -16,8 +16,8 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "tests/support/calculix.h"
-#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -103,7 +103,7 @@ constexpr std::array kSizes = {
     " --set mesh.rubber_layers=6"};
 
 void compare(std::size_t sizes, bool has_peer) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const Neck usual(folder / "usual", "");
   const Neck coarse(folder / "coarse", kSizes[0]);
   const Eigen::VectorXd converged = usual.by_flexneck().hertz;

@@ -9,8 +9,8 @@
 #include "fe_modal/element_kernel.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
-#include "tests/fe_modal/element_choices.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
 namespace {

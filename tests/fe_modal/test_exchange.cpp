@@ -4,8 +4,8 @@
 #include "fe_modal/exchange/exported_matrices.h"
 #include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "tests/support/block_mesh.h"
-#include "tests/support/temporary_folder.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -16,7 +16,7 @@ mesher::Mesh column() {
 
 ImportedBody matrices(const mesher::Mesh& mesh) {
   return export_matrices(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes),
-                         Formulation::mixed_pressure);
+                         {Formulation::mixed_pressure});
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ TEST_CASE("matrices that went out and came back have the frequencies of the mesh
   const ImportedBody out = matrices(mesh);
   for (const std::string ending : {".mtx", ".petsc"}) {
     INFO(ending);
-    const testing::TemporaryFolder folder;
+    const TemporaryFolder folder;
     write_matrix(folder / ("K" + ending), out.stiffness);
     write_matrix(folder / ("M" + ending), out.mass);
     write_positions(folder / ("nodes" + ending), out.nodes_m);

@@ -7,8 +7,8 @@
 #include "fe_modal/exchange/matrix_file.h"
 #include "fe_modal/petsc_handles.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "tests/fe_modal/dense.h"
-#include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 
@@ -29,7 +29,7 @@ Eigen::MatrixXd full(const UpperMatrix& matrix) {
 
 void check_refused(const std::string& ending, const std::string& content,
                    const std::string& reason) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder / ("matrix" + ending);
   std::ofstream(path) << content;
   INFO(content);
@@ -39,7 +39,7 @@ void check_refused(const std::string& ending, const std::string& content,
 }  // namespace
 
 TEST_CASE("matrices and positions come back from files bit by bit") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const Eigen::Matrix3Xd positions = Eigen::Matrix3Xd::Random(3, 5);
   for (const char* const ending : {".mtx", ".petsc"}) {
     const auto path = folder / (std::string("file") + ending);
@@ -51,7 +51,7 @@ TEST_CASE("matrices and positions come back from files bit by bit") {
 }
 
 TEST_CASE("PETSc reads the binary matrices, and its own are read") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_matrix(folder / "ours.petsc", example());
   PetscViewer viewer = nullptr;
   require(PetscViewerBinaryOpen(PETSC_COMM_SELF, (folder / "ours.petsc").c_str(), FILE_MODE_READ,

@@ -14,8 +14,8 @@
 #include "fe_modal/modal_analysis.h"
 #include "fe_modal/rigid_average.h"
 #include "tests/fe_modal/dense.h"
-#include "tests/fe_modal/element_choices.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
 
 namespace flexneck::fe_modal {
@@ -90,7 +90,7 @@ Eigen::ArrayXi inner_dofs(const mesher::Mesh& mesh) {
 double patch_error(const mesher::Mesh& mesh, Formulation formulation, const Field& field) {
   const Eigen::ArrayXi inner = inner_dofs(mesh);
   REQUIRE(inner.size() > 0);
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}), formulation);
+  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}), {formulation});
   const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
   const Eigen::VectorXd exact = sample(mesh, field);
   Eigen::VectorXd surface = exact;
@@ -124,7 +124,7 @@ Eigen::Vector3d straight_edged(const Eigen::Vector3d& p) {
 }
 
 int zero_energy_motions(const mesher::Mesh& mesh, Formulation formulation) {
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}), formulation);
+  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}), {formulation});
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
                                      dense(system.stiffness.get()), Eigen::EigenvaluesOnly)
                                      .eigenvalues();
@@ -255,7 +255,7 @@ TEST_CASE("frequencies of a bar of three families bound those of a finer bar fro
   // Held on the lower side. Rayleigh's principle: displacements of a conforming mesh are too stiff.
   constexpr double kCoarse = 3e-2;
   ModalOptions options;
-  options.formulation = Formulation::displacement;
+  options.formulation.of_others = Formulation::displacement;
   options.mode_count = 4;
   options.held_set = "bottom";
   const auto position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {

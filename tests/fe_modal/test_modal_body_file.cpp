@@ -6,8 +6,8 @@
 
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "tests/support/point_mass_body.h"
-#include "tests/support/temporary_folder.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -50,7 +50,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("a modal body comes back from its file bit by bit") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const ModalBodyFile written = sample();
   write_modal_body(folder / "modes.h5", written);
   const ModalBodyFile read = read_modal_body(folder / "modes.h5");
@@ -91,7 +91,7 @@ TEST_CASE("a modal body comes back from its file bit by bit") {
 }
 
 TEST_CASE("a body without attached ones is written and read, and twice gives the same bytes") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   ModalBodyFile file = sample();
   file.body.attached.clear();
   write_modal_body(folder / "one.h5", file);
@@ -101,7 +101,7 @@ TEST_CASE("a body without attached ones is written and read, and twice gives the
 }
 
 TEST_CASE("modes that are not mass-normalised are refused") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   ModalBodyFile file = sample();
   file.body.invariants.Maa(0, 1) += 2e-6;
   write_modal_body(folder / "modes.h5", file);
@@ -111,7 +111,7 @@ TEST_CASE("modes that are not mass-normalised are refused") {
 }
 
 TEST_CASE("missing, truncated and foreign files are refused with one line") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   CHECK_THROWS_AS(read_modal_body(folder / "none.h5"), InputError);
 
   write_modal_body(folder / "modes.h5", sample());
@@ -126,7 +126,7 @@ TEST_CASE("missing, truncated and foreign files are refused with one line") {
 }
 
 TEST_CASE("datasets whose shapes contradict each other are refused by name") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   ModalBodyFile file = sample();
   file.body.shapes.pop_back();
   write_modal_body(folder / "modes.h5", file);

@@ -60,7 +60,7 @@ TEST_CASE("unknown names are refused with what there is") {
 }
 
 TEST_CASE("impossible options are refused") {
-  check_refused([](ModalOptions& o) { o.formulation = Formulation::reduced; },
+  check_refused([](ModalOptions& o) { o.formulation.of_others = Formulation::reduced; },
                 "part 'block': elements of kind hex27 have no formulation 'reduced', expected one "
                 "of mixed_pressure, displacement");
   check_refused([](ModalOptions& o) { o.mode_count = 0; }, "number of modes");
@@ -111,7 +111,7 @@ TEST_CASE("each material has its formulation; one that locks is warned of") {
   const double mixed = lowest({});
   CHECK(lowest(rubber_locks) > 1.01 * mixed);
   CHECK(std::abs(lowest(plate_only) / mixed - 1) < 1e-3);
-  CHECK(lowest(Formulation::displacement) > 1.01 * mixed);
+  CHECK(lowest({Formulation::displacement}) > 1.01 * mixed);
 
   CHECK(locking_warnings(mesh, {}).empty());
   CHECK(locking_warnings(mesh, plate_only).empty());

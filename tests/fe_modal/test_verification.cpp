@@ -159,7 +159,7 @@ TEST_CASE("a mass on a bonded rubber disc moves at the frequency of Gent's modul
                  {"plate", 4, {"steel", 2.1e11, 0.3, 7850}}};
   const auto frequency = [&](Formulation formulation) {
     ModalOptions options = held_at_bottom(8);
-    options.formulation = formulation;
+    options.formulation.of_others = formulation;
     options.rigid_parts = {"plate"};
     const ModalBody body = analyse_modes(disc.make(), options, {});
     return body.frequencies_Hz[body.mode_index("axial 1")];

@@ -8,11 +8,11 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/provenance.h"
-#include "tests/support/temporary_folder.h"
+#include "geometry/foundation/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
-using flexneck::testing::TemporaryFolder;
+using flexneck::TemporaryFolder;
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <string>
 
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/script_mesher.h"
-#include "tests/support/temporary_folder.h"
 
 namespace flexneck::testing {
 
@@ -38,7 +38,7 @@ class ScriptFixture {
   mesher::ScriptMeshOptions options;
 
  private:
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace flexneck::testing

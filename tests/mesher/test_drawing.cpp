@@ -8,12 +8,12 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/drawing/body_picture.h"
 #include "mesher/drawing/colours.h"
 #include "mesher/drawing/picture_sheet.h"
 #include "mesher/mesh/skin.h"
 #include "tests/support/block_mesh.h"
-#include "tests/support/temporary_folder.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -125,7 +125,7 @@ TEST_CASE("displacements move the picture and a field colours it") {
 }
 
 TEST_CASE("a sheet is a PNG file, the same each time, and nothing is left where it fails") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const Mesh mesh = box_of(1, 1, 2);
   PictureSheet sheet;
   sheet.panels.push_back({"box", draw_body(mesh, surface_of(mesh), {}, {}, 120, 120)});

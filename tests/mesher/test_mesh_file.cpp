@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "tests/mesher/small_mesh.h"
-#include "tests/support/temporary_folder.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -30,7 +30,7 @@ Provenance some_provenance() {
 }  // namespace
 
 TEST_CASE("a mesh comes back from its file as it was") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const MeshFile out{.mesh = testing::small_mesh(), .provenance = some_provenance()};
   write_mesh(folder / "mesh.h5", out);
   const MeshFile in = read_mesh(folder / "mesh.h5");
@@ -59,7 +59,7 @@ TEST_CASE("a mesh comes back from its file as it was") {
 }
 
 TEST_CASE("an unsound mesh is not written") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   Mesh mesh = testing::small_mesh();
   mesh.nodes.push_back({0, 0, 9});
   CHECK_THROWS_AS(write_mesh(folder / "mesh.h5", {mesh, {}}), InputError);
@@ -67,7 +67,7 @@ TEST_CASE("an unsound mesh is not written") {
 }
 
 TEST_CASE("slits, partitions and the node order return from the file") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   MeshFile out{testing::small_mesh(), {}};
   // The upper block gets a copy of the corner node 18, which lies between the two.
   out.mesh.nodes.push_back(out.mesh.nodes[18]);
@@ -91,7 +91,7 @@ TEST_CASE("slits, partitions and the node order return from the file") {
 }
 
 TEST_CASE("a partition or an order that does not fit the mesh is refused") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto writing = [&](std::map<int, std::vector<std::int32_t>> partitions,
                            std::vector<std::int32_t> order) {
     write_mesh(folder / "mesh.h5", {testing::small_mesh(), {}, partitions, order});
@@ -103,7 +103,7 @@ TEST_CASE("a partition or an order that does not fit the mesh is refused") {
 }
 
 TEST_CASE("a missing, truncated or foreign file is refused by name") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   CHECK_THROWS_AS(read_mesh(folder / "none.h5"), InputError);
   CHECK_THROWS_WITH(read_mesh(folder / "none.h5"), Contains("none.h5"));
 
@@ -125,7 +125,7 @@ TEST_CASE("a missing, truncated or foreign file is refused by name") {
 }
 
 TEST_CASE("a file whose parts do not fit together is refused with dataset and remedy") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto write_part = [&](const std::string& material, std::int32_t first_node) {
     const Mesh mesh = testing::small_mesh();
     std::vector<double> nodes;

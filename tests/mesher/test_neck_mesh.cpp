@@ -9,12 +9,12 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/support/neck_mesh.h"
-#include "tests/support/temporary_folder.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -286,7 +286,7 @@ TEST_CASE("the script's own values are those of neck C") {
 }
 
 TEST_CASE("meshing twice gives the same bytes in the file") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"one.h5", "two.h5"}) {
     write_mesh(folder / name, {.mesh = neck_mesh("C"), .provenance = {}});
   }

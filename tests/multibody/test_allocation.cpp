@@ -26,11 +26,11 @@ std::atomic<long> allocations{0};
 }
 
 extern "C" {
-void* __real_malloc(std::size_t size);  // NOLINT: the linker's name
-void* __wrap_malloc(std::size_t size);  // NOLINT
-void* __wrap_malloc(std::size_t size) {
+void* real_malloc(std::size_t size) __asm__("__real_malloc");
+void* counting_malloc(std::size_t size) __asm__("__wrap_malloc");
+void* counting_malloc(std::size_t size) {
   ++allocations;
-  return __real_malloc(size);
+  return real_malloc(size);
 }
 void* __real_calloc(std::size_t count, std::size_t size);  // NOLINT
 void* __wrap_calloc(std::size_t count, std::size_t size);  // NOLINT

@@ -10,6 +10,7 @@
 
 #include "multibody/dormand_prince.h"
 #include "multibody/equations.h"
+#include "multibody/motion.h"
 #include "multibody/system.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "tests/support/formulations.h"
@@ -158,17 +159,10 @@ Momentum momentum_of(const Model& model, Formulation formulation, const VectorXd
   return sum;
 }
 
-VectorXd state_at_end(Equations& equations, const VectorXd& start) {
-  InitialValueProblem problem{
-      [&](double t, const VectorXd& y, VectorXd& rate) { equations.derivative(t, y, rate); },
-      [&](double t, VectorXd& y, VectorXd& rate) { equations.finish_step(t, y, rate); },
-      [&](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
-        return equations.measure(begin, end, error);
-      },
-      [&](std::size_t component) { return equations.name_of(component); }};
-  DormandPrince integrator(problem, {0.05, 1e-10}, 0, start);
-  while (integrator.time_s() < kEnd_s) integrator.step(kEnd_s);
-  return integrator.state();
+VectorXd state_at_end(Equations& equations, const VectorXd& start, const SolverOptions& solver) {
+  const auto integrator = time_integrator(equations, start, solver);
+  while (integrator->time_s() < kEnd_s) integrator->step(kEnd_s);
+  return integrator->state();
 }
 
 }  // namespace
@@ -181,7 +175,7 @@ TEST_CASE("No joint and no force between bodies changes the momenta of a free ch
                              ? recursive_equations(build.model, solver)
                              : descriptor_equations(build.model, solver);
   const VectorXd start = equations->given_state();
-  const VectorXd end = state_at_end(*equations, start);
+  const VectorXd end = state_at_end(*equations, start, solver);
   REQUIRE((end - start).norm() > 1);
   const Momentum before = momentum_of(build.model, solver.formulation, start);
   const Momentum after = momentum_of(build.model, solver.formulation, end);

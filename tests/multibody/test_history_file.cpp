@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "tests/support/point_mass_body.h"
-#include "tests/support/temporary_folder.h"
 
 using namespace flexneck;
 using namespace flexneck::multibody;
@@ -65,7 +65,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("A history comes back from its file to the last bit and in its order") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const HistoryFile file = random_history();
   write_history(folder / "h.h5", file);
   const History read = read_history(folder / "h.h5").history;
@@ -110,7 +110,7 @@ TEST_CASE("A history comes back from its file to the last bit and in its order")
 }
 
 TEST_CASE("The layout is the one the README tells: time first, then components") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const HistoryFile file = random_history();
   write_history(folder / "h.h5", file);
   const Hdf5Reader reader(folder / "h.h5", kHistoryFormat);
@@ -124,14 +124,14 @@ TEST_CASE("The layout is the one the README tells: time first, then components")
 }
 
 TEST_CASE("The same history gives the same bytes") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_history(folder / "a.h5", random_history());
   write_history(folder / "b.h5", random_history());
   CHECK(bytes_of(folder / "a.h5") == bytes_of(folder / "b.h5"));
 }
 
 TEST_CASE("A history with names that cannot be groups leaves no file") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   HistoryFile file = random_history();
   file.history.joints[0].name = "neck/base";
   CHECK_THROWS_WITH(write_history(folder / "h.h5", file),
@@ -140,7 +140,7 @@ TEST_CASE("A history with names that cannot be groups leaves no file") {
 }
 
 TEST_CASE("A history whose arrays do not fit its times is refused") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   HistoryFile file = random_history();
   file.history.joints[1].moment_Nm.conservativeResize(3, kTimes - 1);
   write_history(folder / "h.h5", file);
@@ -153,7 +153,7 @@ TEST_CASE("A history whose arrays do not fit its times is refused") {
 }
 
 TEST_CASE("A truncated history is refused with one line") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_history(folder / "h.h5", random_history());
   std::filesystem::resize_file(folder / "h.h5", std::filesystem::file_size(folder / "h.h5") / 2);
   CHECK_THROWS_AS(read_history(folder / "h.h5"), InputError);

@@ -7,9 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "multibody/simulation.h"
 #include "tests/support/formulations.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
@@ -154,7 +154,7 @@ TEST_CASE("A driven base excites the modes by their first moments") {
 }
 
 TEST_CASE("A body made elsewhere moves the same when it comes from a file") {
-  const flexneck::testing::TemporaryFolder folder;
+  const flexneck::TemporaryFolder folder;
   const auto made = make_beam_body(twisting_beam());
   flexneck::Provenance provenance;
   provenance.program = "another program";

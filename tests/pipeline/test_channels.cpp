@@ -3,17 +3,16 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "multibody/load_cell.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/csv_output.h"
 #include "tests/support/model_text.h"
-#include "tests/support/temporary_folder.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using multibody::Channel;
-using testing::TemporaryFolder;
 
 namespace {
 

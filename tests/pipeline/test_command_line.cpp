@@ -7,15 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "multibody/history_file.h"
 #include "tests/support/run_command.h"
-#include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using testing::CommandOutcome;
-using testing::TemporaryFolder;
 
 namespace {
 

@@ -6,18 +6,20 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/hdf5_file.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "pipeline/model/csv_table.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/modal_files.h"
 #include "tests/support/model_text.h"
-#include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using namespace flexneck::pipeline;
+using testing::box_text;
 using testing::double_pendulum_text;
-using testing::TemporaryFolder;
+using testing::fixed_joint_text;
+using testing::origin_marker_text;
 using testing::with;
 using testing::write_text;
 
@@ -246,36 +248,16 @@ TEST_CASE("what a model gets wrong is told in one line with the place and the re
 
 TEST_CASE("a body that two driven ones hold is driven twice") {
   const TemporaryFolder folder;
-  CHECK_THAT(refusal(folder, double_pendulum_text() + R"(
+  const std::string sled = R"(
 [[body]]
 name = "sled"
 kind = "driven"
 initial_velocity = "1 m/s"
-[[marker]]
-body = "sled"
-name = "seat"
-position = ["0 m", "0 m", "0 m"]
-[[body]]
-name = "box"
-kind = "rigid"
-mass = "1 kg"
-center = ["0 m", "0 m", "0 m"]
-inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
-[[marker]]
-body = "box"
-name = "foot"
-position = ["0 m", "0 m", "0 m"]
-[[joint]]
-name = "one"
-kind = "fixed"
-lower = "sled.seat"
-upper = "box.foot"
-[[joint]]
-name = "two"
-kind = "fixed"
-lower = "ground.hook"
-upper = "box.foot"
-)"),
+)";
+  CHECK_THAT(refusal(folder, double_pendulum_text() + sled + origin_marker_text("sled", "seat") +
+                                 box_text("box", "foot") +
+                                 fixed_joint_text("one", "sled.seat", "box.foot") +
+                                 fixed_joint_text("two", "ground.hook", "box.foot")),
              Contains("body 'box' is driven twice: joint 'one' fixes it to 'sled' and joint 'two' "
                       "to 'ground'"));
 }
@@ -314,10 +296,8 @@ end_time = "10 ms"
 [[body]]
 name = "ground"
 kind = "ground"
-[[marker]]
-body = "ground"
-name = "bench"
-position = ["0 m", "0 m", "0 m"]
+)" + origin_marker_text("ground", "bench") +
+           R"(
 [[body]]
 name = "beam"
 kind = "deformable"
@@ -328,27 +308,9 @@ body = "beam"
 name = "turned tip"
 interface = "top"
 rotation = ["0 deg", "0 deg", "90 deg"]
-[[body]]
-name = "weight"
-kind = "rigid"
-mass = "1 kg"
-center = ["0 m", "0 m", "0 m"]
-inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
-[[marker]]
-body = "weight"
-name = "face"
-position = ["0 m", "0 m", "0 m"]
-[[joint]]
-name = "clamp"
-kind = "fixed"
-lower = "ground.bench"
-upper = "beam.base"
-[[joint]]
-name = "tip"
-kind = "fixed"
-lower = "beam.turned tip"
-upper = "weight.face"
-)";
+)" + box_text("weight", "face") +
+           fixed_joint_text("clamp", "ground.bench", "beam.base") +
+           fixed_joint_text("tip", "beam.turned tip", "weight.face");
   };
   const std::string two = "modes = [\"lateral bending 1\", \"fore-aft bending 1\"]\n";
   const ModelFile file =

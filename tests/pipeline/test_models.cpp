@@ -6,16 +6,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/temporary_folder.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/static_test.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/modal_files.h"
-#include "tests/support/temporary_folder.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using multibody::History;
-using testing::TemporaryFolder;
 
 namespace {
 

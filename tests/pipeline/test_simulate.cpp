@@ -5,16 +5,15 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "tests/support/model_text.h"
 #include "tests/support/run_command.h"
-#include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using testing::CommandOutcome;
 using testing::double_pendulum_text;
-using testing::TemporaryFolder;
 using testing::with;
 using testing::write_text;
 

@@ -7,16 +7,15 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "tests/support/calculix.h"
 #include "tests/support/run_command.h"
-#include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using testing::CommandOutcome;
-using testing::TemporaryFolder;
 
 namespace {
 

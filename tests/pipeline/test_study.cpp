@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "pipeline/study/study.h"
-#include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
@@ -137,7 +137,7 @@ TEST_CASE("the basis is chosen by its name") {
 }
 
 TEST_CASE("a study without geometry is a model and needs no geometry keys") {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "model.toml") << "[[body]]\nname = \"ground\"\nkind = \"ground\"\n";
   const Study study = read_study(folder / "model.toml", {});
   CHECK_FALSE(study.geometry);

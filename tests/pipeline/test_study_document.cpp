@@ -4,14 +4,14 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "pipeline/study/study_document.h"
-#include "tests/support/temporary_folder.h"
 
 using Catch::Matchers::Contains;
 using flexneck::Origin;
+using flexneck::TemporaryFolder;
 using flexneck::pipeline::StudyDocument;
 using flexneck::pipeline::StudyTable;
-using flexneck::testing::TemporaryFolder;
 
 namespace {
 

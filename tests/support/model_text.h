@@ -84,6 +84,28 @@ rate = "8 rad/s"
 )";
 }
 
+/// A marker at the origin of its body.
+inline std::string origin_marker_text(const std::string& body, const std::string& name) {
+  return "\n[[marker]]\nbody = \"" + body + "\"\nname = \"" + name +
+         "\"\nposition = [\"0 m\", \"0 m\", \"0 m\"]\n";
+}
+
+/// A box of 1 kg with a marker at its centre.
+inline std::string box_text(const std::string& name, const std::string& marker) {
+  return "\n[[body]]\nname = \"" + name + R"("
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
+)" + origin_marker_text(name, marker);
+}
+
+inline std::string fixed_joint_text(const std::string& name, const std::string& lower,
+                                    const std::string& upper) {
+  return "\n[[joint]]\nname = \"" + name + "\"\nkind = \"fixed\"\nlower = \"" + lower +
+         "\"\nupper = \"" + upper + "\"\n";
+}
+
 inline std::filesystem::path write_text(const std::filesystem::path& path,
                                         const std::string& text) {
   std::ofstream(path) << text;

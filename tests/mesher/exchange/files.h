@@ -6,8 +6,8 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/exchange/mesh_import.h"
-#include "tests/support/temporary_folder.h"
 
 namespace flexneck::testing {
 

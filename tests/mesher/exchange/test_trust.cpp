@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <gmsh.h>
 
+#include "geometry/foundation/temporary_folder.h"
 #include "mesher/exchange/outside_file.h"
 #include "mesher/gmsh_session.h"
 #include "tests/mesher/exchange/files.h"
@@ -24,7 +25,7 @@ class Payload {
   void forget() const { std::filesystem::remove(trace_); }
 
  private:
-  testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::filesystem::path trace_ = folder_ / "trace";
 };
 
