@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/exchange/corner_fields.h"
-#include "tests/fe_modal/element_choices.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
 
