@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/exchange/corner_fields.h"
-#include "tests/support/element_choices.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
 
 namespace flexneck::fe_modal {
