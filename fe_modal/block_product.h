@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "fe_modal/petsc_handles.h"
+#include "fe_modal/symmetric_matrix.h"
 
 namespace flexneck::fe_modal {
 
@@ -12,5 +13,9 @@ VecHandle column_vector(const Eigen::MatrixXd& columns, Eigen::Index column);
 
 /// The matrix, or operator, times each column, (N, k).
 Eigen::MatrixXd block_product(Mat matrix, const Eigen::MatrixXd& columns);
+
+/// The same of a matrix whose entries are at hand, which are read once for eight columns: no cache
+/// holds them.
+Eigen::MatrixXd block_product(const SymmetricMatrix& matrix, const Eigen::MatrixXd& columns);
 
 }  // namespace flexneck::fe_modal

@@ -20,12 +20,12 @@ constexpr const char* kSolving = "solving by iteration";
 
 class IterativeSystem::Inverse : public ShiftInverse {
  public:
-  Inverse(const SystemMatrices& system, double shift, Regions regions)
+  Inverse(const SystemMatrices& system, double shift, const NodeLists& subdomains,
+          const Eigen::Matrix3Xd& positions_m)
       : ShiftInverse(shift),
         shifted_(shift == 0 ? std::nullopt : std::optional(shifted_stiffness(system, shift))),
         matrix_(shifted_ ? *shifted_ : system.stiffness),
-        preconditioner_(matrix_, system.graph, std::move(regions.subdomains),
-                        std::move(regions.parts)) {}
+        preconditioner_(matrix_, system.graph, subdomains, positions_m) {}
 
   void solve(Vec right_hand_side, Vec solution) const override {
     const PetscScalar* in = nullptr;
@@ -40,7 +40,7 @@ class IterativeSystem::Inverse : public ShiftInverse {
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override {
     const ConjugateGradientResult result = conjugate_gradients(
-        [&](const Eigen::MatrixXd& x) { return block_product(matrix_.get(), x); },
+        [&](const Eigen::MatrixXd& x) { return block_product(matrix_, x); },
         [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, right_hand_sides);
     gradient_iterations_ += result.iterations;
     return result.solutions;
@@ -48,7 +48,7 @@ class IterativeSystem::Inverse : public ShiftInverse {
 
   std::optional<EigenPairs> iterate(Mat mass, Eigen::Index count) const override {
     DavidsonResult result = block_davidson(
-        [&](const Eigen::MatrixXd& x) { return block_product(matrix_.get(), x); },
+        [&](const Eigen::MatrixXd& x) { return block_product(matrix_, x); },
         [&](const Eigen::MatrixXd& x) { return block_product(mass, x); },
         [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, matrix_.size(), count);
     davidson_iterations_ += result.iterations;
@@ -58,11 +58,12 @@ class IterativeSystem::Inverse : public ShiftInverse {
 
   std::string describe() const override {
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "iterative: %zu subdomains, whose factors have %.4g million entries; %d block "
-                  "Davidson and %d conjugate gradient iterations",
-                  preconditioner_.subdomain_count(), preconditioner_.nonzeros() / 1e6,
-                  davidson_iterations_, gradient_iterations_);
+    std::snprintf(
+        text.data(), text.size(),
+        "iterative: %zu subdomains, whose factors have %.4g million entries, and %td coarse "
+        "functions; %d block Davidson and %d conjugate gradient iterations",
+        preconditioner_.subdomain_count(), preconditioner_.nonzeros() / 1e6,
+        preconditioner_.coarse_size(), davidson_iterations_, gradient_iterations_);
     return text.data();
   }
 
@@ -75,8 +76,8 @@ class IterativeSystem::Inverse : public ShiftInverse {
 };
 
 std::unique_ptr<ShiftInverse> IterativeSystem::shift_inverse(double shift) const {
-  return std::make_unique<Inverse>(matrices(), shift,
-                                   find_regions(mesh_, free_nodes_, matrices().graph));
+  return std::make_unique<Inverse>(matrices(), shift, find_subdomains(mesh_, free_nodes_),
+                                   free_positions(mesh_, free_nodes_));
 }
 
 Eigen::Index IterativeSystem::eigenvalues_below(double) const {
