@@ -47,16 +47,23 @@ Energies energies_of(const EquationsOfMotion& equations, const VectorXd& state) 
 
 class DescriptorEquations final : public Equations {
  public:
-  DescriptorEquations(const Model& model, const SolverOptions& solver)
+  DescriptorEquations(const Model& model, const SolverOptions& solver, Drive drive)
       : model_(model),
         system_(model),
-        equations_(system_),
+        equations_(system_, drive),
         projection_(equations_),
         error_(system_, solver.relative_tolerance, solver.absolute_tolerance) {}
 
   Vector given_state() override {
     Vector state = multibody::given_state(model_, system_);
     join(model_, equations_, state, Check::positions_and_velocities);
+    return state;
+  }
+
+  Vector given_place() override {
+    Vector state = multibody::given_state(model_, system_);
+    join(model_, equations_, state, Check::positions);
+    state.segment(system_.position_count, system_.velocity_count).setZero();
     return state;
   }
 
@@ -68,6 +75,13 @@ class DescriptorEquations final : public Equations {
         carried_velocities(model_, system_);
     projection_.apply(0, state);
     return state;
+  }
+
+  void settle(double time_s, Vector& state) override {
+    Vector positions = state.head(system_.position_count);
+    // The driven bodies may have moved on.
+    projection_.converge_positions(time_s, positions);
+    state.head(system_.position_count) = settled_positions(equations_, positions, time_s);
   }
 
   void set_interval(double begin_s, double end_s) override {
@@ -85,6 +99,7 @@ class DescriptorEquations final : public Equations {
     return error_(begin, end, error);
   }
   std::string name_of(std::size_t component) const override { return error_.name_of(component); }
+  const ForceSet& forces() const override { return equations_.forces(); }
   int evaluations() const override { return equations_.evaluations(); }
   std::vector<std::string> redundant_constraints() const override {
     std::vector<std::string> names;
@@ -185,8 +200,9 @@ class DescriptorEquations final : public Equations {
 
 }  // namespace
 
-std::unique_ptr<Equations> descriptor_equations(const Model& model, const SolverOptions& solver) {
-  return std::make_unique<DescriptorEquations>(model, solver);
+std::unique_ptr<Equations> descriptor_equations(const Model& model, const SolverOptions& solver,
+                                                Drive drive) {
+  return std::make_unique<DescriptorEquations>(model, solver, drive);
 }
 
 }  // namespace flexneck::multibody

@@ -35,6 +35,10 @@ constexpr double kAlpha = 0.2 - 0.75 * kBeta;
 constexpr double kLargestGrowth = 10;
 constexpr double kLargestCut = 0.2;
 
+/// Of a step: how closely an event is found, and where it counts as one at the step's beginning.
+constexpr double kEventResolution = 1e-9;
+constexpr double kEventAtBeginning = 1e-6;
+
 }  // namespace
 
 DormandPrince::DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s,
@@ -66,13 +70,14 @@ void DormandPrince::attempt(double length_s) {
       problem_.derivative(time_s_ + kTimes[stage] * length_s, target, rates_[stage]);
   }
   problem_.finish_step(time_s_ + length_s, y_next_, rates_[kStages - 1]);
+  if (problem_.pieces) pieces_next_ = problem_.pieces();
   error_.setZero();
   for (std::size_t k = 0; k < kStages; ++k)
     if (kErrorWeights[k] != 0) error_ += length_s * kErrorWeights[k] * rates_[k];
 }
 
-void DormandPrince::accept(double length_s) {
-  // Hairer et al. II.6: CONTD5.
+/// Hairer et al. II.6: CONTD5.
+void DormandPrince::make_dense(double length_s) {
   dense_[0] = y_;
   dense_[1] = y_next_ - y_;
   dense_[2] = length_s * rates_[0] - dense_[1];
@@ -80,18 +85,55 @@ void DormandPrince::accept(double length_s) {
   dense_[4].setZero();
   for (std::size_t k = 0; k < kStages; ++k)
     if (kDenseWeights[k] != 0) dense_[4] += length_s * kDenseWeights[k] * rates_[k];
+}
+
+void DormandPrince::accept(double length_s) {
+  make_dense(length_s);
   previous_time_s_ = time_s_;
   time_s_ += length_s;
   y_.swap(y_next_);
   rates_.front().swap(rates_.back());
+  pieces_.swap(pieces_next_);
   ++accepted_;
 }
 
 void DormandPrince::interpolate(double time_s, Vector& y) const {
   const double length = time_s_ - previous_time_s_;
-  const double s = length > 0 ? (time_s - previous_time_s_) / length : 0;
+  interpolate_at(length > 0 ? (time_s - previous_time_s_) / length : 0, y);
+}
+
+void DormandPrince::interpolate_at(double s, Vector& y) const {
   const double r = 1 - s;
   y = dense_[0] + s * (dense_[1] + r * (dense_[2] + s * (dense_[3] + r * dense_[4])));
+}
+
+void DormandPrince::start_on_pieces() {
+  if (problem_.pieces) pieces_ = pieces_next_ = problem_.pieces();
+}
+
+double DormandPrince::share_to_event(double length_s) {
+  if (!problem_.pieces || pieces_next_ == pieces_) return 1;
+  make_dense(length_s);
+  const auto first_change = [&](const std::vector<int>& pieces) {
+    const auto found = std::mismatch(pieces_.begin(), pieces_.end(), pieces.begin());
+    return static_cast<std::size_t>(found.first - pieces_.begin());
+  };
+  event_ = first_change(pieces_next_);
+  double before = 0;
+  double behind = 1;
+  while (behind - before > kEventResolution) {
+    const double middle = 0.5 * (before + behind);
+    interpolate_at(middle, y_stage_);
+    problem_.derivative(time_s_ + middle * length_s, y_stage_, rates_[1]);
+    if (problem_.pieces() == pieces_) {
+      before = middle;
+    } else {
+      behind = middle;
+      event_ = first_change(problem_.pieces());
+    }
+  }
+  // Right behind the beginning lies what the last step was to end at.
+  return behind > kEventAtBeginning ? behind : 1;
 }
 
 void DormandPrince::fixed_step(double length_s) {
@@ -112,8 +154,17 @@ double DormandPrince::adapted(double length_s, double error) {
   return length_s / std::clamp(factor, 1 / kLargestGrowth, 1 / kLargestCut);
 }
 
+ErrorEstimate DormandPrince::tried(double length_s) {
+  attempt(length_s);
+  last_estimate_ = problem_.measure(y_, y_next_, error_);
+  return last_estimate_;
+}
+
 void DormandPrince::step(double limit_s) {
-  if (!fresh_) problem_.derivative(time_s_, y_, rates_[0]);
+  if (!fresh_) {
+    problem_.derivative(time_s_, y_, rates_[0]);
+    start_on_pieces();
+  }
   fresh_ = true;
   if (!(rates_[0].allFinite() && y_.allFinite())) collapse(problem_.measure(y_, y_, rates_[0]));
   if (proposed_s_ == 0) proposed_s_ = choose_first_step();
@@ -123,19 +174,24 @@ void DormandPrince::step(double limit_s) {
     if (proposed_s_ < limits_.smallest_s) collapse(last_estimate_);
     double length = std::min(proposed_s_, limits_.largest_s);
     reason_ = length < proposed_s_ ? StepReason::largest_step : StepReason::error;
-    const bool truncated = length >= left * (1 - 1e-9);
+    bool truncated = length >= left * (1 - 1e-9);
     if (truncated) {
       length = left;
       reason_ = StepReason::end;
     }
-    attempt(length);
-    const ErrorEstimate error = problem_.measure(y_, y_next_, error_);
-    last_estimate_ = error;
+    ErrorEstimate error = tried(length);
+    const double share = error.value <= 1 ? share_to_event(length) : 1;
+    if (share < 1) {
+      length *= share;
+      reason_ = StepReason::event;
+      truncated = false;
+      error = tried(length);
+    }
     if (error.value <= 1) {
       double next = adapted(length, error.value);
       if (rejected_before) next = std::min(next, length);
-      // A step cut short by the limit says nothing against the longer one.
-      proposed_s_ = truncated ? std::max(next, proposed_s_) : next;
+      // A step cut short by the limit or an event says nothing against the longer one.
+      proposed_s_ = truncated || share < 1 ? std::max(next, proposed_s_) : next;
       last_error_ = std::max(error.value, 1e-4);
       accept(length);
       if (truncated) time_s_ = limit_s;

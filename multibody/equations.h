@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 
 #include "multibody/dormand_prince.h"
+#include "multibody/driven_path.h"
+#include "multibody/forces/force_set.h"
 #include "multibody/recorder.h"
 #include "multibody/simulation.h"
 
@@ -22,9 +24,15 @@ class Equations {
 
   /// The state that the bodies are given, put onto the joints. @throws InputError as simulate().
   virtual Vector given_state() = 0;
+  /// The same at rest: velocities are not looked at.
+  virtual Vector given_place() = 0;
   /// Static equilibrium, moving with the driven bodies.
   /// @throws InputError, ComputationError as simulate_from_equilibrium().
   virtual Vector equilibrium_state() = 0;
+
+  /// Brings a state at rest to the static equilibrium at a time. Of equations whose driven bodies
+  /// are held. @throws ComputationError if there is none within reach.
+  virtual void settle(double time_s, Vector& state) = 0;
 
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
   virtual void set_interval(double begin_s, double end_s) = 0;
@@ -34,6 +42,8 @@ class Equations {
   virtual ErrorEstimate measure(const Vector& begin, const Vector& end,
                                 const Vector& error) const = 0;
   virtual std::string name_of(std::size_t component) const = 0;
+  /// Of the last evaluation: pieces() tells where loads have kinks.
+  virtual const ForceSet& forces() const = 0;
 
   /// How many positions (with which a state begins), velocities (which follow) and constraints.
   struct Layout {
@@ -65,8 +75,10 @@ class Equations {
 };
 
 /// The paper's form with multipliers: positions of all bodies, joints as constraints.
-std::unique_ptr<Equations> descriptor_equations(const Model& model, const SolverOptions& solver);
+std::unique_ptr<Equations> descriptor_equations(const Model& model, const SolverOptions& solver,
+                                                Drive drive = Drive::prescribed);
 /// Joint coordinates of trees. @throws InputError if a joint closes a loop.
-std::unique_ptr<Equations> recursive_equations(const Model& model, const SolverOptions& solver);
+std::unique_ptr<Equations> recursive_equations(const Model& model, const SolverOptions& solver,
+                                               Drive drive = Drive::prescribed);
 
 }  // namespace flexneck::multibody

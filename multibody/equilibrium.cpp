@@ -34,9 +34,9 @@ double potential_energy(const EquationsOfMotion& equations) {
 /// The descriptor form's coordinates of the search.
 class DescriptorRest final : public RestProblem {
  public:
-  DescriptorRest(EquationsOfMotion& equations, VectorXd positions)
-      : equations_(equations), positions_(std::move(positions)) {
-    reduced_.emplace(equations_, positions_);
+  DescriptorRest(EquationsOfMotion& equations, VectorXd positions, double time_s)
+      : equations_(equations), positions_(std::move(positions)), time_s_(time_s) {
+    reduced_.emplace(equations_, positions_, time_s_);
   }
 
   Index count() const override { return reduced_->count(); }
@@ -46,13 +46,14 @@ class DescriptorRest final : public RestProblem {
   MatrixXd stiffness() override { return reduced_->stiffness(); }
   void move_to(const VectorXd& xi) override {
     positions_ = reduced_->positions_at(xi);
-    reduced_.emplace(equations_, positions_);
+    reduced_.emplace(equations_, positions_, time_s_);
   }
   const VectorXd& positions() const { return positions_; }
 
  private:
   EquationsOfMotion& equations_;
   VectorXd positions_;
+  double time_s_;
   std::optional<ReducedDynamics> reduced_;
 };
 
@@ -106,14 +107,18 @@ VectorXd carried_velocities(const Model& model, const System& system) {
   return velocities;
 }
 
+VectorXd settled_positions(EquationsOfMotion& equations, const VectorXd& positions, double time_s) {
+  DescriptorRest rest(equations, positions, time_s);
+  find_equilibrium(rest);
+  return rest.positions();
+}
+
 VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equations) {
   const System& system = equations.system();
   carried_velocities(model, system);
   VectorXd state = given_state(model, system);
   join(model, equations, state, Check::positions);
-  DescriptorRest rest(equations, state.head(system.position_count));
-  find_equilibrium(rest);
-  return rest.positions();
+  return settled_positions(equations, state.head(system.position_count), 0);
 }
 
 }  // namespace flexneck::multibody

@@ -16,6 +16,10 @@ namespace flexneck::multibody {
 /// @throws ComputationError if there is none within reach.
 Eigen::VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equations);
 
+/// The same at another time, sought from positions on the joints there.
+Eigen::VectorXd settled_positions(EquationsOfMotion& equations, const Eigen::VectorXd& positions,
+                                  double time_s);
+
 /// Velocities of the free bodies that move with the driven ones at their initial velocity, as
 /// System lays them out.
 /// @throws InputError if a body hangs on driven ones of different velocity, or on none.

@@ -46,6 +46,8 @@ class GeneralisedAlpha final : public TimeIntegrator {
   /// @throws ComputationError if Newton's method does not converge.
   void fixed_step(double length_s);
   void interpolate(double time_s, Vector& y) const override;
+  /// Its steps go over kinks of loads as the error allows: there are no events.
+  std::string name_of_event(std::size_t /*event*/) const override { return {}; }
   std::string name_of(std::size_t component) const override {
     return equations_.name_of(component);
   }

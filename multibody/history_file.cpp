@@ -2,6 +2,8 @@
 #include "multibody/history_file.h"
 
 #include <algorithm>
+#include <array>
+#include <complex>
 #include <span>
 
 #include "geometry/foundation/error.h"
@@ -17,6 +19,7 @@ constexpr const char* kChannels = "/channels";
 constexpr const char* kEnergy = "/energy";
 constexpr const char* kConstraints = "/constraints";
 constexpr const char* kStatistics = "/statistics";
+constexpr const char* kLinearisation = "/linearisation";
 /// Position of a group in the model's list: HDF5 itself lists them by name.
 constexpr const char* kIndex = "index";
 constexpr const char* kUndetermined = "undetermined";
@@ -154,6 +157,47 @@ void write_statistics(Hdf5Writer& file, const StepStatistics& statistics) {
   write_vector(file, kLimitedSteps, steps, "1");
 }
 
+struct ModeNumber {
+  const char* name;
+  double SystemMode::*member;
+  const char* unit;
+};
+constexpr std::array<ModeNumber, 3> kModeNumbers = {
+    {{"frequency", &SystemMode::frequency_Hz, "Hz"},
+     {"damped_frequency", &SystemMode::damped_frequency_Hz, "Hz"},
+     {"damping_ratio", &SystemMode::damping_ratio, "1"}}};
+
+struct ShapePart {
+  const char* name;
+  Eigen::Matrix3Xcd ModeShape::*member;
+  const char* unit;
+};
+constexpr std::array<ShapePart, 2> kShapeParts = {
+    {{"translation", &ModeShape::translation, "m"}, {"rotation", &ModeShape::rotation, "rad"}}};
+
+void write_linearisation(Hdf5Writer& file, const LinearisationRecord& record) {
+  const std::size_t n = record.modes.size();
+  file.write_attribute(kLinearisation, "about", std::string_view(record.about));
+  file.write(path_of(kLinearisation, "markers"), record.markers);
+  for (const ModeNumber& number : kModeNumbers) {
+    std::vector<double> values;
+    for (const ModeShape& mode : record.modes) values.push_back(mode.mode.*number.member);
+    file.write(path_of(kLinearisation, number.name), values, {n}, number.unit);
+  }
+  for (const ShapePart& part : kShapeParts) {
+    std::vector<double> real;
+    std::vector<double> imaginary;
+    for (const ModeShape& mode : record.modes)
+      for (const std::complex<double>& each : (mode.*part.member).reshaped()) {
+        real.push_back(each.real());
+        imaginary.push_back(each.imag());
+      }
+    const std::string name = path_of(kLinearisation, part.name);
+    file.write(name + "_real", real, {n, record.markers.size(), 3}, part.unit);
+    file.write(name + "_imaginary", imaginary, {n, record.markers.size(), 3}, part.unit);
+  }
+}
+
 /// Members of a group in the order of their attribute `index`.
 std::vector<std::string> ordered_members(const Hdf5Reader& file, const std::string& group) {
   const std::vector<std::string> members = file.members(group);
@@ -241,6 +285,34 @@ StepStatistics read_statistics(const Hdf5Reader& file) {
   return statistics;
 }
 
+LinearisationRecord read_linearisation(const Hdf5Reader& file) {
+  LinearisationRecord record;
+  record.about = file.string_attribute(kLinearisation, "about");
+  record.markers = file.read_strings(path_of(kLinearisation, "markers"));
+  for (const ModeNumber& number : kModeNumbers) {
+    const std::vector<double> values =
+        file.read_doubles(path_of(kLinearisation, number.name),
+                          {record.modes.empty() ? kAnyExtent : record.modes.size()}, number.unit);
+    record.modes.resize(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) record.modes[k].mode.*number.member = values[k];
+  }
+  const Shape shape = {record.modes.size(), record.markers.size(), 3};
+  const auto columns = static_cast<Eigen::Index>(record.markers.size());
+  for (const ShapePart& part : kShapeParts) {
+    const std::string name = path_of(kLinearisation, part.name);
+    const std::vector<double> real = file.read_doubles(name + "_real", shape, part.unit);
+    const std::vector<double> imaginary = file.read_doubles(name + "_imaginary", shape, part.unit);
+    for (std::size_t k = 0; k < record.modes.size(); ++k) {
+      Eigen::Matrix3Xcd& amplitudes = record.modes[k].*part.member;
+      const std::size_t first = 3 * record.markers.size() * k;
+      amplitudes.resize(3, columns);
+      amplitudes.real() = Eigen::Map<const Eigen::Matrix3Xd>(real.data() + first, 3, columns);
+      amplitudes.imag() = Eigen::Map<const Eigen::Matrix3Xd>(imaginary.data() + first, 3, columns);
+    }
+  }
+  return record;
+}
+
 Eigen::VectorXd read_time(const Hdf5Reader& file) {
   const Eigen::VectorXd time_s = read_vector(file, "/time", kAnyExtent, "s");
   for (Eigen::Index k = 1; k < time_s.size(); ++k) {
@@ -283,6 +355,7 @@ void write_history(const std::filesystem::path& path, const HistoryFile& file) {
     writer.write(kRedundant, history.redundant_constraints);
   if (!history.incomplete.empty())
     writer.write_attribute(kStatistics, kIncomplete, std::string_view(history.incomplete));
+  if (file.linearisation) write_linearisation(writer, *file.linearisation);
   write_provenance(writer, file.provenance);
   writer.commit();
 }
@@ -318,6 +391,7 @@ HistoryFile read_history(const std::filesystem::path& path) {
   if (reader.has(kRedundant)) history.redundant_constraints = reader.read_strings(kRedundant);
   if (has_attribute(reader, kStatistics, kIncomplete))
     history.incomplete = reader.string_attribute(kStatistics, kIncomplete);
+  if (reader.has(kLinearisation)) file.linearisation = read_linearisation(reader);
   file.provenance = read_provenance(reader);
   return file;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/provenance.h"
 #include "multibody/history.h"
+#include "multibody/linearisation.h"
 
 namespace flexneck::multibody {
 
@@ -25,9 +27,17 @@ struct Channel {
   std::string filter;                ///< such as "CFC 600"; empty for none
 };
 
+/// Modes of the linearised model, /linearisation. Shapes as in ModeShape, (modes, markers, 3).
+struct LinearisationRecord {
+  std::string about;                 ///< "equilibrium" or "given"
+  std::vector<std::string> markers;  ///< of the model, in its order
+  std::vector<ModeShape> modes;
+};
+
 struct HistoryFile {
   History history;
   std::vector<Channel> channels = {};
+  std::optional<LinearisationRecord> linearisation = {};
   Provenance provenance;
 };
 

@@ -34,10 +34,10 @@ SystemMode mode_of_pair(double l1, double l2) {
 
 /// The eigenvalues of an overdamped mode share their shape, at least when the damping does not
 /// couple the modes: each takes the most similar partner, slowest first.
-std::vector<SystemMode> overdamped_modes(std::vector<RealEigenvalue> values) {
+std::vector<Eigenmode> overdamped_modes(std::vector<RealEigenvalue> values) {
   std::sort(values.begin(), values.end(),
             [](const auto& a, const auto& b) { return std::abs(a.value) < std::abs(b.value); });
-  std::vector<SystemMode> modes;
+  std::vector<Eigenmode> modes;
   for (std::size_t first = 0; first < values.size(); ++first) {
     if (values[first].used) continue;
     std::size_t partner = values.size();
@@ -50,48 +50,66 @@ std::vector<SystemMode> overdamped_modes(std::vector<RealEigenvalue> values) {
     }
     if (partner == values.size()) break;
     values[first].used = values[partner].used = true;
-    modes.push_back(mode_of_pair(values[first].value, values[partner].value));
+    modes.push_back(
+        {mode_of_pair(values[first].value, values[partner].value), values[first].shape});
   }
   return modes;
 }
 
 }  // namespace
 
-std::vector<SystemMode> modes_of(const MatrixXd& stiffness, const MatrixXd& damping) {
-  const Index k = stiffness.rows();
-  if (k == 0) return {};
+std::vector<Eigenmode> eigenmodes_of(const MatrixXd& A, Index positions) {
+  const Index rates = A.rows() - positions;
+  if (rates == 0) return {};
   // In units of time that make the largest stiffness one.
-  const double largest = stiffness.cwiseAbs().maxCoeff();
+  const double largest = A.bottomLeftCorner(rates, positions).cwiseAbs().maxCoeff();
   const double rate = largest > 0 ? std::sqrt(largest) : 1.0;
-  MatrixXd system = MatrixXd::Zero(2 * k, 2 * k);
-  system.topRightCorner(k, k).setIdentity();
-  system.bottomLeftCorner(k, k) = -stiffness / (rate * rate);
-  system.bottomRightCorner(k, k) = -damping / rate;
-  const Eigen::EigenSolver<MatrixXd> eigen(system);
+  MatrixXd scaled = A / rate;
+  scaled.topRightCorner(positions, rates) *= rate;
+  scaled.bottomLeftCorner(rates, positions) /= rate;
+  const Eigen::EigenSolver<MatrixXd> eigen(scaled);
   if (eigen.info() != Eigen::Success)
     throw ComputationError("the eigenvalues of the linearised system did not converge");
 
-  std::vector<SystemMode> modes;
+  std::vector<Eigenmode> modes;
   std::vector<RealEigenvalue> real;
-  for (Index i = 0; i < 2 * k; ++i) {
+  for (Index i = 0; i < A.rows(); ++i) {
     const std::complex<double> lambda = eigen.eigenvalues()[i];
     const double magnitude = std::abs(lambda);
     if (magnitude * magnitude < kZero) continue;
     if (lambda.real() > std::sqrt(kZero) * 1e-2)
-      throw ComputationError("the equilibrium found is not stable: a motion about it grows");
+      throw ComputationError("the state is not stable: a motion about it grows by " +
+                             std::to_string(lambda.real() * rate) + " / s");
+    const Eigen::VectorXcd shape = eigen.eigenvectors().col(i).head(positions);
     if (lambda.imag() > 0)
-      modes.push_back({magnitude * rate / (2 * std::numbers::pi),
-                       lambda.imag() * rate / (2 * std::numbers::pi), -lambda.real() / magnitude});
-    if (lambda.imag() == 0)
-      real.push_back(
-          {lambda.real() * rate, eigen.eigenvectors().col(i).head(k).real().normalized()});
+      modes.push_back({{magnitude * rate / (2 * std::numbers::pi),
+                        lambda.imag() * rate / (2 * std::numbers::pi), -lambda.real() / magnitude},
+                       shape});
+    if (lambda.imag() == 0) real.push_back({lambda.real() * rate, shape.real().normalized()});
   }
-  for (const SystemMode& mode : overdamped_modes(std::move(real))) modes.push_back(mode);
-  modes.resize(static_cast<std::size_t>(k));  // the rest have no restoring force
-  std::sort(modes.begin(), modes.end(), [](const SystemMode& a, const SystemMode& b) {
-    return a.frequency_Hz < b.frequency_Hz;
+  for (Eigenmode& mode : overdamped_modes(std::move(real))) modes.push_back(std::move(mode));
+  modes.resize(static_cast<std::size_t>(rates));  // the rest have no restoring force
+  std::stable_sort(modes.begin(), modes.end(), [](const Eigenmode& a, const Eigenmode& b) {
+    return a.mode.frequency_Hz < b.mode.frequency_Hz;
   });
   return modes;
+}
+
+std::vector<SystemMode> modes_of(const MatrixXd& stiffness, const MatrixXd& damping) {
+  const Index k = stiffness.rows();
+  std::vector<SystemMode> modes;
+  for (const Eigenmode& each : eigenmodes_of(second_order(stiffness, damping), k))
+    modes.push_back(each.mode);
+  return modes;
+}
+
+MatrixXd second_order(const MatrixXd& stiffness, const MatrixXd& damping) {
+  const Index k = stiffness.rows();
+  MatrixXd A = MatrixXd::Zero(2 * k, 2 * k);
+  A.topRightCorner(k, k).setIdentity();
+  A.bottomLeftCorner(k, k) = -stiffness;
+  A.bottomRightCorner(k, k) = -damping;
+  return A;
 }
 
 }  // namespace flexneck::multibody

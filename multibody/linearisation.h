@@ -17,4 +17,40 @@ namespace flexneck::multibody {
 /// @throws ComputationError if a motion grows instead of swinging: there is no stable equilibrium.
 std::vector<SystemMode> modes_of(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping);
 
+/// A of xi'' + damping xi' + stiffness xi = 0 in y = [xi; xi'].
+Eigen::MatrixXd second_order(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping);
+
+/// A mode and its eigenvector in the coordinates xi; of an overdamped one that of the slower
+/// motion, of a motion without restoring force empty.
+struct Eigenmode {
+  SystemMode mode;
+  Eigen::VectorXcd shape;
+};
+
+/// The modes of y' = A y, y = [positions; rates], ascending in frequency, as modes_of().
+/// @param positions  how many; the rest are rates. Positions may be more than rates by what
+///                   normalised quaternions have too many.
+/// @throws ComputationError as modes_of().
+std::vector<Eigenmode> eigenmodes_of(const Eigen::MatrixXd& A, Eigen::Index positions);
+
+/// A mode of a whole model: how its markers swing, x(t) = Re(amplitude exp(i omega t)), scaled so
+/// that the largest displacement of a marker is a metre (if none is displaced, the largest
+/// rotation a radian) and real. Zero for a motion without restoring force.
+struct ModeShape {
+  SystemMode mode;
+  Eigen::Matrix3Xcd translation;  ///< a column for each marker, world axes
+  Eigen::Matrix3Xcd rotation;     ///< rad, likewise
+};
+
+/// About what a model is linearised.
+enum class LinearisedAt {
+  equilibrium,  ///< see system_modes()
+  given         ///< what the bodies are given, velocities and the drive at time zero included
+};
+
+/// Small motions about a state. About a given one, which need not be an equilibrium, they are those
+/// of the coefficients as they are there: exact where they stay, as on a hub that turns evenly.
+/// @throws as system_modes(); InputError if a model that is given in motion closes a loop.
+std::vector<ModeShape> linearise(const Model& model, LinearisedAt at);
+
 }  // namespace flexneck::multibody

@@ -21,18 +21,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Multiples of the interval up to the end, and the end.
-VectorXd output_times(const OutputOptions& output) {
-  constexpr double kSlack = 1e-9;  // of an interval: the end may be a multiple but for rounding
-  const auto whole = static_cast<Index>(output.end_time_s / output.interval_s + kSlack);
-  const bool end_is_multiple = output.end_time_s - static_cast<double>(whole) * output.interval_s <=
-                               kSlack * output.interval_s;
-  VectorXd times(whole + (end_is_multiple ? 1 : 2));
-  for (Index k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) * output.interval_s;
-  times[times.size() - 1] = output.end_time_s;
-  return times;
-}
-
 /// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
 std::vector<double> breakpoints(const Model& model, double end_s) {
   std::vector<double> times;
@@ -53,13 +41,15 @@ class LimitCounter {
  public:
   void count(const TimeIntegrator& integrator) {
     const StepReason reason = integrator.reason();
-    ++steps_[{reason, reason == StepReason::error ? integrator.limiting_component() : 0}];
+    ++steps_[{reason, reason == StepReason::error   ? integrator.limiting_component()
+                      : reason == StepReason::event ? integrator.event()
+                                                    : 0}];
   }
   std::vector<StepLimit> take(const TimeIntegrator& integrator) const {
     std::vector<StepLimit> limits;
     for (const auto& [cause, steps] : steps_) {
       const auto& [reason, component] = cause;
-      limits.push_back({name_of(reason, integrator.name_of(component)), steps});
+      limits.push_back({name_of(reason, component, integrator), steps});
     }
     std::stable_sort(limits.begin(), limits.end(),
                      [](const StepLimit& a, const StepLimit& b) { return a.steps > b.steps; });
@@ -67,14 +57,17 @@ class LimitCounter {
   }
 
  private:
-  static std::string name_of(StepReason reason, const std::string& component) {
+  static std::string name_of(StepReason reason, std::size_t index,
+                             const TimeIntegrator& integrator) {
     switch (reason) {
       case StepReason::error:
-        return "error: " + component;
+        return "error: " + integrator.name_of(index);
       case StepReason::largest_step:
         return "the largest step allowed";
       case StepReason::end:
         return "a kink of a table or the end of the run";
+      case StepReason::event:
+        return "event: " + integrator.name_of_event(index);
       case StepReason::iteration:
         break;
     }
@@ -164,6 +157,12 @@ std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const Vect
         return equations.measure(begin, end, error);
       },
       [&](std::size_t component) { return equations.name_of(component); }};
+  if (!equations.forces().pieces().empty()) {
+    problem.pieces = [&]() -> const std::vector<int>& { return equations.forces().pieces(); };
+    problem.name_of_piece = [&](std::size_t piece) {
+      return equations.forces().name_of_piece(piece);
+    };
+  }
   return std::make_unique<DormandPrince>(std::move(problem), limits, 0, state);
 }
 

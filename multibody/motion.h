@@ -17,6 +17,11 @@ namespace flexneck::multibody {
 std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const Eigen::VectorXd& state,
                                                 const SolverOptions& solver);
 
+/// Static equilibria at the output times, each sought from the one before.
+/// @param equations  with driven bodies held
+/// @throws IncompleteRun if one is not found.
+History settle_along(const Model& model, Equations& equations, const OutputOptions& output);
+
 /// Integrates from a state at time zero that keeps the joints, and records at the output times.
 /// @throws IncompleteRun as simulate().
 History integrate(const Model& model, Equations& equations, const Eigen::VectorXd& state,

@@ -22,6 +22,17 @@ std::array<VectorXd*, 4> parts_of(ConstraintHistory& constraints) {
 
 }  // namespace
 
+VectorXd output_times(const OutputOptions& output) {
+  constexpr double kSlack = 1e-9;  // of an interval: the end may be a multiple but for rounding
+  const auto whole = static_cast<Index>(output.end_time_s / output.interval_s + kSlack);
+  const bool end_is_multiple = output.end_time_s - static_cast<double>(whole) * output.interval_s <=
+                               kSlack * output.interval_s;
+  VectorXd times(whole + (end_is_multiple ? 1 : 2));
+  for (Index k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) * output.interval_s;
+  times[times.size() - 1] = output.end_time_s;
+  return times;
+}
+
 Recorder::Recorder(const Model& model, const VectorXd& times_s)
     : modal_of_body_(model.bodies.size(), 0),
       undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {

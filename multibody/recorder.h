@@ -7,8 +7,12 @@
 #include "multibody/joint_check.h"
 #include "multibody/model.h"
 #include "multibody/motion_state.h"
+#include "multibody/simulation.h"
 
 namespace flexneck::multibody {
+
+/// Multiples of the interval up to the end, and the end.
+Eigen::VectorXd output_times(const OutputOptions& output);
 
 /// Fills a history, one column per output time.
 class Recorder {

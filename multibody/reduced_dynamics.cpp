@@ -48,9 +48,10 @@ void assemble_rows_transposed(const EquationsOfMotion& equations, MatrixXd& B_tr
   }
 }
 
-ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& positions)
-    : equations_(equations), projection_(equations), origin_(positions) {
-  equations_.set_positions(0, origin_);
+ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& positions,
+                                 double time_s)
+    : equations_(equations), projection_(equations), origin_(positions), time_s_(time_s) {
+  equations_.set_positions(time_s_, origin_);
   // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
   MatrixXd M;
   MatrixXd rows;
@@ -86,7 +87,7 @@ double ReducedDynamics::extent(const VectorXd& xi) const {
 VectorXd ReducedDynamics::positions_at(const VectorXd& xi) {
   VectorXd positions = origin_;
   equations_.system().retract(positions, N_ * xi);
-  projection_.converge_positions(0, positions);
+  projection_.converge_positions(time_s_, positions);
   return positions;
 }
 
@@ -97,7 +98,7 @@ VectorXd ReducedDynamics::solve(const VectorXd& velocities) {
 }
 
 VectorXd ReducedDynamics::accelerations_at(const VectorXd& xi) {
-  equations_.set_positions(0, positions_at(xi));
+  equations_.set_positions(time_s_, positions_at(xi));
   return solve(VectorXd::Zero(equations_.system().velocity_count));
 }
 
@@ -114,7 +115,7 @@ MatrixXd ReducedDynamics::stiffness() {
 
 MatrixXd ReducedDynamics::damping() {
   MatrixXd result(count(), count());
-  equations_.set_positions(0, origin_);
+  equations_.set_positions(time_s_, origin_);
   for (Index i = 0; i < count(); ++i) {
     const double step = 1 / extent(VectorXd::Unit(count(), i));
     const VectorXd velocities = step * N_.col(i);

@@ -22,7 +22,9 @@ class ReducedDynamics {
  public:
   /// @param equations  with Drive::held; must outlive this
   /// @param positions  of the free bodies, on the joints
-  ReducedDynamics(EquationsOfMotion& equations, const Eigen::VectorXd& positions);
+  /// @param time_s     of the forces and the driven bodies' places
+  ReducedDynamics(EquationsOfMotion& equations, const Eigen::VectorXd& positions,
+                  double time_s = 0);
 
   Eigen::Index count() const { return N_.cols(); }
   const Eigen::MatrixXd& basis() const { return N_; }
@@ -42,6 +44,7 @@ class ReducedDynamics {
   EquationsOfMotion& equations_;
   Projection projection_;
   Eigen::VectorXd origin_;
+  double time_s_;
   Eigen::MatrixXd N_;
   Eigen::MatrixXd MN_;
 };

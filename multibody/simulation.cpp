@@ -40,10 +40,12 @@ void check_options(const SolverOptions& solver, const OutputOptions& output) {
     throw InputError("the output interval gives over 1e8 output times; make it longer");
 }
 
-std::unique_ptr<Equations> equations_of(const Model& model, const SolverOptions& solver) {
+std::unique_ptr<Equations> equations_of(const Model& model, const SolverOptions& solver,
+                                        Drive drive = Drive::prescribed) {
   const bool recursive = solver.formulation == Formulation::recursive ||
                          (solver.formulation == Formulation::automatic && tree::is_tree(model));
-  return recursive ? recursive_equations(model, solver) : descriptor_equations(model, solver);
+  return recursive ? recursive_equations(model, solver, drive)
+                   : descriptor_equations(model, solver, drive);
 }
 
 /// Bodies on one that turns would be pulled outwards: they have no static equilibrium.
@@ -75,6 +77,13 @@ History simulate_from_equilibrium(const Model& model, const SolverOptions& solve
   check_nothing_turns(model);
   const std::unique_ptr<Equations> equations = equations_of(model, solver);
   return integrate(model, *equations, equations->equilibrium_state(), solver, output);
+}
+
+History settle(const Model& model, const SolverOptions& solver, const OutputOptions& output) {
+  check(model);
+  check_options(solver, output);
+  const std::unique_ptr<Equations> equations = equations_of(model, solver, Drive::held);
+  return settle_along(model, *equations, output);
 }
 
 std::vector<SystemMode> system_modes(const Model& model) {

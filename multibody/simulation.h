@@ -74,6 +74,14 @@ History simulate(const Model& model, const SolverOptions& solver, const OutputOp
 History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
                                   const OutputOptions& output);
 
+/// A quasi-static ramp: the static equilibria at the output times, each sought from the one before,
+/// the first from the poses that the bodies are given. Forces have their values at that time, and
+/// driven bodies are at rest where they are then. What needs motion does nothing: inertia, dampers,
+/// friction, hysteresis; velocities and accelerations are zero but for rounding.
+/// @throws InputError as simulate() but for velocities.
+/// @throws IncompleteRun if no equilibrium is found at some time, as where a column buckles.
+History settle(const Model& model, const SolverOptions& solver, const OutputOptions& output);
+
 /// Small motions about that equilibrium, ascending in frequency. An overdamped mode has a damping
 /// ratio of one or more and the damped frequency zero; a motion without restoring force has
 /// frequency zero.

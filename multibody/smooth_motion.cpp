@@ -111,6 +111,9 @@ double sum_of(const Series& series, double x) {
 class Fit {
  public:
   Fit(const SmoothMotion::Function& f, double end_s) : f_(f), end_s_(end_s) {
+    // The ends are no Chebyshev nodes, but a run starts and stops there.
+    for (const double time_s : {0.0, end_s})
+      if (!std::isfinite(f(time_s))) refuse(time_s, "is not a finite number");
     constexpr int kSamples = 257;
     for (int k = 0; k < kSamples; ++k)
       scale_ = std::max(scale_, std::abs(f(end_s * (k + 0.5) / kSamples)));

@@ -19,6 +19,7 @@ enum class StepReason {
   error,         ///< of the limiting component
   largest_step,  ///< the largest allowed
   end,           ///< of an interval: a kink of a table or the end of the run
+  event,         ///< a load has a kink: a stop is met, friction turns over
   iteration      ///< an implicit method's equations could not be solved over a longer one
 };
 
@@ -40,6 +41,8 @@ class TimeIntegrator {
   /// The state inside the last step.
   virtual void interpolate(double time_s, Vector& y) const = 0;
   virtual std::string name_of(std::size_t component) const = 0;
+  /// Of what happened at the end of a step whose reason is an event.
+  virtual std::string name_of_event(std::size_t event) const = 0;
 
   double time_s() const { return time_s_; }
   const Vector& state() const { return y_; }
@@ -48,6 +51,8 @@ class TimeIntegrator {
   /// Component of the largest error and what set the length, of the last step tried.
   std::size_t limiting_component() const { return last_estimate_.component; }
   StepReason reason() const { return reason_; }
+  /// At the end of the last step, if that is its reason.
+  std::size_t event() const { return event_; }
 
  protected:
   TimeIntegrator(StepLimits limits, double time_s, const Vector& y)
@@ -59,6 +64,7 @@ class TimeIntegrator {
   Vector y_;
   ErrorEstimate last_estimate_;
   StepReason reason_ = StepReason::error;
+  std::size_t event_ = 0;
   int accepted_ = 0;
   int rejected_ = 0;
 };

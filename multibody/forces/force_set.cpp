@@ -32,6 +32,22 @@ ForceSet::ForceSet(const Model& model) : model_(model) {
     const Joint& joint = model.joints[resistance.joint];
     resistance_pairs_.push_back(pair_of(joint.marker_i, joint.marker_j));
   }
+  pieces_.assign(2 * (spring_pairs_.size() + resistance_pairs_.size()), 0);
+}
+
+void ForceSet::set_piece(std::size_t law, const LawPiece& piece) {
+  pieces_[2 * law] = piece.deflection;
+  pieces_[2 * law + 1] = piece.rate;
+}
+
+std::string ForceSet::name_of_piece(std::size_t index) const {
+  const std::size_t law = index / 2;
+  const std::size_t springs = model_.springs.size();
+  const std::string who = law < springs
+                              ? "spring '" + model_.springs[law].name + "'"
+                              : "resistance '" + model_.resistances[law - springs].name + "'";
+  return who + (index % 2 == 0 ? ": a stop or a kink of its curve"
+                               : ": its friction or hysteresis turns over");
 }
 
 std::size_t ForceSet::slot_of(std::size_t marker) {
@@ -55,11 +71,10 @@ void ForceSet::evaluate(double time_s) {
     slot.force_N.setZero();
     slot.moment_Nm.setZero();
   }
-  for (std::size_t k = 0; k < spring_pairs_.size(); ++k) apply(model_.springs[k], spring_pairs_[k]);
+  for (std::size_t k = 0; k < spring_pairs_.size(); ++k) apply_spring(k);
   for (std::size_t k = 0; k < bushing_pairs_.size(); ++k)
     apply(model_.bushings[k], bushing_pairs_[k]);
-  for (std::size_t k = 0; k < resistance_pairs_.size(); ++k)
-    apply(model_.resistances[k], resistance_pairs_[k]);
+  for (std::size_t k = 0; k < resistance_pairs_.size(); ++k) apply_resistance(k);
   // So far only loads between markers: what they take from driven bodies is these bodies' work.
   for (std::size_t k = 0; k < slots_.size(); ++k)
     if (driven_[k])
@@ -93,15 +108,19 @@ void ForceSet::apply_pair(const Pair& pair, const Vector3d& force_on_j,
   i.moment_Nm -= moment_on_j + (j.p - i.p).cross(force_on_j);
 }
 
-void ForceSet::apply(const MarkerSpring& spring, const Pair& pair) {
+void ForceSet::apply_spring(std::size_t index) {
+  const MarkerSpring& spring = model_.springs[index];
+  const Pair& pair = spring_pairs_[index];
   const ForceMarker& i = slots_[pair.i];
   const ForceMarker& j = slots_[pair.j];
   const Vector3d line = j.p - i.p;
   const double length = line.norm();
   if (!(length > kSmallest)) return;
   const Vector3d direction = line / length;
-  const ResistanceLoad found = multibody::evaluate(spring.resistance, length - spring.free_length_m,
-                                                   direction.dot(j.v - i.v));
+  const double deflection = length - spring.free_length_m;
+  const double rate = direction.dot(j.v - i.v);
+  const ResistanceLoad found = multibody::evaluate(spring.resistance, deflection, rate);
+  set_piece(index, piece_of(spring.resistance, deflection, rate));
   stored_J_ += found.stored_J;
   lost_W_ += found.lost_W;
   apply_pair(pair, -found.load * direction, Vector3d::Zero());
@@ -127,46 +146,50 @@ void ForceSet::apply(const Bushing& bushing, const Pair& pair) {
   apply_pair(pair, -(i.R * (elastic.head<3>() + viscous.head<3>())), -(i.R * moment));
 }
 
-void ForceSet::apply(const JointResistance& resistance, const Pair& pair) {
+void ForceSet::apply_resistance(std::size_t index) {
+  const JointResistance& resistance = model_.resistances[index];
+  const Pair& pair = resistance_pairs_[index];
   const ForceMarker& i = slots_[pair.i];
   const ForceMarker& j = slots_[pair.j];
   const Joint& joint = model_.joints[resistance.joint];
   const Vector3d h = i.R * joint.axis;
-  const auto record = [&](const ResistanceLoad& found) {
+  const auto load_at = [&](double x, double v) {
+    const ResistanceLoad found = multibody::evaluate(resistance.resistance, x, v);
     stored_J_ += found.stored_J;
     lost_W_ += found.lost_W;
+    set_piece(spring_pairs_.size() + index, piece_of(resistance.resistance, x, v));
     return found.load;
   };
   switch (resistance.coordinate) {
     case JointCoordinate::distance: {
       const Vector3d line = j.p - i.p;
       const double rate = h.dot(j.v - i.v - i.w.cross(line));
-      const double load = record(multibody::evaluate(resistance.resistance, h.dot(line), rate));
-      apply_pair(pair, -load * h, Vector3d::Zero());
+      apply_pair(pair, -load_at(h.dot(line), rate) * h, Vector3d::Zero());
       return;
     }
     case JointCoordinate::angle: {
       const Eigen::Quaterniond q(Matrix3d(i.R.transpose() * j.R));
       const double sign = q.w() < 0 ? -1 : 1;
       const double angle = 2 * std::atan2(sign * q.vec().dot(joint.axis), sign * q.w());
-      const double load =
-          record(multibody::evaluate(resistance.resistance, angle, h.dot(j.w - i.w)));
-      apply_pair(pair, Vector3d::Zero(), -load * h);
+      apply_pair(pair, Vector3d::Zero(), -load_at(angle, h.dot(j.w - i.w)) * h);
       return;
     }
     case JointCoordinate::flexion:
-      apply_flexion(resistance, pair, h);
+      apply_flexion(index, h);
       return;
   }
 }
 
-void ForceSet::apply_flexion(const JointResistance& flexion, const Pair& pair, const Vector3d& h) {
+void ForceSet::apply_flexion(std::size_t index, const Vector3d& h) {
+  const JointResistance& flexion = model_.resistances[index];
+  const Pair& pair = resistance_pairs_[index];
   const ForceMarker& i = slots_[pair.i];
   const ForceMarker& j = slots_[pair.j];
   const Resistance& resistance = flexion.resistance;
   const Vector3d h_j = j.R * model_.joints[flexion.joint].axis;
   const Vector3d rate = j.w - i.w;
   Vector3d moment = Vector3d::Zero();
+  LawPiece piece;
   const auto record = [&](const ResistanceLoad& found, double sign) {
     stored_J_ += found.stored_J;
     lost_W_ += sign * found.lost_W;
@@ -182,6 +205,7 @@ void ForceSet::apply_flexion(const JointResistance& flexion, const Pair& pair, c
     const double bending = normal.dot(rate);
     moment -= record(multibody::evaluate(resistance, angle, bending), 1) * normal;
     moment -= record(multibody::evaluate(resistance, 0, bending), -1) * normal;
+    piece = piece_of(resistance, angle, bending);
   }
   // Damping and friction, what is left without deflection, act against the whole rate across the
   // axis: about the normal alone they would jump where the axes are straight.
@@ -189,6 +213,9 @@ void ForceSet::apply_flexion(const JointResistance& flexion, const Pair& pair, c
   const double speed = swinging.norm();
   if (speed > kSmallest)
     moment -= record(multibody::evaluate(resistance, 0, speed), 1) / speed * swinging;
+  // Both rates count: bending turns over hysteresis, swinging friction.
+  piece.rate += 3 * piece_of(resistance, 0, speed).rate;
+  set_piece(spring_pairs_.size() + index, piece);
   apply_pair(pair, Vector3d::Zero(), moment);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,6 +44,12 @@ class ForceSet {
   /// Energy that springs store and that forces would give if they stayed as they are.
   double potential_J() const { return stored_J_ + potential_J_; }
 
+  /// Which smooth pieces of their laws springs and resistances were on in the last evaluate(): two
+  /// numbers for each (LawPiece). A motion along which one changes meets a kink of a load.
+  const std::vector<int>& pieces() const { return pieces_; }
+  /// What happens where the number of this index changes.
+  std::string name_of_piece(std::size_t index) const;
+
   /// Adds the times at which a table has a kink or a jump.
   void add_breakpoints(std::vector<double>& times_s) const;
 
@@ -56,11 +63,13 @@ class ForceSet {
   Pair pair_of(std::size_t marker_i, std::size_t marker_j);
   void apply_pair(const Pair& pair, const Eigen::Vector3d& force_on_j,
                   const Eigen::Vector3d& moment_on_j);
-  void apply(const MarkerSpring& spring, const Pair& pair);
+  void apply_spring(std::size_t index);
   void apply(const Bushing& bushing, const Pair& pair);
-  void apply(const JointResistance& resistance, const Pair& pair);
+  void apply_resistance(std::size_t index);
+  /// @param law  springs first, then resistances
+  void set_piece(std::size_t law, const LawPiece& piece);
   /// @param h  the joint's axis on i, world
-  void apply_flexion(const JointResistance& flexion, const Pair& pair, const Eigen::Vector3d& h);
+  void apply_flexion(std::size_t index, const Eigen::Vector3d& h);
 
   const Model& model_;
   std::vector<std::size_t> markers_;
@@ -68,6 +77,7 @@ class ForceSet {
   std::vector<bool> driven_;  ///< of the slots
   std::vector<std::size_t> force_slots_, torque_slots_;
   std::vector<Pair> spring_pairs_, bushing_pairs_, resistance_pairs_;
+  std::vector<int> pieces_;
   double stored_J_ = 0, lost_W_ = 0, work_W_ = 0, potential_J_ = 0;
 };
 

@@ -48,7 +48,7 @@ LoadCurve LoadCurve::table(std::vector<double> x, std::vector<double> load) {
 namespace {
 
 /// The row from which the piece at x starts; the last piece goes on.
-std::size_t piece(const std::vector<double>& rows, double x) {
+std::size_t row_before(const std::vector<double>& rows, double x) {
   const auto after = std::upper_bound(rows.begin(), rows.end() - 1, x);
   const auto k = static_cast<std::size_t>(after - rows.begin());
   return std::min(k == 0 ? 0 : k - 1, rows.size() - 2);
@@ -56,16 +56,26 @@ std::size_t piece(const std::vector<double>& rows, double x) {
 
 }  // namespace
 
+int LoadCurve::piece(double x) const {
+  return x_.empty() ? 0 : static_cast<int>(row_before(x_, x));
+}
+
+bool LoadCurve::continues(const LoadCurve& other) const {
+  if (x_.empty() != other.x_.empty()) return false;
+  if (x_.empty()) return c1_ == other.c1_ && c2_ == 0 && other.c2_ == 0 && c3_ == other.c3_;
+  return load_[1] * other.x_[1] == other.load_[1] * x_[1];
+}
+
 double LoadCurve::value(double x) const {
   if (x_.empty()) return x * (c1_ + x * (c2_ + x * c3_));
-  const std::size_t k = piece(x_, x);
+  const std::size_t k = row_before(x_, x);
   const double slope = (load_[k + 1] - load_[k]) / (x_[k + 1] - x_[k]);
   return load_[k] + slope * (x - x_[k]);
 }
 
 double LoadCurve::energy(double x) const {
   if (x_.empty()) return x * x * (c1_ / 2 + x * (c2_ / 3 + x * c3_ / 4));
-  const std::size_t k = piece(x_, x);
+  const std::size_t k = row_before(x_, x);
   return energy_[k] + (x - x_[k]) * (load_[k] + value(x)) / 2;
 }
 

@@ -19,6 +19,10 @@ class LoadCurve {
 
   double value(double x) const;
   double energy(double x) const;  ///< integral of the load from 0 to x, J
+  /// Between which of its rows x lies; 0 for a cubic.
+  int piece(double x) const;
+  /// Whether it and `other`, one for each direction, make one smooth curve through zero.
+  bool continues(const LoadCurve& other) const;
 
  private:
   double c1_ = 0, c2_ = 0, c3_ = 0;

@@ -13,6 +13,43 @@ double ResistanceSide::energy(double x) const {
   return curve.energy(x) + (x > stop ? beyond_stop.energy(x - stop) : 0);
 }
 
+int ResistanceSide::piece(double x) const {
+  // Rows of both curves are passed one by one as x grows.
+  return curve.piece(x) + (x > stop ? 1 + beyond_stop.piece(x - stop) : 0);
+}
+
+namespace {
+
+bool depends_on_direction(const Resistance& resistance) {
+  return resistance.full_rate > 0 &&
+         (resistance.friction > 0 || resistance.positive.unloading_ratio < 1 ||
+          resistance.negative.unloading_ratio < 1);
+}
+
+bool is_smooth_at_zero(const Resistance& resistance) {
+  const ResistanceSide& a = resistance.positive;
+  const ResistanceSide& b = resistance.negative;
+  return a.stop > 0 && b.stop > 0 && a.unloading_ratio == 1 && b.unloading_ratio == 1 &&
+         a.curve.continues(b.curve);
+}
+
+}  // namespace
+
+LawPiece piece_of(const Resistance& resistance, double x, double v) {
+  constexpr int kSlack = -1;
+  LawPiece piece;
+  if (depends_on_direction(resistance))
+    piece.rate = v <= -resistance.full_rate ? -1 : v >= resistance.full_rate ? 1 : 0;
+  if (resistance.tension_only) {
+    piece.deflection = evaluate(resistance, x, v).load > 0 ? resistance.positive.piece(x) : kSlack;
+    return piece;
+  }
+  const int passed = x < 0 ? resistance.negative.piece(-x) : resistance.positive.piece(x);
+  if (passed == 0 && is_smooth_at_zero(resistance)) return piece;
+  piece.deflection = x < 0 ? -1 - passed : 1 + passed;
+  return piece;
+}
+
 ResistanceLoad evaluate(const Resistance& resistance, double x, double v) {
   ResistanceLoad result;
   if (resistance.tension_only && !(x > 0)) return result;

@@ -18,6 +18,8 @@ struct ResistanceSide {
 
   double load(double x) const;
   double energy(double x) const;
+  /// Counts what x has passed, rows of tables and the stop; 0 before all of them.
+  int piece(double x) const;
 };
 
 /// Resistance against a deflection x of either sign and its rate: curves different in the two
@@ -40,5 +42,13 @@ struct ResistanceLoad {
   double lost_W = 0;
 };
 ResistanceLoad evaluate(const Resistance& resistance, double x, double v);
+
+/// Which smooth piece of its law a resistance is on: where one of these numbers changes, the load
+/// has a kink.
+struct LawPiece {
+  int deflection = 0;  ///< which rows of a table, beyond which stop, slack or not
+  int rate = 0;        ///< friction and hysteresis complete one way (-1), the other (1) or not yet
+};
+LawPiece piece_of(const Resistance& resistance, double x, double v);
 
 }  // namespace flexneck::multibody

@@ -13,12 +13,14 @@ using Eigen::Index;
 
 class RecursiveEquations final : public Equations {
  public:
-  RecursiveEquations(const Model& model, const SolverOptions& solver)
+  RecursiveEquations(const Model& model, const SolverOptions& solver, Drive drive)
       : tree_(model),
-        dynamics_(tree_),
+        dynamics_(tree_, drive),
         error_(tree_, solver.relative_tolerance, solver.absolute_tolerance) {}
 
   Vector given_state() override { return tree::given_state(tree_); }
+
+  Vector given_place() override { return tree::given_positions(tree_); }
 
   Vector equilibrium_state() override {
     for (const tree::TreeBody& body : tree_.bodies)
@@ -28,6 +30,12 @@ class RecursiveEquations final : public Equations {
     find_equilibrium(rest);
     // Rates against the driven bodies are zero: all moves with them.
     return rest.state();
+  }
+
+  void settle(double time_s, Vector& state) override {
+    tree::TreeRest rest(dynamics_, state, time_s);
+    find_equilibrium(rest);
+    state = rest.state();
   }
 
   void set_interval(double begin_s, double end_s) override {
@@ -45,6 +53,7 @@ class RecursiveEquations final : public Equations {
     return error_(begin, end, error);
   }
   std::string name_of(std::size_t component) const override { return error_.name_of(component); }
+  const ForceSet& forces() const override { return dynamics_.forces(); }
   int evaluations() const override { return dynamics_.evaluations(); }
 
   Layout layout() const override { return {tree_.position_count, tree_.velocity_count, 0}; }
@@ -97,8 +106,9 @@ class RecursiveEquations final : public Equations {
 
 }  // namespace
 
-std::unique_ptr<Equations> recursive_equations(const Model& model, const SolverOptions& solver) {
-  return std::make_unique<RecursiveEquations>(model, solver);
+std::unique_ptr<Equations> recursive_equations(const Model& model, const SolverOptions& solver,
+                                               Drive drive) {
+  return std::make_unique<RecursiveEquations>(model, solver, drive);
 }
 
 }  // namespace flexneck::multibody

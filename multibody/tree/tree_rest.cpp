@@ -19,8 +19,8 @@ constexpr double kDifference = 1e-5;
 
 }  // namespace
 
-TreeRest::TreeRest(TreeDynamics& dynamics, const VectorXd& state)
-    : dynamics_(dynamics), state_(state) {
+TreeRest::TreeRest(TreeDynamics& dynamics, const VectorXd& state, double time_s)
+    : dynamics_(dynamics), state_(state), time_s_(time_s) {
   update_basis();
 }
 
@@ -29,7 +29,7 @@ void TreeRest::update_basis() {
   const Index n = dynamics_.tree().velocity_count;
   MatrixXd inverse(n, n);
   const auto accelerations = [&]() -> const VectorXd& {
-    dynamics_.update(0, state_);
+    dynamics_.update(time_s_, state_);
     dynamics_.solve();
     return dynamics_.accelerations();
   };
@@ -64,7 +64,7 @@ VectorXd TreeRest::state_at(const VectorXd& xi) const {
 }
 
 VectorXd TreeRest::forces_at(const VectorXd& xi) {
-  dynamics_.update(0, state_at(xi));
+  dynamics_.update(time_s_, state_at(xi));
   dynamics_.solve();
   return N_.triangularView<Eigen::Lower>().solve(dynamics_.accelerations());
 }

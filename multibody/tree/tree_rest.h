@@ -14,7 +14,8 @@ class TreeRest final : public RestProblem {
  public:
   /// @param dynamics  with Drive::held; must outlive this
   /// @param state     at rest
-  TreeRest(TreeDynamics& dynamics, const Eigen::VectorXd& state);
+  /// @param time_s    of the forces and the driven bodies' places
+  TreeRest(TreeDynamics& dynamics, const Eigen::VectorXd& state, double time_s = 0);
 
   Eigen::Index count() const override { return N_.cols(); }
   double extent(const Eigen::VectorXd& xi) const override;
@@ -31,6 +32,7 @@ class TreeRest final : public RestProblem {
 
   TreeDynamics& dynamics_;
   Eigen::VectorXd state_;
+  double time_s_;
   Eigen::MatrixXd N_;  ///< lower triangular
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "multibody/history_file.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/csv_output.h"
@@ -16,15 +17,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-multibody::History run(const ModelFile& file) {
-  const multibody::OutputOptions output{file.end_time_s, file.output.interval_s};
+/// What the model gets wrong that only its computation shows.
+template <class Compute>
+auto named(const ModelFile& file, const Compute& compute) {
   try {
-    return file.start == ModelFile::Start::equilibrium
-               ? multibody::simulate_from_equilibrium(file.model, file.solver, output)
-               : multibody::simulate(file.model, file.solver, output);
+    return compute();
   } catch (const InputError& error) {
     throw InputError(file.file.string() + ": " + error.what());
   }
+}
+
+multibody::History run(const ModelFile& file) {
+  const multibody::OutputOptions output{file.end_time_s, file.output.interval_s};
+  return named(file, [&] {
+    if (file.analysis == ModelFile::Analysis::quasi_static)
+      return multibody::settle(file.model, file.solver, output);
+    return file.start == ModelFile::Start::equilibrium
+               ? multibody::simulate_from_equilibrium(file.model, file.solver, output)
+               : multibody::simulate(file.model, file.solver, output);
+  });
+}
+
+std::optional<multibody::LinearisationRecord> linearised(const ModelFile& file) {
+  if (!file.linearised_at) return {};
+  const bool at_rest = *file.linearised_at == multibody::LinearisedAt::equilibrium;
+  return multibody::LinearisationRecord{
+      at_rest ? "equilibrium" : "given", names_of(file.model.markers),
+      named(file, [&] { return multibody::linearise(file.model, *file.linearised_at); })};
 }
 
 template <class Histories>
@@ -58,6 +77,7 @@ void write(const SimulateInput& input, const multibody::HistoryFile& result) {
   write_csv(table, result.history.time_s, result.channels);
   input.console.result(name + ": " + input.folder.file(name + ".h5").string() + ", " +
                        table.string() + "\n" + run_summary(result.history) + "\n\n" +
+                       (result.linearisation ? mode_summary(*result.linearisation) + "\n" : "") +
                        peak_table(result.history.time_s, result.channels));
 }
 
@@ -68,10 +88,16 @@ bool simulate_command(const SimulateInput& input) {
     throw InputError("simulate: name the model, 'flexneck simulate MODEL.toml'");
   const ModelFile file = read_model_file(input.model, input.settings);
   input.console.step("Simulating " + input.model.string());
+  const auto linearisation = linearised(file);
+  const auto finish = [&](multibody::History history) {
+    multibody::HistoryFile result = result_of(file, std::move(history));
+    result.linearisation = linearisation;
+    write(input, result);
+  };
   try {
-    write(input, result_of(file, run(file)));
+    finish(run(file));
   } catch (const multibody::IncompleteRun& stopped) {
-    write(input, result_of(file, stopped.history));
+    finish(stopped.history);
     throw ComputationError(file.file.string() + ": " + stopped.what() +
                            "; what was computed until then is kept, marked incomplete");
   }

@@ -31,11 +31,24 @@ void read_solver(const StudyTable& table, ModelFile& file) {
     file.solver.integrator = static_cast<multibody::Integrator>(
         choice(table, "integrator", {"dormand_prince", "generalised_alpha"}));
   file.solver.spectral_radius = table.number_or("spectral_radius", file.solver.spectral_radius);
+  if (table.has("analysis"))
+    file.analysis =
+        static_cast<ModelFile::Analysis>(choice(table, "analysis", {"motion", "quasi_static"}));
+  if (table.has("start") && file.analysis == ModelFile::Analysis::quasi_static)
+    table.refuse("start", "a quasi-static analysis is at rest all the time; leave this key out");
   if (table.has("start"))
     file.start = static_cast<ModelFile::Start>(choice(table, "start", {"given", "equilibrium"}));
   if (table.has("gravity")) file.model.gravity_m_s2 = quantity_vector(table, "gravity", "m/s^2");
   file.end_time_s = table.quantity("end_time", "s");
   if (!(file.end_time_s > 0)) table.refuse("end_time", "expected a positive time");
+  table.finish();
+}
+
+void read_linearisation(const StudyTable& root, ModelFile& file) {
+  if (!root.has("linearisation")) return;
+  const StudyTable table = root.table("linearisation");
+  file.linearised_at =
+      static_cast<multibody::LinearisedAt>(choice(table, "about", {"equilibrium", "given"}));
   table.finish();
 }
 
@@ -88,6 +101,7 @@ ModelFile read_model_file(const std::filesystem::path& path,
   ModelFile file;
   file.file = path;
   read_solver(root.table("solver"), file);
+  read_linearisation(root, file);
   Assembly assembly;
   assembly.end_time_s = file.end_time_s;
   assembly.model.gravity_m_s2 = file.model.gravity_m_s2;

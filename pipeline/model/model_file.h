@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/foundation/provenance.h"
+#include "multibody/linearisation.h"
 #include "multibody/model.h"
 #include "multibody/simulation.h"
 #include "pipeline/output/channel.h"
@@ -28,10 +30,17 @@ struct ModelFile {
     equilibrium  ///< at rest against the driven bodies, moving with them
   };
 
+  enum class Analysis {
+    motion,
+    quasi_static  ///< static equilibria at the output times
+  };
+
   std::filesystem::path file;
   multibody::Model model;
   multibody::SolverOptions solver;
+  Analysis analysis = Analysis::motion;
   Start start = Start::given;
+  std::optional<multibody::LinearisedAt> linearised_at;
   double end_time_s = 1;
   OutputSection output;
 

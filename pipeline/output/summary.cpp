@@ -32,6 +32,29 @@ std::string run_summary(const multibody::History& history) {
   return text;
 }
 
+std::string mode_summary(const multibody::LinearisationRecord& linearisation) {
+  std::vector<std::vector<std::string>> rows = {
+      {"mode about " + linearisation.about, "Hz", "damped Hz", "damping", "moves most", "along"}};
+  for (const multibody::ModeShape& each : linearisation.modes) {
+    std::vector<std::string> row = {std::to_string(rows.size()),
+                                    fmt::format("{:.5g}", each.mode.frequency_Hz),
+                                    fmt::format("{:.5g}", each.mode.damped_frequency_Hz),
+                                    fmt::format("{:.4g}", each.mode.damping_ratio)};
+    const bool slides = !each.translation.isZero(0);
+    const Eigen::Matrix3Xd sizes = (slides ? each.translation : each.rotation).cwiseAbs();
+    Eigen::Index axis = 0;
+    Eigen::Index marker = 0;
+    if (sizes.size() > 0 && sizes.maxCoeff(&axis, &marker) > 0) {
+      row.push_back(linearisation.markers[static_cast<std::size_t>(marker)]);
+      row.push_back(std::string(slides ? "" : "about ") + "xyz"[axis]);
+    } else {
+      row.insert(row.end(), {"", ""});
+    }
+    rows.push_back(row);
+  }
+  return text_table(rows, {0, 4, 5});
+}
+
 std::string peak_table(const Eigen::VectorXd& time_s,
                        const std::vector<multibody::Channel>& channels) {
   std::vector<std::vector<std::string>> rows = {

@@ -11,6 +11,9 @@ namespace flexneck::pipeline {
 /// What a run took and how well its constraints held, for reading.
 std::string run_summary(const multibody::History& history);
 
+/// Frequencies and damping of the linearised model, and which marker of each mode moves most.
+std::string mode_summary(const multibody::LinearisationRecord& linearisation);
+
 /// The smallest and the largest value of every curve with their times.
 std::string peak_table(const Eigen::VectorXd& time_s,
                        const std::vector<multibody::Channel>& channels);

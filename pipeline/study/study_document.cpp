@@ -42,6 +42,17 @@ struct StudyTable::Node {
     throw InputError(where + dotted(key) + ": " + problem);
   }
 
+  /// A key that is there, that nobody has asked for and that may be meant to be this one.
+  std::string misspelt(const std::string& key) const {
+    std::vector<std::string> others;
+    if (table != nullptr)
+      for (const auto& [name, ignored] : *table)
+        if (std::find(known.begin(), known.end(), name.str()) == known.end())
+          others.emplace_back(name.str());
+    const std::string near = nearest_name(others, key);
+    return near.empty() ? near : "; is '" + near + "' meant to be it?";
+  }
+
   /// The value of a key, out of its { value, origin, note } where it has one; notes the parameter.
   const toml::node& value(const std::string& key);
   void record(const std::string& key, const toml::node& value, const toml::table* labels);
@@ -133,7 +144,7 @@ void StudyTable::Node::record(const std::string& key, const toml::node& value,
 
 const toml::node& StudyTable::Node::value(const std::string& key) {
   const toml::node* const node = find(key);
-  if (node == nullptr) refuse(key, "expected this key, found none");
+  if (node == nullptr) refuse(key, "expected this key, found none" + misspelt(key));
   const toml::table* const labels = node->as_table();
   if (labels == nullptr) {
     record(key, *node, nullptr);

@@ -121,6 +121,58 @@ TEST_CASE("a run from equilibrium stays there while nothing is driven") {
   CHECK((history.joint("base").force_N.col(3) + mass * model.gravity_m_s2).norm() < 1e-6);
 }
 
+TEST_CASE("a quasi-static ramp is a row of equilibria, in closed form, with the work it takes") {
+  // A pendulum pulled sideways at its end: tan(angle) = 2 F / (m g).
+  Model model = pendulum(0);
+  constexpr double kLargest_N = 60;
+  model.forces.push_back({"pull", 2, Vector3d::UnitX(),
+                          TimeTable({0, 1}, {0, kLargest_N}, TimeTable::Outside::constant)});
+  SolverOptions solver;
+  solver.formulation = GENERATE(Formulation::descriptor, Formulation::recursive);
+  const History history = settle(model, solver, {.end_time_s = 1, .interval_s = 0.125});
+  const double weight = 2 * 9.81;
+  for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
+    const double pull = kLargest_N * history.time_s[k];
+    const double angle = std::atan2(2 * pull, weight);
+    const Vector3d expected = kLength * Vector3d(std::sin(angle), 0, -std::cos(angle));
+    CHECK((history.marker("bottom").position_m.col(k) - expected).norm() < 1e-9);
+    CHECK(history.marker("bottom").velocity_m_s.col(k).norm() == 0);
+    CHECK(history.joint("pin").force_N.col(k).norm() ==
+          Approx(std::hypot(weight, pull)).epsilon(1e-9));
+    CHECK(history.energy.work_J[k] ==
+          Approx(weight * kLength / 2 * (1 - std::cos(angle))).margin(1e-9));
+  }
+}
+
+TEST_CASE("a quasi-static ramp carries bodies along with what is driven") {
+  Model model = pendulum(0);
+  DrivenBody hoist;
+  hoist.initial_velocity_m_s = 0.5;
+  model.bodies[0].kind = hoist;
+  SolverOptions solver;
+  solver.formulation = GENERATE(Formulation::descriptor, Formulation::recursive);
+  const History history = settle(model, solver, {.end_time_s = 2, .interval_s = 1});
+  // Carried by a metre, hanging straight: however fast, nothing swings.
+  CHECK((history.marker("bottom").position_m.col(2) - Vector3d(1, 0, -kLength)).norm() < 1e-9);
+}
+
+TEST_CASE("a quasi-static ramp ends where nothing holds any more, and keeps what was before") {
+  Model model = pendulum(0);
+  model.gravity_m_s2.setZero();
+  model.joints[0].kind = JointKind::slider;
+  model.joints[0].axis = Vector3d::UnitX();
+  model.forces.push_back({"pull", 2, Vector3d::UnitX(),
+                          TimeTable({0, 0.5, 1}, {0, 0, 5}, TimeTable::Outside::constant)});
+  try {
+    settle(model, {}, {.end_time_s = 1, .interval_s = 0.1});
+    FAIL("a block that nothing holds was found at rest");
+  } catch (const IncompleteRun& run) {
+    CHECK_THAT(run.what(), Contains("no static equilibrium") && Contains("at 0.6"));
+    CHECK(run.history.time_s.size() == 6);
+    CHECK(run.history.incomplete == run.what());
+  }
+}
+
 TEST_CASE("what has no equilibrium is refused") {
   Model loose = pendulum(0);
   loose.joints.clear();

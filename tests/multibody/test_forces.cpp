@@ -160,6 +160,76 @@ TEST_CASE("a stop with hysteresis gives back the share of energy that it is told
   CHECK((balance.array() - balance[0]).abs().maxCoeff() < 1e-7 * balance[0]);
 }
 
+TEST_CASE("steps end where a stop is met and left, and the kinks cost neither order nor energy") {
+  constexpr double kSpeed = 2;
+  constexpr double kStop_m = 0.05;
+  constexpr double kStiffness = 800;
+  ModelBuilder build = sliding_block(kSpeed);
+  JointResistance stops{"stops", 0, JointCoordinate::distance, {}};
+  for (ResistanceSide* side : {&stops.resistance.positive, &stops.resistance.negative}) {
+    side->stop = kStop_m;
+    side->beyond_stop = LoadCurve::cubic(kStiffness);
+  }
+  build.model.resistances.push_back(stops);
+  // To the stop, half a swing of sqrt(m / k) in it, back through the middle to the other one, half
+  // a swing, and back to where it began.
+  const double swing_s = std::numbers::pi * std::sqrt(2 / kStiffness);
+  const double round_s = 4 * kStop_m / kSpeed + 2 * swing_s;
+  constexpr int kRounds = 3;
+  for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+    CAPTURE(tolerance);
+    const History history =
+        simulate(build.model, solver_of(tolerance, 1e-3 * tolerance),
+                 {.end_time_s = kRounds * round_s, .interval_s = kRounds * round_s});
+    // Some ten steps a swing, each with an error of the tolerance.
+    CHECK(std::abs(history.marker("block").position_m(0, 1)) < 100 * tolerance * kStop_m);
+    CHECK(history.marker("block").velocity_m_s(0, 1) == Approx(kSpeed).epsilon(100 * tolerance));
+    int events = 0;
+    for (const StepLimit& limit : history.statistics.limits)
+      if (limit.what == "event: resistance 'stops': a stop or a kink of its curve")
+        events = limit.steps;
+    // Into and out of each; a second, short step where the first ended just before the event.
+    CHECK(events >= 4 * kRounds);
+    CHECK(events <= 8 * kRounds);
+  }
+}
+
+TEST_CASE("a law's pieces change where its load has a kink, and nowhere else") {
+  Resistance resistance;
+  resistance.positive.curve = LoadCurve::table({0, 0.1, 0.3}, {0, 5, 6});
+  resistance.positive.stop = 0.2;
+  resistance.positive.beyond_stop = LoadCurve::cubic(1, 2, 3);
+  resistance.negative.curve = LoadCurve::cubic(30);
+  resistance.friction = GENERATE(0.0, 2.0);
+  resistance.full_rate = 0.5;
+  const auto slope = [&](double x, double v, bool along_rate) {
+    const auto load = [&](double step) {
+      return evaluate(resistance, x + (along_rate ? 0 : step), v + (along_rate ? step : 0)).load;
+    };
+    return first_derivative(load, 1e-5);
+  };
+  const auto same = [&](double x, double v, double y, double w) {
+    const LawPiece one = piece_of(resistance, x, v);
+    const LawPiece other = piece_of(resistance, y, w);
+    return one.deflection == other.deflection && one.rate == other.rate;
+  };
+  for (const double kink : {0.0, 0.1, 0.2}) {
+    CAPTURE(kink);
+    CHECK_FALSE(same(kink - 1e-3, 0.1, kink + 1e-3, 0.1));
+    CHECK(std::abs(slope(kink - 1e-3, 0.1, false) - slope(kink + 1e-3, 0.1, false)) > 0.5);
+  }
+  for (const auto& [from, to] : {std::pair(-0.4, -0.01), {0.01, 0.09}, {0.11, 0.19}, {0.21, 0.29}})
+    CHECK(same(from, 0.1, to, 0.1));
+  CHECK(same(0.15, 0.49, 0.15, 0.51) == (resistance.friction == 0));
+  CHECK(same(0.15, -0.49, 0.15, -0.51) == (resistance.friction == 0));
+  CHECK(same(0.15, -0.4, 0.15, 0.4));
+  // The same line on both sides has no kink at zero; a rope has.
+  resistance.positive = resistance.negative;
+  CHECK(same(-1, 0.1, 1, 0.1));
+  resistance.tension_only = true;
+  CHECK_FALSE(same(-1, 0.1, 1, 0.1));
+}
+
 TEST_CASE("a torque with a time table spins a rotor by its integral") {
   ModelBuilder build;
   const auto rotor =

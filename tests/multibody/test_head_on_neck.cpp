@@ -1,96 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Driven base - neck - head: against the form without multipliers (equations.md section 6).
 #include <cmath>
-#include <numbers>
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
 #include "multibody/simulation.h"
 #include "tests/support/formulations.h"
+#include "tests/support/minimal_neck.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
 using namespace flexneck::testing;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 SolverOptions tight() { return flexneck::testing::solver_of(1e-11, 1e-13); }
-
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d result;
-  result << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return result;
-}
-
-Matrix3d turn_by(const Vector3d& theta) {
-  return theta.norm() > 0 ? Eigen::AngleAxisd(theta.norm(), theta.normalized()).toRotationMatrix()
-                          : Matrix3d::Identity();
-}
-
-/// Left Jacobian of the rotation vector as the mean of the rotations on the way,
-/// J_l = int_0^1 exp(u ~theta) du, by five Gauss points on eight pieces.
-Matrix3d left_jacobian(const Vector3d& theta) {
-  constexpr double kNodes[] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
-                               0.953089922969332};
-  constexpr double kWeights[] = {0.118463442528095, 0.239314335249683, 0.284444444444444,
-                                 0.239314335249683, 0.118463442528095};
-  Matrix3d sum = Matrix3d::Zero();
-  for (int piece = 0; piece < 8; ++piece) {
-    for (int k = 0; k < 5; ++k) sum += kWeights[k] / 8 * turn_by((piece + kNodes[k]) / 8 * theta);
-  }
-  return sum;
-}
-
-/// d/dt of left_jacobian along `rate`, by differences of fourth order.
-Matrix3d left_jacobian_rate(const Vector3d& theta, const Vector3d& rate) {
-  if (rate.norm() == 0) return Matrix3d::Zero();
-  const double h = 1e-3 / rate.norm();
-  const auto at = [&](double t) { return left_jacobian(theta + t * rate); };
-  return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
-}
-
-/// The neck's root moves with the base, the head with the neck's top: only the modes are unknown.
-struct MinimalModel {
-  flexneck::fe_modal::ModalBody neck;
-  double zeta;
-  RigidBody head;
-  Vector3d gravity_N;    ///< in neck axes, which the base keeps
-  Vector3d direction_N;  ///< of the base's acceleration, neck axes
-  TimeTable acceleration;
-
-  VectorXd accelerations(double t, const VectorXd& a, const VectorXd& rate) const {
-    const Eigen::Matrix3Xd& psi = neck.interface("top").translation;
-    const Eigen::Matrix3Xd& mu = neck.interface("top").rotation;
-    const Vector3d theta = mu * a;
-    const Matrix3d R = turn_by(theta);
-    const Eigen::Matrix3Xd J_mu = left_jacobian(theta) * mu;
-    // In the head's axes: angular velocity, and the part of its rate that a'' does not make.
-    const Eigen::Matrix3Xd Jw = R.transpose() * J_mu;
-    const Vector3d w = Jw * rate;
-    const Vector3d w_rate = R.transpose() * left_jacobian_rate(theta, mu * rate) * (mu * rate);
-    const Vector3d moment = head.mass_kg * head.center_m;
-    const Matrix3d inertia =
-        head.inertia_kg_m2 - head.mass_kg * skew(head.center_m) * skew(head.center_m);
-    const Vector3d base = acceleration.value(t) * direction_N - gravity_N;
-    const Eigen::MatrixXd mass =
-        neck.invariants.Maa + psi.transpose() * (head.mass_kg * psi - R * skew(moment) * Jw) +
-        Jw.transpose() * (skew(moment) * R.transpose() * psi + inertia * Jw);
-    const Vector3d force =
-        head.mass_kg * base - R * skew(moment) * w_rate + R * w.cross(w.cross(moment));
-    const Vector3d torque =
-        moment.cross(R.transpose() * base) + inertia * w_rate + w.cross(inertia * w);
-    const Eigen::ArrayXd omega = 2 * kPi * neck.frequencies_Hz.array();
-    const VectorXd load = -(omega.square() * a.array() + 2 * zeta * omega * rate.array()).matrix() -
-                          neck.invariants.S2.transpose() * base - psi.transpose() * force -
-                          Jw.transpose() * torque;
-    return mass.ldlt().solve(load);
-  }
-};
 
 /// Modal coordinates at each whole interval by the classical Runge-Kutta rule from rest.
 std::vector<VectorXd> integrate(const MinimalModel& model, double interval_s, int intervals,

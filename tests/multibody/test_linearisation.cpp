@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -14,6 +15,7 @@
 
 using Eigen::Index;
 using Eigen::Matrix2d;
+using Eigen::Matrix3Xcd;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -35,6 +37,33 @@ RigidBody rod(double mass, double length) {
   const double inertia = mass * length * length / 12;
   body.inertia_kg_m2 = Vector3d(inertia, inertia, inertia / 10).asDiagonal();
   return body;
+}
+
+/// Two rods on pins, hanging from the ground.
+Model double_pendulum(double m1, double l1, double m2, double l2) {
+  Model model;
+  model.gravity_m_s2 = {0, 0, -kGravity};
+  model.bodies = {{"ground", DrivenBody{}, {}},
+                  {"upper", rod(m1, l1), {}},
+                  {"lower", rod(m2, l2), {{0, 0, -l1}}}};
+  model.markers = {{"pivot", 0, ""},
+                   {"upper top", 1, ""},
+                   {"upper end", 1, ""},
+                   {"lower top", 2, ""},
+                   {"lower end", 2, ""}};
+  model.markers[2].position_m = {0, 0, -l1};
+  model.markers[4].position_m = {0, 0, -l2};
+  model.joints = {{"first", JointKind::pin, 0, 1}, {"second", JointKind::pin, 2, 3}};
+  return model;
+}
+
+/// K and M of its angles.
+std::pair<Matrix2d, Matrix2d> double_pendulum_matrices(double m1, double l1, double m2, double l2) {
+  // M = [m1 l1^2/3 + m2 l1^2, m2 l1 l2/2; ., m2 l2^2/3], K = g diag(m1 l1/2 + m2 l1, m2 l2/2).
+  Matrix2d M, K;
+  M << m1 * l1 * l1 / 3 + m2 * l1 * l1, m2 * l1 * l2 / 2, m2 * l1 * l2 / 2, m2 * l2 * l2 / 3;
+  K << kGravity * (m1 * l1 / 2 + m2 * l1), 0, 0, kGravity * m2 * l2 / 2;
+  return {K, M};
 }
 
 /// A modal body clamped by its root to a driven body, with a head on its tip.
@@ -62,19 +91,8 @@ Model clamped(double zeta, double head_kg, int modes) {
 
 TEST_CASE("a double pendulum swings with its closed-form frequencies in both planes") {
   const double m1 = 2, l1 = 0.5, m2 = 1, l2 = 0.3;
-  Model model;
-  model.gravity_m_s2 = {0, 0, -kGravity};
-  model.bodies = {{"ground", DrivenBody{}, {}},
-                  {"upper", rod(m1, l1), {}},
-                  {"lower", rod(m2, l2), {{0, 0, -l1}}}};
-  model.markers = {
-      {"pivot", 0, ""}, {"upper top", 1, ""}, {"upper end", 1, ""}, {"lower top", 2, ""}};
-  model.markers[2].position_m = {0, 0, -l1};
-  model.joints = {{"first", JointKind::pin, 0, 1}, {"second", JointKind::pin, 2, 3}};
-  // M = [m1 l1^2/3 + m2 l1^2, m2 l1 l2/2; ., m2 l2^2/3], K = g diag(m1 l1/2 + m2 l1, m2 l2/2).
-  Matrix2d M, K;
-  M << m1 * l1 * l1 / 3 + m2 * l1 * l1, m2 * l1 * l2 / 2, m2 * l1 * l2 / 2, m2 * l2 * l2 / 3;
-  K << kGravity * (m1 * l1 / 2 + m2 * l1), 0, 0, kGravity * m2 * l2 / 2;
+  Model model = double_pendulum(m1, l1, m2, l2);
+  const auto [K, M] = double_pendulum_matrices(m1, l1, m2, l2);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix2d> eigen(K, M);
   const auto modes = system_modes(model);
   REQUIRE(modes.size() == 2);
@@ -92,6 +110,68 @@ TEST_CASE("a double pendulum swings with its closed-form frequencies in both pla
   CHECK(free_modes[1].frequency_Hz == 0);
   for (std::size_t k = 2; k < 6; ++k)
     CHECK(free_modes[k].frequency_Hz == Approx(modes[k < 4 ? 0 : 1].frequency_Hz).epsilon(1e-7));
+}
+
+TEST_CASE("shapes of a double pendulum are the eigenvectors of its closed form") {
+  const double m1 = 2, l1 = 0.5, m2 = 1, l2 = 0.3;
+  Model model = double_pendulum(m1, l1, m2, l2);
+  const auto [K, M] = double_pendulum_matrices(m1, l1, m2, l2);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix2d> eigen(K, M);
+  const auto at = GENERATE(LinearisedAt::equilibrium, LinearisedAt::given);
+  const std::vector<ModeShape> modes = linearise(model, at);
+  REQUIRE(modes.size() == 2);
+  for (Index k = 0; k < 2; ++k) {
+    const ModeShape& found = modes[static_cast<std::size_t>(k)];
+    CHECK(found.mode.frequency_Hz ==
+          Approx(hertz(std::sqrt(eigen.eigenvalues()[k]))).epsilon(kTolerance));
+    // A turn by phi about y moves what hangs below by -l phi along x.
+    const Eigen::Vector2d phi = eigen.eigenvectors().col(k);
+    const Eigen::Vector2d ends(-l1 * phi[0], -l1 * phi[0] - l2 * phi[1]);
+    const double largest = std::abs(ends[0]) > std::abs(ends[1]) ? ends[0] : ends[1];
+    const Matrix3Xcd& moved = found.translation;
+    CHECK(std::abs(moved(0, 2) - ends[0] / largest) < 1e-7);
+    CHECK(std::abs(moved(0, 3) - ends[0] / largest) < 1e-7);
+    CHECK(std::abs(moved(0, 4) - ends[1] / largest) < 1e-7);
+    CHECK(moved.bottomRows<2>().cwiseAbs().maxCoeff() < 1e-7);
+    CHECK(moved.leftCols<2>().cwiseAbs().maxCoeff() < 1e-7);
+    CHECK(std::abs(found.rotation(1, 1) - phi[0] / largest) < 1e-6);
+    CHECK(std::abs(found.rotation(1, 3) - phi[1] / largest) < 1e-6);
+  }
+}
+
+TEST_CASE("about a hub that turns, a linear beam is softer by the square of the spin") {
+  // f^2 = f0^2 - spin^2 in the plane, f0 across it: no run is needed, nor an equilibrium.
+  constexpr double kSpin = 12;
+  Model model = clamped(0, 0, 1);
+  DrivenBody hub;
+  hub.turn.axis = Vector3d::UnitZ();
+  hub.turn.initial_rate_rad_s = kSpin;
+  model.bodies[0].kind = hub;
+  model.bodies[1].initial_angular_velocity_rad_s = {0, 0, kSpin};
+  const auto points = make_point_mass_body(61, 1);
+  const auto& body = points.body;
+  // What the mode does across the axis, of the mass of one.
+  const double in_plane =
+      (body.shapes[0].topRows<2>().colwise().squaredNorm() * points.masses_kg).value();
+  REQUIRE(in_plane > 0.1);
+  const double omega = 2 * std::numbers::pi * body.frequencies_Hz[0];
+  const std::vector<ModeShape> modes = linearise(model, LinearisedAt::given);
+  REQUIRE(modes.size() == 1);
+  CHECK(modes[0].mode.frequency_Hz ==
+        Approx(hertz(std::sqrt(omega * omega - kSpin * kSpin * in_plane))).epsilon(kTolerance));
+  CHECK(linearise(model, LinearisedAt::equilibrium)[0].mode.frequency_Hz ==
+        Approx(hertz(omega)).epsilon(kTolerance));
+}
+
+TEST_CASE("a closed loop that is given in motion is not linearised") {
+  Model loop = double_pendulum(1, 1, 1, 1);
+  loop.joints.push_back({"back", JointKind::fixed, 5, 4});
+  loop.markers.push_back({"below", 0, ""});
+  loop.markers.back().position_m = {0, 0, -2};
+  CHECK(linearise(loop, LinearisedAt::given).empty());
+  loop.bodies[1].initial_angular_velocity_rad_s = {0, 1, 0};
+  CHECK_THROWS_WITH(linearise(loop, LinearisedAt::given),
+                    Catch::Matchers::Contains("close a loop"));
 }
 
 TEST_CASE("a clamped modal body alone has its own frequencies and damping") {

@@ -62,6 +62,8 @@ TEST_CASE("a motion that is not smooth enough or not a number is refused") {
                     Contains("must be smooth"));
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return std::sqrt(t - 0.5); }, 1.0),
                     Contains("is not a finite number at"));
+  CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / t; }, 1.0),
+                    Contains("is not a finite number at 0 s"));
   // Halving meets this one exactly.
   CHECK_THROWS_AS(SmoothMotion::of_displacement([](double t) { return std::abs(t - 0.5); }, 1.0),
                   InputError);

@@ -94,6 +94,33 @@ TEST_CASE("the shipped static test is the built-in experiment") {
                  built_in.study.solver, {0.5, file.output.interval_s}));
 }
 
+TEST_CASE("the shipped static test as a quasi-static ramp shows K^-1 f of its modes at each load") {
+  const TemporaryFolder folder;
+  testing::write_beam_modes(folder / "modes.h5");
+  const ModelFile file = read_model_file(
+      shipped("static_test.toml"), {"body.neck.modes_file=" + (folder / "modes.h5").string(),
+                                    "solver.analysis=quasi_static", "output.interval=0.25 s"});
+  REQUIRE(file.analysis == ModelFile::Analysis::quasi_static);
+  const History history =
+      multibody::settle(file.model, file.solver, {file.end_time_s, file.output.interval_s});
+  const auto& body = std::get<multibody::DeformableBody>(file.model.bodies[1].kind).modes;
+  const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
+  const Eigen::Matrix3Xd psi = body.interface("top").translation;
+  const Eigen::Matrix3d compliance =
+      psi * omega.cwiseAbs2().cwiseInverse().asDiagonal() * psi.transpose();
+  const Eigen::Vector3d rest = body.interface("top").position_m;
+  REQUIRE(history.time_s.size() == 9);
+  for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
+    const Eigen::Vector3d load(400 * 4.4482216152605 * history.time_s[k] / 2, 0, 0);
+    const Eigen::Vector3d top = history.marker("neck.top").position_m.col(k);
+    CHECK((top - rest - compliance * load).norm() < 1e-9);
+    CHECK((history.joint("clamp").force_N.col(k) + load).norm() < 1e-8 * (1 + load.norm()));
+    CHECK((history.joint("clamp").moment_Nm.col(k) + top.cross(load)).norm() <
+          1e-8 * (1 + load.norm()));
+    CHECK(history.energy.work_J[k] == Approx(load.dot(compliance * load) / 2).margin(1e-9));
+  }
+}
+
 TEST_CASE("the shipped chain balances its energy, and its joints carry what hangs on them") {
   const TemporaryFolder folder;
   testing::Beam seat_back;

@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
+#include "pipeline/model/model_file.h"
 #include "tests/support/model_text.h"
 #include "tests/support/run_command.h"
 
@@ -59,6 +60,33 @@ TEST_CASE("simulate writes histories and a table, tells what it took, and does s
   REQUIRE(simulate(model, folder / "again", " -q").exit_code == 0);
   for (const char* name : {"swing.h5", "swing.csv"})
     CHECK(bytes_of(folder / "out" / name) == bytes_of(folder / "again" / name));
+}
+
+TEST_CASE("simulate tells the modes of small motions and keeps their shapes") {
+  const TemporaryFolder folder;
+  const fs::path model =
+      write_text(folder / "swing.toml",
+                 double_pendulum_text() + "\n[linearisation]\nabout = \"equilibrium\"\n");
+  const CommandOutcome outcome = simulate(model, folder / "out", " --set 'solver.end_time=10 ms'");
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("mode about equilibrium") && Contains("moves most"));
+  const auto file = multibody::read_history(folder / "out/swing.h5");
+  REQUIRE(file.linearisation);
+  CHECK(file.linearisation->about == "equilibrium");
+  CHECK(file.linearisation->markers.back() == "lower.tip");
+  const auto expected = multibody::linearise(pipeline::read_model_file(model, {}).model,
+                                             multibody::LinearisedAt::equilibrium);
+  REQUIRE(file.linearisation->modes.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const multibody::ModeShape& found = file.linearisation->modes[k];
+    CHECK(found.mode.frequency_Hz > 0.1);
+    CHECK(found.mode.frequency_Hz == expected[k].mode.frequency_Hz);
+    CHECK(found.mode.damping_ratio == expected[k].mode.damping_ratio);
+    CHECK(found.translation == expected[k].translation);
+    CHECK(found.rotation == expected[k].rotation);
+    CHECK(found.translation.cwiseAbs().maxCoeff() == Approx(1));
+  }
 }
 
 TEST_CASE("a model that is not sound ends in one line, exit code 2 and no file") {
