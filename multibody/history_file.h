@@ -37,8 +37,8 @@ struct LinearisationRecord {
 struct HistoryFile {
   History history;
   std::vector<Channel> channels = {};
-  std::optional<LinearisationRecord> linearisation = {};
   Provenance provenance;
+  std::optional<LinearisationRecord> linearisation = {};
 };
 
 void write_history(const std::filesystem::path& path, const HistoryFile& file);
