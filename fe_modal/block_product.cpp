@@ -5,49 +5,60 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <vector>
 
 namespace flexneck::fe_modal {
 namespace {
 
 constexpr Eigen::Index kTogether = 8;
-/// Some columns row by row, so that those of a degree of freedom are neighbours.
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, kTogether, Eigen::RowMajor>;
-using ThreeRows = std::array<double, 3 * kTogether>;
+/// Of so many columns the entries in one row.
+using Lanes = std::array<double, kTogether>;
+using ThreeRows = std::array<Lanes, 3>;
+using ThreeEntries = std::array<const double*, 3>;
 
-/// to += factor * from, a row each.
-void add_row(double factor, const double* from, double* to) {
-  for (Eigen::Index k = 0; k < kTogether; ++k) to[k] += factor * from[k];
+/// sum += A x and y += A^T x', with the 3 x 3 block A whose rows begin at `entries`.
+void multiply_both_ways(const ThreeEntries& entries, const ThreeRows& x, ThreeRows& sum,
+                        const ThreeRows& own_x, ThreeRows& y) {
+  const auto& [a, b, c] = entries;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    sum[0][k] += a[0] * x[0][k] + a[1] * x[1][k] + a[2] * x[2][k];
+    sum[1][k] += b[0] * x[0][k] + b[1] * x[1][k] + b[2] * x[2][k];
+    sum[2][k] += c[0] * x[0][k] + c[1] * x[1][k] + c[2] * x[2][k];
+    y[0][k] += a[0] * own_x[0][k] + b[0] * own_x[1][k] + c[0] * own_x[2][k];
+    y[1][k] += a[1] * own_x[0][k] + b[1] * own_x[1][k] + c[1] * own_x[2][k];
+    y[2][k] += a[2] * own_x[0][k] + b[2] * own_x[1][k] + c[2] * own_x[2][k];
+  }
 }
 
-/// The rows of one node: own diagonal block, then each later node both ways.
-void multiply_node(const SymmetricMatrix& matrix, std::int32_t node, const Rows& in, Rows& out) {
-  const double* const own = in.data() + 3 * kTogether * static_cast<std::ptrdiff_t>(node);
-  ThreeRows sum{};
-  std::array<const double*, 3> values{};
-  for (std::ptrdiff_t a = 0; a < 3; ++a) {
-    const auto row = static_cast<std::size_t>(3 * node + a);
-    values[static_cast<std::size_t>(a)] =
-        matrix.values().data() + matrix.offsets()[row] - a;  // so that column b stands at b
-    for (std::ptrdiff_t b = a; b < 3; ++b) {
-      const double entry = values[static_cast<std::size_t>(a)][b];
-      add_row(entry, own + kTogether * b, sum.data() + kTogether * a);
-      if (b != a) add_row(entry, own + kTogether * a, sum.data() + kTogether * b);
-    }
-  }
-  for (const std::int32_t other : matrix.later(node)) {
-    const double* const theirs = in.data() + 3 * kTogether * static_cast<std::ptrdiff_t>(other);
-    double* const response = out.data() + 3 * kTogether * static_cast<std::ptrdiff_t>(other);
-    for (std::ptrdiff_t a = 0; a < 3; ++a) {
-      const double* const entries = values[static_cast<std::size_t>(a)] += 3;
-      for (std::ptrdiff_t b = 0; b < 3; ++b) {
-        add_row(entries[b], theirs + kTogether * b, sum.data() + kTogether * a);
-        add_row(entries[b], own + kTogether * a, response + kTogether * b);
+/// y += A x by the upper half of A.
+void add_product(const SymmetricMatrix& matrix, const std::vector<ThreeRows>& x,
+                 std::vector<ThreeRows>& y) {
+  for (std::size_t node = 0; node < x.size(); ++node) {
+    const ThreeRows own = x[node];
+    ThreeRows sum{};
+    ThreeEntries entries{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double* const row =
+          matrix.values().data() + matrix.offsets()[3 * node + a];  // begins on the diagonal
+      for (std::size_t b = a; b < 3; ++b) {
+        const double entry = row[b - a];
+        for (std::size_t k = 0; k < kTogether; ++k) {
+          sum[a][k] += entry * own[b][k];
+          if (b != a) sum[b][k] += entry * own[a][k];
+        }
       }
+      entries[a] = row + (3 - a);
+    }
+    for (const std::int32_t other : matrix.later(static_cast<std::int32_t>(node))) {
+      const auto place = static_cast<std::size_t>(other);
+      multiply_both_ways(entries, x[place], sum, own, y[place]);
+      for (const double*& next : entries) next += 3;
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t k = 0; k < kTogether; ++k) y[node][a][k] += sum[a][k];
     }
   }
-  double* const result = out.data() + 3 * kTogether * static_cast<std::ptrdiff_t>(node);
-  for (std::size_t k = 0; k < sum.size(); ++k) result[k] += sum[k];
 }
 
 }  // namespace
@@ -68,16 +79,18 @@ Eigen::MatrixXd block_product(Mat matrix, const Eigen::MatrixXd& columns) {
 
 Eigen::MatrixXd block_product(const SymmetricMatrix& matrix, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd result(columns.rows(), columns.cols());
-  Rows in = Rows::Zero(columns.rows(), kTogether);
-  Rows out(columns.rows(), kTogether);
+  const Eigen::Index nodes = columns.rows() / 3;
+  std::vector<ThreeRows> in(static_cast<std::size_t>(nodes));
+  std::vector<ThreeRows> out(in.size());
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, kTogether, Eigen::RowMajor>;
+  Eigen::Map<Rows> in_rows(in.front().front().data(), 3 * nodes, kTogether);
+  const Eigen::Map<const Rows> out_rows(out.front().front().data(), 3 * nodes, kTogether);
   for (Eigen::Index first = 0; first < columns.cols(); first += kTogether) {
     const Eigen::Index width = std::min(kTogether, columns.cols() - first);
-    in.leftCols(width) = columns.middleCols(first, width);
-    out.setZero();
-    for (std::int32_t node = 0; node < matrix.size() / 3; ++node) {
-      multiply_node(matrix, node, in, out);
-    }
-    result.middleCols(first, width) = out.leftCols(width);
+    in_rows.leftCols(width) = columns.middleCols(first, width);
+    std::fill(out.begin(), out.end(), ThreeRows{});
+    add_product(matrix, in, out);
+    result.middleCols(first, width) = out_rows.leftCols(width);
   }
   return result;
 }

@@ -14,4 +14,12 @@ void multiply_by_transpose(double factor, const Eigen::MatrixXd& a, const Eigen:
 /// result = a b
 void multiply(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& result);
 
+/// Columns next to each other, perhaps some of a wider matrix.
+using ConstColumns = Eigen::Ref<const Eigen::MatrixXd>;
+/// result += factor a b, long columns times a small matrix, by the BLAS too.
+void add_product(double factor, const ConstColumns& a, const ConstColumns& b,
+                 Eigen::Ref<Eigen::MatrixXd> result);
+/// a^T b of long columns
+Eigen::MatrixXd inner_products(const ConstColumns& a, const ConstColumns& b);
+
 }  // namespace flexneck::fe_modal

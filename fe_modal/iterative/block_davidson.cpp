@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "fe_modal/matrix_product.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -20,9 +21,15 @@ constexpr Eigen::Index kBlocksOfBasis = 5;  ///< when the basis is that wide, it
 constexpr int kMostIterations = 500;
 /// Of r^T P r / lambda, which estimates the relative error of lambda if P is near K^-1: that of
 /// shapes is its root.
-constexpr double kTolerance = 1e-14;
+constexpr double kTolerance = 1e-13;
 /// Columns that are so much shorter after orthogonalisation have nothing new.
 constexpr double kNothingNew = 1e-10;
+
+Eigen::MatrixXd product(const ConstColumns& columns, const ConstColumns& combination) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns.rows(), combination.cols());
+  add_product(1, columns, combination, result);
+  return result;
+}
 
 /// V, K V, M V with V^T M V = 1.
 struct Columns {
@@ -57,7 +64,7 @@ class Basis {
     for (Eigen::MatrixXd* const matrix : {&all_.vectors, &all_.forces, &all_.momenta}) {
       for (Eigen::Index first = 0; first < matrix->rows(); first += kRows) {
         auto rows = matrix->middleRows(first, std::min(kRows, matrix->rows() - first));
-        const Eigen::MatrixXd turned = rows.leftCols(count_) * combination;
+        const Eigen::MatrixXd turned = product(rows.leftCols(count_), combination);
         rows.leftCols(combination.cols()) = turned;
       }
     }
@@ -85,11 +92,11 @@ Columns orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperat
   Eigen::MatrixXd momenta = mass(block);
   for (int pass = 0; pass < 2; ++pass) {
     if (basis.count() > 0) {
-      const Eigen::MatrixXd shares = basis.vectors().transpose() * momenta;
-      block.noalias() -= basis.vectors() * shares;
-      momenta.noalias() -= basis.momenta() * shares;
+      const Eigen::MatrixXd shares = inner_products(basis.vectors(), momenta);
+      add_product(-1, basis.vectors(), shares, block);
+      add_product(-1, basis.momenta(), shares, momenta);
     }
-    Eigen::MatrixXd gram = block.transpose() * momenta;
+    Eigen::MatrixXd gram = inner_products(block, momenta);
     const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
@@ -98,8 +105,8 @@ Columns orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperat
     const Eigen::Index kept = lengths.size() - dropped;
     const Eigen::MatrixXd combination = scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
                                         lengths.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-    block = (block * combination).eval();
-    momenta = (momenta * combination).eval();
+    block = product(block, combination);
+    momenta = product(momenta, combination);
   }
   Eigen::MatrixXd forces = stiffness(block);
   return {std::move(block), std::move(forces), std::move(momenta)};
@@ -119,17 +126,17 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
     const Eigen::Index before = basis.count();
     basis.append(orthonormal(basis, std::move(block), stiffness, mass));
     if (basis.count() == before) break;
-    const Eigen::MatrixXd reduced = basis.vectors().transpose() * basis.forces();
+    const Eigen::MatrixXd reduced = inner_products(basis.vectors(), basis.forces());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
     const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, reduced.rows()));
     const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
-    Eigen::MatrixXd residuals = basis.forces() * best;
-    residuals.noalias() -= basis.momenta() * (best * values.asDiagonal());
+    Eigen::MatrixXd residuals = product(basis.forces(), best);
+    add_product(-1, basis.momenta(), best * values.asDiagonal(), residuals);
     block = preconditioner(residuals);
     const Eigen::VectorXd errors =
         block.cwiseProduct(residuals).colwise().sum().transpose().cwiseQuotient(values);
     if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
-      return {{values.head(count), basis.vectors() * best.leftCols(count)}, iteration};
+      return {{values.head(count), product(basis.vectors(), best.leftCols(count))}, iteration};
     }
     if (basis.count() + width > capacity) {
       basis.turn(ritz.eigenvectors().leftCols(2 * width));

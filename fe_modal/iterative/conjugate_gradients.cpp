@@ -8,7 +8,9 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr double kTolerance = 1e-24;
+/// Of squares of the error in the energy norm. A compliance under the same load is wrong by the
+/// square itself, one between two loads by the root, 1e-10, which is asked for to 1e-8.
+constexpr double kTolerance = 1e-20;
 constexpr int kMostIterations = 2000;
 
 /// Of each column with its partner.

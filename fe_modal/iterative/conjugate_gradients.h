@@ -11,7 +11,7 @@ struct ConjugateGradientResult {
 };
 
 /// A x = b for each column by preconditioned conjugate gradients, side by side. Each ends when
-/// r^T P r, near the square of the error in the energy norm, has fallen by 1e-24.
+/// r^T P r, near the square of the error in the energy norm, has fallen by 1e-20.
 /// @throws ComputationError if one does not converge.
 ConjugateGradientResult conjugate_gradients(const BlockOperator& matrix,
                                             const BlockOperator& preconditioner,

@@ -7,7 +7,7 @@
 namespace flexneck::fe_modal {
 
 /// Assembled in this process and solved by iteration, for bodies whose factor does not fit: no more
-/// than subdomains of a few thousand degrees of freedom are factorised.
+/// than subdomains of some ten thousand nodes are factorised.
 class IterativeSystem : public LocalSystem {
  public:
   /// @param mesh, free_nodes must outlive this

@@ -10,9 +10,10 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Nodes of a subdomain before it is widened. Factors of smaller ones take less memory, until they
-/// are hardly larger than what they overlap; of larger ones there are fewer iterations.
-constexpr std::size_t kNodesOfSubdomain = 3000;
+/// Nodes of a subdomain before it is widened; up to twice as many where a part is not cut. Smaller
+/// ones hardly save memory, for they overlap more, and take more iterations: every cut through a
+/// thin layer of rubber or a plate costs some.
+constexpr std::size_t kNodesOfSubdomain = 10000;
 
 void sort_out_copies(std::vector<std::int32_t>& list) {
   std::sort(list.begin(), list.end());

@@ -15,7 +15,7 @@ namespace flexneck::fe_modal {
 /// Lists of free nodes, ascending.
 using NodeLists = std::vector<std::vector<std::int32_t>>;
 
-/// The nodes of subdomains of a few thousand nodes whatever the size of the body, at least two
+/// The nodes of subdomains of some ten thousand nodes whatever the size of the body, at least two
 /// where there are two elements. Elements belong to one each, nodes between them to several. None
 /// goes across parts: the stiffness may jump by thousands there, and a coarse space follows a jump
 /// only along the interface of subdomains.
