@@ -52,6 +52,7 @@ DormandPrince::DormandPrince(InitialValueProblem problem, StepLimits limits, dou
   for (Vector& rate : rates_) rate.setZero(y.size());
   for (Vector& coefficients : dense_) coefficients.setZero(y.size());
   dense_[0] = y;
+  start_on_pieces();
 }
 
 void DormandPrince::restart() { fresh_ = false; }

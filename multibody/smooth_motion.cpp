@@ -111,12 +111,15 @@ double sum_of(const Series& series, double x) {
 class Fit {
  public:
   Fit(const SmoothMotion::Function& f, double end_s) : f_(f), end_s_(end_s) {
-    // The ends are no Chebyshev nodes, but a run starts and stops there.
-    for (const double time_s : {0.0, end_s})
+    const auto sample = [&](double time_s) {
       if (!std::isfinite(f(time_s))) refuse(time_s, "is not a finite number");
+      scale_ = std::max(scale_, std::abs(f(time_s)));
+    };
     constexpr int kSamples = 257;
-    for (int k = 0; k < kSamples; ++k)
-      scale_ = std::max(scale_, std::abs(f(end_s * (k + 0.5) / kSamples)));
+    for (int k = 0; k < kSamples; ++k) sample(end_s * (k + 0.5) / kSamples);
+    // The ends are no Chebyshev nodes, but a run starts and stops there.
+    sample(0);
+    sample(end_s);
     // Again from the start whenever a cut is found: its neighbours then end exactly there.
     while (!cover_all()) {
       if (cuts_.size() > kMostBreakpoints) refuse(cuts_.back(), "is not piecewise smooth, e.g.");

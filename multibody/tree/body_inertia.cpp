@@ -158,6 +158,19 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
   }
 }
 
+void update_modes(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate,
+                  InertiaTerms& terms) {
+  for (Index l = 0; l < body.mode_count(); ++l) {
+    terms.M_ra.block<3, 1>(0, l) = body.S2.col(l);
+    terms.M_ra.block<3, 1>(3, l).setZero();
+    terms.bias_a[l] = body.springs.load(l, a[l], a_rate[l]);
+  }
+  terms.M_aa = body.Maa;
+  terms.M_rr.setZero();
+  terms.M_rr.topLeftCorner<3, 3>().diagonal().setConstant(body.mass);
+  terms.bias_r.setZero();
+}
+
 void update_rigid_bias(const BodyInertia& body, const Vector3d& w, InertiaTerms& terms) {
   terms.bias_r.head<3>() = w.cross(w.cross(body.S1));
   terms.bias_r.tail<3>() = w.cross(terms.M_rr.bottomRightCorner<3, 3>() * w);

@@ -53,6 +53,11 @@ struct InertiaTerms {
 void update(const BodyInertia& body, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,
             const Eigen::Vector3d& w, InertiaTerms& terms);
 
+/// What the modes need of a body whose frame moves without turning: loads on the frame lack their
+/// moments.
+void update_modes(const BodyInertia& body, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,
+                  InertiaTerms& terms);
+
 /// The same for a rigid body whose M is there already.
 void update_rigid_bias(const BodyInertia& body, const Eigen::Vector3d& w, InertiaTerms& terms);
 

@@ -14,6 +14,11 @@ using Eigen::Index;
 
 bool is_driven(const Body& body) { return std::holds_alternative<DrivenBody>(body.kind); }
 
+bool turns(const DrivenTurn& turn) {
+  return turn.initial_rate_rad_s != 0 || !turn.acceleration_rad_s2.times_s().empty() ||
+         !turn.motion.is_none();
+}
+
 /// A body's place in the order of a walk over the joints from the driven bodies outwards, then over
 /// what is left from the first body of it.
 struct Visit {
@@ -105,11 +110,13 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
                      "formulation does not treat; "
                      "use the descriptor formulation");
   std::vector<Carrier> carriers(model.bodies.size());
+  std::vector<bool> turning;  // of the driven bodies
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto* body = std::get_if<DrivenBody>(&model.bodies[b].kind);
     if (body == nullptr) continue;
     carriers[b].driven = driven.size();
     driven.emplace_back(model.bodies[b].initial_pose, *body);
+    turning.push_back(turns(body->turn));
   }
   bodies.reserve(walked.order.size());
   for (const Visit& visit : walked.order) {
@@ -152,9 +159,12 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
   std::vector<bool> carries(bodies.size(), false);
   for (const TreeBody& body : bodies)
     if (body.carrier.body != kNone) carries[body.carrier.body] = true;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    bodies[b].is_rigid_end =
-        bodies[b].is_fixed() && bodies[b].inertia.mode_count() == 0 && !carries[b];
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    TreeBody& body = bodies[b];
+    body.is_rigid_end = body.is_fixed() && body.inertia.mode_count() == 0 && !carries[b];
+    body.rides = body.is_fixed() && body.inertia.mode_count() > 0 && !body.inertia.stiffens() &&
+                 !body.outer.moves && body.carrier.driven != kNone && !turning[body.carrier.driven];
+  }
   for (const Marker& marker : model.markers)
     markers.push_back({TreeNode(model.bodies[marker.body], marker), carriers[marker.body]});
 }

@@ -38,6 +38,9 @@ struct TreeBody {
   /// Rigid, fixed to its carrier, and nothing hangs on it: its inertia stays
   /// what it is.
   bool is_rigid_end = false;
+  /// Held by a driven body that never turns: its own frame's inertia makes no more than moments in
+  /// that joint.
+  bool rides = false;
 
   bool is_fixed() const { return joint.kind == TreeJoint::Kind::fixed; }
 };

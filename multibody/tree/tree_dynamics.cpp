@@ -87,7 +87,8 @@ void TreeDynamics::update_driven_bodies() {
   }
 }
 
-void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVector& state) {
+void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVector& state,
+                               Purpose purpose) {
   const Index m = body.inertia.mode_count();
   const Index nq = body.joint.position_count();
   const Index nu = body.joint.velocity_count();
@@ -139,14 +140,17 @@ void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVect
   }
   if (body.is_rigid_end)
     update_rigid_bias(body.inertia, frame.w, work.terms);
+  else if (body.rides && purpose == Purpose::motion)
+    update_modes(body.inertia, work.a, work.a_rate, work.terms);
   else
     tree::update(body.inertia, work.a, work.a_rate, frame.w, work.terms);
 }
 
-void TreeDynamics::update(double time_s, const ConstVector& state) {
+void TreeDynamics::update(double time_s, const ConstVector& state, Purpose purpose) {
   time_s_ = time_s;
   update_driven_bodies();
-  for (std::size_t b = 0; b < work_.size(); ++b) update_body(tree_.bodies[b], work_[b], state);
+  for (std::size_t b = 0; b < work_.size(); ++b)
+    update_body(tree_.bodies[b], work_[b], state, purpose);
   apply_forces();
 }
 
@@ -186,7 +190,7 @@ void TreeDynamics::apply(const TreeMarker& marker, const NodeMotion& node, const
 }
 
 void TreeDynamics::evaluate(double time_s, const ConstVector& state, VectorXd& rate) {
-  update(time_s, state);
+  update(time_s, state, Purpose::motion);
   solve();
   fill_rate(state, accelerations_, rate);
 }

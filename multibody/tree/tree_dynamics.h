@@ -24,11 +24,15 @@ class TreeDynamics {
 
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
   void set_interval(double begin_s, double end_s);
+  /// What is asked for: `motion` leaves out the moments in joints that hold bodies on driven ones
+  /// that do not turn (TreeBody::rides). Nothing that moves depends on them.
+  enum class Purpose { motion, reactions };
+
   /// Positions and velocities of everything, inertia and loads.
-  void update(double time_s, const ConstVector& state);
+  void update(double time_s, const ConstVector& state, Purpose purpose = Purpose::reactions);
   /// Accelerations and joint reactions.
   void solve();
-  /// Rate of the whole state (Tree::state_count()).
+  /// Rate of the whole state (Tree::state_count()), for the purpose of motion.
   void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
   /// The same for a state that was updated, with given accelerations; powers are of the last
   /// solve().
@@ -91,7 +95,7 @@ class TreeDynamics {
   double table_time(double time_s) const;
   const Frame& frame_of(const Carrier& carrier) const;
   void update_driven_bodies();
-  void update_body(const TreeBody& body, Work& work, const ConstVector& state);
+  void update_body(const TreeBody& body, Work& work, const ConstVector& state, Purpose purpose);
   void apply_forces();
   void apply(const TreeMarker& marker, const NodeMotion& node, const Eigen::Vector3d& force,
              const Eigen::Vector3d& torque);

@@ -11,6 +11,7 @@
 #include "multibody/equations_of_motion.h"
 #include "multibody/generalised_alpha.h"
 #include "multibody/initial_state.h"
+#include "multibody/motion.h"
 #include "multibody/projection.h"
 #include "multibody/state_error.h"
 #include "multibody/tree/tree_dynamics.h"
@@ -54,6 +55,24 @@ namespace {
 
 constexpr StepLimits kLimits{0.05, 1e-10};
 
+/// Every law between two bodies.
+void add_springs(Model& model) {
+  Resistance law;
+  law.positive.curve = LoadCurve::table({0, 0.1, 0.3}, {0, 5, 6});
+  law.positive.stop = 0.02;
+  law.positive.beyond_stop = LoadCurve::cubic(50);
+  law.positive.unloading_ratio = 0.5;
+  law.negative = law.positive;
+  law.friction = 0.1;
+  law.full_rate = 0.01;
+  model.springs.push_back({"spring", 0, 3, 0.1, law});
+  model.bushings.push_back({"bushing", 0, 3, {}, {}});
+  model.bushings[0].stiffness.setIdentity();
+  model.bushings[0].damping.setIdentity();
+  model.resistances.push_back({"turning", 1, JointCoordinate::angle, law});
+  model.resistances.push_back({"bending", 1, JointCoordinate::flexion, law});
+}
+
 Model neck_and_head(bool stiffens) {
   const auto body = flexneck::testing::make_point_mass_body(71, 4).body;
   Model model;
@@ -70,7 +89,7 @@ Model neck_and_head(bool stiffens) {
   model.joints = {{"base", JointKind::fixed, 0, 1}, {"top", JointKind::pin, 2, 3}};
   model.forces.push_back(
       {"push", 3, Vector3d::UnitX(), TimeTable({0, 1}, {0, 9}, TimeTable::Outside::constant)});
-
+  add_springs(model);
   return model;
 }
 
@@ -145,6 +164,22 @@ TEST_CASE("a step of the recursive form allocates nothing") {
     for (std::size_t k = 0; k < model.markers.size(); ++k) dynamics.marker_state(k);
     dynamics.energies();
   });
+}
+
+TEST_CASE("steps that end at events allocate nothing in either form") {
+  const Model model = neck_and_head(false);
+  const SolverOptions solver{.relative_tolerance = 1e-6, .absolute_tolerance = 1e-9};
+  for (const bool recursive : {true, false}) {
+    CAPTURE(recursive);
+    const auto equations =
+        recursive ? recursive_equations(model, solver) : descriptor_equations(model, solver);
+    const auto integrator = time_integrator(*equations, equations->given_state(), solver);
+    int events = 0;
+    check_no_allocation(*integrator, [&](double, VectorXd&) {
+      if (integrator->reason() == StepReason::event) ++events;
+    });
+    CHECK(events > 0);
+  }
 }
 
 TEST_CASE("a step of the generalised-alpha method allocates nothing in either form") {

@@ -64,6 +64,10 @@ TEST_CASE("a motion that is not smooth enough or not a number is refused") {
                     Contains("is not a finite number at"));
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / t; }, 1.0),
                     Contains("is not a finite number at 0 s"));
+  CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / (t - 0.5); }, 1.0),
+                    Contains("is not a finite number at 0.5 s"));
+  CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / (t - 0.25); }, 1.0),
+                    Contains("is not piecewise smooth, e.g. at 0.2"));
   // Halving meets this one exactly.
   CHECK_THROWS_AS(SmoothMotion::of_displacement([](double t) { return std::abs(t - 0.5); }, 1.0),
                   InputError);

@@ -7,10 +7,12 @@
 #include "multibody/equations_of_motion.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_start.h"
+#include "tests/support/test_models.h"
 #include "tests/support/tree_models.h"
 
 using Eigen::Index;
 using Eigen::Quaterniond;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 using namespace flexneck::multibody;
 using namespace flexneck::testing;
@@ -97,6 +99,31 @@ TEST_CASE("both formulations give the same accelerations, reactions and powers a
         Approx(absolute_rate[system.position_count + system.velocity_count]).epsilon(kAgreement));
   CHECK(rate[nv + 1] == Approx(absolute_rate[system.position_count + system.velocity_count + 1])
                             .epsilon(10 * kAgreement));
+}
+
+TEST_CASE(
+    "what rides on a base that does not turn moves the same without its inertia, bit by bit") {
+  const TimeTable brake({0, 1}, {-100, -220}, TimeTable::Outside::constant);
+  const bool turns = GENERATE(false, true);
+  DrivenBody base{Vector3d(2, 1, 0).normalized(), 4, brake};
+  if (turns) base.turn.initial_rate_rad_s = 2;
+  ModelBuilder build = head_on_neck(base, hanging_pose(), Beam{}, 0.3, make_head());
+  build.model.gravity_m_s2 = {1, 2, -kGravity};
+  const tree::Tree tree(build.model);
+  REQUIRE(tree.bodies[0].rides == !turns);
+  tree::TreeDynamics motion(tree);
+  tree::TreeDynamics reactions(tree);
+  const VectorXd state = random_state(tree);
+  VectorXd rate(state.size());
+  motion.evaluate(0.4, state, rate);
+  reactions.update(0.4, state);
+  reactions.solve();
+  VectorXd same(state.size());
+  reactions.fill_rate(state, reactions.accelerations(), same);
+  CHECK(rate == same);
+  // Forces too; the moment is what was left out.
+  CHECK(motion.joint_reaction(0).force_N == reactions.joint_reaction(0).force_N);
+  CHECK((motion.joint_reaction(0).moment_Nm == reactions.joint_reaction(0).moment_Nm) == turns);
 }
 
 TEST_CASE("a tree's markers and energies are those of the descriptor form") {
