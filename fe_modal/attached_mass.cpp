@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "fe_modal/inverse_iteration.h"
+#include "fe_modal/block_lanczos.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -74,18 +74,17 @@ Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse&
                                    const Eigen::MatrixXd& modes, Eigen::Index count) {
   // Its own method needs no exact solves, which are dear there and never quite exact.
   if (const auto own = inverse.iterate(mass.matrix(), count)) return own->values;
-  // Each iteration divides the error of an eigenvalue by the square of its distance to the first
-  // one outside the space, tens to hundreds.
-  constexpr double kSettled = 1e-10;
+  // The error of an eigenvalue is the square of this, over the relative gap to the next.
+  constexpr double kResidual = 1e-6;
   const Eigen::MatrixXd responses = inverse.solve(mass.loads());
   Eigen::MatrixXd start(modes.rows(), modes.cols() + responses.cols());
   start << modes, responses;
   start.colwise().normalize();
-  const Settled settled = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-    return ((after - before).head(count).array().abs() <= kSettled * after.head(count).array())
-        .all();
+  const Settled settled = [](const RitzState& state) {
+    return state.residuals.maxCoeff() < kResidual;
   };
-  return inverse_iteration(mass.matrix(), inverse, std::move(start), settled).values.head(count);
+  return block_lanczos(mass.matrix(), inverse, EigenPairs(), std::move(start), count, settled)
+      .values;
 }
 
 }  // namespace flexneck::fe_modal

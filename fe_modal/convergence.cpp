@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
+#include "fe_modal/block_lanczos.h"
 #include "fe_modal/block_product.h"
-#include "fe_modal/inverse_iteration.h"
 #include "fe_modal/make_system.h"
 #include "fe_modal/mechanism.h"
 #include "mesher/mesh/refinement.h"
@@ -112,12 +112,16 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
         restrict_to_free((fine.prolongation * field.transpose()).transpose(), free_nodes);
   }
   const Eigen::ArrayXd coarse = solved.pairs.values;
-  const Settled settled = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-    const Eigen::ArrayXd allowed = kSettled * (after.array() - coarse).abs() +
-                                   kRounding * (after.array().abs() + std::abs(inverse->shift()));
-    return ((after - before).array().abs() <= allowed).all();
+  const Settled settled = [&](const RitzState& state) {
+    if (state.before.size() == 0) return false;
+    const Eigen::ArrayXd allowed =
+        kSettled * (state.values.array() - coarse).abs() +
+        kRounding * (state.values.array().abs() + std::abs(inverse->shift()));
+    return ((state.values - state.before).array().abs() <= allowed).all();
   };
-  const EigenPairs pairs = inverse_iteration(system->mass(), *inverse, std::move(start), settled);
+  const Eigen::Index count = start.cols();
+  const EigenPairs pairs =
+      block_lanczos(system->mass(), *inverse, EigenPairs(), std::move(start), count, settled);
 
   const Eigen::MatrixXd similarity = similarities(solved, free_nodes, pairs.vectors);
   const Eigen::VectorXd fine_Hz = pairs.values.unaryExpr(&hertz);

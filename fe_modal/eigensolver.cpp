@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
-#include <vector>
 
+#include "fe_modal/block_lanczos.h"
 #include "fe_modal/block_product.h"
 #include "geometry/foundation/error.h"
 
@@ -18,19 +17,16 @@ namespace {
 
 constexpr const char* kSolving = "solving for the modes";
 
-/// How a search ends. Tolerances are relative to the eigenvalue theta = 1 / (lambda - shift).
-struct Accuracy {
-  double tolerance;
-  PetscInt extra_basis;  ///< basis vectors beyond twice the number of wanted pairs
-  PetscBool purify;      ///< one more solve a vector, for a small residual
-};
-/// The error of an eigenvector is the tolerance over the relative gap to its neighbour: 1e-10 for
-/// frequencies 1 % apart.
-constexpr Accuracy kFine = {1e-12, 10, PETSC_TRUE};
-/// Only to tell missed eigenvalues, which are far larger, from the next one.
-constexpr Accuracy kCoarse = {1e-3, 8, PETSC_FALSE};
-/// Eigenvalues this close to the highest one wanted are its partners and may stay out.
-constexpr double kSameValue = 1e-6;
+/// Residuals relative to the eigenvalue theta = 1 / (lambda - shift). The error of an eigenvector
+/// is this over the relative gap to its neighbour: 1e-10 for frequencies 1 % apart.
+constexpr double kResidual = 1e-12;
+constexpr PetscInt kMoreThanTwice = 10;  ///< basis vectors beyond twice the wanted pairs
+/// The first pair that is not wanted is settled to the square of this: enough to tell that it is
+/// not one that was missed.
+constexpr double kResidualOfNext = 1e-2;
+constexpr Eigen::Index kColumns = 8;  ///< a free body has six equal eigenvalues
+constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kSeedOfOthers = 2;
 
 struct Problem {
   Mat stiffness;
@@ -94,45 +90,30 @@ EigenPairs take_over(EPS eps, const Problem& problem, Eigen::Index count, Eigen:
   return pairs;
 }
 
-/// The start of a search. A Krylov space sees of each eigenspace only what its start has of it; a
-/// search that starts where the last one did is orthogonal to the copies which that one missed.
-Eigen::VectorXd start_vector(Eigen::Index size, Eigen::Index found) {
-  std::mt19937_64 generator(static_cast<std::uint64_t>(found) + 1);
-  Eigen::VectorXd start(size);
+/// Numbers between -1/2 and 1/2: each eigenspace has its share in each column.
+Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  Eigen::MatrixXd block(size, columns);
   // Not std::uniform_real_distribution, whose numbers differ from library to library.
-  for (double& x : start) x = std::ldexp(static_cast<double>(generator() >> 11U), -53) - 0.5;
-  return start;
+  for (double& x : block.reshaped()) {
+    x = std::ldexp(static_cast<double>(generator() >> 11U), -53) - 0.5;
+  }
+  return block;
 }
 
-/// The `count` eigenpairs nearest to the shift that are M-orthogonal to the columns of `found`.
-EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& accuracy,
-                  const Eigen::MatrixXd& found, const Eigen::VectorXd& given_start = {}) {
-  PetscInt size = 0;
-  require(MatGetSize(problem.mass, &size, nullptr), kSolving);
+/// The lowest pairs, but of a multiple eigenvalue perhaps only one.
+EigenPairs search(const Problem& problem, Eigen::Index count, const Eigen::MatrixXd& start) {
   const EpsHandle handle = make_solver(problem);
   EPS eps = handle.get();
-  std::vector<VecHandle> handles;
-  std::vector<Vec> deflated;
-  for (Eigen::Index k = 0; k < found.cols(); ++k) {
-    handles.push_back(column_vector(found, k));
-    deflated.push_back(handles.back().get());
-  }
-  if (!deflated.empty()) {
-    require(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()),
-            kSolving);
-  }
-  const Eigen::VectorXd start =
-      given_start.size() > 0 ? given_start : start_vector(size, found.cols());
-  const VecHandle start_handle = vector_on({start.data(), static_cast<std::size_t>(size)});
+  const VecHandle start_handle = column_vector(start, 0);
   Vec start_space = start_handle.get();
   require(EPSSetInitialSpace(eps, 1, &start_space), kSolving);
   const auto wanted = static_cast<PetscInt>(count);
-  const PetscInt room = size - static_cast<PetscInt>(found.cols());
-  require(EPSSetDimensions(eps, wanted, std::min(room, 2 * wanted + accuracy.extra_basis),
-                           PETSC_DEFAULT),
+  const auto size = static_cast<PetscInt>(start.rows());
+  require(EPSSetDimensions(eps, wanted, std::min(size, 2 * wanted + kMoreThanTwice), PETSC_DEFAULT),
           kSolving);
-  require(EPSSetTolerances(eps, accuracy.tolerance, 200), kSolving);
-  require(EPSSetPurify(eps, accuracy.purify), kSolving);
+  require(EPSSetTolerances(eps, kResidual, 200), kSolving);
+  require(EPSSetPurify(eps, PETSC_FALSE), kSolving);  // done below, all at once
   require(EPSSolve(eps), kSolving);
   PetscInt converged = 0;
   require(EPSGetConverged(eps, &converged), kSolving);
@@ -140,19 +121,24 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Accuracy& ac
     throw ComputationError("the eigensolver found " + std::to_string(converged) + " of " +
                            std::to_string(wanted) + " modes");
   }
-  return take_over(eps, problem, count, size);
+  return take_over(eps, problem, count, start.rows());
 }
 
-EigenPairs merge(const EigenPairs& one, const EigenPairs& other) {
-  Eigen::VectorXd values(one.values.size() + other.values.size());
-  values << one.values, other.values;
-  Eigen::MatrixXd vectors(one.vectors.rows(), values.size());
-  vectors << one.vectors, other.vectors;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
-  return {values(order), vectors(Eigen::all, order)};
+/// The pairs with the copies of multiple eigenvalues that a Krylov space of one vector, which has
+/// only its own part of each eigenspace, has missed.
+EigenPairs completed(const Problem& problem, const EigenPairs& pairs) {
+  const Eigen::Index count = pairs.values.size();
+  const Eigen::Index size = pairs.vectors.rows();
+  if (count == size) return pairs;
+  const Settled settled = [&](const RitzState& state) {
+    return state.residuals.head(count).maxCoeff() < kResidual &&
+           state.residuals[count] < kResidualOfNext;
+  };
+  const Eigen::Index columns = std::min(kColumns, size - count);
+  const EigenPairs all =
+      block_lanczos(problem.mass, *problem.inverse, pairs,
+                    random_block(size, columns, kSeedOfOthers), count + 1, settled);
+  return {all.values.head(count), all.vectors.leftCols(count)};
 }
 
 }  // namespace
@@ -160,16 +146,13 @@ EigenPairs merge(const EigenPairs& one, const EigenPairs& other) {
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count, const Eigen::VectorXd& start) {
   if (std::optional<EigenPairs> own = inverse.iterate(mass, count)) return *std::move(own);
+  PetscInt size = 0;
+  require(MatGetSize(mass, &size, nullptr), kSolving);
   const Problem problem{stiffness, mass, &inverse};
-  EigenPairs pairs = search(problem, count, kFine, Eigen::MatrixXd(), start);
-  const Eigen::Index size = pairs.vectors.rows();
-  while (pairs.values.size() < size) {
-    const double highest = pairs.values[count - 1] - inverse.shift();
-    const double next = search(problem, 1, kCoarse, pairs.vectors).values[0] - inverse.shift();
-    if (next > highest * (1 - kSameValue)) break;
-    pairs = merge(pairs, search(problem, 1, kFine, pairs.vectors));
-  }
-  return {pairs.values.head(count), pairs.vectors.leftCols(count)};
+  Eigen::MatrixXd first = random_block(size, 1, kSeed);
+  if (start.size() > 0) first = start;
+  const EigenPairs found = search(problem, count, first);
+  return purified(mass, inverse, completed(problem, found));
 }
 
 Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const EigenPairs& pairs, double shift) {

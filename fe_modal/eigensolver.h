@@ -9,15 +9,15 @@
 
 namespace flexneck::fe_modal {
 
-/// Krylov-Schur on the shift-inverted problem (K - shift M)^-1 M. Multiple eigenvalues are found by
-/// a second search, M-orthogonal to what the first has found, until it yields none that belongs
-/// among the lowest.
+/// Krylov-Schur on the shift-inverted problem (K - shift M)^-1 M; then block Lanczos goes on from
+/// what was found with more columns, for the copies of multiple eigenvalues; then one inverse
+/// iteration of all pairs.
 /// @param inverse of K - shift M, with a shift below all eigenvalues
 /// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
 /// inverse if the shift is zero
 /// @param count at most the number of degrees of freedom
 /// @param start of the first search, (dofs); empty: random. What it does not hold is left to the
-/// second one.
+/// block.
 /// @throws ComputationError if the iteration does not converge.
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count, const Eigen::VectorXd& start = {});

@@ -107,7 +107,7 @@ void ElementKernel::project_divergence(const Eigen::Matrix3Xd& nodes_m) {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> gram =
       pressures_.transpose() * pressures_;
   gram.llt().matrixL().transpose().solveInPlace<Eigen::OnTheRight>(pressures_);
-  multiply(gradients_, pressures_, divergence_);
+  multiply(1, gradients_, pressures_, 0, divergence_);
 }
 
 /// Adds mu (delta_ab sum_c H_cc + H_ba), the part 2 mu eps:eps, and square H_ab.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/matrix_product.h"
 
-#include <array>
+#include <algorithm>
 
 #include "fe_modal/petsc_handles.h"
 
@@ -11,54 +11,39 @@
 namespace flexneck::fe_modal {
 namespace {
 
-PetscBLASInt extent(Eigen::Index n) { return static_cast<PetscBLASInt>(n); }
+/// For BLAS a step between columns is at least one row, also where there is no row.
+PetscBLASInt stride(const MatrixView& matrix) {
+  return static_cast<PetscBLASInt>(std::max<Eigen::Index>(1, matrix.outerStride()));
+}
+
+void product(const char* turn_a, const char* turn_b, Eigen::Index inner, double factor,
+             const MatrixView& a, const MatrixView& b, double keep,
+             Eigen::Ref<Eigen::MatrixXd> result) {
+  const auto rows = static_cast<PetscBLASInt>(result.rows());
+  const auto columns = static_cast<PetscBLASInt>(result.cols());
+  const auto depth = static_cast<PetscBLASInt>(inner);
+  const PetscBLASInt stride_a = stride(a);
+  const PetscBLASInt stride_b = stride(b);
+  const PetscBLASInt stride_result = stride(result);
+  BLASgemm_(turn_a, turn_b, &rows, &columns, &depth, &factor, a.data(), &stride_a, b.data(),
+            &stride_b, &keep, result.data(), &stride_result);
+}
 
 }  // namespace
 
-void multiply_by_transpose(double factor, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
-                           double keep, Eigen::MatrixXd& result) {
-  const PetscBLASInt rows = extent(a.rows());
-  const PetscBLASInt columns = extent(b.rows());
-  const PetscBLASInt inner = extent(a.cols());
-  BLASgemm_("N", "T", &rows, &columns, &inner, &factor, a.data(), &rows, b.data(), &columns, &keep,
-            result.data(), &rows);
+void multiply(double factor, const MatrixView& a, const MatrixView& b, double keep,
+              Eigen::Ref<Eigen::MatrixXd> result) {
+  product("N", "N", a.cols(), factor, a, b, keep, result);
 }
 
-void multiply(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& result) {
-  const PetscBLASInt rows = extent(a.rows());
-  const PetscBLASInt columns = extent(b.cols());
-  const PetscBLASInt inner = extent(a.cols());
-  const double one = 1;
-  const double zero = 0;
-  BLASgemm_("N", "N", &rows, &columns, &inner, &one, a.data(), &rows, b.data(), &inner, &zero,
-            result.data(), &rows);
+void multiply_by_transpose(double factor, const MatrixView& a, const MatrixView& b, double keep,
+                           Eigen::Ref<Eigen::MatrixXd> result) {
+  product("N", "T", a.cols(), factor, a, b, keep, result);
 }
 
-void add_product(double factor, const ConstColumns& a, const ConstColumns& b,
-                 Eigen::Ref<Eigen::MatrixXd> result) {
-  const PetscBLASInt rows = extent(a.rows());
-  const PetscBLASInt columns = extent(b.cols());
-  const PetscBLASInt inner = extent(a.cols());
-  const std::array<PetscBLASInt, 3> strides = {extent(a.outerStride()), extent(b.outerStride()),
-                                               extent(result.outerStride())};
-  const double one = 1;
-  if (rows == 0 || columns == 0 || inner == 0) return;
-  BLASgemm_("N", "N", &rows, &columns, &inner, &factor, a.data(), &strides[0], b.data(),
-            &strides[1], &one, result.data(), &strides[2]);
-}
-
-Eigen::MatrixXd inner_products(const ConstColumns& a, const ConstColumns& b) {
+Eigen::MatrixXd inner_products(const MatrixView& a, const MatrixView& b) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
-  const PetscBLASInt rows = extent(a.cols());
-  const PetscBLASInt columns = extent(b.cols());
-  const PetscBLASInt inner = extent(a.rows());
-  const PetscBLASInt stride_a = extent(a.outerStride());
-  const PetscBLASInt stride_b = extent(b.outerStride());
-  const double one = 1;
-  const double zero = 0;
-  if (rows == 0 || columns == 0 || inner == 0) return result;
-  BLASgemm_("T", "N", &rows, &columns, &inner, &one, a.data(), &stride_a, b.data(), &stride_b,
-            &zero, result.data(), &rows);
+  product("T", "N", a.rows(), 1, a, b, 0, result);
   return result;
 }
 

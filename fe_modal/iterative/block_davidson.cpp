@@ -25,9 +25,9 @@ constexpr double kTolerance = 1e-13;
 /// Columns that are so much shorter after orthogonalisation have nothing new.
 constexpr double kNothingNew = 1e-10;
 
-Eigen::MatrixXd product(const ConstColumns& columns, const ConstColumns& combination) {
+Eigen::MatrixXd product(const MatrixView& columns, const MatrixView& combination) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns.rows(), combination.cols());
-  add_product(1, columns, combination, result);
+  multiply(1, columns, combination, 0, result);
   return result;
 }
 
@@ -93,8 +93,8 @@ Columns orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperat
   for (int pass = 0; pass < 2; ++pass) {
     if (basis.count() > 0) {
       const Eigen::MatrixXd shares = inner_products(basis.vectors(), momenta);
-      add_product(-1, basis.vectors(), shares, block);
-      add_product(-1, basis.momenta(), shares, momenta);
+      multiply(-1, basis.vectors(), shares, 1, block);
+      multiply(-1, basis.momenta(), shares, 1, momenta);
     }
     Eigen::MatrixXd gram = inner_products(block, momenta);
     const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -131,7 +131,7 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
     const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, reduced.rows()));
     const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
     Eigen::MatrixXd residuals = product(basis.forces(), best);
-    add_product(-1, basis.momenta(), best * values.asDiagonal(), residuals);
+    multiply(-1, basis.momenta(), best * values.asDiagonal(), 1, residuals);
     block = preconditioner(residuals);
     const Eigen::VectorXd errors =
         block.cwiseProduct(residuals).colwise().sum().transpose().cwiseQuotient(values);
