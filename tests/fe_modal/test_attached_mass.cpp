@@ -10,6 +10,7 @@
 #include "fe_modal/modal_analysis.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -66,12 +67,9 @@ TEST_CASE("frequencies with a body attached agree with a dense solution") {
   const Eigen::MatrixXd mass =
       dense(system.mass.get()) +
       average.transpose() * rigid_mass_matrix(4.5, center - point, full_inertia()) * average;
-  const Eigen::VectorXd expected = (Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
-                                        dense(system.stiffness.get()), mass)
-                                        .eigenvalues()
-                                        .head(6)
-                                        .cwiseSqrt()) /
-                                   (2 * std::numbers::pi);
+  const Eigen::VectorXd expected =
+      testing::dense_pairs(dense(system.stiffness.get()), mass).values.head(6).cwiseSqrt() /
+      (2 * std::numbers::pi);
   // Few modes: a search of its own; enough: from their span; all: a span with nothing beside it.
   for (const int count : {3, 6, 10, static_cast<int>(free_nodes.dof_count())}) {
     options.mode_count = count;
@@ -116,10 +114,7 @@ TEST_CASE("a heavy body on a light cantilever swings as the beam's two tip sprin
   Eigen::Matrix2d mass;
   mass << kMass, kMass * kArm, kMass * kArm, kInertia + kMass * kArm * kArm;
   const Eigen::Vector2d plane =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(flexibility.inverse(), mass)
-          .eigenvalues()
-          .cwiseSqrt() /
-      (2 * std::numbers::pi);
+      testing::dense_pairs(flexibility.inverse(), mass).values.cwiseSqrt() / (2 * std::numbers::pi);
   const Eigen::VectorXd& found = body.attached.at(0).frequencies_Hz;
   for (const double expected : plane) {
     CHECK((found.array() / expected - 1).abs().minCoeff() < kTolerance);

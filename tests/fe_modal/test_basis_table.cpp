@@ -24,7 +24,7 @@ ModalBody beam() {
   ModalBody body = testing::make_beam_body(beam);
   const auto bending_stiffness = [&](double first_Hz) {
     return std::pow(2 * std::numbers::pi * first_Hz, 2) * kMass * std::pow(kLength, 3) /
-           std::pow(testing::detail::kClampedFree[0], 4);
+           std::pow(testing::kClampedFree[0], 4);
   };
   StaticResponse response{Eigen::Matrix<double, 6, 6>::Identity(),
                           Eigen::Matrix<double, 6, 6>::Identity()};
@@ -56,7 +56,7 @@ TEST_CASE("effective masses of a cantilever are the textbook's shares") {
     CHECK(table.inertia_percent(k, 0) == Approx(sum).epsilon(1e-12));
   }
   // One mode turns the beam about y through its root by (2 / 1.8751^2)^2 of m L^2.
-  const double about_root = 4 / std::pow(testing::detail::kClampedFree[0], 4);
+  const double about_root = 4 / std::pow(testing::kClampedFree[0], 4);
   CHECK(table.effective_inertia_kg_m2(body.mode_index("fore-aft bending 1"), 1) ==
         Approx(about_root * kMass * kLength * kLength).epsilon(1e-9));
 }
@@ -70,8 +70,8 @@ TEST_CASE("modes of a cantilever hold 12 / b^4 of its compliance under a tip for
   double force = 0;
   double moment = 0;
   for (std::size_t n = 0; n < 4; ++n) {
-    const double b = testing::detail::kClampedFree[n];
-    const double slope = testing::detail::clamped_free_shape(n, 1).second;
+    const double b = testing::kClampedFree[n];
+    const double slope = testing::clamped_free_shape(n, 1).second;
     force += 100 * 12 / std::pow(b, 4);
     moment += 100 * slope * slope / std::pow(b, 4);
     const Eigen::Index k = body.mode_index("fore-aft bending " + std::to_string(n + 1));

@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 
 #include "fe_modal/assembly.h"
@@ -11,6 +11,7 @@
 #include "mesher/partition/node_order.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -73,7 +74,7 @@ TEST_CASE("solutions do not depend on the order of elimination") {
   const SystemMatrices system = assemble(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes));
   const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
   const Eigen::VectorXd force = Eigen::VectorXd::Random(stiffness.rows());
-  const Eigen::VectorXd expected = stiffness.llt().solve(force);
+  const Eigen::VectorXd expected = testing::symmetric_solution(stiffness, force);
   const auto order = mesher::nested_dissection(system.graph.offsets(), system.graph.columns());
   for (const auto& given : {order, std::vector<std::int32_t>()}) {
     const CholeskyFactor factor(system.stiffness.get(), 0, given);

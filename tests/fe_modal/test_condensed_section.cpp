@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "fe_modal/body/condensed_section.h"
@@ -12,6 +12,7 @@
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/pieces.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 #include "tests/support/neck_mesh.h"
 
 namespace flexneck::fe_modal {
@@ -53,9 +54,10 @@ Eigen::VectorXd chain_frequencies_Hz(const std::vector<CondensedSection>& chain)
     mass.block<12, 12>(at, at) += chain[k].mass;
   }
   const Eigen::Index free = size - 6;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      stiffness.bottomRightCorner(free, free), mass.bottomRightCorner(free, free));
-  return solver.eigenvalues().cwiseSqrt() / (2 * std::numbers::pi);
+  return testing::dense_pairs(stiffness.bottomRightCorner(free, free),
+                              mass.bottomRightCorner(free, free))
+             .values.cwiseSqrt() /
+         (2 * std::numbers::pi);
 }
 
 }  // namespace

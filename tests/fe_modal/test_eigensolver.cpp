@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 
 #include "fe_modal/assembly.h"
@@ -10,6 +10,7 @@
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -30,9 +31,7 @@ MatHandle diagonal_matrix(const Eigen::VectorXd& diagonal) {
 }
 
 Eigen::VectorXd dense_eigenvalues(const SystemMatrices& system) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
-             dense(system.stiffness.get()), dense(system.mass.get()), Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get())).values;
 }
 
 }  // namespace

@@ -3,13 +3,14 @@
 #include <functional>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "fe_modal/element_kernel.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 #include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
@@ -41,11 +42,6 @@ ElementMatrices matrices(ElementKind kind, const Map& map, const mesher::Materia
   ElementKernel(element_scheme(kind, formulation))
       .compute(mapped_element(kind, map), material, result);
   return result;
-}
-
-Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-      .eigenvalues();
 }
 
 /// The strongest rule that is offered.
@@ -108,7 +104,7 @@ TEST_CASE("an element resists everything but its six rigid motions") {
       for (const Formulation formulation : kFull) {
         CAPTURE(mesher::name_of(kind), name_of(formulation), material.name);
         const Eigen::VectorXd values =
-            eigenvalues(matrices(kind, bent, material, formulation).stiffness);
+            testing::symmetric_eigenvalues(matrices(kind, bent, material, formulation).stiffness);
         const double largest = values[values.size() - 1];
         CHECK(values.head(6).cwiseAbs().maxCoeff() < kZero * largest);
         CHECK(values[6] > kStiff * largest);
@@ -120,8 +116,8 @@ TEST_CASE("an element resists everything but its six rigid motions") {
 TEST_CASE("reduced integration leaves a 20-node hexahedron six hourglass motions") {
   // Eight points see 48 strains, 12 short of 60. What neighbours do about it: test_assembly.cpp.
   constexpr double kZero = 1e-13;
-  const Eigen::VectorXd values =
-      eigenvalues(matrices(ElementKind::hex20, bent, kSteel, Formulation::reduced).stiffness);
+  const Eigen::VectorXd values = testing::symmetric_eigenvalues(
+      matrices(ElementKind::hex20, bent, kSteel, Formulation::reduced).stiffness);
   CHECK(values.head(12).cwiseAbs().maxCoeff() < kZero * values[59]);
   CHECK(values[12] > 1e-6 * values[59]);
 }
@@ -132,7 +128,7 @@ TEST_CASE("projecting the pressure only ever softens an element") {
     const Eigen::MatrixXd mixed =
         matrices(kind, bent, kRubber, Formulation::mixed_pressure).stiffness;
     const Eigen::MatrixXd full = matrices(kind, bent, kRubber, Formulation::displacement).stiffness;
-    const Eigen::VectorXd difference = eigenvalues(full - mixed);
+    const Eigen::VectorXd difference = testing::symmetric_eigenvalues(full - mixed);
     CHECK(difference.minCoeff() > -1e-13 * full.norm());
     CHECK(difference.maxCoeff() > 0.03 * full.norm());
   }

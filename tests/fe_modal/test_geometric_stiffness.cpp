@@ -10,6 +10,7 @@
 #include "fe_modal/modal_analysis.h"
 #include "tests/support/beam_body.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -40,16 +41,16 @@ double buckling_load(const ModalBody& body, const Eigen::MatrixXd& geometric) {
   const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
   const Eigen::MatrixXd scaled =
       omega.cwiseInverse().asDiagonal() * geometric * omega.cwiseInverse().asDiagonal();
-  return -1 / Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0];
+  return -1 / testing::symmetric_eigenvalues(scaled)[0];
 }
 
 /// int (L^2 - z^2) / 2 phi'^2 dz over int phi^2 dz of a beam's n-th mode: how much the square of
 /// its frequency rises with the square of the spin about an axis through the root.
 double southwell(std::size_t n) {
-  const auto [points, weights] = testing::detail::gauss_rule(40);
+  const auto [points, weights] = testing::gauss_rule(40);
   double sum = 0;
   for (Eigen::Index k = 0; k < points.size(); ++k) {
-    const double slope = testing::detail::clamped_free_shape(n, points[k]).second;
+    const double slope = testing::clamped_free_shape(n, points[k]).second;
     sum += weights[k] * (1 - points[k] * points[k]) / 2 * slope * slope;
   }
   return sum;
@@ -57,10 +58,10 @@ double southwell(std::size_t n) {
 
 /// int w_n'^2 from the root to z, of the mass-normalised n-th bending mode of an Euler beam.
 double drawn(std::size_t n, double z, double mass) {
-  const auto [points, weights] = testing::detail::gauss_rule(40);
+  const auto [points, weights] = testing::gauss_rule(40);
   double sum = 0;
   for (Eigen::Index k = 0; k < points.size(); ++k) {
-    const double slope = testing::detail::clamped_free_shape(n, points[k] * z / kLength).second;
+    const double slope = testing::clamped_free_shape(n, points[k] * z / kLength).second;
     sum += weights[k] * z * slope * slope / (kLength * kLength * mass);
   }
   return sum;

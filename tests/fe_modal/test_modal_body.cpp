@@ -25,7 +25,7 @@ TEST_CASE("selected modes are those of a body that never had the others") {
   std::vector<Eigen::Matrix3Xd> shapes;
   for (const std::size_t k : kept) shapes.push_back(whole.body.shapes[k]);
   const InertiaInvariants expected =
-      testing::detail::invariants_of_points(whole.masses_kg, whole.body.nodes_m, shapes);
+      testing::invariants_of_points(whole.masses_kg, whole.body.nodes_m, shapes);
 
   REQUIRE(part.mode_count() == 2);
   CHECK(part.modes[0].name == "mode 4");

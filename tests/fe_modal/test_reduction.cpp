@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "fe_modal/assembly.h"
@@ -13,6 +13,7 @@
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -110,7 +111,8 @@ void check_basis(const ModalBody& body) {
 TEST_CASE("modes with residual modes have the compliance of direct static solutions") {
   const ModalBody body = analyse_modes(block(), held(BasisKind::residual, 3), {});
   const Dense model = held_model();
-  const Eigen::MatrixXd shapes = model.stiffness.llt().solve(model.average.transpose());
+  const Eigen::MatrixXd shapes =
+      testing::symmetric_solution(model.stiffness, model.average.transpose());
   const Eigen::MatrixXd exact = model.average * shapes;
   CHECK(difference(captured(body, "tip"), exact) < kCompliance);
   CHECK(count_of(body, kNormalMode) == 3);
@@ -133,25 +135,23 @@ TEST_CASE("a Craig-Bampton basis is that of the textbook's dense matrices") {
   constexpr int kCount = 4;
   const ModalBody body = analyse_modes(block(), held(BasisKind::craig_bampton, kCount), {});
   const Dense model = held_model();
-  const Eigen::MatrixXd shapes = model.stiffness.llt().solve(model.average.transpose());
+  const Eigen::MatrixXd shapes =
+      testing::symmetric_solution(model.stiffness, model.average.transpose());
   CHECK(difference(captured(body, "tip"), model.average * shapes) < kCompliance);
   CHECK(count_of(body, kRitzMode) == kCount);
   CHECK(count_of(body, kConstraintMode) == 6);
   check_basis(body);
 
   // Modes on the null space of C, with the constraint modes.
-  const Eigen::MatrixXd inside = Eigen::FullPivLU<Eigen::MatrixXd>(model.average).kernel();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> fixed(
+  const Eigen::MatrixXd inside = testing::null_space(model.average);
+  const testing::DensePairs fixed = testing::dense_pairs(
       inside.transpose() * model.stiffness * inside, inside.transpose() * model.mass * inside);
   Eigen::MatrixXd basis(shapes.rows(), kCount + 6);
-  basis << inside * fixed.eigenvectors().leftCols(kCount),
-      shapes * (model.average * shapes).inverse();
-  const Eigen::VectorXd expected =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
-          basis.transpose() * model.stiffness * basis, basis.transpose() * model.mass * basis)
-          .eigenvalues()
-          .cwiseSqrt() /
-      (2 * std::numbers::pi);
+  basis << inside * fixed.vectors.leftCols(kCount), shapes * (model.average * shapes).inverse();
+  const Eigen::VectorXd expected = testing::dense_pairs(basis.transpose() * model.stiffness * basis,
+                                                        basis.transpose() * model.mass * basis)
+                                       .values.cwiseSqrt() /
+                                   (2 * std::numbers::pi);
   CHECK((body.frequencies_Hz.array() / expected.array() - 1).abs().maxCoeff() < 1e-8);
 }
 
@@ -165,12 +165,11 @@ TEST_CASE("a free body with inertia relief deforms as all its elastic modes woul
        {std::tuple{"tip", "top", kTip}, {"root", "bottom", kRoot}}) {
     CAPTURE(name);
     const Dense model = dense_model({}, set, point);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> all(model.stiffness,
-                                                                        model.mass);
-    const Eigen::Index elastic = all.eigenvalues().size() - 6;
-    const Eigen::MatrixXd motions = model.average * all.eigenvectors().rightCols(elastic);
+    const testing::DensePairs all = testing::dense_pairs(model.stiffness, model.mass);
+    const Eigen::Index elastic = all.values.size() - 6;
+    const Eigen::MatrixXd motions = model.average * all.vectors.rightCols(elastic);
     const Eigen::MatrixXd exact =
-        motions * all.eigenvalues().tail(elastic).cwiseInverse().asDiagonal() * motions.transpose();
+        motions * all.values.tail(elastic).cwiseInverse().asDiagonal() * motions.transpose();
     CHECK(difference(captured(body, name), exact) < kCompliance);
     CHECK(difference(body.interface(name).response->compliance, exact) < kCompliance);
   }
@@ -225,9 +224,7 @@ TEST_CASE("the study of mode counts is what bodies with so many modes and residu
           Eigen::MatrixXd::Identity(m, m) +
           motions.leftCols(m).transpose() * *exact.mass_matrix * motions.leftCols(m);
       const Eigen::MatrixXd stiffness = few.frequencies_Hz.head(m).cwiseAbs2().asDiagonal();
-      return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, mass)
-          .eigenvalues()
-          .cwiseSqrt();
+      return testing::dense_pairs(stiffness, mass).values.cwiseSqrt();
     };
     const Eigen::VectorXd modes_only = frequencies(std::stoi(row.kept));
     const Eigen::VectorXd corrected = frequencies(few.mode_count());

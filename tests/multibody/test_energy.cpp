@@ -7,6 +7,7 @@
 
 #include "multibody/simulation.h"
 #include "tests/support/formulations.h"
+#include "tests/support/point_mass_body.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;

@@ -5,12 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
 #include "multibody/linearisation.h"
 #include "multibody/rotation.h"
+#include "tests/support/dense_solvers.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Index;
@@ -93,13 +95,12 @@ TEST_CASE("a double pendulum swings with its closed-form frequencies in both pla
   const double m1 = 2, l1 = 0.5, m2 = 1, l2 = 0.3;
   Model model = double_pendulum(m1, l1, m2, l2);
   const auto [K, M] = double_pendulum_matrices(m1, l1, m2, l2);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix2d> eigen(K, M);
+  const VectorXd eigenvalues = flexneck::testing::dense_pairs(K, M).values;
   const auto modes = system_modes(model);
   REQUIRE(modes.size() == 2);
   for (Index k = 0; k < 2; ++k) {
     const SystemMode& mode = modes[static_cast<std::size_t>(k)];
-    CHECK(mode.frequency_Hz ==
-          Approx(hertz(std::sqrt(eigen.eigenvalues()[k]))).epsilon(kTolerance));
+    CHECK(mode.frequency_Hz == Approx(hertz(std::sqrt(eigenvalues[k]))).epsilon(kTolerance));
     CHECK(mode.damped_frequency_Hz == Approx(mode.frequency_Hz).epsilon(kTolerance));
     CHECK(std::abs(mode.damping_ratio) < kTolerance);
   }
@@ -116,16 +117,15 @@ TEST_CASE("shapes of a double pendulum are the eigenvectors of its closed form")
   const double m1 = 2, l1 = 0.5, m2 = 1, l2 = 0.3;
   Model model = double_pendulum(m1, l1, m2, l2);
   const auto [K, M] = double_pendulum_matrices(m1, l1, m2, l2);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix2d> eigen(K, M);
+  const flexneck::testing::DensePairs eigen = flexneck::testing::dense_pairs(K, M);
   const auto at = GENERATE(LinearisedAt::equilibrium, LinearisedAt::given);
   const std::vector<ModeShape> modes = linearise(model, at);
   REQUIRE(modes.size() == 2);
   for (Index k = 0; k < 2; ++k) {
     const ModeShape& found = modes[static_cast<std::size_t>(k)];
-    CHECK(found.mode.frequency_Hz ==
-          Approx(hertz(std::sqrt(eigen.eigenvalues()[k]))).epsilon(kTolerance));
+    CHECK(found.mode.frequency_Hz == Approx(hertz(std::sqrt(eigen.values[k]))).epsilon(kTolerance));
     // A turn by phi about y moves what hangs below by -l phi along x.
-    const Eigen::Vector2d phi = eigen.eigenvectors().col(k);
+    const Eigen::Vector2d phi = eigen.vectors.col(k);
     const Eigen::Vector2d ends(-l1 * phi[0], -l1 * phi[0] - l2 * phi[1]);
     const double largest = std::abs(ends[0]) > std::abs(ends[1]) ? ends[0] : ends[1];
     const Matrix3Xcd& moved = found.translation;
@@ -209,7 +209,7 @@ TEST_CASE("a head on a modal body swings as the minimal-coordinate form says") {
   A.bottomLeftCorner(4, 4) = -M.inverse() * MatrixXd(omega.cwiseAbs2().asDiagonal());
   A.bottomRightCorner(4, 4) = -M.inverse() * MatrixXd((2 * zeta * omega).asDiagonal());
   std::vector<std::complex<double>> expected;
-  const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues();
+  const Eigen::VectorXcd eigenvalues = flexneck::testing::complex_eigenvalues(A);
   for (const auto& lambda : eigenvalues)
     if (lambda.imag() > 0) expected.push_back(lambda);
   std::sort(expected.begin(), expected.end(),

@@ -63,13 +63,13 @@ SpunBeam spun_beam(const Beam& beam, bool stiffens, double spin_rad_s,
 /// int (L^2 - z^2) / 2 w_j' w_l' over the masses of mass-normalised bending shapes, by its own
 /// quadrature: Southwell's coefficient where j is l.
 MatrixXd southwell(std::size_t count) {
-  const auto [points, weights] = detail::gauss_rule(60);
+  const auto [points, weights] = gauss_rule(60);
   const auto n = static_cast<Index>(count);
   MatrixXd sum = MatrixXd::Zero(n, n);
   VectorXd slopes(n);
   for (Index k = 0; k < points.size(); ++k) {
     for (std::size_t l = 0; l < count; ++l)
-      slopes[static_cast<Index>(l)] = detail::clamped_free_shape(l, points[k]).second;
+      slopes[static_cast<Index>(l)] = clamped_free_shape(l, points[k]).second;
     sum += weights[k] * (1 - points[k] * points[k]) / 2 * slopes * slopes.transpose();
   }
   return sum;
@@ -100,7 +100,7 @@ struct SpinUp {
     beam.gyration_m = 0.3;  // does not matter in the plane, but a line has no inertia about itself
     beam.fore_aft_modes = modes;
     beam.lateral_modes = 0;
-    const double x = detail::kClampedFree[0];
+    const double x = kClampedFree[0];
     beam.fore_aft_Hz = x * x * std::sqrt(bending_stiffness_Nm2 / linear_density_kg_m) /
                        (length_m * length_m * 2 * std::numbers::pi);
     return beam;
@@ -124,14 +124,14 @@ MatrixXd textbook_spin_up(const SpinUp& law, double end_s, double interval_s) {
   const MatrixXd K = southwell(static_cast<std::size_t>(law.modes)) - MatrixXd::Identity(n, n);
   VectorXd squares(n);
   VectorXd moments(n);
-  const auto [points, weights] = detail::gauss_rule(60);
+  const auto [points, weights] = gauss_rule(60);
   for (Index l = 0; l < n; ++l) {
     const auto number = static_cast<std::size_t>(l);
-    const double ratio = std::pow(detail::kClampedFree[number] / detail::kClampedFree[0], 2);
+    const double ratio = std::pow(kClampedFree[number] / kClampedFree[0], 2);
     squares[l] = std::pow(2 * std::numbers::pi * beam.fore_aft_Hz * ratio, 2);
     moments[l] = 0;
     for (Index k = 0; k < points.size(); ++k)
-      moments[l] += weights[k] * points[k] * detail::clamped_free_shape(number, points[k]).first;
+      moments[l] += weights[k] * points[k] * clamped_free_shape(number, points[k]).first;
     moments[l] *= std::sqrt(beam.mass_kg) * beam.length_m;
   }
   const auto rate = [&](double t, const VectorXd& y) {
@@ -268,7 +268,7 @@ TEST_CASE("Kane's beam lags behind its hub as it spins up and comes back; a line
 TEST_CASE("a pressed column softens to nothing at Euler's load; a linear one does not feel it") {
   constexpr int kModes = 4;
   const Beam beam;
-  const double x = detail::kClampedFree[0];
+  const double x = kClampedFree[0];
   const double omega = 2 * std::numbers::pi * beam.fore_aft_Hz;
   const double L = beam.length_m;
   const double EI = beam.mass_kg * L * L * L * omega * omega / std::pow(x, 4);

@@ -22,192 +22,38 @@ namespace flexneck::testing {
 
 /// Corners of the pieces of a hexahedron, by its own corners. Both cuts of the lower and the upper
 /// side run along 0-2 and 4-6, and on opposite sides all diagonals agree, so that neighbours match.
-inline std::vector<std::vector<std::size_t>> pieces_of_hexahedron(mesher::ReferenceShape shape) {
-  switch (shape) {
-    case mesher::ReferenceShape::prism:
-      return {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
-    case mesher::ReferenceShape::tetrahedron:
-      return {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-    default:
-      return {{0, 1, 3, 4}};
-  }
-}
+std::vector<std::vector<std::size_t>> pieces_of_hexahedron(mesher::ReferenceShape shape);
 
 /// The local node of the hex27 at each node of a `kind` whose corners are these.
-inline std::vector<std::size_t> nodes_of_piece(mesher::ElementKind kind,
-                                               const std::vector<std::size_t>& corners) {
-  const auto hex = mesher::reference_nodes(mesher::ElementKind::hex27);
-  const auto at = [&](std::size_t corner) { return Eigen::Vector3d(hex[corner].data()); };
-  // The piece's own coordinates run from its first corner along three edges.
-  const mesher::ReferenceShape shape = mesher::shape_of(kind);
-  const Eigen::Vector3d origin = at(corners[0]);
-  Eigen::Matrix3d edges;
-  edges << at(corners[1]) - origin, at(corners[2]) - origin, at(corners[3]) - origin;
-  std::vector<std::size_t> result;
-  for (const auto& node : mesher::reference_nodes(kind)) {
-    Eigen::Vector3d along(node.data());
-    if (shape == mesher::ReferenceShape::hexahedron) along = (along.array() + 1) / 2;
-    if (shape == mesher::ReferenceShape::prism) along[2] = (along[2] + 1) / 2;
-    const Eigen::Vector3d place = origin + edges * along;
-    const auto found = std::find_if(hex.begin(), hex.end(), [&](const auto& candidate) {
-      return (Eigen::Vector3d(candidate.data()) - place).norm() < 1e-12;
-    });
-    if (found == hex.end()) throw std::logic_error("no node of the hexahedron there");
-    result.push_back(static_cast<std::size_t>(found - hex.begin()));
-  }
-  return result;
-}
+std::vector<std::size_t> nodes_of_piece(mesher::ElementKind kind,
+                                        const std::vector<std::size_t>& corners);
 
 /// The kind that takes the place of the hexahedron with its centre there; none: a hole.
 using KindChoice = std::function<std::optional<mesher::ElementKind>(const Eigen::Vector3d&)>;
 
 /// Puts nodes in place of others, everywhere but in the list of nodes itself.
-inline void renumber(mesher::Mesh& mesh, const std::vector<std::int32_t>& new_number) {
-  const auto apply = [&](std::vector<std::int32_t>& nodes) {
-    for (std::int32_t& node : nodes) node = new_number[static_cast<std::size_t>(node)];
-  };
-  for (mesher::ElementBlock& block : mesh.blocks) apply(block.nodes);
-  for (mesher::NodeSet& set : mesh.node_sets) {
-    apply(set.nodes);
-    std::erase(set.nodes, -1);
-  }
-  for (mesher::FaceSet& set : mesh.face_sets) {
-    for (mesher::FaceBlock& block : set.blocks) apply(block.nodes);
-  }
-}
+void renumber(mesher::Mesh& mesh, const std::vector<std::int32_t>& new_number);
 
 /// Leaves out the nodes that belong to no element.
-inline void drop_loose_nodes(mesher::Mesh& mesh) {
-  std::vector<std::int32_t> new_number(mesh.nodes.size(), -1);
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    for (const std::int32_t node : block.nodes) new_number[static_cast<std::size_t>(node)] = 0;
-  }
-  std::int32_t next = 0;
-  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
-    if (new_number[k] < 0) continue;
-    new_number[k] = next;
-    mesh.nodes[static_cast<std::size_t>(next++)] = mesh.nodes[k];
-  }
-  mesh.nodes.resize(static_cast<std::size_t>(next));
-  renumber(mesh, new_number);
-}
+void drop_loose_nodes(mesher::Mesh& mesh);
 
 /// Sides of the elements whose nodes all lie in the region.
-inline std::vector<mesher::FaceBlock> sides_within(const mesher::Mesh& mesh,
-                                                   const std::set<std::int32_t>& region) {
-  std::map<mesher::ElementKind, std::vector<std::int32_t>> by_kind;
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    const std::size_t width = mesher::nodes_per_element(block.kind);
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      for (const mesher::Side& side : mesher::sides_of(block.kind)) {
-        std::vector<std::int32_t> nodes;
-        for (const std::size_t i : side.nodes) nodes.push_back(block.nodes[width * e + i]);
-        if (!std::all_of(nodes.begin(), nodes.end(), [&](auto n) { return region.contains(n); })) {
-          continue;
-        }
-        auto& all = by_kind[side.kind];
-        all.insert(all.end(), nodes.begin(), nodes.end());
-      }
-    }
-  }
-  std::vector<mesher::FaceBlock> blocks;
-  for (const auto& [kind, nodes] : by_kind) blocks.push_back({kind, nodes});
-  return blocks;
-}
+std::vector<mesher::FaceBlock> sides_within(const mesher::Mesh& mesh,
+                                            const std::set<std::int32_t>& region);
 
 /// Cuts each hexahedron of a mesh of hex27 into elements of the kind chosen for it. Parts, node
 /// sets and face sets keep their names.
-inline mesher::Mesh with_kinds(const mesher::Mesh& hexahedra, const KindChoice& choose) {
-  mesher::Mesh mesh = hexahedra;
-  mesh.blocks.clear();
-  for (const mesher::ElementBlock& block : hexahedra.blocks) {
-    std::map<mesher::ElementKind, std::vector<std::int32_t>> by_kind;
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      const auto nodes = std::span(block.nodes).subspan(27 * e, 27);
-      const auto kind =
-          choose(Eigen::Vector3d(hexahedra.nodes[static_cast<std::size_t>(nodes[26])].data()));
-      if (!kind) continue;
-      for (const auto& corners : pieces_of_hexahedron(mesher::shape_of(*kind))) {
-        for (const std::size_t i : nodes_of_piece(*kind, corners)) {
-          by_kind[*kind].push_back(nodes[i]);
-        }
-      }
-    }
-    for (const auto& [kind, nodes] : by_kind) {
-      mesh.blocks.push_back({block.part, kind, block.material, nodes});
-    }
-  }
-  for (mesher::FaceSet& set : mesh.face_sets) {
-    std::set<std::int32_t> region;
-    for (const auto& block : set.blocks) region.insert(block.nodes.begin(), block.nodes.end());
-    set.blocks = sides_within(mesh, region);
-  }
-  drop_loose_nodes(mesh);
-  return mesh;
-}
+mesher::Mesh with_kinds(const mesher::Mesh& hexahedra, const KindChoice& choose);
 
 /// The same elements all of one kind.
-inline mesher::Mesh with_kind(const mesher::Mesh& hexahedra, mesher::ElementKind kind) {
-  return with_kinds(hexahedra, [kind](const Eigen::Vector3d&) { return kind; });
-}
+mesher::Mesh with_kind(const mesher::Mesh& hexahedra, mesher::ElementKind kind);
 
 /// Doubles the nodes that are `cut`, for the elements with their middle above z_m: a slit whose two
 /// faces carry the pairs. Its normals point up; its areas are left zero.
-inline mesher::Mesh with_slit(const mesher::Mesh& whole, double z_m, bool tied,
-                              const std::function<bool(const Eigen::Vector3d&)>& cut) {
-  mesher::Mesh mesh = whole;
-  mesher::Slit slit;
-  slit.name = "slit";
-  slit.tied = tied;
-  std::vector<std::int32_t> double_of(whole.nodes.size(), -1);
-  for (std::size_t k = 0; k < whole.nodes.size(); ++k) {
-    if (!cut(Eigen::Vector3d(whole.nodes[k].data()))) continue;
-    double_of[k] = static_cast<std::int32_t>(mesh.nodes.size());
-    slit.lower.push_back(static_cast<std::int32_t>(k));
-    slit.upper.push_back(double_of[k]);
-    slit.normals.push_back({0, 0, 1});
-    slit.areas_m2.push_back(0);
-    mesh.nodes.push_back(whole.nodes[k]);
-  }
-  for (mesher::ElementBlock& block : mesh.blocks) {
-    const std::size_t width = mesher::nodes_per_element(block.kind);
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      const auto nodes = std::span(block.nodes).subspan(width * e, width);
-      double middle = 0;
-      for (const std::int32_t node : nodes) middle += mesh.nodes[static_cast<std::size_t>(node)][2];
-      if (middle < z_m * static_cast<double>(width)) continue;
-      for (std::int32_t& node : nodes) {
-        const std::int32_t other = double_of[static_cast<std::size_t>(node)];
-        if (other >= 0) node = other;
-      }
-    }
-  }
-  mesh.slits.push_back(slit);
-  return mesh;
-}
+mesher::Mesh with_slit(const mesher::Mesh& whole, double z_m, bool tied,
+                       const std::function<bool(const Eigen::Vector3d&)>& cut);
 
 /// For each node whether it lies on the outside of the mesh, on a side of one element only.
-inline std::vector<bool> outside_nodes(const mesher::Mesh& mesh) {
-  std::map<std::set<std::int32_t>, int> counts;
-  const auto for_each_side = [&](const auto& visit) {
-    for (const mesher::ElementBlock& block : mesh.blocks) {
-      const std::size_t width = mesher::nodes_per_element(block.kind);
-      for (std::size_t e = 0; e < block.size(); ++e) {
-        for (const mesher::Side& side : mesher::sides_of(block.kind)) {
-          std::set<std::int32_t> nodes;
-          for (const std::size_t i : side.nodes) nodes.insert(block.nodes[width * e + i]);
-          visit(nodes);
-        }
-      }
-    }
-  };
-  for_each_side([&](const std::set<std::int32_t>& side) { ++counts[side]; });
-  std::vector<bool> outside(mesh.nodes.size(), false);
-  for (const auto& [side, count] : counts) {
-    if (count > 1) continue;
-    for (const std::int32_t node : side) outside[static_cast<std::size_t>(node)] = true;
-  }
-  return outside;
-}
+std::vector<bool> outside_nodes(const mesher::Mesh& mesh);
 
 }  // namespace flexneck::testing

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+/// Decompositions by Eigen as an independent truth, in one place: each file that compiles one of
+/// its own takes some ten seconds longer.
+namespace flexneck::testing {
+
+struct DensePairs {
+  Eigen::VectorXd values;   ///< ascending
+  Eigen::MatrixXd vectors;  ///< of unit mass
+};
+
+/// K x = lambda M x
+DensePairs dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+/// Ascending, of a symmetric matrix.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
+/// Of any square matrix.
+Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXd& matrix);
+/// A^-1 B with a symmetric A.
+Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// The columns span all x with A x = 0.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
+
+}  // namespace flexneck::testing
