@@ -77,7 +77,7 @@ void write(const SimulateInput& input, const multibody::HistoryFile& result) {
   write_csv(table, result.history.time_s, result.channels);
   input.console.result(name + ": " + input.folder.file(name + ".h5").string() + ", " +
                        table.string() + "\n" + run_summary(result.history) + "\n\n" +
-                       (result.linearisation ? mode_summary(*result.linearisation) + "\n" : "") +
+                       (result.linearisation ? mode_summary(*result.linearisation) + "\n\n" : "") +
                        peak_table(result.history.time_s, result.channels));
 }
 
