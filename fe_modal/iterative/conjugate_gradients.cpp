@@ -2,7 +2,11 @@
 #include "fe_modal/iterative/conjugate_gradients.h"
 
 #include <string>
+#include <utility>
 
+#include <Eigen/Eigenvalues>
+
+#include "fe_modal/matrix_product.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -12,15 +16,31 @@ namespace {
 /// square itself, one between two loads by the root, 1e-10, which is asked for to 1e-8.
 constexpr double kTolerance = 1e-20;
 constexpr int kMostIterations = 2000;
+/// Of squares of energy: combinations of the directions that have less are rounding. There are some
+/// when a column has converged, or two have come to the same.
+constexpr double kNoDirection = 1e-12;
 
 /// Of each column with its partner.
 Eigen::VectorXd dots(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
   return one.cwiseProduct(other).colwise().sum().transpose();
 }
 
-/// Of two lists, zero where nothing is left to do.
-Eigen::VectorXd ratios(const Eigen::VectorXd& above, const Eigen::VectorXd& below) {
-  return (below.array() > 0).select(above.cwiseQuotient(below), 0.0);
+/// Combinations of the directions D that have D^T A D = 1, without those that say nothing new.
+/// @param energies D^T A D
+Eigen::MatrixXd orthonormal_combinations(const Eigen::MatrixXd& energies) {
+  const Eigen::VectorXd scale = energies.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * energies *
+                                                              scale.asDiagonal());
+  const Eigen::VectorXd& squares = solver.eigenvalues();
+  const Eigen::Index kept = (squares.array() > kNoDirection).count();
+  return scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
+         squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& combination) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns.rows(), combination.cols());
+  add_product(1, columns, combination, result);
+  return result;
 }
 
 }  // namespace
@@ -32,21 +52,25 @@ ConjugateGradientResult conjugate_gradients(const BlockOperator& matrix,
       Eigen::MatrixXd::Zero(right_hand_sides.rows(), right_hand_sides.cols())};
   Eigen::MatrixXd residuals = right_hand_sides;
   Eigen::MatrixXd directions = preconditioner(residuals);
-  Eigen::VectorXd squares = dots(residuals, directions);
-  const Eigen::VectorXd aims = kTolerance * squares;
+  const Eigen::VectorXd aims = kTolerance * dots(residuals, directions);
+  Eigen::VectorXd squares = aims / kTolerance;
   while ((squares.array() > aims.array()).any()) {
     if (++result.iterations > kMostIterations) {
       throw ComputationError("conjugate gradients have not converged in " +
                              std::to_string(kMostIterations) + " iterations");
     }
-    const Eigen::MatrixXd forces = matrix(directions);
-    const Eigen::VectorXd steps = ratios(squares, dots(directions, forces));
-    result.solutions += directions * steps.asDiagonal();
-    residuals -= forces * steps.asDiagonal();
-    const Eigen::MatrixXd corrections = preconditioner(residuals);
-    const Eigen::VectorXd next = dots(residuals, corrections);
-    directions = (corrections + directions * ratios(next, squares).asDiagonal()).eval();
-    squares = next;
+    Eigen::MatrixXd forces = matrix(directions);
+    const Eigen::MatrixXd combinations =
+        orthonormal_combinations(inner_products(directions, forces));
+    directions = product(directions, combinations);
+    forces = product(forces, combinations);
+    const Eigen::MatrixXd steps = inner_products(directions, residuals);
+    add_product(1, directions, steps, result.solutions);
+    add_product(-1, forces, steps, residuals);
+    Eigen::MatrixXd next = preconditioner(residuals);
+    squares = dots(residuals, next);
+    add_product(-1, directions, inner_products(forces, next), next);
+    directions = std::move(next);
   }
   return result;
 }

@@ -10,8 +10,10 @@ struct ConjugateGradientResult {
   int iterations = 0;
 };
 
-/// A x = b for each column by preconditioned conjugate gradients, side by side. Each ends when
-/// r^T P r, near the square of the error in the energy norm, has fallen by 1e-20.
+/// A x = b for each column by preconditioned conjugate gradients with a block of directions, in
+/// which all columns share (O'Leary, Linear Algebra Appl. 29 (1980) 293); those that have become
+/// dependent are dropped (Ji and Li, BIT 57 (2017) 379). Ends when r^T P r of each column, near the
+/// square of the error in the energy norm, has fallen by 1e-20.
 /// @throws ComputationError if one does not converge.
 ConjugateGradientResult conjugate_gradients(const BlockOperator& matrix,
                                             const BlockOperator& preconditioner,
