@@ -38,8 +38,8 @@ Eigen::MatrixXd orthonormal_combinations(const Eigen::MatrixXd& energies) {
 }
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& combination) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns.rows(), combination.cols());
-  add_product(1, columns, combination, result);
+  Eigen::MatrixXd result(columns.rows(), combination.cols());
+  multiply(1, columns, combination, 0, result);
   return result;
 }
 
@@ -65,11 +65,11 @@ ConjugateGradientResult conjugate_gradients(const BlockOperator& matrix,
     directions = product(directions, combinations);
     forces = product(forces, combinations);
     const Eigen::MatrixXd steps = inner_products(directions, residuals);
-    add_product(1, directions, steps, result.solutions);
-    add_product(-1, forces, steps, residuals);
+    multiply(1, directions, steps, 1, result.solutions);
+    multiply(-1, forces, steps, 1, residuals);
     Eigen::MatrixXd next = preconditioner(residuals);
     squares = dots(residuals, next);
-    add_product(-1, directions, inner_products(forces, next), next);
+    multiply(-1, directions, inner_products(forces, next), 1, next);
     directions = std::move(next);
   }
   return result;
