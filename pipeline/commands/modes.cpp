@@ -139,6 +139,7 @@ bool modes_command(const CommandInput& input) {
     input.console.step("Warning: " + line);
   }
   input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
+  times.start("start PETSc");
   std::optional<fe_modal::PetscSession> session;
   if (input.ranks == nullptr) session.emplace();
   const fe_modal::ModalBody body = solve(input, mesh.mesh, options, input.folder.modes(), times);

@@ -97,10 +97,10 @@ double largest_difference(const Eigen::VectorXd& one, const Eigen::VectorXd& oth
 
 constexpr std::array kSizes = {
     "--set mesh.quadrant=3 --set mesh.inner_ring=2 --set mesh.rubber_layers=2",
-    "--set mesh.quadrant=6 --set mesh.inner_ring=5 --set mesh.outer_ring=2"
-    " --set mesh.rubber_layers=4",
-    "--set mesh.quadrant=9 --set mesh.inner_ring=7 --set mesh.outer_ring=3"
-    " --set mesh.rubber_layers=6"};
+    "--set mesh.quadrant=7 --set mesh.inner_ring=5 --set mesh.outer_ring=2"
+    " --set mesh.rubber_layers=5",
+    "--set mesh.quadrant=10 --set mesh.inner_ring=9 --set mesh.outer_ring=4"
+    " --set mesh.rubber_layers=7"};
 
 void compare(std::size_t sizes, bool has_peer) {
   const TemporaryFolder folder;
