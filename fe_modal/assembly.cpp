@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fe_modal/element_kernel.h"
+#include "fe_modal/tied_element.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -81,9 +83,20 @@ void add_mass(const SortedNodes& nodes, const Eigen::MatrixXd& element, NodalMas
   }
 }
 
+/// The same where there are rigid ties, for which the mass couples directions.
+void add_tied(std::span<const std::int32_t> nodes, const FreeNodes& free_nodes,
+              const ElementMatrices& element, SortedNodes& sorted, SymmetricMatrix& stiffness,
+              SymmetricMatrix& mass) {
+  const TiedElement tied(nodes, free_nodes);
+  sorted.assign(tied.numbers(), [](std::int32_t number) { return number; });
+  add_stiffness(sorted, tied.reduced(element.stiffness), stiffness);
+  add_stiffness(sorted, tied.reduced(in_three_directions(element.mass)), mass);
+}
+
 void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
                const FreeNodes& free_nodes, const FormulationChoice& formulation,
-               SymmetricMatrix& stiffness, NodalMass& mass) {
+               SymmetricMatrix& stiffness, NodalMass& mass,
+               std::optional<SymmetricMatrix>& tied_mass) {
   const mesher::Material& material = mesh.materials.at(block.material);
   ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
   ElementMatrices element;
@@ -103,8 +116,12 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
                              " of its " + std::string(mesher::name_of(block.kind)) + ": " +
                              error.what());
     }
-    sorted.assign(nodes, [&](std::int32_t node) { return free_nodes.index(node); });
-    add_stiffness(sorted, element.stiffness, stiffness);
+    if (tied_mass) {
+      add_tied(nodes, free_nodes, element, sorted, stiffness, *tied_mass);
+    } else {
+      sorted.assign(nodes, [&](std::int32_t node) { return free_nodes.index(node); });
+      add_stiffness(sorted, element.stiffness, stiffness);
+    }
     sorted.assign(nodes, [](std::int32_t node) { return node; });
     add_mass(sorted, element.mass, mass);
   }
@@ -117,17 +134,25 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
   NodeGraph graph(mesh, free_nodes);
   SymmetricMatrix stiffness(graph);
   NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));
+  std::optional<SymmetricMatrix> tied_mass;
+  if (free_nodes.has_rigid_ties()) tied_mass.emplace(graph);
   for (const mesher::ElementBlock& block : mesh.blocks) {
-    add_block(mesh, block, free_nodes, formulation, stiffness, nodal_mass);
+    add_block(mesh, block, free_nodes, formulation, stiffness, nodal_mass, tied_mass);
   }
   MassMatrix mass(nodal_mass, graph, free_nodes);
-  SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass)};
+  SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass),
+                        std::move(tied_mass)};
   system.nodal_mass.swap(nodal_mass);  // this version of Eigen moves by copying
   return system;
 }
 
 SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift) {
   SymmetricMatrix result = system.stiffness.clone();
+  if (system.tied_mass) {
+    const auto mass = system.tied_mass->values();
+    for (std::size_t k = 0; k < mass.size(); ++k) result.values()[k] -= shift * mass[k];
+    return result;
+  }
   const NodalMass& mass = system.mass.between_nodes();
   for (std::int32_t node = 0; node < system.graph.node_count(); ++node) {
     std::ptrdiff_t place = -1;  // the diagonal block, then the later ones

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "fe_modal/formulation.h"
 #include "fe_modal/free_nodes.h"
 #include "fe_modal/mass_matrix.h"
@@ -15,7 +17,11 @@ struct SystemMatrices {
   NodeGraph graph;            ///< of the free nodes
   SymmetricMatrix stiffness;  ///< of the free degrees of freedom, N/m
   NodalMass nodal_mass;       ///< of all nodes, kg
-  MassMatrix mass;            ///< of the free degrees of freedom, kg
+  MassMatrix mass;            ///< of the free degrees of freedom, kg; void with rigid ties
+  /// Where there are rigid ties: of the free degrees of freedom, theirs included.
+  std::optional<SymmetricMatrix> tied_mass;
+
+  Mat mass_operator() const { return tied_mass ? tied_mass->get() : mass.get(); }
 };
 
 /// @throws InputError if a part's kind of element has no such formulation.

@@ -34,16 +34,6 @@ constexpr double kOneShape = 1e-2;
 constexpr double kSameMode = 0.8;
 constexpr double kUnknown = 1;
 
-/// Free values of a field on all nodes.
-Eigen::VectorXd restrict_to_free(const Eigen::Matrix3Xd& field, const FreeNodes& free_nodes) {
-  Eigen::VectorXd values(free_nodes.dof_count());
-  for (Eigen::Index k = 0; k < free_nodes.node_count(); ++k) {
-    const std::int32_t index = free_nodes.index(static_cast<std::int32_t>(k));
-    if (index >= 0) values.segment<3>(3 * static_cast<Eigen::Index>(index)) = field.col(k);
-  }
-  return values;
-}
-
 double hertz(double eigenvalue) {
   return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi);
 }
@@ -75,8 +65,7 @@ Eigen::MatrixXd similarities(const SolvedMesh& coarse, const FreeNodes& fine_nod
   Eigen::MatrixXd seen(coarse.pairs.vectors.rows(), fine.cols());
   for (Eigen::Index j = 0; j < fine.cols(); ++j) {
     const Eigen::Matrix3Xd field = fine_nodes.expand(fine.col(j));
-    seen.col(j) =
-        restrict_to_free(field.leftCols(coarse.free_nodes.node_count()), coarse.free_nodes);
+    seen.col(j) = coarse.free_nodes.restrict(field.leftCols(coarse.free_nodes.node_count()));
   }
   const Eigen::MatrixXd momentum = block_product(coarse.mass, seen);
   const Eigen::ArrayXd norms = seen.cwiseProduct(momentum).colwise().sum();
@@ -90,8 +79,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
                                    const Progress& progress) {
   const mesher::RefinedMesh fine = mesher::refine(solved.mesh);
   const bool held = !options.held_set.empty();
-  const FreeNodes free_nodes(
-      fine.mesh, held ? fine.mesh.node_set(options.held_set).nodes : std::vector<std::int32_t>{});
+  const FreeNodes free_nodes = free_nodes_of(fine.mesh, options);
   if (progress) {
     progress("refining for the error of the mesh, " + std::to_string(free_nodes.dof_count()) +
              " degrees of freedom");
@@ -108,8 +96,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   Eigen::MatrixXd start(free_nodes.dof_count(), solved.pairs.vectors.cols());
   for (Eigen::Index k = 0; k < start.cols(); ++k) {
     const Eigen::Matrix3Xd field = solved.free_nodes.expand(solved.pairs.vectors.col(k));
-    start.col(k) =
-        restrict_to_free((fine.prolongation * field.transpose()).transpose(), free_nodes);
+    start.col(k) = free_nodes.restrict((fine.prolongation * field.transpose()).transpose());
   }
   const Eigen::ArrayXd coarse = solved.pairs.values;
   const Settled settled = [&](const RitzState& state) {

@@ -4,6 +4,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "geometry/foundation/error.h"
+
 namespace flexneck::fe_modal {
 namespace {
 
@@ -57,11 +62,82 @@ FreeNodes::FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
   free_count_ = next;
 }
 
+FreeNodes::FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
+                     std::span<const RigidTie> ties)
+    : FreeNodes(mesh.nodes.size(), held, mesh.slits) {
+  if (!ties.empty()) tie_rigidly(mesh, ties);
+}
+
+void FreeNodes::tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> ties) {
+  // By the numbers that nodes have so far, which slits may have given to several.
+  std::vector<std::int32_t> tie_of_number(static_cast<std::size_t>(free_count_), -1);
+  for (std::size_t t = 0; t < ties.size(); ++t) {
+    for (const std::int32_t node : ties[t].nodes) {
+      if (index(node) < 0) {
+        throw InputError("rigid interface '" + ties[t].name + "' has nodes that are held");
+      }
+      std::int32_t& tie = tie_of_number[static_cast<std::size_t>(index(node))];
+      if (tie >= 0 && tie != static_cast<std::int32_t>(t)) {
+        throw InputError("rigid interfaces '" + ties[static_cast<std::size_t>(tie)].name +
+                         "' and '" + ties[t].name + "' share nodes");
+      }
+      tie = static_cast<std::int32_t>(t);
+    }
+  }
+  std::vector<std::int32_t> new_number(tie_of_number.size());
+  for (std::size_t k = 0; k < new_number.size(); ++k) {
+    new_number[k] = tie_of_number[k] < 0 ? first_tie_++ : -1;
+  }
+  free_count_ = first_tie_ + 2 * static_cast<Eigen::Index>(ties.size());
+  tie_of_.assign(indices_.size(), -1);
+  arms_m_ = Eigen::Matrix3Xd::Zero(3, node_count());
+  for (std::size_t k = 0; k < indices_.size(); ++k) {
+    if (indices_[k] < 0) continue;
+    const auto number = static_cast<std::size_t>(indices_[k]);
+    tie_of_[k] = tie_of_number[number];
+    indices_[k] = new_number[number];
+    if (tie_of_[k] < 0) continue;
+    arms_m_.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[k].data()) -
+        ties[static_cast<std::size_t>(tie_of_[k])].point_m;
+  }
+}
+
+Eigen::VectorXd FreeNodes::restrict(const Eigen::Matrix3Xd& field) const {
+  Eigen::VectorXd values(dof_count());
+  const Eigen::Index ties = (free_count_ - first_tie_) / 2;
+  using Six = Eigen::Matrix<double, 6, 6>;
+  std::vector<Six> matrices(has_rigid_ties() ? static_cast<std::size_t>(ties) : 0, Six::Zero());
+  if (has_rigid_ties()) values.tail(6 * ties).setZero();
+  for (std::int32_t k = 0; k < node_count(); ++k) {
+    if (index(k) >= 0) values.segment<3>(3 * static_cast<Eigen::Index>(index(k))) = field.col(k);
+    if (tie(k) < 0) continue;
+    const Eigen::Vector3d arm = arm_m(k);
+    Eigen::Matrix<double, 3, 6> motion;  // of this node by the six of its tie
+    motion << 1, 0, 0, 0, arm.z(), -arm.y(), 0, 1, 0, -arm.z(), 0, arm.x(), 0, 0, 1, arm.y(),
+        -arm.x(), 0;
+    matrices[static_cast<std::size_t>(tie(k))] += motion.transpose() * motion;
+    values.segment<6>(3 * static_cast<Eigen::Index>(translation(tie(k)))) +=
+        motion.transpose() * field.col(k);
+  }
+  for (std::size_t t = 0; t < matrices.size(); ++t) {
+    auto six =
+        values.segment<6>(3 * static_cast<Eigen::Index>(translation(static_cast<std::int32_t>(t))));
+    six = matrices[t].ldlt().solve(Eigen::Matrix<double, 6, 1>(six)).eval();
+  }
+  return values;
+}
+
 Eigen::Matrix3Xd FreeNodes::expand(const Eigen::VectorXd& free_values) const {
   Eigen::Matrix3Xd field = Eigen::Matrix3Xd::Zero(3, node_count());
   for (std::size_t k = 0; k < indices_.size(); ++k) {
     if (indices_[k] < 0) continue;
     field.col(static_cast<Eigen::Index>(k)) = free_values.segment<3>(3 * indices_[k]);
+  }
+  for (std::int32_t k = 0; has_rigid_ties() && k < node_count(); ++k) {
+    if (tie(k) < 0) continue;
+    const Eigen::Vector3d turn = free_values.segment<3>(3 * rotation(tie(k)));
+    field.col(k) = free_values.segment<3>(3 * translation(tie(k))) + turn.cross(arm_m(k));
   }
   return field;
 }
@@ -71,6 +147,12 @@ Eigen::VectorXd FreeNodes::gather(const Eigen::Matrix3Xd& forces) const {
   for (std::size_t k = 0; k < indices_.size(); ++k) {
     if (indices_[k] < 0) continue;
     values.segment<3>(3 * indices_[k]) += forces.col(static_cast<Eigen::Index>(k));
+  }
+  for (std::int32_t k = 0; has_rigid_ties() && k < node_count(); ++k) {
+    if (tie(k) < 0) continue;
+    const Eigen::Vector3d force = forces.col(k);
+    values.segment<3>(3 * translation(tie(k))) += force;
+    values.segment<3>(3 * rotation(tie(k))) += arm_m(k).cross(force);
   }
   return values;
 }

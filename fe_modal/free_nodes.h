@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,17 +13,27 @@
 
 namespace flexneck::fe_modal {
 
+/// Nodes that move as one rigid body, u = t + theta x (x - point).
+struct RigidTie {
+  std::string name;  ///< for messages
+  std::vector<std::int32_t> nodes;
+  Eigen::Vector3d point_m;
+};
+
 /// Numbers the nodes that may move; held ones have no degrees of freedom, and nodes tied to one
 /// another share theirs. Degree of freedom 3 index(k) + a is direction a of node k. Keeps the order
-/// of the nodes.
+/// of the nodes. After them come two numbers for each rigid tie: its translation t and its rotation
+/// theta take the places of two nodes.
 class FreeNodes {
  public:
   /// @param held nodes held in all directions, in range; a node tied to one of them is held too
   /// @param slits those that are tied tie their pairs
   FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
             std::span<const mesher::Slit> slits = {});
-  FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held)
-      : FreeNodes(mesh.nodes.size(), held, mesh.slits) {}
+  /// @param ties a node tied to one of theirs, by a slit, is in the tie too
+  /// @throws InputError if a rigid tie has a held node or shares one with another.
+  FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
+            std::span<const RigidTie> ties = {});
 
   /// As numbered elsewhere.
   /// @param indices what index() is to return
@@ -33,8 +44,21 @@ class FreeNodes {
   Eigen::Index free_count() const { return free_count_; }
   Eigen::Index dof_count() const { return 3 * free_count_; }
 
-  /// Number of a node among the free ones, -1 if it is held.
+  /// Number of a node among the free ones, -1 if it is held or in a rigid tie.
   std::int32_t index(std::int32_t node) const { return indices_[static_cast<std::size_t>(node)]; }
+  bool has_rigid_ties() const { return !tie_of_.empty(); }
+  /// Number of a node's rigid tie, -1 if it is in none.
+  std::int32_t tie(std::int32_t node) const {
+    return has_rigid_ties() ? tie_of_[static_cast<std::size_t>(node)] : -1;
+  }
+  /// Numbers of a rigid tie's translation, m, and rotation, rad.
+  std::int32_t translation(std::int32_t tie) const { return first_tie_ + 2 * tie; }
+  std::int32_t rotation(std::int32_t tie) const { return first_tie_ + 2 * tie + 1; }
+  /// From the point of its rigid tie to a node.
+  Eigen::Vector3d arm_m(std::int32_t node) const { return arms_m_.col(node); }
+  /// What a field on all nodes, (3, n), has as free values: of a tie, whose nodes need not quite
+  /// move rigidly in it, the least-squares motion.
+  Eigen::VectorXd restrict(const Eigen::Matrix3Xd& field) const;
 
   /// Field on all nodes, (3, n), from its free values (dof_count()); zero on held nodes.
   Eigen::Matrix3Xd expand(const Eigen::VectorXd& free_values) const;
@@ -43,8 +67,13 @@ class FreeNodes {
   Eigen::VectorXd gather(const Eigen::Matrix3Xd& forces) const;
 
  private:
+  void tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> ties);
+
   std::vector<std::int32_t> indices_;
   Eigen::Index free_count_ = 0;
+  std::int32_t first_tie_ = 0;
+  std::vector<std::int32_t> tie_of_;  ///< (n), empty without rigid ties
+  Eigen::Matrix3Xd arms_m_;           ///< (3, n), likewise
 };
 
 }  // namespace flexneck::fe_modal

@@ -17,7 +17,7 @@ class LocalSystem : public ModalSystem {
       : matrices_(std::move(matrices)), node_order_(std::move(node_order)) {}
 
   Mat stiffness() const override { return matrices_.stiffness.get(); }
-  Mat mass() const override { return matrices_.mass.get(); }
+  Mat mass() const override { return matrices_.mass_operator(); }
   const NodalMass& nodal_mass() const override { return matrices_.nodal_mass; }
   std::unique_ptr<ShiftInverse> shift_inverse(double shift) const override;
   Eigen::Index eigenvalues_below(double sigma) const override;

@@ -25,6 +25,10 @@ std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_or
     has_come[static_cast<std::size_t>(index)] = true;
     order.push_back(index);
   }
+  // Rigid ties last: they couple all of a face.
+  for (std::size_t k = 0; !order.empty() && k < has_come.size(); ++k) {
+    if (!has_come[k]) order.push_back(static_cast<std::int32_t>(k));
+  }
   return order;
 }
 
@@ -33,14 +37,20 @@ std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_or
 std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
                                          const ModalOptions& options) {
   std::vector<std::int32_t> order = order_of_free(options.node_order, free_nodes);
+  const bool alone = options.ranks == nullptr || options.ranks->count() == 1;
+  if (free_nodes.has_rigid_ties() && (options.solver == Solver::iterative || !alone)) {
+    throw InputError(
+        "rigid interfaces are for the direct solver in one process: take averages, or leave out "
+        "--solver iterative and mpirun");
+  }
   if (options.solver == Solver::iterative) {
-    if (options.ranks != nullptr && options.ranks->count() > 1) {
+    if (!alone) {
       throw InputError("the iterative solver works in one process: start it without mpirun");
     }
     return std::make_unique<IterativeSystem>(assemble(mesh, free_nodes, options.formulation), mesh,
                                              free_nodes);
   }
-  if (options.ranks == nullptr || options.ranks->count() == 1) {
+  if (alone) {
     return std::make_unique<LocalSystem>(assemble(mesh, free_nodes, options.formulation),
                                          std::move(order));
   }

@@ -186,6 +186,17 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
 
 }  // namespace
 
+FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
+  std::vector<RigidTie> ties;
+  for (const InterfaceDefinition& interface : options.interfaces) {
+    if (!interface.is_rigid) continue;
+    ties.push_back({interface.name, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
+                    interface.position_m});
+  }
+  const bool held = !options.held_set.empty();
+  return {mesh, held ? mesh.node_set(options.held_set).nodes : std::vector<std::int32_t>{}, ties};
+}
+
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                         const Progress& progress, StepTimes* step_times) {
   StepTimes unseen;
@@ -195,8 +206,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   };
   check_options(mesh, options);
   const bool held = !options.held_set.empty();
-  const FreeNodes free_nodes(
-      mesh, held ? mesh.node_set(options.held_set).nodes : std::vector<std::int32_t>{});
+  const FreeNodes free_nodes = free_nodes_of(mesh, options);
   report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
          " degrees of freedom");
   times.start("assemble");

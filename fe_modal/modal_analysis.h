@@ -12,6 +12,7 @@
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/formulation.h"
+#include "fe_modal/free_nodes.h"
 #include "fe_modal/solver.h"
 #include "geometry/foundation/progress.h"
 #include "geometry/foundation/step_times.h"
@@ -40,6 +41,8 @@ struct InterfaceDefinition {
   std::string name;
   std::string set;  ///< a face set; for the held interface a node set
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  /// Its nodes are tied to one another and move rigidly, as if a stiff plate were glued on.
+  bool is_rigid = false;
 };
 
 /// A rigid body fixed to an interface, for the frequencies of the loaded structure.
@@ -74,6 +77,9 @@ struct ModalOptions {
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
 };
+
+/// The nodes that the options leave free. @throws InputError for unknown sets, and as FreeNodes.
+FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options);
 
 /// Normal modes by shift-invert, completed to the basis asked for, reduced to a modal body.
 /// @param times takes the time of each step if it is not null

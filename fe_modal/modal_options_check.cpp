@@ -118,12 +118,8 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   mesher::check(mesh);
   check_parts(mesh, options);
-  std::vector<std::int32_t> held;
-  if (!options.held_set.empty()) {
-    check_held(mesh, options.held_set);
-    held = mesh.node_set(options.held_set).nodes;
-  }
-  const Eigen::Index dofs = FreeNodes(mesh, held).dof_count();
+  if (!options.held_set.empty()) check_held(mesh, options.held_set);
+  const Eigen::Index dofs = free_nodes_of(mesh, options).dof_count();
   // Static shapes alone make a basis too.
   const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
   if (options.mode_count < least || options.mode_count > dofs) {

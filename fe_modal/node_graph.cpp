@@ -18,15 +18,15 @@ struct Rows {
   std::size_t size() const { return offsets.size() - 1; }
 };
 
-/// Nodes of each element by number; those with a negative number are left out.
+/// Nodes of each element by the numbers that `emit_numbers(node, emit)` emits.
 template <typename Numbering>
-Rows nodes_of_elements(const mesher::Mesh& mesh, const Numbering& number) {
+Rows nodes_of_elements(const mesher::Mesh& mesh, const Numbering& emit_numbers) {
   Rows result;
   for (const mesher::ElementBlock& block : mesh.blocks) {
     const std::size_t width = mesher::nodes_per_element(block.kind);
     for (std::size_t first = 0; first < block.nodes.size(); first += width) {
       for (const std::int32_t node : std::span(block.nodes).subspan(first, width)) {
-        if (number(node) >= 0) result.entries.push_back(number(node));
+        emit_numbers(node, [&](std::int32_t number) { result.entries.push_back(number); });
       }
       result.offsets.push_back(result.entries.size());
     }
@@ -74,13 +74,22 @@ void connect(const Rows& elements, std::size_t node_count, std::vector<std::int3
 }  // namespace
 
 NodeGraph::NodeGraph(const mesher::Mesh& mesh) {
-  connect(nodes_of_elements(mesh, [](std::int32_t node) { return node; }), mesh.nodes.size(),
-          offsets_, columns_);
+  const auto itself = [](std::int32_t node, const auto& emit) { emit(node); };
+  connect(nodes_of_elements(mesh, itself), mesh.nodes.size(), offsets_, columns_);
 }
 
 NodeGraph::NodeGraph(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
-  connect(nodes_of_elements(mesh, [&](std::int32_t node) { return free_nodes.index(node); }),
-          static_cast<std::size_t>(free_nodes.free_count()), offsets_, columns_);
+  const auto free = [&](std::int32_t node, const auto& emit) {
+    const std::int32_t tie = free_nodes.tie(node);
+    if (tie >= 0) {
+      emit(free_nodes.translation(tie));
+      emit(free_nodes.rotation(tie));
+    } else if (free_nodes.index(node) >= 0) {
+      emit(free_nodes.index(node));
+    }
+  };
+  connect(nodes_of_elements(mesh, free), static_cast<std::size_t>(free_nodes.free_count()),
+          offsets_, columns_);
 }
 
 }  // namespace flexneck::fe_modal

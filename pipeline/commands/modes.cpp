@@ -8,6 +8,7 @@
 #include "fe_modal/exchange/modes_xdmf.h"
 #include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "geometry/foundation/step_times.h"
 #include "geometry/foundation/units.h"
 #include "mesher/mesh/mesh_file.h"
@@ -51,7 +52,18 @@ fe_modal::ModalOptions neck_options(const Study& study) {
 }
 
 fe_modal::ModalOptions modal_options(const Study& study, mesher::Mesh& mesh) {
-  return study.geometry ? neck_options(study) : structure_options(study, mesh);
+  fe_modal::ModalOptions options =
+      study.geometry ? neck_options(study) : structure_options(study, mesh);
+  for (const std::string& name : study.modes.rigid_interfaces) {
+    try {
+      if (name == options.held_interface) throw InputError("'" + name + "' is held");
+      const std::size_t which = find_name(names_of(options.interfaces), name, "interface");
+      options.interfaces[which].is_rigid = true;
+    } catch (const InputError& error) {
+      throw InputError(study.file.string() + ": modes.rigid_interfaces: " + error.what());
+    }
+  }
+  return options;
 }
 
 /// The neck's paper weighs in pounds.

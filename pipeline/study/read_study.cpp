@@ -40,6 +40,7 @@ ModesSection read_modes(const StudyTable& table) {
   if (table.has("basis")) {
     modes.basis = static_cast<fe_modal::BasisKind>(choice(table, "basis", fe_modal::basis_names()));
   }
+  if (table.has("rigid_interfaces")) modes.rigid_interfaces = table.texts("rigid_interfaces");
   if (table.has("basis_interfaces")) modes.basis_interfaces = table.texts("basis_interfaces");
   if (table.has("stress_stiffening")) {
     modes.stress_stiffening = choice(table, "stress_stiffening", {"none", "unit-loads"}) == 1;

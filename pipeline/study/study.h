@@ -49,6 +49,7 @@ struct ModesSection {
   fe_modal::Solver solver = fe_modal::Solver::direct;
   fe_modal::BasisKind basis = fe_modal::BasisKind::normal;
   bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
+  std::vector<std::string> rigid_interfaces;  ///< whose nodes are tied to move rigidly
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
   bool certify = false;           ///< prove that no mode is missing, estimate the error of the mesh
   std::vector<std::string> held;  ///< node sets held in all directions; empty: a free body

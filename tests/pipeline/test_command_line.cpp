@@ -162,6 +162,9 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
                   "was made with geometry.length = 5.66 in, the study has 5.7 in");
     check_refused(run_flexneck("pendulum -o " + out + kCoarse + " --set modes.count=11"),
                   "make it again with 'flexneck modes'");
+    check_refused(
+        run_flexneck("modes -o " + out + kCoarse + " --set modes.rigid_interfaces='[\"tip\"]'"),
+        "modes.rigid_interfaces: there is no interface 'tip' (did you mean 'top'?)");
   }
   SECTION("a truncated file is refused") {
     fs::resize_file(folder / "modes.h5", fs::file_size(folder / "modes.h5") / 2);
