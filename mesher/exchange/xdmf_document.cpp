@@ -51,21 +51,11 @@ std::string text_of(const Shape& shape) {
   return text;
 }
 
-std::string dataset_xml(const XdmfItem& item) {
+std::string xml_of(const XdmfItem& item) {
   return "<DataItem Format=\"HDF\" NumberType=\"" + std::string(item.is_double ? "Float" : "Int") +
          "\" Precision=\"" + (item.is_double ? "8" : "4") + "\" Dimensions=\"" +
          text_of(item.shape) + "\">" + escaped(item.file.filename().string()) + ":" +
          escaped(item.dataset) + "</DataItem>";
-}
-
-/// A hyperslab says first places, strides and counts of each extent, then of what.
-std::string xml_of(const XdmfItem& item) {
-  if (!item.place) return dataset_xml(item);
-  const Shape counts = {1, item.shape.at(1), item.shape.at(2)};
-  return "<DataItem ItemType=\"HyperSlab\" Type=\"HyperSlab\" Dimensions=\"" + text_of(counts) +
-         "\"><DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 3\">" +
-         text_of({*item.place, 0, 0}) + " " + text_of({1, 1, 1}) + " " + text_of(counts) +
-         "</DataItem>" + dataset_xml(item) + "</DataItem>";
 }
 
 }  // namespace
@@ -122,8 +112,8 @@ std::string grid_name(const Mesh& mesh, const ElementBlock& block) {
   return block.part + (is_mixed ? " " + std::string(name_of(block.kind)) : "");
 }
 
-std::filesystem::path view_file(const std::filesystem::path& mesh_file) {
-  return mesh_file.parent_path() / (mesh_file.stem().string() + "_view.h5");
+std::filesystem::path view_file(const std::filesystem::path& file) {
+  return file.parent_path() / (file.stem().string() + "_view.h5");
 }
 
 XdmfItem view_connectivity(const std::filesystem::path& mesh_file, const ElementBlock& block) {

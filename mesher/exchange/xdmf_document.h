@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "geometry/foundation/hdf5_file.h"
@@ -17,8 +16,6 @@ struct XdmfItem {
   std::string dataset;
   Shape shape;             ///< its extents
   bool is_double = false;  ///< or 32-bit integers
-  /// Of a dataset with three extents: this place in the first one alone.
-  std::optional<std::size_t> place = std::nullopt;
 };
 
 /// An XDMF document, version 2, for ParaView: grids side by side, the heavy data elsewhere. It is
@@ -38,7 +35,7 @@ class XdmfDocument {
 
   /// @param values (elements, 1)
   void element_scalar(const std::string& name, const XdmfItem& values);
-  /// @param values (n, 3), or a place in (m, n, 3)
+  /// @param values (n, 3)
   void node_vector(const std::string& name, const XdmfItem& values);
 
   void commit();
@@ -54,8 +51,9 @@ class XdmfDocument {
 /// The part, and the kind where the part has elements of several.
 std::string grid_name(const Mesh& mesh, const ElementBlock& block);
 
-/// Where write_xdmf() puts the elements of a block for ParaView: "mesh_view.h5" beside "mesh.h5".
-std::filesystem::path view_file(const std::filesystem::path& mesh_file);
+/// What ParaView reads besides a file, in an order of its own: "mesh_view.h5" beside "mesh.h5".
+std::filesystem::path view_file(const std::filesystem::path& file);
+/// Where write_xdmf() puts the elements of a block.
 XdmfItem view_connectivity(const std::filesystem::path& mesh_file, const ElementBlock& block);
 
 }  // namespace flexneck::mesher

@@ -69,6 +69,7 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
                                              "modes.h5",
                                              "modes.png",
                                              "modes.xdmf",
+                                             "modes_view.h5",
                                              "pendulum-flexion-120.h5",
                                              "pendulum-flexion-20.h5",
                                              "pendulum-flexion-60.h5",

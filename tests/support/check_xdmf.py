@@ -9,7 +9,6 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import h5py
-import numpy
 
 
 def dataset_of(item, folder):
@@ -21,17 +20,6 @@ def dataset_of(item, folder):
     return values[:]
 
 
-def values_of(item, folder):
-    if item.get("ItemType") != "HyperSlab":
-        return dataset_of(item, folder)
-    selection, source = item
-    first, stride, count = numpy.array(selection.text.split(), dtype=int).reshape(3, 3)
-    values = dataset_of(source, folder)
-    assert (first + (count - 1) * stride < values.shape).all() and (first >= 0).all()
-    assert item.get("Dimensions").split() == [str(n) for n in count]
-    return values[tuple(slice(f, f + c * s, s) for f, s, c in zip(first, stride, count))][0]
-
-
 path = sys.argv[1]
 folder = os.path.dirname(path)
 modes = h5py.File(os.path.join(folder, "modes.h5"), "r")
@@ -41,12 +29,12 @@ view = h5py.File(os.path.join(folder, "mesh_view.h5"), "r")
 assert len(grids) == sum(len(part) for part in view["parts"].values())
 for grid in grids:
     topology = grid.find("Topology")
-    elements = values_of(topology[0], folder)
+    elements = dataset_of(topology[0], folder)
     assert len(elements) == int(topology.get("NumberOfElements"))
-    positions = values_of(grid.find("Geometry")[0], folder)
+    positions = dataset_of(grid.find("Geometry")[0], folder)
     assert (positions == modes["nodes"][:]).all() and elements.max() < len(positions)
     attributes = grid.findall("Attribute")
     assert [a.get("Name") for a in attributes] == names
     for k, attribute in enumerate(attributes):
         assert attribute.get("AttributeType") == "Vector" and attribute.get("Center") == "Node"
-        assert (values_of(attribute[0], folder) == modes["shapes"][k]).all()
+        assert (dataset_of(attribute[0], folder) == modes["shapes"][k]).all()
