@@ -28,6 +28,10 @@ class ResultsFolder {
   std::filesystem::path mesh_picture() const { return path_ / "mesh.png"; }
   std::filesystem::path modes_picture() const { return path_ / "modes.png"; }
   std::filesystem::path history(const CaseSection& experiment) const;
+  /// The channels of that file as text, in the paper's units.
+  std::filesystem::path curves(const CaseSection& experiment) const {
+    return history(experiment).replace_extension(".csv");
+  }
   std::filesystem::path verification() const { return path_ / "verification.json"; }
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
 

@@ -22,7 +22,7 @@ PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& exper
   if (!std::filesystem::exists(path)) return evidence;
   const multibody::HistoryFile file = multibody::read_history(path);
   require_same_inputs(path, file.provenance, input.study, "flexneck pendulum");
-  evidence.run = pendulum_result(input.study, experiment, file.history);
+  evidence.run = pendulum_result(input.study, experiment, file.history.time_s, file.channels);
   return evidence;
 }
 

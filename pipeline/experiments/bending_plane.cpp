@@ -13,12 +13,17 @@ BendingPlane bending_plane(CaseSection::Direction direction) {
   const bool lateral = direction == CaseSection::Direction::lateral;
   const Vector3d tip = lateral ? Vector3d::UnitY() : Vector3d::UnitX();
   const double sense = direction == CaseSection::Direction::extension ? -1 : 1;
-  return {sense * tip, tip, Vector3d::UnitZ().cross(tip), lateral ? 3 : 4};
+  return {sense * tip, tip, Vector3d::UnitZ().cross(tip), lateral ? 1 : 0, lateral ? 3 : 4};
 }
 
 Eigen::Quaterniond rotation_at(const multibody::MarkerHistory& marker, Eigen::Index k) {
   const auto q = marker.rotation.col(k);
   return {q[0], q[1], q[2], q[3]};
+}
+
+double turn_about(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& axis) {
+  const double sign = rotation.w() < 0 ? -1 : 1;
+  return 2 * std::atan2(sign * rotation.vec().dot(axis), sign * rotation.w());
 }
 
 Eigen::VectorXd relative_rotation(const multibody::MarkerHistory& marker,

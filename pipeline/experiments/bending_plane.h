@@ -14,13 +14,17 @@ struct BendingPlane {
   Eigen::Vector3d motion;  ///< way the arm moves or the load pushes
   Eigen::Vector3d tip;     ///< way the head tips when the rotation is positive: +x or +y
   Eigen::Vector3d axis;    ///< of that rotation, z cross tip
-  int moment_channel;      ///< row of the SAE J211 channels: 3 = Mx, 4 = My
+  int force_channel;       ///< row of the SAE J211 channels along tip: 0 = Fx, 1 = Fy
+  int moment_channel;      ///< row of the SAE J211 channels about axis: 3 = Mx, 4 = My
 };
 
 BendingPlane bending_plane(CaseSection::Direction direction);
 
 /// Rotation of a marker at output time k, marker to world.
 Eigen::Quaterniond rotation_at(const multibody::MarkerHistory& marker, Eigen::Index k);
+
+/// Angle about an axis that a rotation keeps, rad in (-pi, pi].
+double turn_about(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& axis);
 
 /// Rotation of one marker against another about the plane's axis (the component of the rotation
 /// vector), rad, at every output time.

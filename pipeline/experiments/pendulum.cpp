@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/experiments/pendulum.h"
 
-#include <cmath>
-
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
+#include "pipeline/experiments/pendulum_signals.h"
+#include "pipeline/experiments/sampling.h"
 #include "pipeline/model/pulse.h"
 
 namespace flexneck::pipeline {
 
 using multibody::History;
-using multibody::MarkerHistory;
 using multibody::Model;
 
 namespace {
@@ -54,47 +53,44 @@ Model pendulum_model(const Study& study, const CaseSection& experiment,
   return model;
 }
 
-PendulumSignals pendulum_signals(const History& history, const CaseSection& experiment) {
-  const MarkerHistory& base = history.marker("neck.base");
-  const MarkerHistory& top = history.marker("neck.top");
-  const MarkerHistory& centre = history.marker("head.cg");
-  const MarkerHistory& arm = history.marker("arm.end");
-  const BendingPlane plane = bending_plane(experiment.direction);
-
-  PendulumSignals signals;
-  signals.head_rotation = relative_rotation(history.marker("head.condyles"), arm, plane);
-  signals.base_moment = bending_moment(history.joint("j1"), plane);
-  signals.occipital_moment = bending_moment(history.joint("j2"), plane);
-  const Eigen::Index count = history.time_s.size();
-  signals.neck_rotation.resize(count);
-  signals.head_acceleration.resize(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Quaterniond to_arm = rotation_at(arm, k).conjugate();
-    const Eigen::Vector3d chord = to_arm * (top.position_m.col(k) - base.position_m.col(k));
-    signals.neck_rotation[k] = std::atan2(chord.dot(plane.tip), chord.z());
-    signals.head_acceleration[k] = (to_arm * centre.acceleration_m_s2.col(k)).dot(plane.motion);
-  }
-  return signals;
+PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
+                         const fe_modal::ModalBody& body) {
+  const Model model = pendulum_model(study, experiment, body);
+  const int every = samples_per_output(study.output_interval_s);
+  const History history = multibody::simulate_from_equilibrium(
+      model, study.solver, {experiment.duration_s, study.output_interval_s / every});
+  PendulumRun run;
+  run.channels =
+      pendulum_channels(history.time_s, pendulum_signals(model, history, experiment), experiment);
+  for (multibody::Channel& channel : run.channels)
+    channel.values = thinned(channel.values.transpose(), every).transpose();
+  run.history = thinned(history, every);
+  return run;
 }
 
 PendulumResult pendulum_result(const Study& study, const CaseSection& experiment,
-                               const History& history) {
-  const PendulumSignals signals = pendulum_signals(history, experiment);
-  const auto peak = [&](const Eigen::VectorXd& signal) {
-    return multibody::largest_peak(history.time_s, signal);
+                               const Eigen::VectorXd& time_s,
+                               const std::vector<multibody::Channel>& channels) {
+  const auto peak = [&](const char* channel) {
+    return multibody::largest_peak(time_s, channel_named(channels, channel));
   };
   PendulumResult result;
-  result.head_rotation = peak(signals.head_rotation);
-  result.neck_rotation = peak(signals.neck_rotation);
-  result.head_acceleration = peak(signals.head_acceleration);
-  result.base_moment = peak(signals.base_moment);
-  result.occipital_moment = peak(signals.occipital_moment);
-  result.equilibrium_rotation = signals.head_rotation[0];
-  const double pulse_end = driven_body(study, experiment).pulse_times_s.back();
-  const multibody::FreeOscillation oscillation = multibody::free_oscillation(
-      history.time_s, signals.head_rotation, result.equilibrium_rotation, pulse_end);
-  result.run_frequency_Hz = multibody::cycle_frequency_Hz(oscillation);
-  result.run_damping_ratio = multibody::cycle_damping_ratio(oscillation);
+  result.head_rotation = peak("head rotation");
+  result.neck_rotation = peak("neck rotation");
+  result.head_acceleration = peak("head acceleration filtered");
+  result.base_moment = peak("base moment");
+  result.occipital_moment = peak("occipital moment");
+  const Eigen::VectorXd rotation = channel_named(channels, "head rotation");
+  result.equilibrium_rotation = rotation[0];
+  const auto oscillation_after = [&](double after_s) {
+    return multibody::free_oscillation(time_s, rotation, result.equilibrium_rotation, after_s);
+  };
+  const multibody::FreeOscillation after_peak = oscillation_after(result.head_rotation.time_s);
+  if (!after_peak.crossings_s.empty()) result.zero_crossing_s = after_peak.crossings_s.front();
+  const multibody::FreeOscillation free =
+      oscillation_after(driven_body(study, experiment).pulse_times_s.back());
+  result.run_frequency_Hz = multibody::cycle_frequency_Hz(free);
+  result.run_damping_ratio = multibody::cycle_damping_ratio(free);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "multibody/history.h"
+#include "multibody/history_file.h"
 #include "multibody/response.h"
 #include "multibody/simulation.h"
 #include "pipeline/study/study.h"
@@ -19,27 +20,30 @@ namespace flexneck::pipeline {
 multibody::Model pendulum_model(const Study& study, const CaseSection& experiment,
                                 const fe_modal::ModalBody& body);
 
-/// Curves over time that the paper plots, angles in rad, moments in N m about the axis of bending.
-struct PendulumSignals {
-  Eigen::VectorXd head_rotation;      ///< phi: of the head against the arm
-  Eigen::VectorXd neck_rotation;      ///< phi': of the chord from base to joint point
-  Eigen::VectorXd head_acceleration;  ///< of the head's c.g. along the direction of motion, m/s^2
-  Eigen::VectorXd base_moment;        ///< joint j1, SAE J211 sign of the channel (My or Mx)
-  Eigen::VectorXd occipital_moment;   ///< joint j2, about the joint point
+/// The case's run, from the hanging equilibrium, as its file holds it.
+struct PendulumRun {
+  multibody::History history;                ///< at the study's output interval
+  std::vector<multibody::Channel> channels;  ///< see pendulum_channels(); filtered before thinning
 };
 
-PendulumSignals pendulum_signals(const multibody::History& history, const CaseSection& experiment);
+PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
+                         const fe_modal::ModalBody& body);
 
 /// What the tables show of a run.
 struct PendulumResult {
-  multibody::Peak head_rotation, neck_rotation, head_acceleration, base_moment, occipital_moment;
+  multibody::Peak head_rotation, neck_rotation, base_moment, occipital_moment;
+  multibody::Peak head_acceleration;        ///< filtered
   double equilibrium_rotation = 0;          ///< head rotation at the start, rad
+  std::optional<double> zero_crossing_s;    ///< of the head rotation, back through the equilibrium
   std::optional<double> run_frequency_Hz;   ///< between crossings after the pulse
   std::optional<double> run_damping_ratio;  ///< from successive peaks
 };
 
+/// @param channels  of the case's file
+/// @throws InputError if one is missing.
 PendulumResult pendulum_result(const Study& study, const CaseSection& experiment,
-                               const multibody::History& history);
+                               const Eigen::VectorXd& time_s,
+                               const std::vector<multibody::Channel>& channels);
 
 /// The lowest small motion in the plane of the case, about the hanging equilibrium, with or without
 /// gravity.

@@ -11,11 +11,16 @@ multibody::Model static_test_model(const Study& study, const CaseSection& experi
   return case_model(study, experiment, body, Eigen::Quaterniond::Identity());
 }
 
-StaticTestSignals static_test_signals(const multibody::History& history,
+StaticTestSignals static_test_signals(const multibody::Model& model,
+                                      const multibody::History& history,
                                       const CaseSection& experiment) {
   const multibody::MarkerHistory& top = history.marker("neck.top");
   const BendingPlane plane = bending_plane(experiment.direction);
   StaticTestSignals signals;
+  signals.load.setZero(history.time_s.size());
+  for (const multibody::PointForce& force : model.forces)
+    signals.load +=
+        history.time_s.unaryExpr([&](double time_s) { return force.magnitude_N.value(time_s); });
   signals.rotation = relative_rotation(top, history.marker("neck.base"), plane);
   signals.base_moment = bending_moment(history.joint("clamp"), plane);
   signals.deflection =
@@ -33,10 +38,20 @@ double stiffness(const StaticTestSignals& signals, Eigen::Index from, Eigen::Ind
 
 }  // namespace
 
-StaticTestResult static_test_result(const multibody::History& history,
-                                    const CaseSection& experiment) {
-  const StaticTestSignals signals = static_test_signals(history, experiment);
-  const Eigen::Index last = history.time_s.size() - 1;
+std::vector<multibody::Channel> static_test_channels(const StaticTestSignals& signals) {
+  std::vector<multibody::Channel> channels;
+  const auto add = [&](const char* name, const char* unit, const Eigen::VectorXd& values) {
+    channels.push_back({name, unit, {name}, values.transpose(), ""});
+  };
+  add("load", "N", signals.load);
+  add("rotation", "rad", signals.rotation);
+  add("deflection", "m", signals.deflection);
+  add("base moment", "N*m", signals.base_moment);
+  return channels;
+}
+
+StaticTestResult static_test_result(const StaticTestSignals& signals) {
+  const Eigen::Index last = signals.rotation.size() - 1;
   const Eigen::Index tenth = last / 10;
   StaticTestResult result;
   result.rotation = signals.rotation[last];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "multibody/history.h"
+#include "multibody/history_file.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
@@ -13,13 +14,19 @@ multibody::Model static_test_model(const Study& study, const CaseSection& experi
 
 /// Curves over time.
 struct StaticTestSignals {
+  Eigen::VectorXd load;         ///< of the forces of the model, along their directions, N
   Eigen::VectorXd rotation;     ///< of the top against the base, rad, forward (or +y) positive
   Eigen::VectorXd base_moment;  ///< N m, SAE J211 sign of the channel (My or Mx)
   Eigen::VectorXd deflection;   ///< of the joint point, m
 };
 
-StaticTestSignals static_test_signals(const multibody::History& history,
+/// @param model  that was run
+StaticTestSignals static_test_signals(const multibody::Model& model,
+                                      const multibody::History& history,
                                       const CaseSection& experiment);
+
+/// The channels of a static test's file, SI units.
+std::vector<multibody::Channel> static_test_channels(const StaticTestSignals& signals);
 
 /// End of the ramp and slopes of the moment over the rotation.
 struct StaticTestResult {
@@ -30,7 +37,6 @@ struct StaticTestResult {
   double final_stiffness = 0;    ///< N m/rad, over the last tenth
 };
 
-StaticTestResult static_test_result(const multibody::History& history,
-                                    const CaseSection& experiment);
+StaticTestResult static_test_result(const StaticTestSignals& signals);
 
 }  // namespace flexneck::pipeline

@@ -192,21 +192,19 @@ MatrixXd energy_values(const multibody::EnergyHistory& energy) {
   return values;
 }
 
-/// An end that is no multiple of the interval makes the last one shorter; the filter leaves that
-/// sample as it is.
-void filter(const History& history, ChannelClass cfc, MatrixXd& values) {
-  Index count = history.time_s.size();
+}  // namespace
+
+void filter(const Eigen::VectorXd& time_s, ChannelClass cfc, MatrixXd& values) {
+  Index count = time_s.size();
   if (count < 2) return;
-  const double interval = history.time_s[1] - history.time_s[0];
-  const double last = history.time_s[count - 1] - history.time_s[count - 2];
+  const double interval = time_s[1] - time_s[0];
+  const double last = time_s[count - 1] - time_s[count - 2];
   if (std::abs(last - interval) > 1e-6 * interval) --count;
   for (Index row = 0; row < values.rows(); ++row) {
     const Eigen::VectorXd signal = values.row(row).head(count).transpose();
     values.row(row).head(count) = multibody::cfc_filtered(signal, interval, cfc).transpose();
   }
 }
-
-}  // namespace
 
 Channel channel_of(const History& history, const ChannelSpec& spec, const Vector3d& gravity_m_s2) {
   const Layout layout = layout_of(spec.quantity);
@@ -231,7 +229,7 @@ Channel channel_of(const History& history, const ChannelSpec& spec, const Vector
   }
   if (spec.filter) {
     channel.filter = "CFC " + std::to_string(static_cast<int>(*spec.filter));
-    filter(history, *spec.filter, channel.values);
+    filter(history.time_s, *spec.filter, channel.values);
   }
   return channel;
 }

@@ -53,6 +53,11 @@ struct ChannelSpec {
 multibody::Channel channel_of(const multibody::History& history, const ChannelSpec& spec,
                               const Eigen::Vector3d& gravity_m_s2);
 
+/// Filters rows of samples in place. An end that is no multiple of the interval makes the last one
+/// shorter; that sample stays as it is.
+/// @throws InputError as cfc_filtered().
+void filter(const Eigen::VectorXd& time_s, multibody::ChannelClass cfc, Eigen::MatrixXd& values);
+
 /// Position, rotation vector, velocity and acceleration of every marker, force and moment of every
 /// joint, modal coordinates and energies: what is shown if nothing is chosen.
 std::vector<ChannelSpec> all_channels(const multibody::History& history);

@@ -70,11 +70,18 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
                                              "modes.png",
                                              "modes.xdmf",
                                              "modes_view.h5",
+                                             "pendulum-flexion-120.csv",
                                              "pendulum-flexion-120.h5",
+                                             "pendulum-flexion-20.csv",
                                              "pendulum-flexion-20.h5",
+                                             "pendulum-flexion-60.csv",
                                              "pendulum-flexion-60.h5",
+                                             "pendulum-lateral-65.csv",
                                              "pendulum-lateral-65.h5",
+                                             "pendulum.json",
+                                             "static-flexion.csv",
                                              "static-flexion.h5",
+                                             "static.json",
                                              "verification.json"};
   CHECK(names_in(folder / "first") == expected);
 

@@ -7,6 +7,7 @@
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum.h"
+#include "pipeline/experiments/pendulum_signals.h"
 #include "pipeline/experiments/static_test.h"
 #include "tests/support/beam_body.h"
 
@@ -156,7 +157,8 @@ TEST_CASE("rotations of head and neck are those of the drawing") {
                        still("head.condyles", start + hanging * chord, turned),
                        still("head.cg", start, turned)};
     history.joints = {reaction("j1", {-5, 2, 0}), reaction("j2", {-7, 3, 0})};
-    const PendulumSignals signals = pendulum_signals(history, section);
+    const PendulumSignals signals = pendulum_signals(
+        pendulum_model(experiment.study, section, experiment.body), history, section);
     CHECK(signals.head_rotation[0] == Approx(phi).epsilon(kRounding));
     CHECK(signals.neck_rotation[0] == Approx(phi_neck).epsilon(kRounding));
     // SAE axes are ours with y and z reversed.
@@ -169,11 +171,11 @@ TEST_CASE("rotations of head and neck are those of the drawing") {
 TEST_CASE("a head thrown forward bends the neck forward and loads it in flexion") {
   const Experiment experiment;
   for (const char* name : {"flexion-20", "lateral-65"}) {
-    const CaseSection& section = experiment.named(name);
-    const multibody::History history = multibody::simulate_from_equilibrium(
-        pendulum_model(experiment.study, section, experiment.body), experiment.study.solver,
-        {0.1, 1e-3});
-    const PendulumResult result = pendulum_result(experiment.study, section, history);
+    CaseSection section = experiment.named(name);
+    section.duration_s = 0.1;
+    const PendulumRun run = run_pendulum(experiment.study, section, experiment.body);
+    const PendulumResult result =
+        pendulum_result(experiment.study, section, run.history.time_s, run.channels);
     CHECK(result.head_rotation.value > 0.05);
     CHECK(result.neck_rotation.value > 0.03);
     CHECK(result.base_moment.value > 1);
@@ -186,10 +188,10 @@ TEST_CASE("at the end of a slow ramp the tester shows K^-1 f of the same modal b
   Experiment experiment;
   for (ForceSection& force : experiment.study.forces) force.magnitudes_N = {0, 1e-3};
   const CaseSection& section = experiment.named("flexion");
+  const multibody::Model model = static_test_model(experiment.study, section, experiment.body);
   const multibody::History history =
-      multibody::simulate(static_test_model(experiment.study, section, experiment.body),
-                          experiment.study.solver, {section.duration_s, 1e-3});
-  const StaticTestResult result = static_test_result(history, section);
+      multibody::simulate(model, experiment.study.solver, {section.duration_s, 1e-3});
+  const StaticTestResult result = static_test_result(static_test_signals(model, history, section));
   const fe_modal::Interface& top = experiment.body.interface("top");
   double deflection = 0;
   double rotation = 0;

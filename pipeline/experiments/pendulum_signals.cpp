@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/pendulum_signals.h"
+
+#include <cmath>
+#include <variant>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "multibody/load_cell.h"
+#include "pipeline/experiments/bending_plane.h"
+#include "pipeline/experiments/joint_load.h"
+#include "pipeline/output/channel.h"
+
+namespace flexneck::pipeline {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using multibody::Channel;
+using multibody::History;
+using multibody::MarkerHistory;
+using multibody::Model;
+
+namespace {
+
+std::size_t base_joint(const Model& model) {
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    const std::size_t lower = model.markers[model.joints[k].marker_i].body;
+    if (std::holds_alternative<multibody::DrivenBody>(model.bodies[lower].kind)) return k;
+  }
+  throw InputError("a pendulum needs a joint whose lower marker is on its arm");
+}
+
+std::size_t head_joint(const Model& model) {
+  for (std::size_t k = 0; k < model.joints.size(); ++k)
+    if (model.markers[model.joints[k].marker_j].name == "head.condyles") return k;
+  throw InputError("a pendulum needs a joint whose upper marker is 'head.condyles'");
+}
+
+const MarkerHistory& marker_i(const Model& model, const History& history, std::size_t joint) {
+  return history.marker(model.markers[model.joints[joint].marker_i].name);
+}
+
+/// Row of the SAE J211 channels of a load.
+VectorXd sae_channel(const JointLoad& load, int row) {
+  return multibody::sae_j211({"", load.force_N, load.moment_Nm}).row(row).transpose();
+}
+
+/// Moments about another point, which is at the given place from marker j, axes of marker i.
+void refer_to(const Eigen::Matrix3Xd& point_from_j_m, JointLoad& load) {
+  for (Index k = 0; k < load.moment_Nm.cols(); ++k) {
+    const Vector3d r = point_from_j_m.col(k);
+    const Vector3d f = load.force_N.col(k);
+    load.moment_Nm.col(k) -= r.cross(f);
+  }
+}
+
+void add_base(const Model& model, const History& history, const BendingPlane& plane,
+              PendulumSignals& signals) {
+  const std::size_t base = base_joint(model);
+  const MarkerHistory& arm = history.marker("arm.end");
+  const MarkerHistory& pivot = history.marker(model.markers[model.joints[base].marker_j].name);
+  const MarkerHistory& carrier = marker_i(model, history, base);
+  JointLoad load = joint_load(model, history, base);
+  Eigen::Matrix3Xd end(3, load.force_N.cols());
+  for (Index k = 0; k < end.cols(); ++k)
+    end.col(k) = rotation_at(carrier, k).conjugate() *
+                 Vector3d(arm.position_m.col(k) - pivot.position_m.col(k));
+  refer_to(end, load);
+  signals.base_moment = sae_channel(load, plane.moment_channel);
+}
+
+void add_head(const Model& model, const History& history, const BendingPlane& plane,
+              PendulumSignals& signals) {
+  const std::size_t joint = head_joint(model);
+  const MarkerHistory& head = history.marker("head.condyles");
+  const MarkerHistory& top = marker_i(model, history, joint);
+  JointLoad load = joint_load(model, history, joint);
+  signals.occipital_moment = sae_channel(load, plane.moment_channel);
+  // The cell turns with the head.
+  for (Index k = 0; k < load.force_N.cols(); ++k) {
+    const Eigen::Quaterniond to_head = rotation_at(head, k).conjugate() * rotation_at(top, k);
+    load.force_N.col(k) = to_head * Vector3d(load.force_N.col(k));
+    load.moment_Nm.col(k) = to_head * Vector3d(load.moment_Nm.col(k));
+  }
+  refer_to(Vector3d(0, 0, kLoadCellHeight_m).replicate(1, load.force_N.cols()), load);
+  signals.cell_shear = sae_channel(load, plane.force_channel);
+  signals.cell_moment = sae_channel(load, plane.moment_channel);
+}
+
+}  // namespace
+
+PendulumSignals pendulum_signals(const Model& model, const History& history,
+                                 const CaseSection& experiment) {
+  const BendingPlane plane = bending_plane(experiment.direction);
+  const MarkerHistory& top = marker_i(model, history, head_joint(model));
+  const MarkerHistory& centre = history.marker("head.cg");
+  const MarkerHistory& arm = history.marker("arm.end");
+  const Index count = history.time_s.size();
+
+  PendulumSignals signals;
+  signals.head_rotation = relative_rotation(history.marker("head.condyles"), arm, plane);
+  for (VectorXd* const signal : {&signals.neck_rotation, &signals.head_acceleration,
+                                 &signals.arm_velocity, &signals.arm_deceleration})
+    signal->resize(count);
+  for (Index k = 0; k < count; ++k) {
+    const Eigen::Quaterniond to_arm = rotation_at(arm, k).conjugate();
+    const auto along = [&](const auto& vector) {
+      return (to_arm * Vector3d(vector)).dot(plane.motion);
+    };
+    const Vector3d chord = to_arm * Vector3d(top.position_m.col(k) - arm.position_m.col(k));
+    signals.neck_rotation[k] = std::atan2(chord.dot(plane.tip), chord.z());
+    signals.head_acceleration[k] = along(centre.acceleration_m_s2.col(k));
+    signals.arm_velocity[k] = along(arm.velocity_m_s.col(k));
+    signals.arm_deceleration[k] = -along(arm.acceleration_m_s2.col(k));
+  }
+  add_base(model, history, plane, signals);
+  add_head(model, history, plane, signals);
+  return signals;
+}
+
+VectorXd moment_by_formula(const VectorXd& moment_Nm, const VectorXd& shear_N,
+                           CaseSection::Direction direction) {
+  const double sign = direction == CaseSection::Direction::lateral ? 1 : -1;
+  return moment_Nm + sign * kFormulaArm_m * shear_N;
+}
+
+std::vector<Channel> pendulum_channels(const VectorXd& time_s, const PendulumSignals& signals,
+                                       const CaseSection& experiment) {
+  using multibody::ChannelClass;
+  const auto filtered = [&](const VectorXd& signal, ChannelClass cfc) {
+    Eigen::MatrixXd values = signal.transpose();
+    filter(time_s, cfc, values);
+    return VectorXd(values.transpose());
+  };
+  std::vector<Channel> channels;
+  const auto add = [&](const char* name, const char* unit, const VectorXd& values,
+                       const char* filter = "") {
+    channels.push_back({name, unit, {name}, values.transpose(), filter});
+  };
+  add("head rotation", "rad", signals.head_rotation);
+  add("neck rotation", "rad", signals.neck_rotation);
+  add("head acceleration", "m/s^2", signals.head_acceleration);
+  add("head acceleration filtered", "m/s^2",
+      filtered(signals.head_acceleration, ChannelClass::cfc1000), "CFC 1000");
+  add("base moment", "N*m", signals.base_moment);
+  add("occipital moment", "N*m", signals.occipital_moment);
+  add("load cell moment", "N*m",
+      moment_by_formula(filtered(signals.cell_moment, ChannelClass::cfc600),
+                        filtered(signals.cell_shear, ChannelClass::cfc600), experiment.direction),
+      "CFC 600");
+  add("arm velocity", "m/s", signals.arm_velocity);
+  add("arm deceleration", "m/s^2", signals.arm_deceleration);
+  return channels;
+}
+
+VectorXd channel_named(const std::vector<Channel>& channels, const std::string& name) {
+  return channels[find_name(names_of(channels), name, "channel")].values.row(0).transpose();
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/cfc_filter.h"
+#include "multibody/history.h"
+#include "multibody/history_file.h"
+#include "multibody/model.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// Arm of the condyles' moment below the upper load cell, m: the regulation forms the moment as
+/// M = My - 0.058 Fx in lbf ft and lbf (49 CFR 572.33), the cell sits 0.70 in above the condyles.
+inline constexpr double kFormulaArm_m = 0.058 * 0.3048;
+inline constexpr double kLoadCellHeight_m = 0.70 * 0.0254;
+
+/// Curves over time that the paper plots, angles in rad, moments in N m about the axis of bending.
+/// The arm's axes are those of the neck at rest; the head moves along the case's motion.
+struct PendulumSignals {
+  Eigen::VectorXd head_rotation;      ///< phi: of the head against the arm
+  Eigen::VectorXd neck_rotation;      ///< phi': of the chord from base to joint point
+  Eigen::VectorXd head_acceleration;  ///< of the head's c.g. along the motion, kinematic, m/s^2
+  Eigen::VectorXd base_moment;        ///< about the arm's end, SAE J211 sign (My or Mx)
+  Eigen::VectorXd occipital_moment;   ///< about the joint point
+  Eigen::VectorXd cell_shear;         ///< virtual load cell in the head: Fx or Fy by SAE J211, N
+  Eigen::VectorXd cell_moment;        ///< and My or Mx
+  Eigen::VectorXd arm_velocity;       ///< of the arm's end along the motion, m/s
+  Eigen::VectorXd arm_deceleration;   ///< m/s^2
+};
+
+/// @param model  that was run: its joint on a driven body carries the neck, the one on
+///               "head.condyles" the head; the arm has the marker "arm.end", the head "head.cg"
+PendulumSignals pendulum_signals(const multibody::Model& model, const multibody::History& history,
+                                 const CaseSection& experiment);
+
+/// The condyles' moment by the regulation's formula from a load cell's channels: M = My - 0.058 ft
+/// Fx in the fore-aft plane; by the same statics M = Mx + 0.058 ft Fy in the lateral one.
+Eigen::VectorXd moment_by_formula(const Eigen::VectorXd& moment_Nm, const Eigen::VectorXd& shear_N,
+                                  CaseSection::Direction direction);
+
+/// The channels of a pendulum's file, SI units. The filter classes are 1000 for the head's
+/// acceleration and 600 for the load cell (49 CFR 572.36).
+/// @throws InputError if the samples are too far apart for the filters.
+std::vector<multibody::Channel> pendulum_channels(const Eigen::VectorXd& time_s,
+                                                  const PendulumSignals& signals,
+                                                  const CaseSection& experiment);
+
+/// A channel by its name, one value per time. @throws InputError if there is none.
+Eigen::VectorXd channel_named(const std::vector<multibody::Channel>& channels,
+                              const std::string& name);
+
+}  // namespace flexneck::pipeline
