@@ -20,6 +20,7 @@ const std::vector<Command>& commands() {
        "write the mesh for gmsh or CalculiX, its K and M, or its modes for the ATB: --to FILE.msh, "
        ".inp, .mtx, .petsc, .dat",
        export_command},
+      {"report", "all results on one page: report.html", report_command},
       {"simulate", "run a model file: <model>.h5 and <model>.csv", nullptr},
       {"study", "print every input with its origin", study_command},
   };
@@ -65,7 +66,8 @@ bool run_command(const CommandInput& input) {
   pictures_command(input);
   static_command(input);
   pendulum_command(input);
-  return verify_command(input);
+  const bool passed = verify_command(input);
+  return report_command(input) && passed;
 }
 
 }  // namespace flexneck::pipeline

@@ -44,6 +44,7 @@ bool pictures_command(const CommandInput& input);
 bool static_command(const CommandInput& input);
 bool pendulum_command(const CommandInput& input);
 bool verify_command(const CommandInput& input);
+bool report_command(const CommandInput& input);
 bool study_command(const CommandInput& input);
 
 }  // namespace flexneck::pipeline

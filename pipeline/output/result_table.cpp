@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kFormat = "flexneck tables";
 constexpr int kFormatVersion = 1;
 
 nlohmann::ordered_json json_of(const ResultTable& table) {
@@ -35,6 +36,41 @@ nlohmann::ordered_json json_of(const Provenance& provenance) {
   return json;
 }
 
+ResultTable table_of(const nlohmann::ordered_json& json) {
+  ResultTable table;
+  table.name = json.at("name").get<std::string>();
+  table.title = json.at("title").get<std::string>();
+  for (const auto& column : json.at("columns")) {
+    table.columns.push_back(
+        {column.at("name").get<std::string>(), column.at("unit").get<std::string>()});
+  }
+  table.rows = json.at("rows").get<std::vector<std::vector<std::string>>>();
+  for (const auto& row : table.rows) {
+    if (row.size() != table.columns.size()) {
+      throw InputError("table '" + table.name + "' has a row of " + std::to_string(row.size()) +
+                       " cells for " + std::to_string(table.columns.size()) + " columns");
+    }
+  }
+  table.notes = json.at("notes").get<std::vector<std::string>>();
+  return table;
+}
+
+TableFile file_of(const nlohmann::ordered_json& json) {
+  if (json.at("format") != kFormat || json.at("format_version") != kFormatVersion) {
+    throw InputError("expected the format '" + std::string(kFormat) + "', version " +
+                     std::to_string(kFormatVersion));
+  }
+  TableFile file;
+  for (const auto& table : json.at("tables")) file.tables.push_back(table_of(table));
+  const auto& provenance = json.at("provenance");
+  file.provenance.program = provenance.at("program").get<std::string>();
+  file.provenance.git_hash = provenance.at("git_hash").get<std::string>();
+  for (const auto& input : provenance.at("inputs").items()) {
+    file.provenance.inputs.push_back({input.key(), input.value().get<std::string>()});
+  }
+  return file;
+}
+
 }  // namespace
 
 std::string printed(const ResultTable& table) {
@@ -47,9 +83,25 @@ std::string printed(const ResultTable& table) {
   return text;
 }
 
+bool holds_tables(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const auto json = nlohmann::ordered_json::parse(file, nullptr, false);
+  return json.is_object() && json.value("format", nlohmann::ordered_json()) == kFormat;
+}
+
+TableFile read_tables(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": cannot be read");
+  try {
+    return file_of(nlohmann::ordered_json::parse(file));
+  } catch (const std::exception& error) {  // of the parser, of a missing member, or ours
+    throw InputError(path.string() + ": " + error.what() + "; make it again with 'flexneck run'");
+  }
+}
+
 void write_tables(const fs::path& path, const std::vector<ResultTable>& tables,
                   const Provenance& provenance) {
-  nlohmann::ordered_json json = {{"format", "flexneck tables"},
+  nlohmann::ordered_json json = {{"format", kFormat},
                                  {"format_version", kFormatVersion},
                                  {"provenance", json_of(provenance)},
                                  {"tables", nlohmann::ordered_json::array()}};

@@ -26,6 +26,18 @@ struct ResultTable {
 /// Title, columns with their units, rows and notes. No line break at the end.
 std::string printed(const ResultTable& table);
 
+/// The tables of a file with what they were made from, less the parameters.
+struct TableFile {
+  std::vector<ResultTable> tables;
+  Provenance provenance;
+};
+
+/// Whether a file says that it holds tables of ours.
+bool holds_tables(const std::filesystem::path& path);
+
+/// @throws InputError if the file is missing, is none of ours or has a row of another length.
+TableFile read_tables(const std::filesystem::path& path);
+
 /// Writes tables as JSON, under a temporary name that is renamed: "format" is "flexneck tables",
 /// "tables" a list of objects with the members above.
 /// @throws InputError if the file cannot be written; nothing is left then.

@@ -46,6 +46,15 @@ VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
 
 std::string printed(const VerificationTable& table);
 
+/// The table with what it was made from, less its parameters.
+struct VerificationFile {
+  VerificationTable table;
+  Provenance provenance;
+};
+
+/// @throws InputError if the file is missing or is none of ours.
+VerificationFile read_verification(const std::filesystem::path& path);
+
 /// JSON, under a temporary name that is renamed.
 void write_verification(const std::filesystem::path& path, const VerificationTable& table,
                         const Provenance& provenance);

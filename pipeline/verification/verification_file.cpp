@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -10,8 +12,11 @@ namespace flexneck::pipeline {
 
 namespace {
 
+constexpr std::array<const char*, 3> kStatus = {"passed", "failed", "compared"};
+constexpr const char* kFormat = "flexneck verification";
+constexpr int kSchemaVersion = 1;
+
 nlohmann::ordered_json json_of(const VerificationRow& row) {
-  constexpr std::array<const char*, 3> kStatus = {"passed", "failed", "compared"};
   nlohmann::ordered_json json = {{"quantity", row.quantity},
                                  {"detail", row.detail},
                                  {"unit", row.unit},
@@ -24,12 +29,56 @@ nlohmann::ordered_json json_of(const VerificationRow& row) {
   return json;
 }
 
+VerificationRow row_of(const nlohmann::ordered_json& json) {
+  VerificationRow row;
+  row.quantity = json.at("quantity").get<std::string>();
+  row.detail = json.at("detail").get<std::string>();
+  row.unit = json.at("unit").get<std::string>();
+  row.value = json.at("value").get<std::string>();
+  row.reference = json.at("reference").get<std::string>();
+  const auto& error = json.at("error_percent");
+  if (!error.is_null()) row.error_percent = error.get<double>();
+  const auto status =
+      std::find(kStatus.begin(), kStatus.end(), json.at("status").get<std::string>());
+  if (status == kStatus.end()) throw InputError("a row has an unknown status");
+  row.status = static_cast<VerificationRow::Status>(status - kStatus.begin());
+  row.fitted = json.at("fitted").get<bool>();
+  return row;
+}
+
+VerificationFile file_of(const nlohmann::ordered_json& json) {
+  if (json.at("format") != kFormat || json.at("schema_version") != kSchemaVersion) {
+    throw InputError("expected the format '" + std::string(kFormat) + "', version " +
+                     std::to_string(kSchemaVersion));
+  }
+  VerificationFile file;
+  for (const auto& row : json.at("rows")) file.table.rows.push_back(row_of(row));
+  const auto& provenance = json.at("provenance");
+  file.provenance.program = provenance.at("program").get<std::string>();
+  file.provenance.git_hash = provenance.at("git_hash").get<std::string>();
+  for (const auto& input : provenance.at("inputs").items()) {
+    file.provenance.inputs.push_back({input.key(), input.value().get<std::string>()});
+  }
+  return file;
+}
+
 }  // namespace
+
+VerificationFile read_verification(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path.string() + ": cannot be read; make it with 'flexneck verify'");
+  try {
+    return file_of(nlohmann::ordered_json::parse(file));
+  } catch (const std::exception& error) {  // of the parser, of a missing member, or ours
+    throw InputError(path.string() + ": " + error.what() +
+                     "; make it again with 'flexneck verify'");
+  }
+}
 
 void write_verification(const std::filesystem::path& path, const VerificationTable& table,
                         const Provenance& provenance) {
-  nlohmann::ordered_json json = {{"format", "flexneck verification"},
-                                 {"schema_version", 1},
+  nlohmann::ordered_json json = {{"format", kFormat},
+                                 {"schema_version", kSchemaVersion},
                                  {"passed", table.passed()},
                                  {"rows", nlohmann::ordered_json::array()}};
   for (const VerificationRow& row : table.rows) json["rows"].push_back(json_of(row));

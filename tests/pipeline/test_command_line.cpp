@@ -79,6 +79,7 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
                                              "pendulum-lateral-65.csv",
                                              "pendulum-lateral-65.h5",
                                              "pendulum.json",
+                                             "report.html",
                                              "static-flexion.csv",
                                              "static-flexion.h5",
                                              "static.json",

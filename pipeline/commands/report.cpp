@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/report.h"
+
+#include "pipeline/commands/commands.h"
+
+namespace flexneck::pipeline {
+
+bool report_command(const CommandInput& input) {
+  input.folder.make();
+  input.console.step("Writing the report");
+  const std::filesystem::path page = input.folder.file("report.html");
+  const Results results = read_results(page.parent_path(), input.study);
+  for (const std::string& warning : results.warnings) input.console.step("Warning: " + warning);
+  write_report(page, results, input.study);
+  input.console.result("\nReport: " + page.string());
+  return true;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/curves.h"
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/foundation/units.h"
+#include "pipeline/output/customary_units.h"
+#include "pipeline/report/embedding.h"
+
+namespace flexneck::pipeline {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Of a run: a screen has hardly more points in a row. Every value shown is one of the file's.
+constexpr Eigen::Index kMostSamples = 2001;
+
+const char* name_of(Experiment::Kind kind) {
+  return kind == Experiment::Kind::pendulum ? "pendulum" : "static";
+}
+
+Json channels_json(const Experiment& experiment, Eigen::Index stride) {
+  Json channels = Json::array();
+  for (const multibody::Channel& channel : experiment.file.channels) {
+    for (Eigen::Index row = 0; row < channel.values.rows(); ++row) {
+      const bool is_one = channel.values.rows() == 1;
+      const std::string& column = channel.columns[static_cast<std::size_t>(row)];
+      const Eigen::VectorXd values =
+          channel.values(row, Eigen::seq(0, channel.values.cols() - 1, stride)).transpose();
+      channels.push_back({{"name", is_one ? channel.name : channel.name + " " + column},
+                          {"unit", channel.unit},
+                          {"filter", channel.filter},
+                          {"values", base64_floats(values)}});
+    }
+  }
+  return channels;
+}
+
+Json run_json(const Experiment& experiment) {
+  const Eigen::VectorXd& time_s = experiment.file.history.time_s;
+  const Eigen::Index stride = (time_s.size() + kMostSamples - 1) / kMostSamples;
+  const Eigen::VectorXd shown = time_s(Eigen::seq(0, time_s.size() - 1, stride));
+  return {{"name", experiment.name},
+          {"kind", name_of(experiment.kind)},
+          {"every", stride},
+          {"times", base64_floats(shown)},
+          {"channels", channels_json(experiment, stride)}};
+}
+
+/// For each kind of experiment and SI unit: the unit shown and the factor to it.
+Json units_json(const Results& results) {
+  Json units = {{"pendulum", Json::object()}, {"static", Json::object()}};
+  for (const Experiment& experiment : results.experiments) {
+    for (const multibody::Channel& channel : experiment.file.channels) {
+      const std::string shown = shown_unit(channel.unit, experiment.kind);
+      const double factor = shown == channel.unit ? 1.0 : factor_from_si(channel.unit, shown);
+      units[name_of(experiment.kind)][channel.unit] = {{"name", shown}, {"factor", factor}};
+    }
+  }
+  return units;
+}
+
+Json corridors_json(const std::vector<Corridor>& corridors) {
+  Json list = Json::array();
+  for (const Corridor& corridor : corridors) {
+    list.push_back({{"case", corridor.experiment},
+                    {"channel", corridor.channel},
+                    {"what", corridor.what},
+                    {"unit", corridor.unit},
+                    {"times", {corridor.from_s, corridor.to_s}},
+                    {"values", {corridor.low, corridor.high}}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string shown_unit(const std::string& si_unit, Experiment::Kind kind) {
+  return customary_unit(si_unit, kind == Experiment::Kind::pendulum ? "lbf*ft" : "in*lbf");
+}
+
+Json curves_of(const Results& results, const std::vector<Corridor>& corridors) {
+  Json runs = Json::array();
+  for (const Experiment& experiment : results.experiments) {
+    if (!experiment.file.channels.empty()) runs.push_back(run_json(experiment));
+  }
+  if (runs.empty()) return nullptr;
+  return {{"runs", std::move(runs)},
+          {"units", units_json(results)},
+          {"corridors", corridors_json(corridors)}};
+}
+
+}  // namespace flexneck::pipeline

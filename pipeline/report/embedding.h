@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace flexneck::pipeline {
+
+/// Text for HTML, between tags or in an attribute in quotes.
+std::string html_text(std::string_view text);
+
+/// JSON for a <script> of type application/json: nothing in it can end the element.
+std::string script_json(std::string json);
+
+/// JavaScript for a <script>: what would end the element is spelt otherwise within its texts.
+std::string script_source(std::string source);
+
+std::string base64(std::span<const std::byte> bytes);
+
+/// Numbers as the page's typed arrays take them: their bytes, the lowest first.
+template <class Number>
+std::string base64_of(const std::vector<Number>& numbers) {
+  return base64(std::as_bytes(std::span(numbers)));
+}
+
+/// A matrix as 32-bit floats, column by column.
+std::string base64_floats(const Eigen::Ref<const Eigen::MatrixXd>& values);
+
+/// @throws InputError if the file cannot be read.
+std::string text_of_file(const std::filesystem::path& path);
+
+/// Writes under a temporary name and renames. @throws InputError if that fails.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// A template with each {{name}} replaced once; what is put in is not searched again.
+/// @throws std::logic_error for a name without a text: the template and the program differ.
+std::string filled(std::string_view page, const std::map<std::string, std::string>& texts);
+
+}  // namespace flexneck::pipeline

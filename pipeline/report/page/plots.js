@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+'use strict';
+// Curves of the experiments: choose a quantity and cases, read values, zoom.
+
+(() => {
+  const data = flexneck.data.curves;
+  if (!data) return;
+  const {element, digits} = flexneck;
+  const margin = {top: 16, right: 26, bottom: 42, left: 78};
+  const height = 360;
+  /** Distinct without colour vision (Okabe and Ito); the dashes distinguish them in grey, too. */
+  const colours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#7f7f7f'];
+  const dashes = ['', '8 3', '2 3', '9 3 2 3', '5 2'];
+
+  const runs = data.runs.map((run) => ({
+    ...run,
+    times: flexneck.unpack(run.times, Float32Array),
+    channels: new Map(run.channels.map((channel) => [channel.name, channel])),
+  }));
+  const valuesOf = (channel) =>
+      channel.unpacked || (channel.unpacked = flexneck.unpack(channel.values, Float32Array));
+  /** A case that varies none of the others: "flexion-60", not "flexion-60-rigid". */
+  const isPlain = (run, all) => !all.some((other) => run.name.startsWith(`${other.name}-`));
+
+  let isSi = false;
+  const shown = (unit, kind) =>
+      isSi ? {name: unit, factor: 1} : data.units[kind][unit] || {name: unit, factor: 1};
+
+  class Plot {
+    constructor(container) {
+      this.container = container;
+      this.kind = container.dataset.kind;
+      this.runs = runs.filter((run) => run.kind === this.kind);
+      const names = new Set(this.runs.flatMap((run) => [...run.channels.keys()]));
+      container.hidden = names.size === 0;
+      if (container.hidden) return;
+      const choice = (options, wanted, label) => {
+        const select = element('select');
+        for (const name of options) select.append(element('option', {}, name));
+        if (options.includes(wanted)) select.value = wanted;
+        select.addEventListener('change', () => this.reset());
+        return [element('label', {}, `${label} `, select), select];
+      };
+      const [upwards, y] = choice([...names], container.dataset.channel, 'Show');
+      const [along, x] = choice(['time', ...names], container.dataset.against, 'over');
+      Object.assign(this, {x, y});
+      const title = this.kind === 'pendulum' ? 'Pendulum' : 'Static neck tester';
+      const controls = element('div', {class: 'controls'}, element('h3', {}, title), upwards, along);
+      for (const [text, key] of [['+', '+'], ['−', '-'], ['All', 'Home']]) {
+        const button = element('button', {type: 'button'}, text);
+        if (text !== 'All') button.setAttribute('aria-label', `Zoom ${key === '+' ? 'in' : 'out'}`);
+        button.addEventListener('click', () => this.press(key, 1));
+        controls.append(button);
+      }
+      this.makeLegend();
+      this.drawing = element('div', {class: 'drawing'});
+      this.reading = element('output', {class: 'note'});
+      container.append(controls, this.drawing, this.reading, this.legend);
+      this.svg = d3.select(this.drawing).append('svg')
+          .attr({tabindex: 0, role: 'img', height}).node();
+      this.listen();
+      this.reset();
+      new ResizeObserver(() => this.draw()).observe(this.drawing);
+    }
+
+    /** A button for each case: its line, its name and, while one reads, its value. */
+    makeLegend() {
+      const plain = this.runs.filter((run) => isPlain(run, this.runs)).slice(0, 6);
+      this.legend = element('div', {class: 'legend', role: 'group', 'aria-label': 'Cases shown'});
+      this.curves = this.runs.map((run, k) => {
+        const stroke = colours[k % colours.length];
+        const dash = dashes[k % dashes.length];
+        const value = element('span', {class: 'value'});
+        const button = element('button', {type: 'button', 'data-case': run.name});
+        const line = d3.select(button).append('svg').attr({width: 34, height: 8, 'aria-hidden': true});
+        line.append('line').attr({x1: 1, x2: 33, y1: 4, y2: 4, class: 'curve', stroke,
+                                  'stroke-dasharray': dash});
+        button.append(run.name, value);
+        const curve = {run, stroke, dash, value, button, isShown: plain.includes(run)};
+        button.addEventListener('click', () => {
+          curve.isShown = !curve.isShown;
+          this.draw();
+        });
+        this.legend.append(button);
+        return curve;
+      });
+    }
+
+    /** The points of a case in the units shown; none if it has not the channels. */
+    points(run) {
+      const read = (name) => {
+        if (name === 'time') return {values: run.times, factor: isSi ? 1 : 1000};
+        const channel = run.channels.get(name);
+        return channel && {values: valuesOf(channel), ...shown(channel.unit, this.kind)};
+      };
+      const [x, y] = [read(this.x.value), read(this.y.value)];
+      if (!x || !y) return [];
+      return Array.from(x.values, (value, i) => [value * x.factor, y.values[i] * y.factor]);
+    }
+
+    label(name) {
+      if (name === 'time') return isSi ? 'time (s)' : 'time (ms)';
+      const channel = this.runs.map((run) => run.channels.get(name)).find(Boolean);
+      return `${name} (${shown(channel.unit, this.kind).name})`;
+    }
+
+    /** Everything in view. */
+    reset() {
+      this.window = null;
+      this.cursor = null;
+      this.draw();
+    }
+
+    draw() {
+      const width = this.drawing.clientWidth;
+      if (width === 0) return;
+      for (const curve of this.curves) {
+        curve.points = curve.isShown ? this.points(curve.run) : [];
+        curve.button.setAttribute('aria-pressed', curve.isShown);
+      }
+      const drawn = this.curves.filter((curve) => curve.points.length > 0);
+      this.full = d3.extent(drawn.flatMap((curve) => curve.points.map(([x]) => x)));
+      const [left, right] = this.window || this.full;
+      const inView = drawn.flatMap(
+          (curve) => curve.points.filter(([x]) => x >= left && x <= right).map(([, y]) => y));
+      const corridors = this.corridors(drawn);
+      const heights = [0, ...inView, ...corridors.flatMap(({values}) => values)];
+      this.scaleX = d3.scale.linear().domain([left, right]).range([margin.left, width - margin.right]);
+      this.scaleY = d3.scale.linear().domain(d3.extent(heights)).nice()
+          .range([height - margin.bottom, margin.top]);
+      const svg = d3.select(this.svg).attr({width});
+      svg.selectAll('*').remove();
+      svg.attr('aria-label', `${this.label(this.y.value)} over ${this.label(this.x.value)}: ` +
+                             (drawn.map((curve) => curve.run.name).join(', ') || 'no case chosen'));
+      if (drawn.length === 0) return;
+      this.drawAxes(svg, width);
+      const clip = `clip-${[...document.querySelectorAll('.plot')].indexOf(this.container)}`;
+      svg.append('clipPath').attr('id', clip).append('rect').attr({
+        x: margin.left, y: margin.top, width: width - margin.left - margin.right,
+        height: height - margin.top - margin.bottom});
+      const inside = svg.append('g').attr('clip-path', `url(#${clip})`);
+      this.drawCorridors(inside, corridors);
+      const line = d3.svg.line().x(([x]) => this.scaleX(x)).y(([, y]) => this.scaleY(y));
+      for (const curve of drawn) {
+        inside.append('path').attr({class: 'curve', d: line(curve.points), stroke: curve.stroke,
+                                    'stroke-dasharray': curve.dash});
+      }
+      this.mark = inside.append('g');
+      this.read(this.cursor);
+    }
+
+    drawAxes(svg, width) {
+      const axis = (scale, orient, ticks, size) => d3.svg.axis().scale(scale).orient(orient)
+          .ticks(ticks).innerTickSize(size).outerTickSize(0).tickPadding(8)
+          .tickFormat((value) => String(Number(value.toPrecision(12))).replace('-', '−'));
+      svg.append('g').attr({class: 'axis', transform: `translate(0,${height - margin.bottom})`})
+          .call(axis(this.scaleX, 'bottom', width / 90, margin.top + margin.bottom - height));
+      svg.append('g').attr({class: 'axis', transform: `translate(${margin.left},0)`})
+          .call(axis(this.scaleY, 'left', 7, margin.left + margin.right - width));
+      svg.append('line').attr({class: 'zero', x1: margin.left, x2: width - margin.right,
+                               y1: this.scaleY(0), y2: this.scaleY(0)});
+      svg.append('text').attr({class: 'label', x: width - margin.right, y: height - 6,
+                               'text-anchor': 'end'}).text(this.label(this.x.value));
+      svg.append('text').attr({class: 'label', transform: 'rotate(-90)', x: -margin.top, y: 14,
+                               'text-anchor': 'end'}).text(this.label(this.y.value));
+    }
+
+    /** What a standard asks of the curves drawn, in the units shown. */
+    corridors(drawn) {
+      if (this.x.value !== 'time') return [];
+      const names = drawn.map((curve) => curve.run.name);
+      return data.corridors
+          .filter((each) => each.channel === this.y.value && names.includes(each.case))
+          .map((each) => {
+            const {factor} = shown(each.unit, this.kind);
+            return {what: each.what, times: each.times.map((time) => time * (isSi ? 1 : 1000)),
+                    values: each.values.map((value) => value * factor)};
+          });
+    }
+
+    drawCorridors(inside, corridors) {
+      for (const {what, times, values} of corridors) {
+        const [left, right] = times.map(this.scaleX);
+        const [bottom, top] = values.map(this.scaleY);
+        inside.append('rect').attr({class: 'corridor', x: left, width: right - left,
+                                    y: top - 2, height: bottom - top + 4});
+        inside.append('text').attr({class: 'corridor', x: right + 5, y: top + 10 - (top === bottom) * 18})
+            .text(`${what}, Part 572`);
+      }
+    }
+
+    /** Values at x, beside the names and on a line through the curves. */
+    read(x) {
+      this.cursor = x;
+      for (const curve of this.curves) curve.value.textContent = '';
+      this.reading.textContent = '';
+      if (!this.mark) return;
+      this.mark.selectAll('*').remove();
+      if (x === null) return;
+      const at = this.scaleX(x);
+      this.mark.append('line').attr({class: 'cursor', x1: at, x2: at, y1: margin.top,
+                                     y2: height - margin.bottom});
+      for (const curve of this.curves) {
+        if (curve.points.length === 0) continue;
+        const nearest = curve.points.reduce(
+            (best, point) => Math.abs(point[0] - x) < Math.abs(best[0] - x) ? point : best);
+        curve.value.textContent = digits(nearest[1]);
+        this.mark.append('circle').attr({cx: this.scaleX(nearest[0]), cy: this.scaleY(nearest[1]),
+                                         r: 3.5, fill: curve.stroke});
+      }
+      this.reading.textContent = `at ${digits(x)}: ${this.label(this.x.value)}`;
+    }
+
+    /** The view narrowed or widened about the reading line. */
+    zoom(factor) {
+      const [left, right] = this.scaleX.domain();
+      const fixed = this.cursor === null ? (left + right) / 2 : this.cursor;
+      this.show(fixed + (left - fixed) * factor, fixed + (right - fixed) * factor);
+    }
+
+    show(left, right) {
+      const [low, high] = this.full;
+      this.window = [Math.max(left, low), Math.min(right, high)];
+      if (this.window[1] - this.window[0] >= high - low) this.window = null;
+      this.draw();
+    }
+
+    press(key, times) {
+      if (!this.scaleX) return false;
+      const [left, right] = this.scaleX.domain();
+      const step = times * (right - left) / 200;
+      const from = this.cursor === null ? left : this.cursor;
+      const actions = {
+        ArrowLeft: () => this.read(Math.max(left, from - step)),
+        ArrowRight: () => this.read(Math.min(right, from + step)),
+        '+': () => this.zoom(0.5), '=': () => this.zoom(0.5), '-': () => this.zoom(2),
+        Home: () => this.reset(),
+      };
+      if (!actions[key]) return false;
+      actions[key]();
+      return true;
+    }
+
+    listen() {
+      const {svg} = this;
+      const position = (event) => {
+        const [left, right] = this.scaleX.domain();
+        const x = this.scaleX.invert(event.clientX - svg.getBoundingClientRect().left);
+        return Math.min(Math.max(x, left), right);
+      };
+      let start = null;
+      svg.addEventListener('pointerdown', (event) => {
+        start = position(event);
+        svg.setPointerCapture(event.pointerId);
+      });
+      svg.addEventListener('pointermove', (event) => {
+        const x = position(event);
+        this.read(x);
+        if (start === null) return;
+        const [left, right] = [this.scaleX(Math.min(start, x)), this.scaleX(Math.max(start, x))];
+        this.mark.append('rect').attr({class: 'brush', x: left, width: right - left, y: margin.top,
+                                       height: height - margin.top - margin.bottom});
+      });
+      svg.addEventListener('pointerup', (event) => {
+        const end = position(event);
+        const pixels = Math.abs(this.scaleX(end) - this.scaleX(start === null ? end : start));
+        if (pixels > 8) this.show(Math.min(start, end), Math.max(start, end));
+        start = null;
+      });
+      svg.addEventListener('pointercancel', () => { start = null; });
+      svg.addEventListener('pointerleave', () => { if (start === null) this.read(null); });
+      svg.addEventListener('dblclick', () => this.reset());
+      svg.addEventListener('keydown', (event) => {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        if (this.press(event.key, event.shiftKey ? 10 : 1)) event.preventDefault();
+      });
+    }
+  }
+
+  const plots = [...document.querySelectorAll('.plot')].map((container) => new Plot(container))
+      .filter((plot) => !plot.container.hidden);
+  document.getElementById('units').addEventListener('click', (event) => {
+    isSi = !isSi;
+    event.target.setAttribute('aria-pressed', isSi);
+    for (const plot of plots) plot.reset();
+  });
+})();

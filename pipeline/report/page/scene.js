@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+'use strict';
+// The neck in three dimensions: its modes, and its motion with the head in the experiments.
+
+flexneck.startScene = (data, canvas) => {
+  const control = (name) => document.getElementById(`scene-${name}`);
+  const {unpack} = flexneck;
+
+  const positions = unpack(data.surface.positions, Float32Array);
+  const shapes = data.modes.map(({shape}) => {
+    const values = Float32Array.from(unpack(shape.values, Int16Array));
+    return values.map((value) => value * shape.scale);
+  });
+  const extent = [0, 1, 2].map((axis) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = axis; i < positions.length; i += 3) {
+      low = Math.min(low, positions[i]);
+      high = Math.max(high, positions[i]);
+    }
+    return {low, high};
+  });
+  const length = Math.max(...extent.map(({low, high}) => high - low));
+
+  // --- displacement -------------------------------------------------------------------------------
+
+  /** Displacements of all vertices for coordinates of some modes. */
+  const displaced = (places, coordinates) => {
+    const sum = new Float32Array(positions.length);
+    places.forEach((place, k) => {
+      const shape = shapes[place];
+      const factor = coordinates[k];
+      for (let i = 0; i < sum.length; ++i) sum[i] += factor * shape[i];
+    });
+    return sum;
+  };
+
+  const largest = (vectors) => {
+    let most = 0;
+    for (let i = 0; i < vectors.length; i += 3) {
+      most = Math.max(most, Math.hypot(vectors[i], vectors[i + 1], vectors[i + 2]));
+    }
+    return most;
+  };
+
+  // --- colours ------------------------------------------------------------------------------------
+
+  /** Viridis: ordered in lightness, so that it needs no colour vision. Shares from 0 to 1. */
+  const ramp = [[68, 1, 84], [65, 68, 135], [42, 120, 142], [34, 168, 132], [122, 209, 81],
+                [253, 231, 37]].map((colour) => colour.map((part) => part / 255));
+  const paint = (share, target, at) => {
+    const place = Math.min(Math.max(share, 0), 1) * (ramp.length - 1);
+    const below = Math.min(Math.floor(place), ramp.length - 2);
+    for (let part = 0; part < 3; ++part) {
+      target[at + part] =
+          ramp[below][part] + (place - below) * (ramp[below + 1][part] - ramp[below][part]);
+    }
+  };
+
+  // --- what stands on the stage -------------------------------------------------------------------
+
+  let renderer;
+  try {
+    renderer = new THREE.WebGLRenderer(
+        {canvas, alpha: true, antialias: true, preserveDrawingBuffer: true});  // kept for print
+  } catch (error) {
+    canvas.replaceWith(flexneck.element(
+        'p', {class: 'warning'}, 'This browser has no WebGL, so the neck cannot be shown here.'));
+    return;
+  }
+  const stage = new THREE.Scene();
+  const camera = new THREE.PerspectiveCamera(30, 1, length / 100, length * 100);
+  camera.up.set(0, 0, 1);
+  stage.add(new THREE.HemisphereLight(0xffffff, 0x8a8a99, 0.75));
+  const lamp = new THREE.DirectionalLight(0xffffff, 0.45);
+  camera.add(lamp);
+  lamp.position.set(-1, 1, 1);
+  stage.add(camera);
+
+  const moved = new THREE.BufferAttribute(Float32Array.from(positions), 3);
+  const colours = new THREE.BufferAttribute(new Float32Array(positions.length), 3);
+  const neck = new THREE.Group();
+  const surface = new THREE.BufferGeometry();
+  surface.setAttribute('position', moved);
+  surface.setAttribute('color', colours);
+  surface.setIndex(new THREE.BufferAttribute(unpack(data.surface.triangles, Uint32Array), 1));
+  const skin = new THREE.Mesh(surface, new THREE.MeshPhongMaterial({
+    vertexColors: THREE.VertexColors, flatShading: true, side: THREE.DoubleSide, shininess: 8,
+    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}));
+  const linesOf = (pairs, opacity) => {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', moved);
+    geometry.setIndex(new THREE.BufferAttribute(unpack(pairs, Uint32Array), 1));
+    return new THREE.LineSegments(
+        geometry, new THREE.LineBasicMaterial({color: 0x101418, opacity, transparent: true}));
+  };
+  const outlines = linesOf(data.surface.outlines, 0.9);
+  const edges = linesOf(data.surface.edges, 0.35);
+  edges.visible = false;
+  for (const object of [skin, outlines, edges]) {
+    object.frustumCulled = false;
+    neck.add(object);
+  }
+  stage.add(neck);
+
+  /** The undeformed neck beside a mode. */
+  const ghost = new THREE.LineSegments(
+      new THREE.BufferGeometry(),
+      new THREE.LineBasicMaterial({color: 0x808890, opacity: 0.5, transparent: true}));
+  ghost.geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  ghost.geometry.setIndex(outlines.geometry.index);
+  stage.add(ghost);
+
+  const solid = (geometry, colour) => new THREE.Mesh(
+      geometry, new THREE.MeshPhongMaterial({color: colour, flatShading: false, shininess: 20}));
+  const arm = new THREE.Group();
+  const post = solid(new THREE.BoxBufferGeometry(0.4 * length, 0.4 * length, 1.2 * length), 0x7d8794);
+  post.position.z = -0.6 * length;
+  arm.add(post);
+  stage.add(arm);
+  const head = new THREE.Group();
+  if (data.head) {
+    const ball = solid(new THREE.SphereBufferGeometry(1, 40, 24), 0xc9b8a0);
+    ball.scale.set(...data.head.semiAxes);
+    ball.position.set(...data.head.centre);
+    const [w, x, y, z] = data.head.rotation;
+    ball.quaternion.set(x, y, z, w);
+    ball.material.transparent = true;
+    ball.material.opacity = 0.55;
+    ball.renderOrder = 1;
+    const centre = solid(new THREE.SphereBufferGeometry(length / 40, 16, 12), 0x202020);
+    centre.position.copy(ball.position);
+    head.add(ball, centre);
+  }
+  stage.add(head);
+
+  // --- sources: modes and motions -----------------------------------------------------------------
+
+  const show = (displacement, most) => {
+    for (let i = 0; i < displacement.length; i += 3) {
+      for (let axis = 0; axis < 3; ++axis) {
+        moved.array[i + axis] = positions[i + axis] + displacement[i + axis];
+      }
+      const size = Math.hypot(displacement[i], displacement[i + 1], displacement[i + 2]);
+      paint(most > 0 ? size / most : 0, colours.array, i);
+    }
+    moved.needsUpdate = true;
+    colours.needsUpdate = true;
+  };
+
+  const place = (group, poses, frame) => {
+    const [x, y, z, qw, qx, qy, qz] = poses.subarray(7 * frame, 7 * frame + 7);
+    group.position.set(x, y, z);
+    group.quaternion.set(qx, qy, qz, qw);
+  };
+
+  const centre = new THREE.Vector3(...extent.map(({low, high}) => (low + high) / 2));
+
+  /** A mode swings; the clock is the phase, 0 to 1. */
+  const modeSource = (mode, k) => {
+    const most = largest(shapes[k]);
+    return {
+      label: `Mode ${k + 1}: ${mode.name}, ${mode.frequencyHz.toFixed(2)} Hz`,
+      isMode: true,
+      duration: 1, seconds: 2.5, start: 0.25,
+      home: {target: centre, distance: 2.9 * length, azimuth: -0.9, elevation: 0.28},
+      note: 'The size of a mode is arbitrary.',
+      most: '1',
+      draw(clock) {
+        const amplitude = 0.3 * length * Number(control('size').value) / most;
+        const sway = Math.sin(2 * Math.PI * clock);
+        show(displaced([k], [amplitude * sway]), amplitude * Math.abs(sway) || 1);
+        return `${Math.round(360 * clock)}°`;
+      },
+    };
+  };
+
+  /** A run plays ten times slower than it was, a static test in real time. */
+  const motionSource = (motion) => {
+    const times = unpack(motion.times, Float32Array);
+    const coordinates = unpack(motion.coordinates, Float32Array);
+    const base = unpack(motion.base, Float32Array);
+    const headPoses = motion.head && unpack(motion.head, Float32Array);
+    const count = motion.modes.length;
+    const at = (frame) => coordinates.subarray(count * frame, count * frame + count);
+    let most = null;
+    const findMost = () => {
+      for (let frame = 0; frame < times.length; frame += 4) {
+        most = Math.max(most, largest(displaced(motion.modes, at(frame))));
+      }
+      return most;
+    };
+    const isPendulum = motion.kind === 'pendulum';
+    const duration = times[times.length - 1];
+    const middle = Math.floor(times.length / 2);
+    const hangs = base[7 * middle + 3] ** 2 + base[7 * middle + 6] ** 2 < 0.5;
+    const target = new THREE.Vector3(...base.subarray(7 * middle, 7 * middle + 3));
+    target.z += (hangs ? -1 : 1) * 0.75 * length;
+    return {
+      label: `${isPendulum ? 'Pendulum' : 'Static test'}: ${motion.name}`,
+      duration, seconds: isPendulum ? 10 * duration : 2 * duration,
+      start: isPendulum ? Math.min(0.06, duration) : duration,
+      home: {target, distance: 6.2 * length, azimuth: -Math.PI / 2, elevation: 0.12},
+      note: isPendulum
+          ? 'The pendulum plays at a tenth of its speed. Of the arm only the end is drawn; the head is the ellipsoid of its mass and inertia, its centre a dot.'
+          : '',
+      /** Looked for when it is first shown: it takes a while. */
+      get most() { return `${(1000 * (most || findMost())).toFixed(0)} mm`; },
+      draw(clock) {
+        let frame = times.findIndex((time) => time >= clock);
+        if (frame < 0) frame = times.length - 1;
+        show(displaced(motion.modes, at(frame)), most);
+        place(neck, base, frame);
+        place(arm, base, frame);
+        if (headPoses) place(head, headPoses, frame);
+        return `${(1000 * times[frame]).toFixed(1)} ms`;
+      },
+      hasHead: Boolean(headPoses),
+    };
+  };
+
+  const sources = [...data.modes.map(modeSource), ...data.motions.map(motionSource)];
+  const menus = {Modes: (source) => source.isMode, Experiments: (source) => !source.isMode};
+  for (const [label, belongs] of Object.entries(menus)) {
+    const group = flexneck.element('optgroup', {label});
+    sources.forEach((source, k) => {
+      if (belongs(source)) group.append(flexneck.element('option', {value: k}, source.label));
+    });
+    if (group.children.length > 0) control('source').append(group);
+  }
+
+  // --- playing ------------------------------------------------------------------------------------
+
+  let source = sources[0];
+  let isPlaying = false;
+  let isStale = true;
+  const orbit = new flexneck.Orbit(canvas, camera, source.home, () => { isStale = true; });
+
+  const clock = control('clock');
+  const redraw = () => {
+    control('time').textContent = source.draw(Number(clock.value));
+    isStale = true;
+  };
+  const choose = () => {
+    source = sources[Number(control('source').value)];
+    clock.max = source.duration;
+    clock.value = source.start;
+    control('clock-name').textContent = source.isMode ? 'Phase' : 'Time';
+    control('size-label').hidden = !source.isMode;
+    control('note').textContent = source.note;
+    control('most').textContent = source.most;
+    ghost.visible = Boolean(source.isMode);
+    arm.visible = !source.isMode;
+    head.visible = Boolean(source.hasHead);
+    neck.position.set(0, 0, 0);
+    neck.quaternion.set(0, 0, 0, 1);
+    orbit.setHome(source.home);
+    redraw();
+  };
+  const play = (start) => {
+    isPlaying = start;
+    control('play').setAttribute('aria-pressed', start);
+    control('play').textContent = start ? 'Pause' : 'Play';
+  };
+
+  control('source').addEventListener('change', choose);
+  control('size').addEventListener('input', redraw);
+  clock.addEventListener('input', () => { play(false); redraw(); });
+  control('play').addEventListener('click', () => play(!isPlaying));
+  control('edges').addEventListener('change', (event) => {
+    edges.visible = event.target.checked;
+    isStale = true;
+  });
+  control('turn').addEventListener('click', (event) => {
+    const button = event.target.closest('button');
+    if (button) orbit.step(button.dataset.turn);
+  });
+  canvas.addEventListener('keydown', (event) => {
+    if (event.key !== ' ') return;
+    event.preventDefault();
+    play(!isPlaying);
+  });
+
+  const fit = () => {
+    const {clientWidth: width, clientHeight: height} = canvas;
+    if (width === 0) return;
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.fov = width < height ? 30 * height / width : 30;  // the neck fits the narrower side
+    camera.updateProjectionMatrix();
+    isStale = true;
+  };
+  new ResizeObserver(fit).observe(canvas);
+
+  let isSeen = true;
+  new IntersectionObserver((entries) => { isSeen = entries[entries.length - 1].isIntersecting; })
+      .observe(canvas);
+
+  let before = performance.now();
+  const frame = (now) => {
+    const elapsed = (now - before) / 1000;
+    before = now;
+    if (isPlaying && isSeen) {
+      const next = Number(clock.value) + elapsed * source.duration / source.seconds;
+      clock.value = next % source.duration;
+      redraw();
+    }
+    if (isStale && isSeen) {
+      isStale = false;
+      renderer.render(stage, camera);
+      canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
+    }
+    requestAnimationFrame(frame);
+  };
+  choose();
+  fit();
+  requestAnimationFrame(frame);
+  if (!window.matchMedia('(prefers-reduced-motion: reduce)').matches) play(true);
+};
+
+// The page is there to be read before the graphics have started, which takes a while.
+window.addEventListener('load', () => {
+  const canvas = document.getElementById('scene-canvas');
+  if (canvas) setTimeout(() => flexneck.startScene(flexneck.data.scene, canvas), 50);
+});

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "pipeline/report/paper_context.h"
+#include "pipeline/report/results.h"
+
+namespace flexneck::pipeline {
+
+/// The parts of the page that are text and tables, as HTML, by the names that page/report.html has
+/// for them.
+std::map<std::string, std::string> page_sections(const Results& results, const Study& study,
+                                                 const PaperContext& context);
+
+}  // namespace flexneck::pipeline

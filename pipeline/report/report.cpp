@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/report/curves.h"
+#include "pipeline/report/embedding.h"
+#include "pipeline/report/neck_scene.h"
+#include "pipeline/report/page_sections.h"
+#include "pipeline/report/paper_context.h"
+#include "pipeline/report/web_library.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path page_part(const std::string& name) {
+  return fs::path(FLEXNECK_DATA_DIR) / "pipeline/report/page" / name;
+}
+
+/// A script of ours or of a package in an element of its own.
+std::string script(const std::string& source) {
+  return "<script>\n" + script_source(source) + "</script>\n";
+}
+
+PaperContext context_of(const Study& study) {
+  if (study.verification.empty()) return {};
+  fs::path path = study.verification;
+  path.replace_filename(path.stem().string() + "_context.toml");
+  return fs::exists(path) ? read_context(path) : PaperContext();
+}
+
+}  // namespace
+
+void write_report(const fs::path& path, const Results& results, const Study& study) {
+  const PaperContext context = context_of(study);
+  const nlohmann::ordered_json scene = scene_of(results, study);
+  const nlohmann::ordered_json curves = curves_of(results, context.corridors);
+  std::map<std::string, std::string> texts = page_sections(results, study, context);
+  texts["style"] = text_of_file(page_part("report.css"));
+  texts["scene"] = scene.is_null() ? "" : text_of_file(page_part("scene.html"));
+  texts["plots"] = curves.is_null() ? "" : text_of_file(page_part("plots.html"));
+  texts["data"] = script_json(nlohmann::ordered_json{{"scene", scene}, {"curves", curves}}.dump());
+  std::string& scripts = texts["scripts"];
+  if (!curves.is_null()) scripts += script(source_of(WebLibrary::d3));
+  if (!scene.is_null()) scripts += script(source_of(WebLibrary::three));
+  for (const char* name : {"data.js", "page.js", "plots.js", "orbit.js", "scene.js"}) {
+    scripts += script(text_of_file(page_part(name)));
+  }
+  write_text(path, filled(text_of_file(page_part("report.html")), texts));
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/results.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <set>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/results_folder.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// The files of a folder by name.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end(), comes_before);
+  return names;
+}
+
+/// Reads the files of a folder one by one into results.
+class Reader {
+ public:
+  Reader(const fs::path& folder, const Study& study) : folder_(folder), study_(study) {}
+
+  Results take() && { return std::move(results_); }
+
+  void mesh() {
+    require("mesh.h5", "the mesh", "flexneck mesh", [&](const fs::path& path) {
+      mesher::MeshFile file = mesher::read_mesh(path);
+      results_.mesh = std::move(file.mesh);
+      return file.provenance;
+    });
+  }
+
+  void modes() {
+    require("modes.h5", "the modes", "flexneck modes", [&](const fs::path& path) {
+      fe_modal::ModalBodyFile file = fe_modal::read_modal_body(path);
+      results_.modes = std::move(file.body);
+      return file.provenance;
+    });
+  }
+
+  void verification() {
+    require("verification.json", "the comparison with published figures", "flexneck verify",
+            [&](const fs::path& path) {
+              VerificationFile file = read_verification(path);
+              results_.verification = std::move(file.table);
+              return file.provenance;
+            });
+  }
+
+  void experiments(Experiment::Kind kind, const std::string& prefix, const std::string& command) {
+    for (const std::string& name : names_in(folder_)) {
+      if (!name.starts_with(prefix) || !name.ends_with(".h5")) continue;
+      read(name, command, [&](const fs::path& path) {
+        multibody::HistoryFile file = multibody::read_history(path);
+        Provenance provenance = file.provenance;
+        warn_if_incomplete(name, file);
+        results_.experiments.push_back(
+            {kind, path.stem().string().substr(prefix.size()), std::move(file)});
+        return provenance;
+      });
+    }
+    for (const CaseSection& experiment : study_.cases) {
+      const bool is_pendulum = experiment.kind == CaseSection::Kind::pendulum;
+      if (is_pendulum != (kind == Experiment::Kind::pendulum)) continue;
+      if (results_.find(kind, experiment.name) == nullptr) {
+        miss(prefix + experiment.name + ".h5", "the case " + experiment.name, command);
+      }
+    }
+  }
+
+  void tables() {
+    for (const std::string& name : names_in(folder_)) {
+      if (!name.ends_with(".json") || !holds_tables(folder_ / name)) continue;
+      read(name, "flexneck run", [&](const fs::path& path) {
+        TableFile file = read_tables(path);
+        std::move(file.tables.begin(), file.tables.end(), std::back_inserter(results_.tables));
+        return file.provenance;
+      });
+    }
+  }
+
+  /// Files that different programs made need not belong together.
+  void compare_versions() {
+    std::set<std::string> programs;
+    for (const ResultFile& file : results_.files) {
+      programs.insert(file.provenance.program + " (" + file.provenance.git_hash + ")");
+    }
+    if (programs.size() < 2) return;
+    std::string list;
+    for (const std::string& program : programs) list += (list.empty() ? "" : ", ") + program;
+    results_.warnings.push_back("The files in this folder were made by different versions: " +
+                                list + ". Make them again with 'flexneck run --force'.");
+  }
+
+ private:
+  using ReadFile = std::function<Provenance(const fs::path&)>;
+
+  void read(const std::string& name, const std::string& command, const ReadFile& read_file) {
+    const fs::path path = folder_ / name;
+    try {
+      const Provenance provenance = read_file(path);
+      results_.files.push_back({name, hash_of_file(path.string()), provenance});
+      require_same_inputs(name, provenance, study_, command);
+    } catch (const InputError& error) {
+      results_.warnings.emplace_back(error.what());
+    }
+  }
+
+  void require(const std::string& name, const std::string& what, const std::string& command,
+               const ReadFile& read_file) {
+    fs::exists(folder_ / name) ? read(name, command, read_file) : miss(name, what, command);
+  }
+
+  void miss(const std::string& name, const std::string& what, const std::string& command) {
+    results_.missing.push_back(
+        fmt::format("{}, {}, is not in this folder; '{}' makes it.", name, what, command));
+  }
+
+  void warn_if_incomplete(const std::string& name, const multibody::HistoryFile& file) {
+    if (file.history.incomplete.empty()) return;
+    results_.warnings.push_back(name + ": the run ended early: " + file.history.incomplete);
+  }
+
+  fs::path folder_;
+  const Study& study_;
+  Results results_;
+};
+
+}  // namespace
+
+bool comes_before(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::size_t a_end =
+          std::find_if_not(a.begin() + static_cast<long>(i), a.end(), is_digit) - a.begin();
+      const std::size_t b_end =
+          std::find_if_not(b.begin() + static_cast<long>(j), b.end(), is_digit) - b.begin();
+      const std::string x = a.substr(i, a_end - i);
+      const std::string y = b.substr(j, b_end - j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+      i = a_end;
+      j = b_end;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i;
+      ++j;
+    }
+  }
+  return a.size() - i < b.size() - j;
+}
+
+const Experiment* Results::find(Experiment::Kind kind, const std::string& name) const {
+  const auto found =
+      std::find_if(experiments.begin(), experiments.end(),
+                   [&](const Experiment& each) { return each.kind == kind && each.name == name; });
+  return found == experiments.end() ? nullptr : &*found;
+}
+
+Results read_results(const fs::path& folder, const Study& study) {
+  Reader reader(folder, study);
+  reader.mesh();
+  reader.modes();
+  reader.experiments(Experiment::Kind::pendulum, "pendulum-", "flexneck pendulum");
+  reader.experiments(Experiment::Kind::static_test, "static-", "flexneck static");
+  reader.verification();
+  reader.tables();
+  reader.compare_versions();
+  return std::move(reader).take();
+}
+
+}  // namespace flexneck::pipeline

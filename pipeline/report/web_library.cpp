@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/web_library.h"
+
+#include <filesystem>
+#include <vector>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/report/embedding.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+struct Place {
+  std::string package;
+  std::vector<std::string> files;  ///< the first that is there
+};
+
+Place place_of(WebLibrary library) {
+  switch (library) {
+    case WebLibrary::d3:
+      return {"libjs-d3", {"/usr/share/javascript/d3/d3.min.js", "/usr/share/nodejs/d3/d3.min.js"}};
+    case WebLibrary::three:
+      return {"libjs-three",
+              {"/usr/share/javascript/three/three.min.js",
+               "/usr/share/javascript/three/build/three.min.js",
+               "/usr/share/nodejs/three/build/three.min.js"}};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string source_of(WebLibrary library) {
+  const Place place = place_of(library);
+  for (const std::string& file : place.files) {
+    if (std::filesystem::exists(file)) return text_of_file(file);
+  }
+  throw InputError("report: " + place.files.front() + " is missing; install the package " +
+                   place.package);
+}
+
+}  // namespace flexneck::pipeline
