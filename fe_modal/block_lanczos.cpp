@@ -102,8 +102,11 @@ class Basis {
 };
 
 /// Takes out of the block what lies in the basis, twice, for the first time leaves rounding.
+/// Between the two M X is made anew: what little is left of some columns is not M times what is
+/// left of X.
 /// @return {S, R} with the old block = V S + the new block R
-std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(const Basis& basis, Columns& block) {
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(Mat mass, const Basis& basis,
+                                                          Columns& block) {
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(basis.count(), block.vectors.cols());
   Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(block.vectors.cols(), block.vectors.cols());
   Eigen::VectorXd shortest =
@@ -116,6 +119,7 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(const Basis& basis, Co
     shares += more * factor;
     factor = (orthonormalise(block, shortest) * factor).eval();
     shortest = Eigen::VectorXd::Zero(block.vectors.cols());
+    if (pass == 0) block.momenta = block_product(mass, block.vectors);
   }
   return {shares, factor};
 }
@@ -130,14 +134,14 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs
   if (known.values.size() > 0) basis.take(mass, inverse.shift(), known);
   Columns block{std::move(start), Eigen::MatrixXd()};
   block.momenta = block_product(mass, block.vectors);
-  orthogonalise(basis, block);
+  orthogonalise(mass, basis, block);
   RitzState state;
   for (int blocks = 0; blocks < kMostBlocks; ++blocks) {
     const Eigen::Index last = block.vectors.cols();
     basis.append(block);
     block.vectors = inverse.solve(block.momenta);
     block.momenta = block_product(mass, block.vectors);
-    const auto [shares, coupling] = orthogonalise(basis, block);
+    const auto [shares, coupling] = orthogonalise(mass, basis, block);
     basis.project_last(shares);
 
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <utility>
+
+#include <catch2/catch.hpp>
+
+#include "fe_modal/block_lanczos.h"
+#include "tests/support/dense_solvers.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// K^-1 of a diagonal K.
+class DiagonalInverse : public ShiftInverse {
+ public:
+  explicit DiagonalInverse(Eigen::VectorXd stiffness)
+      : ShiftInverse(0), stiffness_(std::move(stiffness)) {}
+
+  void solve(Vec /*right_hand_side*/, Vec /*solution*/) const override { FAIL("not used"); }
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& loads) const override {
+    return stiffness_.cwiseInverse().asDiagonal() * loads;
+  }
+  std::string describe() const override { return "diagonal"; }
+
+ private:
+  Eigen::VectorXd stiffness_;
+};
+
+MatHandle dense_matrix(Eigen::MatrixXd& entries) {
+  MatHandle matrix;
+  const auto size = static_cast<PetscInt>(entries.rows());
+  require(MatCreateSeqDense(PETSC_COMM_SELF, size, size, entries.data(), matrix.out()), "wrapping");
+  return matrix;
+}
+
+}  // namespace
+
+TEST_CASE("block Lanczos keeps its answer when little but rounding is left of a block") {
+  // As when a mass is added to a body whose modes are known: the modes and the responses to the
+  // forces of the mass span nearly all of what comes next.
+  constexpr Eigen::Index kSize = 400;
+  Eigen::VectorXd stiffness(kSize);
+  Eigen::MatrixXd loads(kSize, 6);
+  for (Eigen::Index i = 0; i < kSize; ++i) {
+    stiffness[i] = std::pow(static_cast<double>(i + 1), 3);
+    for (Eigen::Index k = 0; k < 6; ++k) loads(i, k) = std::cos(static_cast<double>((k + 1) * i));
+  }
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(kSize, kSize) + loads * loads.transpose();
+  const MatHandle mass_matrix = dense_matrix(mass);
+  const DiagonalInverse inverse(stiffness);
+  Eigen::MatrixXd start(kSize, 16);
+  start << Eigen::MatrixXd::Identity(kSize, 10), inverse.solve(loads);
+  int blocks = 0;
+  // It would do to stop after three.
+  const Settled settled = [&](const RitzState& /*state*/) { return ++blocks == 25; };
+  const EigenPairs found =
+      block_lanczos(mass_matrix.get(), inverse, EigenPairs(), start, 6, settled);
+  const Eigen::VectorXd expected =
+      testing::dense_pairs(Eigen::MatrixXd(stiffness.asDiagonal()), mass).values.head(6);
+  // The dense solution loses the ratio of the largest stiffness to these: six digits and a half.
+  CHECK((found.values.array() / expected.array() - 1).abs().maxCoeff() < 1e-8);
+}
+
+}  // namespace flexneck::fe_modal
