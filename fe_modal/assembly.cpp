@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "fe_modal/constrained_element.h"
 #include "fe_modal/element_kernel.h"
-#include "fe_modal/tied_element.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -83,20 +83,20 @@ void add_mass(const SortedNodes& nodes, const Eigen::MatrixXd& element, NodalMas
   }
 }
 
-/// The same where there are rigid ties, for which the mass couples directions.
-void add_tied(std::span<const std::int32_t> nodes, const FreeNodes& free_nodes,
-              const ElementMatrices& element, SortedNodes& sorted, SymmetricMatrix& stiffness,
-              SymmetricMatrix& mass) {
-  const TiedElement tied(nodes, free_nodes);
-  sorted.assign(tied.numbers(), [](std::int32_t number) { return number; });
-  add_stiffness(sorted, tied.reduced(element.stiffness), stiffness);
-  add_stiffness(sorted, tied.reduced(in_three_directions(element.mass)), mass);
+/// The same where there are constraints, with which the mass is not the same in each direction.
+void add_constrained(std::span<const std::int32_t> nodes, const FreeNodes& free_nodes,
+                     const ElementMatrices& element, SortedNodes& sorted,
+                     SymmetricMatrix& stiffness, SymmetricMatrix& mass) {
+  const ConstrainedElement constrained(nodes, free_nodes);
+  sorted.assign(constrained.numbers(), [](std::int32_t number) { return number; });
+  add_stiffness(sorted, constrained.reduced(element.stiffness), stiffness);
+  add_stiffness(sorted, constrained.reduced(in_three_directions(element.mass)), mass);
 }
 
 void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
                const FreeNodes& free_nodes, const FormulationChoice& formulation,
                SymmetricMatrix& stiffness, NodalMass& mass,
-               std::optional<SymmetricMatrix>& tied_mass) {
+               std::optional<SymmetricMatrix>& constrained_mass) {
   const mesher::Material& material = mesh.materials.at(block.material);
   ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
   ElementMatrices element;
@@ -116,8 +116,8 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
                              " of its " + std::string(mesher::name_of(block.kind)) + ": " +
                              error.what());
     }
-    if (tied_mass) {
-      add_tied(nodes, free_nodes, element, sorted, stiffness, *tied_mass);
+    if (constrained_mass) {
+      add_constrained(nodes, free_nodes, element, sorted, stiffness, *constrained_mass);
     } else {
       sorted.assign(nodes, [&](std::int32_t node) { return free_nodes.index(node); });
       add_stiffness(sorted, element.stiffness, stiffness);
@@ -127,6 +127,21 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
   }
 }
 
+/// What is held has a stiffness of its own, of the others' size, and no mass: it stays still.
+void stiffen_held(const FreeNodes& free_nodes, SymmetricMatrix& stiffness) {
+  double sum = 0;
+  const auto for_each = [&](const auto& action) {
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(free_nodes.free_count()); ++k) {
+      for (int a = 0; a < 3; ++a) action(k, a, stiffness.entry(k, a, -1, a));
+    }
+  };
+  for_each([&](std::int32_t /*k*/, int /*a*/, double entry) { sum += entry; });
+  const double mean = sum / static_cast<double>(free_nodes.dof_count());
+  for_each([&](std::int32_t k, int a, double& entry) {
+    if (free_nodes.is_held(k, a)) entry = mean;
+  });
+}
+
 }  // namespace
 
 SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
@@ -134,22 +149,23 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
   NodeGraph graph(mesh, free_nodes);
   SymmetricMatrix stiffness(graph);
   NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));
-  std::optional<SymmetricMatrix> tied_mass;
-  if (free_nodes.has_rigid_ties()) tied_mass.emplace(graph);
+  std::optional<SymmetricMatrix> constrained_mass;
+  if (free_nodes.is_constrained()) constrained_mass.emplace(graph);
   for (const mesher::ElementBlock& block : mesh.blocks) {
-    add_block(mesh, block, free_nodes, formulation, stiffness, nodal_mass, tied_mass);
+    add_block(mesh, block, free_nodes, formulation, stiffness, nodal_mass, constrained_mass);
   }
+  if (free_nodes.held_direction_count() > 0) stiffen_held(free_nodes, stiffness);
   MassMatrix mass(nodal_mass, graph, free_nodes);
   SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass),
-                        std::move(tied_mass)};
+                        std::move(constrained_mass)};
   system.nodal_mass.swap(nodal_mass);  // this version of Eigen moves by copying
   return system;
 }
 
 SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift) {
   SymmetricMatrix result = system.stiffness.clone();
-  if (system.tied_mass) {
-    const auto mass = system.tied_mass->values();
+  if (system.constrained_mass) {
+    const auto mass = system.constrained_mass->values();
     for (std::size_t k = 0; k < mass.size(); ++k) result.values()[k] -= shift * mass[k];
     return result;
   }

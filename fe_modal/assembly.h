@@ -17,11 +17,12 @@ struct SystemMatrices {
   NodeGraph graph;            ///< of the free nodes
   SymmetricMatrix stiffness;  ///< of the free degrees of freedom, N/m
   NodalMass nodal_mass;       ///< of all nodes, kg
-  MassMatrix mass;            ///< of the free degrees of freedom, kg; void with rigid ties
-  /// Where there are rigid ties: of the free degrees of freedom, theirs included.
-  std::optional<SymmetricMatrix> tied_mass;
+  MassMatrix mass;            ///< of the free degrees of freedom, kg; void with constraints
+  /// Where there are rigid ties or held directions: of the free degrees of freedom, the ties'
+  /// included; zero where a direction is held.
+  std::optional<SymmetricMatrix> constrained_mass;
 
-  Mat mass_operator() const { return tied_mass ? tied_mass->get() : mass.get(); }
+  Mat mass_operator() const { return constrained_mass ? constrained_mass->get() : mass.get(); }
 };
 
 /// @throws InputError if a part's kind of element has no such formulation.

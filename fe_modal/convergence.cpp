@@ -78,7 +78,7 @@ Eigen::MatrixXd similarities(const SolvedMesh& coarse, const FreeNodes& fine_nod
 std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions& options,
                                    const Progress& progress) {
   const mesher::RefinedMesh fine = mesher::refine(solved.mesh);
-  const bool held = !options.held_set.empty();
+  const bool held = options.is_held();
   const FreeNodes free_nodes = free_nodes_of(fine.mesh, options);
   if (progress) {
     progress("refining for the error of the mesh, " + std::to_string(free_nodes.dof_count()) +

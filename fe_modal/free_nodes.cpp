@@ -63,9 +63,10 @@ FreeNodes::FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
 }
 
 FreeNodes::FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
-                     std::span<const RigidTie> ties)
+                     std::span<const RigidTie> ties, std::span<const HeldDirections> directions)
     : FreeNodes(mesh.nodes.size(), held, mesh.slits) {
   if (!ties.empty()) tie_rigidly(mesh, ties);
+  if (!directions.empty()) hold(directions, ties);
 }
 
 void FreeNodes::tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> ties) {
@@ -103,6 +104,37 @@ void FreeNodes::tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> 
   }
 }
 
+void FreeNodes::hold(std::span<const HeldDirections> directions, std::span<const RigidTie> ties) {
+  held_.assign(static_cast<std::size_t>(free_count_), {});
+  for (const HeldDirections& held : directions) {
+    for (const std::int32_t node : held.nodes) {
+      if (tie(node) >= 0) {
+        throw InputError("rigid interface '" + ties[static_cast<std::size_t>(tie(node))].name +
+                         "' has nodes that are held");
+      }
+      if (index(node) < 0) continue;
+      for (std::size_t a = 0; a < 3; ++a) {
+        bool& is_held = held_[static_cast<std::size_t>(index(node))][a];
+        is_held = is_held || held.is_held[a];
+      }
+    }
+  }
+}
+
+Eigen::Index FreeNodes::held_direction_count() const {
+  Eigen::Index count = 0;
+  for (const std::array<bool, 3>& held : held_) count += std::count(held.begin(), held.end(), true);
+  return count;
+}
+
+void FreeNodes::clear_held(Eigen::VectorXd& values) const {
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (held_[k][a]) values[static_cast<Eigen::Index>(3 * k + a)] = 0;
+    }
+  }
+}
+
 Eigen::VectorXd FreeNodes::restrict(const Eigen::Matrix3Xd& field) const {
   Eigen::VectorXd values(dof_count());
   const Eigen::Index ties = (free_count_ - first_tie_) / 2;
@@ -125,6 +157,7 @@ Eigen::VectorXd FreeNodes::restrict(const Eigen::Matrix3Xd& field) const {
         values.segment<6>(3 * static_cast<Eigen::Index>(translation(static_cast<std::int32_t>(t))));
     six = matrices[t].ldlt().solve(Eigen::Matrix<double, 6, 1>(six)).eval();
   }
+  clear_held(values);
   return values;
 }
 
@@ -132,7 +165,11 @@ Eigen::Matrix3Xd FreeNodes::expand(const Eigen::VectorXd& free_values) const {
   Eigen::Matrix3Xd field = Eigen::Matrix3Xd::Zero(3, node_count());
   for (std::size_t k = 0; k < indices_.size(); ++k) {
     if (indices_[k] < 0) continue;
-    field.col(static_cast<Eigen::Index>(k)) = free_values.segment<3>(3 * indices_[k]);
+    auto displacement = field.col(static_cast<Eigen::Index>(k));
+    displacement = free_values.segment<3>(3 * indices_[k]);
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (is_held(indices_[k], a)) displacement[a] = 0;
+    }
   }
   for (std::int32_t k = 0; has_rigid_ties() && k < node_count(); ++k) {
     if (tie(k) < 0) continue;
@@ -154,6 +191,7 @@ Eigen::VectorXd FreeNodes::gather(const Eigen::Matrix3Xd& forces) const {
     values.segment<3>(3 * translation(tie(k))) += force;
     values.segment<3>(3 * rotation(tie(k))) += arm_m(k).cross(force);
   }
+  clear_held(values);
   return values;
 }
 

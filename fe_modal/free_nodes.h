@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,10 +21,17 @@ struct RigidTie {
   Eigen::Vector3d point_m;
 };
 
+/// Nodes that are held in some of the mesh's directions only.
+struct HeldDirections {
+  std::vector<std::int32_t> nodes;
+  std::array<bool, 3> is_held;  ///< in x, y, z
+};
+
 /// Numbers the nodes that may move; held ones have no degrees of freedom, and nodes tied to one
 /// another share theirs. Degree of freedom 3 index(k) + a is direction a of node k. Keeps the order
 /// of the nodes. After them come two numbers for each rigid tie: its translation t and its rotation
-/// theta take the places of two nodes.
+/// theta take the places of two nodes. A direction that is held alone keeps its number, and is
+/// zero.
 class FreeNodes {
  public:
   /// @param held nodes held in all directions, in range; a node tied to one of them is held too
@@ -31,9 +39,10 @@ class FreeNodes {
   FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
             std::span<const mesher::Slit> slits = {});
   /// @param ties a node tied to one of theirs, by a slit, is in the tie too
-  /// @throws InputError if a rigid tie has a held node or shares one with another.
+  /// @throws InputError if a rigid tie has a node that is held, in any direction, or shares one
+  /// with another.
   FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
-            std::span<const RigidTie> ties = {});
+            std::span<const RigidTie> ties = {}, std::span<const HeldDirections> directions = {});
 
   /// As numbered elsewhere.
   /// @param indices what index() is to return
@@ -54,6 +63,13 @@ class FreeNodes {
   /// Numbers of a rigid tie's translation, m, and rotation, rad.
   std::int32_t translation(std::int32_t tie) const { return first_tie_ + 2 * tie; }
   std::int32_t rotation(std::int32_t tie) const { return first_tie_ + 2 * tie + 1; }
+  /// Whether a node, by its number, is held in direction a.
+  bool is_held(std::int32_t number, Eigen::Index a) const {
+    return !held_.empty() && held_[static_cast<std::size_t>(number)][static_cast<std::size_t>(a)];
+  }
+  Eigen::Index held_direction_count() const;
+  /// Whether some degrees of freedom are not those of a node that moves freely.
+  bool is_constrained() const { return has_rigid_ties() || !held_.empty(); }
   /// From the point of its rigid tie to a node.
   Eigen::Vector3d arm_m(std::int32_t node) const { return arms_m_.col(node); }
   /// What a field on all nodes, (3, n), has as free values: of a tie, whose nodes need not quite
@@ -68,12 +84,16 @@ class FreeNodes {
 
  private:
   void tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> ties);
+  void hold(std::span<const HeldDirections> directions, std::span<const RigidTie> ties);
+  /// Zero in the directions that are held, (dof_count()).
+  void clear_held(Eigen::VectorXd& values) const;
 
   std::vector<std::int32_t> indices_;
   Eigen::Index free_count_ = 0;
   std::int32_t first_tie_ = 0;
-  std::vector<std::int32_t> tie_of_;  ///< (n), empty without rigid ties
-  Eigen::Matrix3Xd arms_m_;           ///< (3, n), likewise
+  std::vector<std::int32_t> tie_of_;       ///< (n), empty without rigid ties
+  Eigen::Matrix3Xd arms_m_;                ///< (3, n), likewise
+  std::vector<std::array<bool, 3>> held_;  ///< (free_count), empty without held directions
 };
 
 }  // namespace flexneck::fe_modal

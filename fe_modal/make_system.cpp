@@ -38,10 +38,10 @@ std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNod
                                          const ModalOptions& options) {
   std::vector<std::int32_t> order = order_of_free(options.node_order, free_nodes);
   const bool alone = options.ranks == nullptr || options.ranks->count() == 1;
-  if (free_nodes.has_rigid_ties() && (options.solver == Solver::iterative || !alone)) {
+  if (free_nodes.is_constrained() && (options.solver == Solver::iterative || !alone)) {
     throw InputError(
-        "rigid interfaces are for the direct solver in one process: take averages, or leave out "
-        "--solver iterative and mpirun");
+        "rigid interfaces and held directions are for the direct solver in one process: take "
+        "averages and hold sets as a whole, or leave out --solver iterative and mpirun");
   }
   if (options.solver == Solver::iterative) {
     if (!alone) {

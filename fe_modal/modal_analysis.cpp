@@ -148,7 +148,7 @@ std::pair<Reduction, std::string> reduced_basis(
             kNotCertified};
   }
   const auto [pairs, certificate] = normal_modes(system, inverse, options);
-  check_no_mechanism(mesh, free_nodes, system, pairs.values, !options.held_set.empty());
+  check_no_mechanism(mesh, free_nodes, system, pairs.values, options.is_held());
   return {complete_modes(operators, pairs, loads, options.basis, progress), certificate};
 }
 
@@ -184,6 +184,19 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
   return result;
 }
 
+/// "fixed: bolts, x of left", or "free".
+std::string boundary_of(const ModalOptions& options) {
+  std::string held = options.held_set;
+  for (const auto& [set, directions] : options.held_directions) {
+    if (!held.empty()) held += ", ";
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (directions[a]) held += "xyz"[a];
+    }
+    held += " of " + set;
+  }
+  return held.empty() ? "free" : "fixed: " + held;
+}
+
 }  // namespace
 
 FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
@@ -193,8 +206,14 @@ FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
     ties.push_back({interface.name, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
                     interface.position_m});
   }
-  const bool held = !options.held_set.empty();
-  return {mesh, held ? mesh.node_set(options.held_set).nodes : std::vector<std::int32_t>{}, ties};
+  std::vector<HeldDirections> directions;
+  for (const auto& [set, is_held] : options.held_directions) {
+    directions.push_back({mesh.node_set(set).nodes, is_held});
+  }
+  return {mesh,
+          options.held_set.empty() ? std::vector<std::int32_t>{}
+                                   : mesh.node_set(options.held_set).nodes,
+          ties, directions};
 }
 
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
@@ -205,7 +224,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     if (progress) progress(line);
   };
   check_options(mesh, options);
-  const bool held = !options.held_set.empty();
+  const bool held = options.is_held();
   const FreeNodes free_nodes = free_nodes_of(mesh, options);
   report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
          " degrees of freedom");
@@ -241,7 +260,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   report("reducing to modal coordinates");
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
-  body.boundary = held ? "fixed: " + options.held_set : "free";
+  body.boundary = boundary_of(options);
   body.certificate = certificate;
   body.nodes_m.resize(3, free_nodes.node_count());
   for (Eigen::Index k = 0; k < free_nodes.node_count(); ++k) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -65,7 +66,9 @@ struct ModalOptions {
   /// Count the modes by inertia too, which costs a factorisation by MUMPS, and estimate the error
   /// of the mesh, which costs a solution with eight times the elements. Not of Craig-Bampton.
   bool certify = false;
-  std::string held_set;        ///< node set held in all directions; empty: a free body
+  std::string held_set;  ///< node set held in all directions; empty: none
+  /// Node sets held in some of x, y and z only.
+  std::map<std::string, std::array<bool, 3>> held_directions = {};
   std::string held_interface;  ///< name of the interface on the held nodes, modes zero there
   Eigen::Vector3d held_position_m = Eigen::Vector3d::Zero();
   std::vector<InterfaceDefinition> interfaces;
@@ -76,6 +79,8 @@ struct ModalOptions {
   const Ranks* ranks = nullptr;  ///< processes that share the work, see ranks.h; null: this alone
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
+
+  bool is_held() const { return !held_set.empty() || !held_directions.empty(); }
 };
 
 /// The nodes that the options leave free. @throws InputError for unknown sets, and as FreeNodes.

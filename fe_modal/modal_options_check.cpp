@@ -64,7 +64,7 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
   for (const RigidAttachment& attachment : options.attachments) {
     static_cast<void>(find_name(names, attachment.interface, "interface"));
-    if (options.held_set.empty()) {
+    if (!options.is_held()) {
       throw InputError("rigid body '" + attachment.name +
                        "' is attached to a free body: name a set of nodes to hold");
     }
@@ -87,10 +87,11 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
   if (options.basis == BasisKind::normal) return;
   const std::string who =
       "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
-  const bool held = !options.held_set.empty();
+  const bool held = options.is_held();
   if (options.basis == BasisKind::inertia_relief && held) {
-    throw InputError(who + " is for a free body, but '" + options.held_set +
-                     "' is held; take 'residual' or hold nothing");
+    throw InputError(who +
+                     " is for a free body, but a set is held; take 'residual' or "
+                     "hold nothing");
   }
   if (options.basis != BasisKind::inertia_relief && !held) {
     throw InputError(who + " is for a held body, but nothing is held; take 'inertia-relief'");
@@ -118,8 +119,12 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   mesher::check(mesh);
   check_parts(mesh, options);
-  if (!options.held_set.empty()) check_held(mesh, options.held_set);
-  const Eigen::Index dofs = free_nodes_of(mesh, options).dof_count();
+  // With directions held besides, a line of nodes may be enough; if not, the mechanism is named.
+  if (!options.held_set.empty() && options.held_directions.empty()) {
+    check_held(mesh, options.held_set);
+  }
+  const FreeNodes free_nodes = free_nodes_of(mesh, options);
+  const Eigen::Index dofs = free_nodes.dof_count() - free_nodes.held_direction_count();
   // Static shapes alone make a basis too.
   const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
   if (options.mode_count < least || options.mode_count > dofs) {
@@ -129,7 +134,7 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
   check_interfaces(mesh, options);
   check_basis(options, dofs);
-  if (options.geometric_stiffness && options.held_set.empty()) {
+  if (options.geometric_stiffness && !options.is_held()) {
     throw InputError(
         "the geometric stiffness under unit loads is that of a held body: name a set "
         "of nodes to hold");

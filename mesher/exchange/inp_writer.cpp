@@ -2,6 +2,7 @@
 #include "mesher/exchange/inp_writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <set>
@@ -141,15 +142,19 @@ void write_materials(OutputFile& out, const Mesh& mesh) {
   }
 }
 
+using HeldNodes = std::map<std::int32_t, std::array<bool, 3>>;
+
 /// The upper node of a pair follows the lower one, unless both are held anyway.
-void write_ties(OutputFile& out, const Mesh& mesh, const std::set<std::int32_t>& held) {
+void write_ties(OutputFile& out, const Mesh& mesh, const HeldNodes& held) {
   for (const Slit& slit : mesh.slits) {
     if (!slit.tied) continue;
     for (std::size_t p = 0; p < slit.lower.size(); ++p) {
-      if (held.count(slit.upper[p]) > 0) continue;
+      const auto found = held.find(slit.upper[p]);
       const std::string upper = std::to_string(slit.upper[p] + 1);
       const std::string lower = std::to_string(slit.lower[p] + 1);
-      for (const std::string direction : {"1", "2", "3"}) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (found != held.end() && found->second[a]) continue;
+        const std::string direction = std::to_string(a + 1);
         out.write("*EQUATION\n2\n" + upper + "," + direction + ",1.," + lower + "," + direction +
                   ",-1.\n");
       }
@@ -157,12 +162,26 @@ void write_ties(OutputFile& out, const Mesh& mesh, const std::set<std::int32_t>&
   }
 }
 
-std::set<std::int32_t> held_nodes(const Mesh& mesh, const std::vector<std::string>& held) {
-  std::set<std::int32_t> nodes;
-  for (const std::string& name : held) {
-    const std::vector<std::int32_t>& set = mesh.node_set(name).nodes;
-    nodes.insert(set.begin(), set.end());
+void write_boundary(OutputFile& out, const InpOptions& options) {
+  if (options.held.empty() && options.held_directions.empty()) return;
+  out.write("*BOUNDARY\n");
+  for (const std::string& name : options.held) out.write(name + ",1,3\n");
+  for (const auto& [name, directions] : options.held_directions) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (directions[a]) out.write(name + "," + std::to_string(a + 1) + "\n");
+    }
   }
+}
+
+HeldNodes held_nodes(const Mesh& mesh, const InpOptions& options) {
+  HeldNodes nodes;
+  const auto hold = [&](const std::string& name, const std::array<bool, 3>& directions) {
+    for (const std::int32_t node : mesh.node_set(name).nodes) {
+      for (std::size_t a = 0; a < 3; ++a) nodes[node][a] = nodes[node][a] || directions[a];
+    }
+  };
+  for (const std::string& name : options.held) hold(name, {true, true, true});
+  for (const auto& [name, directions] : options.held_directions) hold(name, directions);
   return nodes;
 }
 
@@ -176,7 +195,7 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   for (const ElementBlock& block : mesh.blocks) {
     static_cast<void>(abaqus_type_of(block.kind, options.is_reduced));
   }
-  const std::set<std::int32_t> held = held_nodes(mesh, options.held);
+  const HeldNodes held = held_nodes(mesh, options);
 
   OutputFile out(file);
   out.write("*HEADING\nflexneck: lengths in m, forces in N, stresses in Pa, densities in kg/m^3\n");
@@ -186,8 +205,7 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   write_surfaces(out, mesh);
   write_materials(out, mesh);
   write_ties(out, mesh, held);
-  if (!options.held.empty()) out.write("*BOUNDARY\n");
-  for (const std::string& name : options.held) out.write(name + ",1,3\n");
+  write_boundary(out, options);
   out.write("*STEP\n*FREQUENCY\n" + std::to_string(options.mode_count) + "\n*END STEP\n");
   out.commit();
 }

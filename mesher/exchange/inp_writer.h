@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,7 +14,8 @@ namespace flexneck::mesher {
 struct InpOptions {
   bool is_reduced = false;        ///< C3D20R, C3D8R instead of C3D20, C3D8
   std::vector<std::string> held;  ///< node sets for *BOUNDARY
-  int mode_count = 10;            ///< of *FREQUENCY
+  std::map<std::string, std::array<bool, 3>> held_directions = {};  ///< others, in x, y, z
+  int mode_count = 10;                                              ///< of *FREQUENCY
 };
 
 /// Writes a deck in SI units that CalculiX solves for the modes and Abaqus reads: *NODE, *ELEMENT

@@ -46,7 +46,8 @@ bool export_command(const CommandInput& input) {
     } else if (target.extension() == ".inp") {
       const bool is_reduced = input.study.modes.formulation == fe_modal::Formulation::reduced;
       mesher::write_inp(target, mesh.mesh,
-                        {is_reduced, held_sets(input.study), input.study.modes.count});
+                        {is_reduced, held_sets(input.study), input.study.modes.held_directions,
+                         input.study.modes.count});
     } else if (is_matrix_file(target)) {
       export_matrices(input, mesh.mesh);
     } else if (target.extension() == ".dat") {

@@ -50,6 +50,11 @@ bool is_matrix_file(const std::filesystem::path& target) {
 
 void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
   const Study& study = input.study;
+  if (!study.modes.held_directions.empty() || !study.modes.rigid_interfaces.empty()) {
+    throw InputError(
+        "matrices are written with three directions a node: leave out modes.held_directions and "
+        "modes.rigid_interfaces");
+  }
   const std::string held =
       study.structure ? structure_options(study, mesh).held_set : std::string("bolts");
   const fe_modal::FreeNodes free_nodes(

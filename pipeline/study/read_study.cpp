@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -32,6 +35,24 @@ MeshOrders read_mesh_orders(const StudyTable& mesh) {
   return orders;
 }
 
+namespace {
+
+/// left = "x", bottom = "yz"
+std::map<std::string, std::array<bool, 3>> read_held_directions(const StudyTable& table) {
+  std::map<std::string, std::array<bool, 3>> held;
+  for (const std::string& set : table.keys()) {
+    const std::string letters = table.text(set);
+    if (letters.empty() || letters.find_first_not_of("xyz") != std::string::npos) {
+      table.refuse(set, "expected directions such as \"x\" or \"yz\", found \"" + letters + "\"");
+    }
+    for (const char letter : letters) held[set][static_cast<std::size_t>(letter - 'x')] = true;
+  }
+  table.finish();
+  return held;
+}
+
+}  // namespace
+
 ModesSection read_modes(const StudyTable& table) {
   ModesSection modes;
   modes.count = table.count_or("count", 1, modes.count);
@@ -51,6 +72,7 @@ ModesSection read_modes(const StudyTable& table) {
                        : fe_modal::Solver::iterative;
   }
   if (table.has("held")) modes.held = table.texts("held");
+  modes.held_directions = read_held_directions(table.table("held_directions"));
   if (table.has("rigid_parts")) modes.rigid_parts = table.texts("rigid_parts");
   modes.attached_body = table.text_or("attached_body", "");
   modes.attached_to = table.text_or("attached_to", "");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -52,7 +53,8 @@ struct ModesSection {
   std::vector<std::string> rigid_interfaces;  ///< whose nodes are tied to move rigidly
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
   bool certify = false;           ///< prove that no mode is missing, estimate the error of the mesh
-  std::vector<std::string> held;  ///< node sets held in all directions; empty: a free body
+  std::vector<std::string> held;  ///< node sets held in all directions
+  std::map<std::string, std::array<bool, 3>> held_directions;  ///< others, in some of x, y, z
   std::vector<std::string> rigid_parts;  ///< parts whose motion names the modes
   std::string attached_body;  ///< rigid body set on an interface for the loaded frequencies
   std::string attached_to;    ///< that interface; empty: the first

@@ -11,22 +11,21 @@
 
 namespace flexneck::fe_modal {
 
-/// An element in the degrees of freedom that rigid ties leave it: of a tie that any of its nodes
-/// are in, the translation and the rotation take the place of these nodes.
-class TiedElement {
+/// An element in the degrees of freedom that rigid ties and held directions leave it: of a tie that
+/// any of its nodes are in, the translation and the rotation take the place of these nodes; what is
+/// held has zero rows and columns.
+class ConstrainedElement {
  public:
-  TiedElement(std::span<const std::int32_t> nodes, const FreeNodes& free_nodes);
+  ConstrainedElement(std::span<const std::int32_t> nodes, const FreeNodes& free_nodes);
 
-  bool is_tied() const { return numbers_.size() > own_count_; }
   /// FreeNodes' number of each place, -1 if held: (m) places, the ties' last.
   std::span<const std::int32_t> numbers() const { return numbers_; }
   /// T^T E T, (3m, 3m) with degree of freedom a m + i, of an element's matrix (3n, 3n).
   Eigen::MatrixXd reduced(const Eigen::MatrixXd& element) const;
 
  private:
-  std::size_t own_count_ = 0;  ///< places that are nodes
   std::vector<std::int32_t> numbers_;
-  Eigen::MatrixXd motion_;  ///< T, (3n, 3m); empty if nothing is tied
+  Eigen::MatrixXd motion_;  ///< T, (3n, 3m); empty if nothing is constrained
 };
 
 /// An element's mass between nodes, (n, n), in all three directions, (3n, 3n).
