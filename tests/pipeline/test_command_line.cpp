@@ -174,6 +174,8 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
     check_refused(
         run_flexneck("modes -o " + out + kCoarse + " --set modes.rigid_interfaces='[\"tip\"]'"),
         "modes.rigid_interfaces: there is no interface 'tip' (did you mean 'top'?)");
+    check_refused(run_flexneck("modes -o " + out + kCoarse + " --set modes.held_directions.top=w"),
+                  "modes.held_directions.top: expected directions such as \"x\" or \"yz\"");
   }
   SECTION("a truncated file is refused") {
     fs::resize_file(folder / "modes.h5", fs::file_size(folder / "modes.h5") / 2);
