@@ -89,9 +89,10 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
       "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
   const bool held = options.is_held();
   if (options.basis == BasisKind::inertia_relief && held) {
-    throw InputError(who +
-                     " is for a free body, but a set is held; take 'residual' or "
-                     "hold nothing");
+    const std::string& set =
+        options.held_set.empty() ? options.held_directions.begin()->first : options.held_set;
+    throw InputError(who + " is for a free body, but '" + set +
+                     "' is held; take 'residual' or hold nothing");
   }
   if (options.basis != BasisKind::inertia_relief && !held) {
     throw InputError(who + " is for a held body, but nothing is held; take 'inertia-relief'");
