@@ -28,6 +28,7 @@ struct Arguments {
   bool quiet = false;
   bool verbose = false;
   bool show = false;
+  bool force = false;
   std::string target;
   bool is_binary = false;
 
@@ -66,6 +67,7 @@ void describe(CLI::App& app, Arguments& arguments) {
          [&](const std::string& name) { arguments.settings.push_back("modes.solver=" + name); },
          "Of modes: direct, or iterative in less memory; as --set modes.solver=NAME")
       ->option_text("NAME");
+  app.add_flag("--force", arguments.force, "With run: redo what has not changed, too");
   app.add_flag("--show", arguments.show, "With mesh: print dimensions and a section, mesh nothing");
   app.add_option("--to", arguments.target, "With export: the file to write")
       ->option_text("FILE.msh|.inp|.mtx|.petsc|.dat");
@@ -101,7 +103,7 @@ bool execute(const Arguments& arguments, const Console& console, const Ranks* ra
                  "' runs on the first");
   }
   return (arguments.show ? show_command : list[which].run)(
-      {study, folder, console, arguments.target, arguments.is_binary, ranks});
+      {study, folder, console, arguments.target, arguments.is_binary, ranks, arguments.force});
 }
 
 int exit_code_of(const Arguments& arguments, const Ranks* ranks) {

@@ -2,6 +2,7 @@
 #include "pipeline/results_folder.h"
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/version.h"
@@ -9,6 +10,14 @@
 namespace flexneck::pipeline {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// What experiments know by the modes only.
+constexpr std::array<const char*, 5> kOfTheModes = {"geometry.", "mesh.", "modes.",
+                                                    "substructures.", "interface."};
+
+}  // namespace
 
 void ResultsFolder::make() const {
   std::error_code error;
@@ -53,6 +62,22 @@ Provenance mesh_provenance(const Study& study) {
     return parameter.key.starts_with("geometry.materials.") &&
            (parameter.key.ends_with(".formulation") ||
             parameter.key.ends_with(".static_modulus_ratio"));
+  });
+  const fs::path& source = study.structure ? study.structure->file() : study.geometry->script;
+  provenance.inputs.push_back({source.filename().string(), hash_of_file(source.string())});
+  return provenance;
+}
+
+Provenance modes_provenance(const Study& study) {
+  return provenance_of(study, {"geometry.", "mesh.", "modes.", "substructures.", "interface.",
+                               "body." + study.modes.attached_body + "."});
+}
+
+Provenance experiment_provenance(const Study& study) {
+  Provenance provenance = provenance_of(study);
+  std::erase_if(provenance.parameters, [](const Parameter& parameter) {
+    return std::any_of(kOfTheModes.begin(), kOfTheModes.end(),
+                       [&](const char* prefix) { return parameter.key.starts_with(prefix); });
   });
   return provenance;
 }

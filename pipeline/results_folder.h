@@ -17,6 +17,7 @@ class ResultsFolder {
 
   /// @throws InputError if the folder cannot be made.
   void make() const;
+  const std::filesystem::path& path() const { return path_; }
   std::filesystem::path mesh() const { return path_ / "mesh.h5"; }
   std::filesystem::path modes() const { return path_ / "modes.h5"; }
   /// Modes with the static moduli, where a material has one.
@@ -47,9 +48,14 @@ Provenance provenance_of(const std::vector<InputFile>& files,
 /// values whose key begins with one of the prefixes, such as "geometry." (all if there is none).
 Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes = {});
 
-/// The same for a mesh: what the study says of [geometry] and [mesh], save what only the solver
-/// asks of its materials.
+/// The same for a mesh: the script or file it is made of, and what the study says of [geometry] and
+/// [mesh], save what only the solver asks of its materials.
+/// @throws InputError if that file cannot be read.
 Provenance mesh_provenance(const Study& study);
+/// The same for the modes of a mesh.
+Provenance modes_provenance(const Study& study);
+/// The same for what is done with the modes.
+Provenance experiment_provenance(const Study& study);
 
 /// Refuses a file that was made with other values than the study has now.
 /// @throws InputError naming the first value that differs, and the command that makes the file.

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
+#include <vector>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -15,8 +15,9 @@
 
 namespace flexneck {
 
-std::string hash_of_text(const std::string& text) {
-  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+namespace {
+
+std::string digits_of(const XXH128_hash_t& hash) {
   std::array<char, 33> digits{};
   std::snprintf(digits.data(), digits.size(), "%016llx%016llx",
                 static_cast<unsigned long long>(hash.high64),
@@ -24,10 +25,24 @@ std::string hash_of_text(const std::string& text) {
   return digits.data();
 }
 
+}  // namespace
+
+std::string hash_of_text(const std::string& text) {
+  return digits_of(XXH3_128bits(text.data(), text.size()));
+}
+
 std::string hash_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path + ": cannot be read");
-  return hash_of_text({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  std::vector<char> block(1 << 18);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    XXH3_128bits_update(&state, block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) throw InputError(path + ": cannot be read");
+  return digits_of(XXH3_128bits_digest(&state));
 }
 
 namespace {

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 
+#include "pipeline/output/result_table.h"
+#include "pipeline/stages.h"
 #include "pipeline/text_table.h"
+#include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {
 
@@ -53,21 +56,77 @@ std::string origin_table(const Study& study) {
 
 }  // namespace
 
-bool run_command(const CommandInput& input) {
-  if (input.study.matrices) return modes_command(input);
-  if (input.study.structure) {  // the experiments below are the neck's
-    return mesh_command(input) && modes_command(input) && pictures_command(input);
+namespace {
+
+/// A stage of `run`. A command that returns false, or throws, has not made it.
+struct Stage {
+  std::string name;
+  Provenance from;
+  std::vector<std::string> after;
+  bool (*command)(const CommandInput&);
+};
+
+Provenance without_study_files(Provenance provenance, const Study& study) {
+  // A study's file changes with every value in it, which do not all matter to every stage.
+  std::erase_if(provenance.inputs, [&](const InputFile& input) {
+    return std::any_of(study.files.begin(), study.files.end(),
+                       [&](const InputFile& file) { return file.name == input.name; });
+  });
+  return provenance;
+}
+
+std::vector<Stage> stages_of(const Study& study) {
+  if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
+  std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
+                               {"modes", modes_provenance(study), {"mesh"}, modes_command},
+                               {"pictures", {}, {"mesh", "modes"}, pictures_command}};
+  if (study.structure) return stages;  // the experiments below are the neck's
+  const Provenance experiments = experiment_provenance(study);
+  Provenance everything = provenance_of(study);
+  if (!study.verification.empty()) {
+    everything.inputs.push_back(
+        {study.verification.filename().string(), hash_of_file(study.verification.string())});
   }
-  input.console.result("Inputs by origin: " + origin_counts(input.study) +
-                       "; 'flexneck study' lists them with their sources.\n" +
-                       origin_table(input.study));
-  mesh_command(input);
-  modes_command(input);
-  pictures_command(input);
-  static_command(input);
-  pendulum_command(input);
-  const bool passed = verify_command(input);
-  return report_command(input) && passed;
+  stages.push_back({"static", experiments, {"modes"}, static_command});
+  stages.push_back({"pendulum", experiments, {"modes"}, pendulum_command});
+  stages.push_back({"verify", everything, {"modes", "pendulum"}, verify_command});
+  stages.push_back({"report",
+                    everything,
+                    {"mesh", "modes", "pictures", "static", "pendulum", "verify"},
+                    report_command});
+  return stages;
+}
+
+void print_kept(const CommandInput& input, const std::string& stage) {
+  if (stage == "verify") {
+    const VerificationFile file = read_verification(input.folder.verification());
+    input.console.result("\n" + printed(file.table));
+  }
+  const std::filesystem::path tables = input.folder.file(stage + ".json");
+  if (!holds_tables(tables)) return;
+  for (const ResultTable& table : read_tables(tables).tables)
+    input.console.result("\n" + printed(table));
+}
+
+}  // namespace
+
+bool run_command(const CommandInput& input) {
+  const Study& study = input.study;
+  input.folder.make();
+  if (study.geometry) {
+    input.console.result("Inputs by origin: " + origin_counts(study) +
+                         "; 'flexneck study' lists them with their sources.\n" +
+                         origin_table(study));
+  }
+  Stages records(input.folder.path(), input.redo);
+  for (const Stage& stage : stages_of(study)) {
+    const bool made = records.make(stage.name, without_study_files(stage.from, study), stage.after,
+                                   [&] { stage.command(input); });
+    if (made) continue;
+    input.console.step("Nothing has changed for " + stage.name + ": kept");
+    print_kept(input, stage.name);
+  }
+  return !study.geometry || read_verification(input.folder.verification()).table.passed();
 }
 
 }  // namespace flexneck::pipeline

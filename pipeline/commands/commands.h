@@ -22,6 +22,7 @@ struct CommandInput {
   std::filesystem::path target = {};       ///< of export
   bool is_binary = false;                  ///< likewise
   const fe_modal::Ranks* ranks = nullptr;  ///< that mpirun has started; null: this process alone
+  bool redo = false;                       ///< of run: even what has not changed
 };
 
 /// A command returns true unless a verification failed; everything else is an exception.

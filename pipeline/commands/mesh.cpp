@@ -57,8 +57,6 @@ bool mesh_command(const CommandInput& input) {
   mesher::MeshFile file;
   file.mesh = mesher::mesh_script(mesh_options(geometry), input.console.detail());
   file.provenance = mesh_provenance(input.study);
-  file.provenance.inputs.push_back(
-      {geometry.script.filename().string(), hash_of_file(geometry.script.string())});
   finish_mesh(input, std::move(file), exact_volumes(geometry));
   return true;
 }

@@ -29,13 +29,11 @@ mesher::Mesh make_mesh(const StructureSection& structure, const Progress& progre
 
 bool mesh_structure(const CommandInput& input) {
   const StructureSection& structure = *input.study.structure;
-  const std::filesystem::path& source = structure.file();
   input.folder.make();
-  input.console.step("Meshing " + source.filename().string());
+  input.console.step("Meshing " + structure.file().filename().string());
   mesher::MeshFile file;
   file.mesh = make_mesh(structure, input.console.detail());
   file.provenance = mesh_provenance(input.study);
-  file.provenance.inputs.push_back({source.filename().string(), hash_of_file(source.string())});
   finish_mesh(input, std::move(file), {});
   return true;
 }

@@ -93,10 +93,8 @@ mesher::Mesh with_static_moduli(mesher::Mesh mesh, const MaterialModels& models)
   return mesh;
 }
 
-Provenance modes_provenance(const CommandInput& input) {
-  const std::string attached = "body." + input.study.modes.attached_body + ".";
-  Provenance provenance = provenance_of(
-      input.study, {"geometry.", "mesh.", "modes.", "substructures.", "interface.", attached});
+Provenance provenance_of_modes(const CommandInput& input) {
+  Provenance provenance = modes_provenance(input.study);
   provenance.inputs.push_back(
       {input.folder.mesh().filename().string(), hash_of_file(input.folder.mesh().string())});
   provenance.libraries = fe_modal::library_versions();
@@ -110,7 +108,7 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
   fe_modal::ModalBodyFile file;
   file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times);
   times.start("write");
-  file.provenance = modes_provenance(input);
+  file.provenance = provenance_of_modes(input);
   fe_modal::write_modal_body(path, file);
   fe_modal::write_modes_xdmf(path, input.folder.mesh(), mesh, file.body);
   times.stop();
@@ -162,7 +160,7 @@ bool modes_command(const CommandInput& input) {
                   body.certificate, mass_text(input.study, body.invariants.mass),
                   input.folder.modes().string(), body.solver, mode_table(body), basis_text(body)));
   solve_static(input, mesh.mesh, options);
-  write_substructures(input, mesh.mesh, options, modes_provenance(input));
+  write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
   return true;
 }
 

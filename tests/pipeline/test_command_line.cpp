@@ -80,6 +80,7 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
                                              "pendulum-lateral-65.h5",
                                              "pendulum.json",
                                              "report.html",
+                                             "stages.json",
                                              "static-flexion.csv",
                                              "static-flexion.h5",
                                              "static.json",
@@ -110,13 +111,25 @@ effective_damping = 1
   CHECK(json_of("first")["rows"][0]["value"] == json_of("second")["rows"][0]["value"]);
 
   // The provenance names the study file, so compare what was computed.
-  const CommandOutcome third = run_flexneck("run -o " + second + kCoarse);
+  const CommandOutcome third = run_flexneck("run --force -o " + second + kCoarse);
   CHECK(third.text.substr(0, third.text.find(second)) ==
         outcome.text.substr(0, outcome.text.find(first)));
   for (const std::string& name : expected) {
     INFO(name);
     CHECK(bytes_of(folder / ("first/" + name)) == bytes_of(folder / ("second/" + name)));
   }
+
+  // What has not changed is kept, its tables are shown again.
+  const CommandOutcome kept = run_flexneck("run -o " + second + kCoarse);
+  CHECK(kept.exit_code == outcome.exit_code);
+  CHECK_THAT(kept.text, Contains("Nothing has changed for report: kept") && !Contains("Meshing") &&
+                            Contains("Head/neck pendulum") && Contains("torsion 2"));
+  const CommandOutcome touched =
+      run_flexneck("run -o " + second + kCoarse + " --set case.flexion-60.duration='0.9 s'");
+  CHECK_THAT(touched.text, Contains("Nothing has changed for modes: kept") &&
+                               Contains("Head/neck pendulum: flexion-60") &&
+                               Contains("Writing the report"));
+  CHECK(bytes_of(folder / "first/modes.h5") == bytes_of(folder / "second/modes.h5"));
 }
 
 TEST_CASE("the mesh file holds the partitions and the order that the study asks for") {

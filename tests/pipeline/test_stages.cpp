@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/temporary_folder.h"
+#include "pipeline/stages.h"
+
+namespace flexneck::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+Provenance from(const std::string& value) {
+  Provenance provenance;
+  provenance.parameters = {{"length", value, Origin::synthetic, ""}};
+  return provenance;
+}
+
+/// Two stages, the second from what the first writes; tells which of them ran.
+std::string run(const fs::path& folder, const std::string& length, const std::string& mass,
+                bool redo = false) {
+  Stages stages(folder, redo);
+  std::string ran;
+  const auto first = [&] {
+    ran += "first ";
+    write(folder / "one.txt", "long: " + std::to_string(length.size()));
+    fs::create_directories(folder / "more");
+    write(folder / "more" / "two.txt", "always the same");
+  };
+  const auto second = [&] {
+    ran += "second";
+    write(folder / "three.txt", mass);
+  };
+  stages.make("first", from(length), {}, first);
+  stages.make("second", from(mass), {"first"}, second);
+  return ran;
+}
+
+}  // namespace
+
+TEST_CASE("a stage runs if what it is made from or what it wrote has changed, else not") {
+  const TemporaryFolder folder;
+  CHECK(run(folder.path(), "2 m", "5 kg") == "first second");
+  CHECK(run(folder.path(), "2 m", "5 kg").empty());
+  CHECK(run(folder.path(), "2 m", "6 kg") == "second");
+  // Another length, but the first stage writes the same: the second has nothing to do.
+  CHECK(run(folder.path(), "3 m", "6 kg") == "first ");
+  CHECK(run(folder.path(), "10 m", "6 kg") == "first second");
+  CHECK(run(folder.path(), "10 m", "6 kg", true) == "first second");
+
+  fs::remove(folder / "more" / "two.txt");
+  CHECK(run(folder.path(), "10 m", "6 kg") == "first ");
+  write(folder / "three.txt", "by hand");
+  CHECK(run(folder.path(), "10 m", "6 kg") == "second");
+  write(folder / "of_the_user.txt", "which no stage wrote");
+  CHECK(run(folder.path(), "10 m", "6 kg").empty());
+  write(folder / "stages.json", "{ half a");
+  CHECK(run(folder.path(), "10 m", "6 kg") == "first second");
+}
+
+TEST_CASE("a stage that was stopped is made again, those before it are kept") {
+  const TemporaryFolder folder;
+  int first = 0;
+  int second = 0;
+  bool stops = true;
+  const auto run_both = [&] {
+    Stages stages(folder.path(), false);
+    stages.make("first", from("1"), {}, [&] {
+      ++first;
+      write(folder / "one.txt", "one");
+    });
+    stages.make("second", from("2"), {"first"}, [&] {
+      ++second;
+      write(folder / "two.txt", "half");
+      if (stops) throw std::runtime_error("stopped");
+    });
+  };
+  CHECK_THROWS_WITH(run_both(), "stopped");
+  stops = false;
+  run_both();
+  run_both();
+  CHECK(first == 1);
+  CHECK(second == 2);
+}
+
+}  // namespace flexneck::pipeline
