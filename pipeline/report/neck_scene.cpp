@@ -7,12 +7,12 @@
 #include <limits>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/names.h"
 #include "mesher/drawing/outer_surface.h"
 #include "pipeline/report/embedding.h"
+#include "pipeline/report/head_shape.h"
 
 namespace flexneck::pipeline {
 
@@ -137,25 +137,13 @@ Json motion_json(const Experiment& experiment, const fe_modal::ModalBody& body) 
   return motion;
 }
 
-/// The ellipsoid of even density that has the head's mass and inertia.
 Json head_json(const Study& study) {
-  const auto body =
-      std::find_if(study.bodies.begin(), study.bodies.end(), [](const BodySection& each) {
-        return each.name == "head" && each.kind == BodySection::Kind::rigid;
-      });
-  if (body == study.bodies.end()) return nullptr;
-  const multibody::RigidBody& head = body->rigid;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(head.inertia_kg_m2);
-  const Eigen::Vector3d inertia = principal.eigenvalues();
-  // I_x = m (b^2 + c^2) / 5 and so on, so a^2 = 5 (I_y + I_z - I_x) / (2 m).
-  const Eigen::Vector3d axes_m =
-      ((inertia.sum() - 2 * inertia.array()) * 2.5 / head.mass_kg).max(0).sqrt();
-  Eigen::Matrix3d turn = principal.eigenvectors();
-  if (turn.determinant() < 0) turn.col(0) *= -1;
-  const Eigen::Quaterniond rotation(turn);
-  return {{"centre", std::vector<double>(head.center_m.begin(), head.center_m.end())},
-          {"semiAxes", std::vector<double>(axes_m.begin(), axes_m.end())},
-          {"rotation", {rotation.w(), rotation.x(), rotation.y(), rotation.z()}}};
+  const std::optional<HeadShape> head = head_shape(study);
+  if (!head) return nullptr;
+  const Eigen::Quaterniond& q = head->rotation;
+  return {{"centre", std::vector<double>(head->centre_m.begin(), head->centre_m.end())},
+          {"semiAxes", std::vector<double>(head->semi_axes_m.begin(), head->semi_axes_m.end())},
+          {"rotation", {q.w(), q.x(), q.y(), q.z()}}};
 }
 
 }  // namespace

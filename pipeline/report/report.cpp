@@ -5,6 +5,7 @@
 
 #include "pipeline/report/curves.h"
 #include "pipeline/report/embedding.h"
+#include "pipeline/report/figures/figures.h"
 #include "pipeline/report/neck_scene.h"
 #include "pipeline/report/page_sections.h"
 #include "pipeline/report/paper_context.h"
@@ -39,6 +40,8 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   const nlohmann::ordered_json scene = scene_of(results, study);
   const nlohmann::ordered_json curves = curves_of(results, context.corridors);
   std::map<std::string, std::string> texts = page_sections(results, study, context);
+  texts["figures"] =
+      figures_html(draw_figures(results, study, context, path.parent_path() / "figures"));
   texts["style"] = text_of_file(page_part("report.css"));
   texts["scene"] = scene.is_null() ? "" : text_of_file(page_part("scene.html"));
   texts["plots"] = curves.is_null() ? "" : text_of_file(page_part("plots.html"));

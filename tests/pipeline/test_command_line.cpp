@@ -62,7 +62,8 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
   INFO(outcome.text);
   REQUIRE((outcome.exit_code == 0 || outcome.exit_code == 1));  // coarse: may miss a frequency
   CHECK_THAT(outcome.text, Contains("bending 1") && Contains("torsion 2") && Contains("published"));
-  const std::vector<std::string> expected = {"mesh.h5",
+  const std::vector<std::string> expected = {"figures",
+                                             "mesh.h5",
                                              "mesh.png",
                                              "mesh.xdmf",
                                              "mesh_view.h5",

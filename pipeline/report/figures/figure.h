@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace flexneck::pipeline {
+
+/// A figure of the paper, ready to be drawn.
+struct Figure {
+  int number = 0;            ///< of its caption
+  std::string caption = {};  ///< the paper's
+  std::string remark = {};   ///< how the text counts it, what it shows here and what it cannot show
+  std::string csv = {};      ///< what is drawn
+  std::string script = {};  ///< gnuplot commands that draw it from the CSV, which they call by name
+  std::string missing = {};  ///< why it is not drawn; empty if it is
+};
+
+/// "figure-07"
+std::string stem_of(const Figure& figure);
+
+/// A text in single quotes for gnuplot: enhanced text and quotes in it mean nothing.
+std::string gnuplot_text(const std::string& text);
+
+/// Beginning of every script: size, fonts and the name of the picture.
+std::string script_head(const Figure& figure, int width, int height);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/report/figures/figure.h"
+#include "pipeline/report/paper_context.h"
+#include "pipeline/report/results.h"
+
+namespace flexneck::pipeline {
+
+/// A figure with its picture.
+struct DrawnFigure {
+  Figure figure;
+  std::string svg;  ///< empty if it is not drawn
+};
+
+/// The paper's figures by the numbers of its captions, drawn by gnuplot as far as there is
+/// something to draw. Each becomes figure-NN.svg and figure-NN.csv in `folder`; those of another
+/// run that cannot be drawn now are removed. None for another structure than the neck.
+/// @throws InputError if gnuplot is missing, with its package's name, or a file cannot be written.
+std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study,
+                                      const PaperContext& context,
+                                      const std::filesystem::path& folder);
+
+/// The figures for the page, each with its caption and remarks.
+std::string figures_html(const std::vector<DrawnFigure>& figures);
+
+}  // namespace flexneck::pipeline

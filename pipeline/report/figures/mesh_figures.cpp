@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/figures/mesh_figures.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <fmt/core.h>
+
+#include "geometry/foundation/units.h"
+#include "mesher/mesh/skin.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// More sides than this make a picture for papers too large; mesh.png shows them.
+constexpr std::size_t kMostSides = 6000;
+/// Largest displacement of a mode as it is drawn, over the length of the body.
+constexpr double kAmplitude = 0.2;
+/// gnuplot's "set view": about the picture's horizontal, then about z, degrees.
+constexpr double kTilt = 68;
+constexpr double kTurn = 35;
+
+Eigen::Vector3d towards_eye() {
+  const double tilt = kTilt * std::numbers::pi / 180;
+  const double turn = kTurn * std::numbers::pi / 180;
+  return {std::sin(tilt) * std::sin(turn), -std::sin(tilt) * std::cos(turn), std::cos(tilt)};
+}
+
+/// The corners of a side as gnuplot's surfaces want them, two rows of two; a triangle has one
+/// twice.
+std::array<std::int32_t, 4> grid_corners(const mesher::ElementSide& side) {
+  const bool is_triangle = mesher::shape_of(side.kind) == mesher::ReferenceShape::triangle;
+  const auto& n = side.nodes;
+  return {n[0], n[1], is_triangle ? n[2] : n[3], n[2]};
+}
+
+struct Skin {
+  const mesher::Mesh& mesh;
+  std::vector<mesher::ElementSide> sides;
+};
+
+/// Sides of the skin that the eye sees, moved, each with a value at its corners.
+/// @param value_of  of a node on a side
+template <class ValueOf>
+std::string csv_of(const Skin& skin, const Eigen::Matrix3Xd& positions_m, const std::string& what,
+                   const ValueOf& value_of) {
+  const double inch = factor_from_si("m", "in");
+  const Eigen::Vector3d eye = towards_eye();
+  std::string csv = "x [in],y [in],z [in]," + what + "\n";
+  bool is_first = true;
+  for (const mesher::ElementSide& side : skin.sides) {
+    const std::array<std::int32_t, 4> corners = grid_corners(side);
+    const Eigen::Vector3d along = positions_m.col(corners[3]) - positions_m.col(corners[0]);
+    const Eigen::Vector3d across = positions_m.col(corners[2]) - positions_m.col(corners[1]);
+    if (along.cross(across).dot(eye) < 0) continue;
+    if (!is_first) csv += "\n\n";
+    is_first = false;
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (c == 2) csv += "\n";
+      const Eigen::Vector3d point = inch * positions_m.col(corners[c]);
+      csv += fmt::format("{:.5g},{:.5g},{:.5g},{:.4g}\n", point.x(), point.y(), point.z(),
+                         value_of(corners[c], side));
+    }
+  }
+  return csv;
+}
+
+Eigen::Matrix3Xd positions_of(const mesher::Mesh& mesh) {
+  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    positions.col(static_cast<Eigen::Index>(n)) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[n].data());
+  }
+  return positions;
+}
+
+/// Axes of equal length about the middle: both figures have the same scale.
+std::string ranges(const Eigen::Matrix3Xd& positions_m) {
+  const double inch = factor_from_si("m", "in");
+  const Eigen::Vector3d low = inch * positions_m.rowwise().minCoeff();
+  const Eigen::Vector3d high = inch * positions_m.rowwise().maxCoeff();
+  const Eigen::Vector3d middle = (low + high) / 2;
+  const double half = (high - low).maxCoeff() / 2;
+  std::string script;
+  for (int axis = 0; axis < 3; ++axis) {
+    script += fmt::format("set {}range [{:.5g}:{:.5g}]\n", "xyz"[axis], middle[axis] - half,
+                          middle[axis] + half);
+  }
+  return script;
+}
+
+std::string surface_script(const Figure& figure, const Eigen::Matrix3Xd& positions_m,
+                           const std::string& palette) {
+  return script_head(figure, 560, 620) + ranges(positions_m) +
+         fmt::format(
+             "set view {},{},1.35,1\nset view equal xyz\nunset border\nunset tics\nunset key\n"
+             "{}set pm3d depthorder corners2color mean border lc rgb '#202020' lw 0.4\n"
+             "splot '{}.csv' skip 1 using 1:2:3:4 with pm3d notitle\n",
+             kTilt, kTurn, palette, stem_of(figure));
+}
+
+Figure mesh_figure(const Skin& skin) {
+  Figure figure{3, "Hybrid III finite element mesh"};
+  std::size_t elements = 0;
+  for (const mesher::ElementBlock& block : skin.mesh.blocks) elements += block.size();
+  figure.remark = fmt::format(
+      "{} elements and {} nodes; 'flexneck mesh --preset paper' makes as many as the paper has. "
+      "Light: {}.",
+      elements, skin.mesh.nodes.size(), skin.mesh.materials.front().name);
+  figure.csv = csv_of(skin, positions_of(skin.mesh), "material",
+                      [&](std::int32_t, const mesher::ElementSide& side) {
+                        return static_cast<double>(skin.mesh.blocks[side.block].material);
+                      });
+  figure.script = surface_script(
+      figure, positions_of(skin.mesh),
+      "set palette defined (0 '#d5dbe0', 1 '#7d8794')\nset cbrange [0:1]\nunset colorbox\n");
+  return figure;
+}
+
+Figure mode_figure(const Skin& skin, const fe_modal::ModalBody& body) {
+  Figure figure{4, "Hybrid III first mode shape (36.1 Hz)"};
+  const Eigen::Matrix3Xd& shape = body.shapes.front();
+  const Eigen::VectorXd size = shape.colwise().norm();
+  const Eigen::Vector3d extent =
+      body.nodes_m.rowwise().maxCoeff() - body.nodes_m.rowwise().minCoeff();
+  const Eigen::Matrix3Xd moved =
+      body.nodes_m + kAmplitude * extent.maxCoeff() / size.maxCoeff() * shape;
+  figure.remark = fmt::format("Here {:.2f} Hz, {}. Colour: displacement, its largest 1.",
+                              body.frequencies_Hz[0], body.modes.front().name);
+  figure.csv = csv_of(
+      skin, moved, "displacement",
+      [&](std::int32_t node, const mesher::ElementSide&) { return size[node] / size.maxCoeff(); });
+  figure.script = surface_script(
+      figure, moved,
+      "set palette defined (0 '#440154', 0.2 '#414487', 0.4 '#2a788e', 0.6 '#22a884', 0.8 "
+      "'#7ad151', 1 '#fde725')\nset cbrange [0:1]\nset colorbox size 0.02,0.4\n");
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> mesh_figures(const Results& results) {
+  std::vector<Figure> figures = {{3, "Hybrid III finite element mesh"},
+                                 {4, "Hybrid III first mode shape (36.1 Hz)"}};
+  if (!results.mesh) {
+    for (Figure& figure : figures) figure.missing = "the mesh";
+    return figures;
+  }
+  const Skin skin{*results.mesh, mesher::outer_sides(*results.mesh)};
+  if (skin.sides.size() > kMostSides) {
+    for (Figure& figure : figures) {
+      figure.missing = "a coarser mesh: this one is too fine for lines; see mesh.png and modes.png";
+    }
+    return figures;
+  }
+  figures[0] = mesh_figure(skin);
+  const bool has_modes =
+      results.modes && !results.modes->shapes.empty() &&
+      results.modes->nodes_m.cols() == static_cast<Eigen::Index>(skin.mesh.nodes.size());
+  if (has_modes) {
+    figures[1] = mode_figure(skin, *results.modes);
+  } else {
+    figures[1].missing = "the modes of this mesh";
+  }
+  return figures;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/figures/neck_drawings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/names.h"
+#include "geometry/foundation/units.h"
+#include "pipeline/report/figures/neck_outline.h"
+#include "pipeline/report/head_shape.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+const char* const kThin = "lw 1 lc rgb '#555555'";
+const char* const kDashed = "lw 1.2 dt (5,4) lc rgb '#808890'";
+const char* const kVector = "lw 2 lc rgb '#0072b2'";
+const char* const kForce = "lw 3 lc rgb '#d55e00'";
+
+double inches(double metres) { return metres * factor_from_si("m", "in"); }
+
+Matrix2d turned(double angle_rad) {
+  Matrix2d turn;
+  turn << std::cos(angle_rad), -std::sin(angle_rad), std::sin(angle_rad), std::cos(angle_rad);
+  return turn;
+}
+
+Drawing::Shape line(const std::string& name, const Vector2d& from, const Vector2d& to,
+                    const std::string& style) {
+  Drawing::Shape shape{name, Drawing::Points(2, 2), "", style};
+  shape.points << from, to;
+  return shape;
+}
+
+Drawing::Shape box(const std::string& name, double left, double right, double bottom, double top,
+                   const std::string& fill) {
+  Drawing::Shape shape{name, Drawing::Points(2, 5), fill};
+  shape.points << left, right, right, left, left, bottom, bottom, top, top, bottom;
+  return shape;
+}
+
+void append(std::vector<Drawing::Shape>& to, std::vector<Drawing::Shape> from) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+/// Axes of a frame with their names.
+void add_frame(Drawing& drawing, const Vector2d& origin, const Matrix2d& axes, double length,
+               const std::string& x, const std::string& z) {
+  for (int k = 0; k < 2; ++k) {
+    const Vector2d end = origin + length * axes.col(k);
+    drawing.arrows.push_back({origin, end, "lw 1.6 lc rgb '#222222'"});
+    drawing.labels.push_back({k == 0 ? x : z, end + 0.25 * axes.col(k), "center"});
+  }
+}
+
+Figure kinematics(const Results& results, const GeometrySection& geometry) {
+  Figure figure{1, "Kinematics of a deformable body",
+                "The neck as the deformable body, its first mode as the deformation."};
+  if (!results.modes) {
+    figure.missing = "the modes";
+    return figure;
+  }
+  const fe_modal::ModalBody& body = *results.modes;
+  const double length = geometry.neck.length;
+  const Vector3d tip_shape = body.interface("top").translation.col(0);
+  const double amplitude = 0.22 * length / tip_shape.norm();
+  const NeckOutline undeformed(geometry.neck);
+  NeckOutline deformed = undeformed;
+  deformed.deform(body, {0}, Eigen::VectorXd::Constant(1, amplitude));
+
+  const Matrix2d turn = turned(-0.35);
+  const Vector2d origin(5, 2.5);
+  const Vector2d joint(inches(geometry.joint_point_m.x()), inches(geometry.joint_point_m.z()));
+  const Vector2d moved = joint + inches(amplitude) * Vector2d(tip_shape.x(), tip_shape.z());
+  Drawing drawing;
+  drawing.unit = "in";
+  drawing.shapes = deformed.shapes(turn, origin);
+  append(drawing.shapes, undeformed.lines(turn, origin, " undeformed", kDashed));
+  const Vector2d before = origin + turn * joint;
+  const Vector2d after = origin + turn * moved;
+  add_frame(drawing, Vector2d::Zero(), Matrix2d::Identity(), 2, "X", "Z");
+  add_frame(drawing, origin, turn, 2.2, "x", "z");
+  drawing.arrows.push_back({Vector2d::Zero(), origin, kVector});
+  drawing.arrows.push_back({origin, before, kVector});
+  drawing.arrows.push_back({before, after, kForce});
+  drawing.arrows.push_back({Vector2d::Zero(), after, "lw 1.2 dt (5,4) lc rgb '#0072b2'"});
+  drawing.labels.push_back({"x", origin / 2 + Vector2d(0.2, -0.35)});
+  drawing.labels.push_back({"s_k0", origin + 0.62 * (before - origin) + Vector2d(-1.1, 0)});
+  drawing.labels.push_back({"u = Ψ a", (before + after) / 2 + Vector2d(-0.2, 0.4), "center"});
+  drawing.labels.push_back({"node k", after + Vector2d(0.25, 0.1)});
+  drawing.labels.push_back({"x_k", after / 2 + Vector2d(-0.3, 0.4), "right"});
+  draw(drawing, figure);
+  return figure;
+}
+
+Figure section(const GeometrySection& geometry) {
+  Figure figure{2, "Hybrid III manikin neck",
+                "Section in the plane of symmetry, front to the right; light: aluminium, dark: "
+                "rubber. Dimensions that the paper does not state are inferred or fitted."};
+  Drawing drawing;
+  drawing.unit = "in";
+  drawing.height = 620;
+  drawing.shapes = NeckOutline(geometry.neck).shapes(Matrix2d::Identity(), Vector2d::Zero());
+  const double hole = inches(geometry.neck.hole_diameter / 2);
+  const double top = inches(geometry.neck.length);
+  drawing.shapes.push_back(box("hole", -hole, hole, 0, top, "#ffffff"));
+  double right = 0;
+  for (const geometry::NeckLayer& layer : geometry::layers_of(geometry.neck)) {
+    right = std::max(right, inches(layer.offset_m + layer.diameter_m / 2));
+  }
+  for (const geometry::NeckLayer& layer : geometry::layers_of(geometry.neck)) {
+    const double height = inches(layer.bottom_m + layer.thickness_m / 2);
+    drawing.shapes.push_back(line(layer.part + " leader",
+                                  {inches(layer.offset_m + layer.diameter_m / 2), height},
+                                  {right + 0.25, height}, "lw 0.8 lc rgb '#888888'"));
+    drawing.labels.push_back({fmt::format("{}: {:.3f} in, Ø {:.3f} in", layer.part,
+                                          inches(layer.thickness_m), inches(layer.diameter_m)),
+                              {right + 0.35, height}});
+  }
+  drawing.labels.push_back({"", {right + 3.6, top / 2}});  // room for the names
+  drawing.arrows.push_back({{-right - 0.4, 0}, {-right - 0.4, top}, "lw 1 lc rgb '#222222'", true});
+  drawing.labels.push_back({fmt::format("{:.2f} in", top), {-right - 0.5, top / 2}, "right"});
+  drawing.labels.push_back({"", {-right - 1.7, top / 2}});
+  draw(drawing, figure);
+  return figure;
+}
+
+/// Modes of a run among the body's, and their coordinates at a time.
+struct Bent {
+  std::vector<Eigen::Index> modes;
+  Eigen::VectorXd coordinates;
+};
+
+std::optional<Bent> bent_at(const multibody::History& history, const fe_modal::ModalBody& body,
+                            Eigen::Index time) {
+  if (history.modal.size() != 1) return {};
+  const std::vector<std::string> names = names_of(body.modes);
+  Bent bent{{}, history.modal.front().coordinates.col(time)};
+  for (const std::string& mode : history.modal.front().modes) {
+    const auto found = std::find(names.begin(), names.end(), mode);
+    if (found == names.end()) return {};
+    bent.modes.push_back(found - names.begin());
+  }
+  return bent;
+}
+
+/// Where the body's modes put the joint point, inches, in the plane.
+Vector2d joint_of(const fe_modal::ModalBody& body, const Bent& bent) {
+  const fe_modal::Interface& top = body.interface("top");
+  Vector3d point = top.position_m;
+  for (std::size_t m = 0; m < bent.modes.size(); ++m) {
+    point += bent.coordinates[static_cast<Eigen::Index>(m)] * top.translation.col(bent.modes[m]);
+  }
+  return {inches(point.x()), inches(point.z())};
+}
+
+/// Rotation of the joint's frame about y, rad, positive forward.
+double tip_angle(const fe_modal::ModalBody& body, const Bent& bent) {
+  const fe_modal::Interface& top = body.interface("top");
+  double angle = 0;
+  for (std::size_t m = 0; m < bent.modes.size(); ++m) {
+    angle += bent.coordinates[static_cast<Eigen::Index>(m)] * top.rotation(1, bent.modes[m]);
+  }
+  return angle;
+}
+
+Figure static_tester(const Results& results, const GeometrySection& geometry) {
+  Figure figure{5, "Static test neck model",
+                "Clamped at the base, loaded at the occipital condyles; drawn at the end of the "
+                "ramp, dashed without load. The load keeps its direction in space."};
+  const Experiment* const run = results.find(Experiment::Kind::static_test, "flexion");
+  if (run == nullptr || !results.modes) {
+    figure.missing = "the static test 'flexion' and the modes";
+    return figure;
+  }
+  const multibody::History& history = run->file.history;
+  const auto bent = bent_at(history, *results.modes, history.time_s.size() - 1);
+  if (!bent) {
+    figure.missing = "a static test 'flexion' with these modes";
+    return figure;
+  }
+  const NeckOutline undeformed(geometry.neck);
+  NeckOutline deformed = undeformed;
+  deformed.deform(*results.modes, bent->modes, bent->coordinates);
+  Drawing drawing;
+  drawing.unit = "in";
+  drawing.shapes.push_back(box("bench", -3.2, 3.2, -0.5, 0, "#f0f0f0"));
+  append(drawing.shapes, deformed.shapes(Matrix2d::Identity(), Vector2d::Zero()));
+  append(drawing.shapes,
+         undeformed.lines(Matrix2d::Identity(), Vector2d::Zero(), " undeformed", kDashed));
+  const Vector2d joint = joint_of(*results.modes, *bent);
+  drawing.arrows.push_back({joint, joint + Vector2d(2.6, 0), kForce});
+  drawing.labels.push_back({"F", joint + Vector2d(2.8, 0)});
+  drawing.labels.push_back({"clamped", {0, -0.25}, "center"});
+  add_frame(drawing, {-4.6, 0}, Matrix2d::Identity(), 1.2, "x", "z");
+  draw(drawing, figure);
+  return figure;
+}
+
+/// The time at which the head is farthest from where it hangs at rest, against the arm.
+Eigen::Index farthest(const multibody::History& history) {
+  const auto& top = history.marker("neck.top").position_m;
+  const auto& base = history.marker("neck.base").position_m;
+  const Eigen::Matrix3Xd chord = top - base;
+  Eigen::Index time = 0;
+  (chord.colwise() - chord.col(0)).colwise().norm().maxCoeff(&time);
+  return time;
+}
+
+/// The pendulum as it hangs: what points up in the neck's frame points down.
+Drawing pendulum_drawing(const fe_modal::ModalBody& body, const GeometrySection& geometry,
+                         const Bent& bent, const HeadShape& head) {
+  Matrix2d hanging = Matrix2d::Identity();
+  hanging(1, 1) = -1;
+  NeckOutline neck(geometry.neck);
+  neck.deform(body, bent.modes, bent.coordinates);
+  const Vector2d joint = hanging * joint_of(body, bent);
+  const double phi = tip_angle(body, bent);
+  const double phi_neck = std::atan2(joint.x(), -joint.y());
+
+  Drawing drawing;
+  drawing.unit = "in";
+  drawing.height = 640;
+  drawing.shapes.push_back(box("arm", -1.2, 1.2, 0, 5, "#c5ccd3"));
+  append(drawing.shapes, neck.lines(hanging, Vector2d::Zero(), "", kThin));
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(phi, Vector3d::UnitY()).toRotationMatrix();
+  const Vector3d centre = tilt * head.centre_m;
+  const Vector2d centre_in = joint + hanging * Vector2d(inches(centre.x()), inches(centre.z()));
+  drawing.shapes.push_back(
+      {"head", (inches(1) * hanging * outline_along_y(head, tilt)).colwise() + centre_in, "",
+       kThin});
+
+  const Vector2d down(0, -1);
+  const Vector2d axis(std::sin(phi), -std::cos(phi));
+  drawing.shapes.push_back(line("axis of the arm", {0, 0}, 1.45 * joint.norm() * down, kDashed));
+  drawing.shapes.push_back(line("chord of the neck", {0, 0}, joint, kVector));
+  drawing.shapes.push_back(line("parallel to the arm", joint, joint + 5.2 * down, kDashed));
+  drawing.arrows.push_back({joint, joint + 5.2 * axis, kForce});
+  const double pi = std::numbers::pi;
+  drawing.shapes.push_back({"phi'", arc({0, 0}, 4.2, pi, pi - phi_neck), "", kVector});
+  drawing.shapes.push_back({"phi", arc(joint, 3.6, pi, pi - phi), "", "lw 2 lc rgb '#d55e00'"});
+  drawing.labels.push_back(
+      {"φ′", 4.75 * Vector2d(std::sin(phi_neck / 2), -std::cos(phi_neck / 2)), "center"});
+  drawing.labels.push_back(
+      {"φ", joint + 4.15 * Vector2d(std::sin(phi / 2), -std::cos(phi / 2)), "center"});
+  drawing.labels.push_back({"pendulum arm", {1.5, 3.5}});
+  drawing.labels.push_back({"j1", {-2.3, 0.1}, "right"});
+  drawing.labels.push_back({"j2", joint + Vector2d(-1.9, -0.6), "right"});
+  drawing.labels.push_back({"c.g.", centre_in + Vector2d(0.25, 0)});
+  drawing.shapes.push_back(
+      {"centre of gravity",
+       (0.12 * Drawing::Points(arc({0, 0}, 1, 0, 2 * pi))).colwise() + centre_in, "#222222"});
+  drawing.arrows.push_back({{-4.2, 3.5}, {-2.2, 3.5}, "lw 2 lc rgb '#222222'"});
+  drawing.labels.push_back({"motion", {-4.2, 4.1}});
+  return drawing;
+}
+
+Figure pendulum(const Results& results, const Study& study) {
+  Figure figure{7, "Head/Neck Pendulum test model",
+                "Neck rotation φ′: of the line from base to occipital condyles against the arm; "
+                "head rotation φ: of the head against the arm. Both joints are fixed, so both come "
+                "from the neck's deformation alone."};
+  const auto run = std::find_if(
+      results.experiments.begin(), results.experiments.end(), [](const Experiment& each) {
+        return each.kind == Experiment::Kind::pendulum && each.name.starts_with("flexion") &&
+               each.name.find("60") != std::string::npos;
+      });
+  const auto head = head_shape(study);
+  if (run == results.experiments.end() || !results.modes || !head) {
+    figure.missing = "the pendulum's case flexion-60, the modes and a head";
+    return figure;
+  }
+  const multibody::History& history = run->file.history;
+  const Eigen::Index time = farthest(history);
+  const auto bent = bent_at(history, *results.modes, time);
+  if (!bent) {
+    figure.missing = "a run of the pendulum with these modes";
+    return figure;
+  }
+  figure.remark += fmt::format(" Drawn: {} at {:.0f} ms.", run->name, 1e3 * history.time_s[time]);
+  draw(pendulum_drawing(*results.modes, *study.geometry, *bent, *head), figure);
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> neck_drawings(const Results& results, const Study& study) {
+  if (!study.geometry) return {};
+  return {kinematics(results, *study.geometry), section(*study.geometry),
+          static_tester(results, *study.geometry), pendulum(results, study)};
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "pipeline/report/figures/figure.h"
+#include "pipeline/report/results.h"
+
+namespace flexneck::pipeline {
+
+/// Figures 1, 2, 5 and 7: what the paper draws, from the study's dimensions and the motions that
+/// were computed. None of them for another structure than the neck.
+std::vector<Figure> neck_drawings(const Results& results, const Study& study);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "pipeline/report/figures/figure.h"
+#include "pipeline/report/paper_context.h"
+#include "pipeline/report/results.h"
+
+namespace flexneck::pipeline {
+
+/// Figures 6 and 8 to 16: what the experiments gave, beside it their variants as far as they were
+/// run.
+std::vector<Figure> response_figures(const Results& results, const PaperContext& context);
+
+}  // namespace flexneck::pipeline
