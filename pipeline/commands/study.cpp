@@ -11,6 +11,10 @@ bool study_command(const CommandInput& input) {
         {parameter.key, parameter.value, std::string(name_of(parameter.origin)), parameter.note});
   }
   input.console.result(text_table(rows, {0, 1, 2, 3}));
+  std::vector<std::vector<std::string>> defaults = {{"not given", "then"}};
+  for (const Parameter& parameter : input.study.defaults)
+    defaults.push_back({parameter.key, parameter.value});
+  input.console.result("\n" + text_table(defaults, {0, 1}));
   return true;
 }
 

@@ -18,16 +18,15 @@ geometry::NeckParameters read_neck(const StudyTable& table) {
 
 geometry::SlitState read_slit_state(const StudyTable& table) {
   using geometry::SlitState;
-  if (!table.has("slits")) return SlitState::none;
   constexpr std::array kStates = {SlitState::none, SlitState::closed, SlitState::open};
-  return kStates.at(choice(table, "slits", {"none", "closed", "open"}));
+  return kStates.at(choice_or_first(table, "slits", {"none", "closed", "open"}));
 }
 
 geometry::NeckSlits read_slits(const StudyTable& table) {
   geometry::NeckSlits slits;
   slits.state = read_slit_state(table);
   if (table.has("slit_parts")) slits.parts = table.texts("slit_parts");
-  if (table.has("slit_edge") && choice(table, "slit_edge", {"ring", "chord"}) == 1) {
+  if (choice_or_first(table, "slit_edge", {"ring", "chord"}) == 1) {
     table.refuse("slit_edge",
                  "the neck's O-grid has rings and spokes but no straight chord that a slit could "
                  "end on; take \"ring\", or a script of your own that draws one");
@@ -38,10 +37,9 @@ geometry::NeckSlits read_slits(const StudyTable& table) {
 
 mesher::ElementKind read_element(const StudyTable& table) {
   using mesher::ElementKind;
-  if (!table.has("element")) return ElementKind::hex27;
   constexpr std::array kKinds = {ElementKind::hex27, ElementKind::hex20, ElementKind::hex8,
                                  ElementKind::tet10};
-  return kKinds.at(choice(table, "element", {"hex27", "hex20", "hex8", "tet10"}));
+  return kKinds.at(choice_or_first(table, "element", {"hex27", "hex20", "hex8", "tet10"}));
 }
 
 geometry::NeckDivisions read_divisions(const StudyTable& table) {
@@ -99,8 +97,7 @@ void read_script_options(const StudyTable& geometry, const StudyTable& mesh,
                          mesher::ScriptMeshOptions& options) {
   if (mesh.has("element")) options.element = read_element(mesh);
   const geometry::SlitState state = read_slit_state(geometry);
-  std::vector<std::string> faces;
-  if (geometry.has("slit_faces")) faces = geometry.texts("slit_faces");
+  const std::vector<std::string> faces = geometry.texts_or_none("slit_faces");
   if (state == geometry::SlitState::none) return;
   if (faces.empty()) {
     geometry.refuse("slit_faces",
@@ -117,7 +114,7 @@ GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh
   section.slits = read_slits(geometry);
   const std::vector<double> point = geometry.quantities("joint_point", "m", 3);
   section.joint_point_m = Eigen::Map<const Eigen::Vector3d>(point.data());
-  if (geometry.has("fitted_to")) section.fitted_to = geometry.texts("fitted_to");
+  section.fitted_to = geometry.texts_or_none("fitted_to");
   section.material_models = read_materials(geometry, section.materials, section.material_of_part);
   geometry.finish();
   section.divisions = read_divisions(mesh);

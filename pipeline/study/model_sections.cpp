@@ -17,6 +17,11 @@ std::size_t choice(const StudyTable& table, const std::string& key,
   table.refuse(key, expected + ", found \"" + name + "\"" + did_you_mean(names, name));
 }
 
+std::size_t choice_or_first(const StudyTable& table, const std::string& key,
+                            const std::vector<std::string>& names) {
+  return table.text_or(key, names.front()) == names.front() ? 0 : choice(table, key, names);
+}
+
 Eigen::Vector3d unit_vector(const StudyTable& table, const std::string& key) {
   const std::vector<double> numbers = table.numbers(key, 3);
   const Eigen::Vector3d vector = Eigen::Map<const Eigen::Vector3d>(numbers.data());

@@ -29,9 +29,7 @@ MeshOrders read_mesh_orders(const StudyTable& mesh) {
       orders.partitions.push_back(static_cast<int>(count));
     }
   }
-  if (mesh.has("node_order")) {
-    orders.node_order = choice(mesh, "node_order", {"none", "nested-dissection"}) == 1;
-  }
+  orders.node_order = choice_or_first(mesh, "node_order", {"none", "nested-dissection"}) == 1;
   return orders;
 }
 
@@ -58,22 +56,18 @@ ModesSection read_modes(const StudyTable& table) {
   modes.count = table.count_or("count", 1, modes.count);
   if (table.has("formulation")) modes.formulation = read_formulation(table);
   modes.certify = table.flag_or("certify", modes.certify);
-  if (table.has("basis")) {
-    modes.basis = static_cast<fe_modal::BasisKind>(choice(table, "basis", fe_modal::basis_names()));
-  }
-  if (table.has("rigid_interfaces")) modes.rigid_interfaces = table.texts("rigid_interfaces");
-  if (table.has("basis_interfaces")) modes.basis_interfaces = table.texts("basis_interfaces");
-  if (table.has("stress_stiffening")) {
-    modes.stress_stiffening = choice(table, "stress_stiffening", {"none", "unit-loads"}) == 1;
-  }
-  if (table.has("solver")) {
-    modes.solver = choice(table, "solver", {"direct", "iterative"}) == 0
-                       ? fe_modal::Solver::direct
-                       : fe_modal::Solver::iterative;
-  }
-  if (table.has("held")) modes.held = table.texts("held");
+  modes.basis =
+      static_cast<fe_modal::BasisKind>(choice_or_first(table, "basis", fe_modal::basis_names()));
+  modes.rigid_interfaces = table.texts_or_none("rigid_interfaces");
+  modes.basis_interfaces = table.texts_or_none("basis_interfaces");
+  modes.stress_stiffening =
+      choice_or_first(table, "stress_stiffening", {"none", "unit-loads"}) == 1;
+  modes.solver = choice_or_first(table, "solver", {"direct", "iterative"}) == 0
+                     ? fe_modal::Solver::direct
+                     : fe_modal::Solver::iterative;
+  modes.held = table.texts_or_none("held");
   modes.held_directions = read_held_directions(table.table("held_directions"));
-  if (table.has("rigid_parts")) modes.rigid_parts = table.texts("rigid_parts");
+  modes.rigid_parts = table.texts_or_none("rigid_parts");
   modes.attached_body = table.text_or("attached_body", "");
   modes.attached_to = table.text_or("attached_to", "");
   table.finish();
@@ -230,6 +224,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   check_references(study);
   study.files = document.files();
   study.parameters = document.parameters();
+  study.defaults = document.defaults();
   forget_fit_of_changed_neck(study);
   return study;
 }

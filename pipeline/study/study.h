@@ -141,6 +141,7 @@ struct Study {
 
   std::vector<InputFile> files;
   std::vector<Parameter> parameters;
+  std::vector<Parameter> defaults;  ///< what holds for keys that the study does not give
 
   const BodySection& body(const std::string& name) const;
   const MaterialModels& material_models() const;

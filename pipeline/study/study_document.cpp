@@ -16,15 +16,24 @@
 
 namespace flexneck::pipeline {
 
+namespace {
+
+struct Records {
+  std::vector<Parameter> parameters;  ///< read
+  std::vector<Parameter> defaults;    ///< asked for, but not there
+};
+
+}  // namespace
+
 struct StudyDocument::Impl {
   toml::table root;
   std::vector<InputFile> files;
-  std::vector<Parameter> parameters;
+  Records records;
 };
 
 struct StudyTable::Node {
-  const toml::table* table = nullptr;  // kept alive by `parameters`' owner; null if absent
-  std::shared_ptr<std::vector<Parameter>> parameters;
+  const toml::table* table = nullptr;  // kept alive by `records`' owner; null if absent
+  std::shared_ptr<Records> records;
   std::string path;
   std::vector<std::string> known;
 
@@ -56,6 +65,7 @@ struct StudyTable::Node {
   /// The value of a key, out of its { value, origin, note } where it has one; notes the parameter.
   const toml::node& value(const std::string& key);
   void record(const std::string& key, const toml::node& value, const toml::table* labels);
+  void record_default(const std::string& key, const std::string& value);
 
   template <typename T>
   T scalar(const std::string& key, const char* expected) {
@@ -98,14 +108,21 @@ struct StudyTable::Node {
 
 namespace {
 
+std::string text_of(double number) {
+  std::array<char, 32> digits{};
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  return {digits.data(), end};
+}
+
+void add_new(std::vector<Parameter>& list, Parameter parameter) {
+  const auto same = [&](const Parameter& other) { return other.key == parameter.key; };
+  if (std::none_of(list.begin(), list.end(), same)) list.push_back(std::move(parameter));
+}
+
 /// As the user would write it, without quotes and brackets.
 std::string text_of(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return *text;
-  if (const auto number = node.value_exact<double>()) {
-    std::array<char, 32> digits{};
-    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), *number);
-    return {digits.data(), end};
-  }
+  if (const auto number = node.value_exact<double>()) return text_of(*number);
   if (const toml::array* const list = node.as_array()) {
     std::string text;
     for (const toml::node& each : *list) text += (text.empty() ? "" : ", ") + text_of(each);
@@ -138,8 +155,12 @@ void StudyTable::Node::record(const std::string& key, const toml::node& value,
     parameter.origin = origin_of(*labels, dotted(key));
     parameter.note = (*labels)["note"].value_or(std::string());
   }
-  const auto same = [&](const Parameter& other) { return other.key == parameter.key; };
-  if (std::none_of(parameters->begin(), parameters->end(), same)) parameters->push_back(parameter);
+  add_new(records->parameters, std::move(parameter));
+}
+
+void StudyTable::Node::record_default(const std::string& key, const std::string& value) {
+  find(key);
+  add_new(records->defaults, {dotted(key), value, Origin::synthetic, {}});
 }
 
 const toml::node& StudyTable::Node::value(const std::string& key) {
@@ -174,7 +195,9 @@ std::string StudyTable::text(const std::string& key) const {
 }
 
 std::string StudyTable::text_or(const std::string& key, const std::string& fallback) const {
-  return has(key) ? text(key) : fallback;
+  if (has(key)) return text(key);
+  node_->record_default(key, fallback.empty() ? "-" : fallback);
+  return fallback;
 }
 
 std::vector<std::string> StudyTable::texts(const std::string& key) const {
@@ -187,8 +210,16 @@ std::vector<std::string> StudyTable::texts(const std::string& key) const {
   return values;
 }
 
+std::vector<std::string> StudyTable::texts_or_none(const std::string& key) const {
+  if (has(key)) return texts(key);
+  node_->record_default(key, "-");
+  return {};
+}
+
 bool StudyTable::flag_or(const std::string& key, bool fallback) const {
-  return has(key) ? node_->scalar<bool>(key, "true or false") : fallback;
+  if (has(key)) return node_->scalar<bool>(key, "true or false");
+  node_->record_default(key, fallback ? "true" : "false");
+  return fallback;
 }
 
 bool StudyTable::is_list(const std::string& key) const { return node_->value(key).is_array(); }
@@ -203,7 +234,9 @@ int StudyTable::count(const std::string& key, int least) const {
 }
 
 int StudyTable::count_or(const std::string& key, int least, int fallback) const {
-  return has(key) ? count(key, least) : fallback;
+  if (has(key)) return count(key, least);
+  node_->record_default(key, std::to_string(fallback));
+  return fallback;
 }
 
 double StudyTable::number(const std::string& key) const {
@@ -211,7 +244,9 @@ double StudyTable::number(const std::string& key) const {
 }
 
 double StudyTable::number_or(const std::string& key, double fallback) const {
-  return has(key) ? number(key) : fallback;
+  if (has(key)) return number(key);
+  node_->record_default(key, text_of(fallback));
+  return fallback;
 }
 
 std::vector<double> StudyTable::numbers(const std::string& key, std::size_t size) const {
@@ -228,7 +263,9 @@ double StudyTable::quantity(const std::string& key, const std::string& si_unit) 
 
 double StudyTable::quantity_or(const std::string& key, const std::string& si_unit,
                                double fallback) const {
-  return has(key) ? quantity(key, si_unit) : fallback;
+  if (has(key)) return quantity(key, si_unit);
+  node_->record_default(key, text_of(fallback) + " " + si_unit);
+  return fallback;
 }
 
 std::vector<double> StudyTable::quantities(const std::string& key, const std::string& si_unit,
@@ -242,7 +279,7 @@ std::vector<double> StudyTable::quantities(const std::string& key, const std::st
 
 StudyTable StudyTable::table(const std::string& key) const {
   auto child = std::make_shared<Node>();
-  child->parameters = node_->parameters;
+  child->records = node_->records;
   child->path = node_->dotted(key);
   if (const toml::node* const node = node_->find(key)) {
     child->table = node->as_table();
@@ -258,7 +295,7 @@ std::vector<StudyTable> StudyTable::tables(const std::string& key) const {
   if (!node->is_array_of_tables()) refuse(key, "expected tables [[" + node_->dotted(key) + "]]");
   for (const toml::node& element : *node->as_array()) {
     auto child = std::make_shared<Node>();
-    child->parameters = node_->parameters;
+    child->records = node_->records;
     child->table = element.as_table();
     const std::string name = (*child->table)["name"].value_or(std::to_string(result.size() + 1));
     child->path = node_->dotted(key) + "." + name;
@@ -302,11 +339,14 @@ StudyTable StudyDocument::root() const {
   auto node = std::make_shared<StudyTable::Node>();
   node->table = &impl_->root;
   // Shares the ownership of the document: a table may outlive it.
-  node->parameters = std::shared_ptr<std::vector<Parameter>>(impl_, &impl_->parameters);
+  node->records = std::shared_ptr<Records>(impl_, &impl_->records);
   return StudyTable(std::move(node));
 }
 
 const std::vector<InputFile>& StudyDocument::files() const { return impl_->files; }
-const std::vector<Parameter>& StudyDocument::parameters() const { return impl_->parameters; }
+const std::vector<Parameter>& StudyDocument::parameters() const {
+  return impl_->records.parameters;
+}
+const std::vector<Parameter>& StudyDocument::defaults() const { return impl_->records.defaults; }
 
 }  // namespace flexneck::pipeline

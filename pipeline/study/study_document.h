@@ -25,6 +25,7 @@ class StudyTable {
   std::string text(const std::string& key) const;
   std::string text_or(const std::string& key, const std::string& fallback) const;
   std::vector<std::string> texts(const std::string& key) const;
+  std::vector<std::string> texts_or_none(const std::string& key) const;
 
   bool flag_or(const std::string& key, bool fallback) const;
 
@@ -78,6 +79,8 @@ class StudyDocument {
   const std::vector<InputFile>& files() const;
   /// Every value read through the tables so far, in the order of reading.
   const std::vector<Parameter>& parameters() const;
+  /// The values that the getters with a fallback have returned for keys that are not there.
+  const std::vector<Parameter>& defaults() const;
 
  private:
   struct Impl;

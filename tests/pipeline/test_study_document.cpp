@@ -52,6 +52,21 @@ count = 7
   CHECK(parameters[1].note == "a source");
 }
 
+TEST_CASE("what holds for keys that are not given is told beside the values") {
+  const TemporaryFolder folder;
+  const StudyDocument document = document_of(folder, "[part]\nratio = 0.49\n");
+  const StudyTable part = document.root().table("part");
+  CHECK(part.number_or("ratio", 0.3) == 0.49);
+  CHECK(part.quantity_or("width", "m", 0.25) == 0.25);
+  CHECK_FALSE(part.flag_or("hollow", false));
+  CHECK(part.text_or("colour", "").empty());
+  CHECK(part.texts_or_none("holes").empty());
+  REQUIRE(document.parameters().size() == 1);
+  std::string told;
+  for (const auto& each : document.defaults()) told += each.key + " = " + each.value + "\n";
+  CHECK(told == "part.width = 0.25 m\npart.hollow = false\npart.colour = -\npart.holes = -\n");
+}
+
 TEST_CASE("what a study gets wrong is told with file, line, column, key and remedy") {
   const TemporaryFolder folder;
   const auto table = [&](const std::string& line) {
