@@ -82,7 +82,9 @@ void write_verification(const std::filesystem::path& path, const VerificationTab
                                  {"passed", table.passed()},
                                  {"rows", nlohmann::ordered_json::array()}};
   for (const VerificationRow& row : table.rows) json["rows"].push_back(json_of(row));
-  json["provenance"] = {{"program", provenance.program}, {"git_hash", provenance.git_hash}};
+  json["provenance"] = {{"program", provenance.program},
+                        {"git_hash", provenance.git_hash},
+                        {"inputs", nlohmann::ordered_json::object()}};
   for (const InputFile& input : provenance.inputs) {
     json["provenance"]["inputs"][input.name] = input.hash;
   }
