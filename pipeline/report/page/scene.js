@@ -42,6 +42,13 @@ flexneck.startScene = (data, canvas) => {
     return most;
   };
 
+  /** Whether displacements go to the side rather than fore and aft. */
+  const isLateral = (vectors) => {
+    const sum = [0, 0, 0];
+    for (let i = 0; i < vectors.length; ++i) sum[i % 3] += Math.abs(vectors[i]);
+    return sum[1] > sum[0];
+  };
+
   // --- colours ------------------------------------------------------------------------------------
 
   /** Viridis: ordered in lightness, so that it needs no colour vision. Shares from 0 to 1. */
@@ -193,13 +200,16 @@ flexneck.startScene = (data, canvas) => {
     const duration = times[times.length - 1];
     const middle = Math.floor(times.length / 2);
     const hangs = base[7 * middle + 3] ** 2 + base[7 * middle + 6] ** 2 < 0.5;
+    const start = isPendulum ? Math.min(0.06, duration) : duration;
+    const startFrame = times.findIndex((time) => time >= start);
     const target = new THREE.Vector3(...base.subarray(7 * middle, 7 * middle + 3));
     target.z += (hangs ? -1 : 1) * 0.75 * length;
     return {
       label: `${isPendulum ? 'Pendulum' : 'Static test'}: ${motion.name}`,
       duration, seconds: isPendulum ? 10 * duration : 2 * duration,
-      start: isPendulum ? Math.min(0.06, duration) : duration,
-      home: {target, distance: 6.2 * length, azimuth: -Math.PI / 2, elevation: 0.12},
+      start,
+      home: {target, distance: 6.2 * length, elevation: 0.12,
+             azimuth: isLateral(displaced(motion.modes, at(startFrame))) ? 0 : -Math.PI / 2},
       note: isPendulum
           ? 'The pendulum plays at a tenth of its speed. Of the arm only the end is drawn; the head is the ellipsoid of its mass and inertia, its centre a dot.'
           : '',
