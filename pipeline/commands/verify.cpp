@@ -38,7 +38,7 @@ bool verify_command(const CommandInput& input) {
   require_same_inputs(input.folder.modes(), modes.provenance, input.study, "flexneck modes");
   std::vector<PendulumEvidence> pendulum;
   for (const CaseSection& experiment : input.study.cases) {
-    if (experiment.kind != CaseSection::Kind::pendulum) continue;
+    if (experiment.kind != CaseSection::Kind::pendulum || !experiment.variant_of.empty()) continue;
     pendulum.push_back(evidence_of(input, experiment, modes.body));
   }
   const VerificationTable table = verify(input.study, modes.body, pendulum, reference);

@@ -2,10 +2,12 @@
 #include "pipeline/experiments/case_model.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "fe_modal/body/basis_kind.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/experiments/rigid_neck.h"
 #include "pipeline/model/placement.h"
 
 namespace flexneck::pipeline {
@@ -67,10 +69,73 @@ void place(Model& model, const Eigen::Quaterniond& rotation, const std::string& 
   }
 }
 
+/// The deformable body of a case, if it has one.
+std::optional<std::size_t> deformable_body(const Model& model) {
+  for (std::size_t k = 0; k < model.bodies.size(); ++k)
+    if (std::holds_alternative<multibody::DeformableBody>(model.bodies[k].kind)) return k;
+  return {};
+}
+
+/// The section that a case names, matched to the deformable neck if it says so.
+RigidNeckSection rigid_neck_for(const Study& study, const CaseSection& experiment,
+                                const multibody::DeformableBody& neck) {
+  const RigidNeckSection& section =
+      study
+          .rigid_necks[find_name(names_of(study.rigid_necks), experiment.rigid_neck, "rigid_neck")];
+  return section.matches_neck ? matched_neck(neck, experiment.direction) : section;
+}
+
+/// The neck of the older model in place of the deformable one.
+void replace_neck(const Study& study, const CaseSection& experiment, Model& model) {
+  const std::optional<std::size_t> index = deformable_body(model);
+  if (!index)
+    throw InputError("case." + experiment.name +
+                     ": rigid_neck: there is no deformable body in whose place to put it");
+  try {
+    const RigidNeckSection neck = rigid_neck_for(
+        study, experiment, std::get<multibody::DeformableBody>(model.bodies[*index].kind));
+    put_rigid_neck(neck, experiment.direction, *index, model);
+  } catch (const InputError& error) {
+    throw InputError("case." + experiment.name + ": rigid_neck: " + error.what());
+  }
+}
+
+/// A pin with its spring in place of the joint that holds the head.
+void put_head_spring(const HeadSpringSection& spring, Model& model) {
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    multibody::Joint& joint = model.joints[k];
+    if (model.markers[joint.marker_j].name != "head.condyles") continue;
+    joint.kind = multibody::JointKind::pin;
+    joint.axis = spring.axis;
+    model.resistances.push_back(
+        {spring.name, k, multibody::JointCoordinate::angle, spring.resistance});
+  }
+}
+
 /// The part of a marker's name before the dot.
 std::string body_of(const std::string& marker) { return marker.substr(0, marker.find('.')); }
 
 }  // namespace
+
+multibody::PointForce point_force(const ForceSection& section, const Model& model) {
+  multibody::PointForce force;
+  force.name = section.name;
+  force.marker = model.marker_index(section.marker);
+  force.direction = section.direction;
+  force.magnitude_N =
+      TimeTable(section.times_s, section.magnitudes_N, TimeTable::Outside::constant);
+  return force;
+}
+
+RigidNeckSection rigid_neck_of(const Study& study, const CaseSection& experiment,
+                               const fe_modal::ModalBody& body) {
+  for (const std::string& name : experiment.bodies) {
+    const BodySection& section = study.body(name);
+    if (section.kind == BodySection::Kind::deformable)
+      return rigid_neck_for(study, experiment, deformable(section, body));
+  }
+  throw InputError("case." + experiment.name + ": rigid_neck: there is no deformable body");
+}
 
 Model case_model(const Study& study, const CaseSection& experiment, const fe_modal::ModalBody& body,
                  const Eigen::Quaterniond& rotation) {
@@ -99,15 +164,14 @@ Model case_model(const Study& study, const CaseSection& experiment, const fe_mod
     model.joints.push_back(joint);
   }
   for (const std::string& name : experiment.forces) {
-    const ForceSection& section = study.forces[find_name(names_of(study.forces), name, "force")];
-    multibody::PointForce force;
-    force.name = section.name;
-    force.marker = model.marker_index(section.marker);
-    force.direction = section.direction;
-    force.magnitude_N =
-        TimeTable(section.times_s, section.magnitudes_N, TimeTable::Outside::constant);
-    model.forces.push_back(std::move(force));
+    model.forces.push_back(
+        point_force(study.forces[find_name(names_of(study.forces), name, "force")], model));
   }
+  if (!experiment.rigid_neck.empty()) replace_neck(study, experiment, model);
+  if (!experiment.head_spring.empty())
+    put_head_spring(study.head_springs[find_name(names_of(study.head_springs),
+                                                 experiment.head_spring, "head_spring")],
+                    model);
   place(model, rotation, experiment.name);
   return model;
 }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/experiments/pendulum.h"
 
+#include <cmath>
+#include <ctime>
+
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum_signals.h"
 #include "pipeline/experiments/sampling.h"
-#include "pipeline/model/pulse.h"
+#include "pipeline/model/placement.h"
 
 namespace flexneck::pipeline {
 
@@ -20,45 +23,95 @@ namespace {
 Eigen::Quaterniond hanging() { return {0, 1, 0, 0}; }
 
 /// The arm's motion of a case.
-multibody::DrivenBody arm_motion(const BodySection& arm, const CaseSection& experiment) {
+multibody::DrivenBody arm_motion(const CaseSection& experiment, const FittedPulse& pulse) {
+  const Eigen::Vector3d along = hanging() * bending_plane(experiment.direction).motion;
   multibody::DrivenBody driven;
-  driven.direction = hanging() * bending_plane(experiment.direction).motion;
-  driven.initial_velocity_m_s = experiment.impact_velocity_m_s;
-  try {
-    driven.acceleration_m_s2 =
-        braking_pulse(arm.pulse_times_s, arm.pulse_m_s2, experiment.impact_velocity_m_s);
-  } catch (const InputError& error) {
-    throw InputError("body." + arm.name + ".pulse_deceleration: " + error.what());
+  if (experiment.arm == CaseSection::Arm::translating) {
+    driven.direction = along;
+    driven.initial_velocity_m_s = experiment.impact_velocity_m_s;
+    driven.acceleration_m_s2 = pulse.acceleration();
+    return driven;
   }
+  // The pivot is above: w x (0, 0, -r) points along the motion.
+  const double radius = experiment.accelerometer_distance_m;
+  driven.turn.axis = along.cross(Eigen::Vector3d::UnitZ());
+  driven.turn.point_m = {0, 0, experiment.pivot_distance_m};
+  driven.turn.initial_rate_rad_s = experiment.impact_velocity_m_s / radius;
+  driven.turn.acceleration_rad_s2 = pulse.acceleration(1 / radius);
   return driven;
 }
 
-const BodySection& driven_body(const Study& study, const CaseSection& experiment) {
-  for (const std::string& name : experiment.bodies) {
-    const BodySection& body = study.body(name);
-    if (body.kind == BodySection::Kind::driven && !body.pulse_times_s.empty()) return body;
-  }
-  throw InputError("case." + experiment.name +
-                   ": a pendulum needs a driven body with a pulse among its bodies");
+const std::string& driven_body(const Study& study, const CaseSection& experiment) {
+  for (const std::string& name : experiment.bodies)
+    if (study.body(name).kind == BodySection::Kind::driven) return name;
+  throw InputError("case." + experiment.name + ": a pendulum needs a driven body among its bodies");
+}
+
+/// Processor time of this thread, s.
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
 
+FittedPulse case_pulse(const Study& study, const CaseSection& experiment) {
+  const PulseSection& pulse =
+      study.pulses[find_name(names_of(study.pulses), experiment.pulse, "pulse")];
+  try {
+    return fitted_pulse(pulse.times_s, pulse.deceleration_m_s2, experiment.impact_velocity_m_s,
+                        static_cast<PulseFit>(experiment.pulse_scaling));
+  } catch (const InputError& error) {
+    throw InputError("pulse." + pulse.name + ": " + error.what());
+  }
+}
+
 Model pendulum_model(const Study& study, const CaseSection& experiment,
                      const fe_modal::ModalBody& body) {
   Model model = case_model(study, experiment, body, hanging());
-  const BodySection& arm = driven_body(study, experiment);
-  model.bodies[model.body_index(arm.name)].kind = arm_motion(arm, experiment);
+  model.bodies[model.body_index(driven_body(study, experiment))].kind =
+      arm_motion(experiment, case_pulse(study, experiment));
   model.gravity_m_s2 = study.gravity_m_s2;
   return model;
 }
 
+namespace {
+
+/// Under a rotating arm everything turns with it at the start.
+Model prepared_model(const Study& study, const CaseSection& experiment,
+                     const fe_modal::ModalBody& body) {
+  Model model = pendulum_model(study, experiment, body);
+  if (experiment.arm == CaseSection::Arm::rotating)
+    carry_bodies(model, std::vector<JointStart>(model.joints.size()),
+                 std::vector<bool>(model.bodies.size(), false));
+  return model;
+}
+
+History simulate_case(const Model& model, const Study& study, const CaseSection& experiment,
+                      const multibody::OutputOptions& output) {
+  return experiment.arm == CaseSection::Arm::rotating
+             ? multibody::simulate(model, study.solver, output)
+             : multibody::simulate_from_equilibrium(model, study.solver, output);
+}
+
+}  // namespace
+
+IntegrationCost integration_cost(const Study& study, const CaseSection& experiment,
+                                 const fe_modal::ModalBody& body) {
+  const Model model = prepared_model(study, experiment, body);
+  const double start_s = processor_time();
+  const History history =
+      simulate_case(model, study, experiment, {experiment.duration_s, experiment.duration_s});
+  return {processor_time() - start_s, history.statistics.evaluations};
+}
+
 PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
                          const fe_modal::ModalBody& body) {
-  const Model model = pendulum_model(study, experiment, body);
+  const Model model = prepared_model(study, experiment, body);
   const int every = samples_per_output(study.output_interval_s);
-  const History history = multibody::simulate_from_equilibrium(
-      model, study.solver, {experiment.duration_s, study.output_interval_s / every});
+  const multibody::OutputOptions output{experiment.duration_s, study.output_interval_s / every};
+  const History history = simulate_case(model, study, experiment, output);
   PendulumRun run;
   run.channels =
       pendulum_channels(history.time_s, pendulum_signals(model, history, experiment), experiment);
@@ -74,9 +127,17 @@ PendulumResult pendulum_result(const Study& study, const CaseSection& experiment
   const auto peak = [&](const char* channel) {
     return multibody::largest_peak(time_s, channel_named(channels, channel));
   };
+  // A stiff neck may swing back further than it was thrown.
+  const double sense = experiment.direction == CaseSection::Direction::extension ? -1 : 1;
+  const auto thrown = [&](const char* channel) {
+    const Eigen::VectorXd signal = sense * channel_named(channels, channel);
+    multibody::Peak found = multibody::largest_peak(time_s, signal.cwiseMax(0));
+    found.value *= sense;
+    return found;
+  };
   PendulumResult result;
-  result.head_rotation = peak("head rotation");
-  result.neck_rotation = peak("neck rotation");
+  result.head_rotation = thrown("head rotation");
+  result.neck_rotation = thrown("neck rotation");
   result.head_acceleration = peak("head acceleration filtered");
   result.base_moment = peak("base moment");
   result.occipital_moment = peak("occipital moment");
@@ -88,7 +149,7 @@ PendulumResult pendulum_result(const Study& study, const CaseSection& experiment
   const multibody::FreeOscillation after_peak = oscillation_after(result.head_rotation.time_s);
   if (!after_peak.crossings_s.empty()) result.zero_crossing_s = after_peak.crossings_s.front();
   const multibody::FreeOscillation free =
-      oscillation_after(driven_body(study, experiment).pulse_times_s.back());
+      oscillation_after(case_pulse(study, experiment).times_s.back());
   result.run_frequency_Hz = multibody::cycle_frequency_Hz(free);
   result.run_damping_ratio = multibody::cycle_damping_ratio(free);
   return result;
@@ -117,11 +178,23 @@ Study in_plane(Study study, const CaseSection& experiment, const fe_modal::Modal
   return study;
 }
 
+/// The case with its arm at rest, and without a pin that turns across its plane.
+CaseSection at_rest(CaseSection experiment, const Study& study) {
+  experiment.arm = CaseSection::Arm::translating;
+  if (experiment.head_spring.empty()) return experiment;
+  const HeadSpringSection& spring = study.head_springs[find_name(
+      names_of(study.head_springs), experiment.head_spring, "head_spring")];
+  const double along = spring.axis.dot(bending_plane(experiment.direction).axis);
+  constexpr double kAcross = 1e-9;
+  if (std::abs(along) < kAcross) experiment.head_spring.clear();
+  return experiment;
+}
+
 }  // namespace
 
 multibody::SystemMode first_system_mode(const Study& study, const CaseSection& experiment,
                                         const fe_modal::ModalBody& body, bool with_gravity) {
-  Model model = pendulum_model(in_plane(study, experiment, body), experiment, body);
+  Model model = pendulum_model(in_plane(study, experiment, body), at_rest(experiment, study), body);
   if (!with_gravity) model.gravity_m_s2.setZero();
   const std::vector<multibody::SystemMode> modes = multibody::system_modes(model);
   if (modes.empty()) {

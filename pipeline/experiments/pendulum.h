@@ -8,19 +8,26 @@
 #include "multibody/history_file.h"
 #include "multibody/response.h"
 #include "multibody/simulation.h"
+#include "pipeline/model/pulse.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
 
+/// The pulse of a case, brought to its impact velocity as the case says.
+/// @throws InputError if it does not brake.
+FittedPulse case_pulse(const Study& study, const CaseSection& experiment);
+
 /// The head/neck pendulum: arm, neck and head hang along -z of the world, the arm moves along the
 /// case's direction (flexion: neck +x, extension: -x, lateral: +y) with the impact velocity and is
-/// brought to rest by its pulse, whose amplitude is scaled so that its integral is that velocity.
+/// brought to rest by its pulse. A translating arm does that as a whole; a rotating one swings
+/// about its pivot above the neck, with velocity and pulse at its accelerometer.
 /// Conventions: multibody/CONVENTIONS.md. The study's bodies are named arm, neck and head, the
-/// neck's interfaces base and top, its joints j1 (arm and neck) and j2 (neck and head).
+/// neck's interfaces base and top.
 multibody::Model pendulum_model(const Study& study, const CaseSection& experiment,
                                 const fe_modal::ModalBody& body);
 
-/// The case's run, from the hanging equilibrium, as its file holds it.
+/// The case's run as its file holds it. It starts from the hanging equilibrium; under a rotating
+/// arm, where there is none, from the undeformed neck.
 struct PendulumRun {
   multibody::History history;                ///< at the study's output interval
   std::vector<multibody::Channel> channels;  ///< see pendulum_channels(); filtered before thinning
@@ -29,11 +36,21 @@ struct PendulumRun {
 PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
                          const fe_modal::ModalBody& body);
 
+/// What it takes to integrate a case over its time, recorded at its end only.
+struct IntegrationCost {
+  double processor_s = 0;  ///< measured, of this thread
+  int evaluations = 0;     ///< of the equations of motion
+};
+
+IntegrationCost integration_cost(const Study& study, const CaseSection& experiment,
+                                 const fe_modal::ModalBody& body);
+
 /// What the tables show of a run.
 struct PendulumResult {
-  multibody::Peak head_rotation, neck_rotation, base_moment, occipital_moment;
-  multibody::Peak head_acceleration;        ///< filtered
-  double equilibrium_rotation = 0;          ///< head rotation at the start, rad
+  multibody::Peak head_rotation, neck_rotation;   ///< the way the case throws the head
+  multibody::Peak base_moment, occipital_moment;  ///< largest in size
+  multibody::Peak head_acceleration;              ///< filtered, largest in size
+  double equilibrium_rotation = 0;                ///< head rotation at the start, rad
   std::optional<double> zero_crossing_s;    ///< of the head rotation, back through the equilibrium
   std::optional<double> run_frequency_Hz;   ///< between crossings after the pulse
   std::optional<double> run_damping_ratio;  ///< from successive peaks

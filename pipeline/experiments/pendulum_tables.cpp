@@ -7,13 +7,9 @@
 
 namespace flexneck::pipeline {
 
-namespace {
-
-std::string text_of(const std::optional<double>& value, const char* format, double factor = 1) {
+std::string text_of(const std::optional<double>& value, const char* format, double factor) {
   return value ? fmt::format(fmt::runtime(format), *value * factor) : "-";
 }
-
-}  // namespace
 
 ResultTable peak_table(const std::vector<PendulumEntry>& entries) {
   const double deg = factor_from_si("rad", "deg");
@@ -36,7 +32,7 @@ ResultTable peak_table(const std::vector<PendulumEntry>& entries) {
                    {"at", "ms"}};
   for (const PendulumEntry& entry : entries) {
     const PendulumResult& result = entry.result;
-    std::vector<std::string> row = {entry.case_name};
+    std::vector<std::string> row = {entry.experiment.name};
     const auto add = [&](const multibody::Peak& peak, double factor) {
       row.push_back(fmt::format("{:.1f}", peak.value * factor));
       row.push_back(fmt::format("{:.1f}", peak.time_s * 1e3));
@@ -65,7 +61,7 @@ ResultTable oscillation_table(const std::vector<PendulumEntry>& entries) {
       {"case", ""},         {"eigenvalue", "Hz"}, {"its damping", "1"}, {"without gravity", "Hz"},
       {"its damping", "1"}, {"run", "Hz"},        {"its damping", "1"}};
   for (const PendulumEntry& entry : entries) {
-    table.rows.push_back({entry.case_name, fmt::format("{:.3f}", entry.hanging.frequency_Hz),
+    table.rows.push_back({entry.experiment.name, fmt::format("{:.3f}", entry.hanging.frequency_Hz),
                           fmt::format("{:.4f}", entry.hanging.damping_ratio),
                           fmt::format("{:.3f}", entry.weightless.frequency_Hz),
                           fmt::format("{:.4f}", entry.weightless.damping_ratio),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/experiments/static_test.h"
 
+#include "multibody/simulation.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 
@@ -17,6 +18,7 @@ StaticTestSignals static_test_signals(const multibody::Model& model,
   const multibody::MarkerHistory& top = history.marker("neck.top");
   const BendingPlane plane = bending_plane(experiment.direction);
   StaticTestSignals signals;
+  signals.time_s = history.time_s;
   signals.load.setZero(history.time_s.size());
   for (const multibody::PointForce& force : model.forces)
     signals.load +=
@@ -25,6 +27,9 @@ StaticTestSignals static_test_signals(const multibody::Model& model,
   signals.base_moment = bending_moment(history.joint("clamp"), plane);
   signals.deflection =
       (plane.tip.transpose() * (top.position_m.colwise() - top.position_m.col(0))).transpose();
+  const Eigen::VectorXd chord =
+      (top.position_m - history.marker("neck.base").position_m).colwise().norm().transpose();
+  signals.stretch = chord.array() / chord[0] - 1;
   return signals;
 }
 
@@ -37,6 +42,13 @@ double stiffness(const StaticTestSignals& signals, Eigen::Index from, Eigen::Ind
 }
 
 }  // namespace
+
+multibody::History settled_static_test(const Study& study, const CaseSection& experiment,
+                                       const multibody::Model& model) {
+  constexpr int kLoads = 40;
+  return multibody::settle(model, study.solver,
+                           {experiment.duration_s, experiment.duration_s / kLoads});
+}
 
 std::vector<multibody::Channel> static_test_channels(const StaticTestSignals& signals) {
   std::vector<multibody::Channel> channels;

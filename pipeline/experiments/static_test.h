@@ -14,16 +14,24 @@ multibody::Model static_test_model(const Study& study, const CaseSection& experi
 
 /// Curves over time.
 struct StaticTestSignals {
+  Eigen::VectorXd time_s;
   Eigen::VectorXd load;         ///< of the forces of the model, along their directions, N
   Eigen::VectorXd rotation;     ///< of the top against the base, rad, forward (or +y) positive
   Eigen::VectorXd base_moment;  ///< N m, SAE J211 sign of the channel (My or Mx)
   Eigen::VectorXd deflection;   ///< of the joint point, m
+  /// Distance of the joint point from the base over that at rest, less one. A neck keeps its length
+  /// nearly; a linear body's top moves along a straight line.
+  Eigen::VectorXd stretch;
 };
 
 /// @param model  that was run
 StaticTestSignals static_test_signals(const multibody::Model& model,
                                       const multibody::History& history,
                                       const CaseSection& experiment);
+
+/// True statics at forty loads of the case's ramp: no inertia, no damping.
+multibody::History settled_static_test(const Study& study, const CaseSection& experiment,
+                                       const multibody::Model& model);
 
 /// The channels of a static test's file, SI units.
 std::vector<multibody::Channel> static_test_channels(const StaticTestSignals& signals);

@@ -2,15 +2,13 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/resistance_law.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
 
 using multibody::JointCoordinate;
 using multibody::JointKind;
-using multibody::LoadCurve;
-using multibody::Resistance;
-using multibody::ResistanceSide;
 using multibody::TimeTable;
 
 namespace {
@@ -40,65 +38,6 @@ TimeTable load_over_time(const StudyTable& table, const std::string& constant,
   } catch (const InputError& error) {
     table.refuse(table.has("table") ? "table" : keys.x, error.what());
   }
-}
-
-// ------------------------------------------------------------------- loads over a deflection
-
-/// SI units of a resistance: of lengths and forces, or of angles and moments.
-struct Units {
-  std::string deflection, load;
-  std::string over(const std::string& power) const { return load + "/" + deflection + power; }
-};
-
-const Units kLinear = {"m", "N"};
-const Units kAngular = {"rad", "N*m"};
-
-LoadCurve polynomial(const StudyTable& table, const std::string& prefix, const Units& units) {
-  return LoadCurve::cubic(table.quantity_or(prefix + "stiffness", units.over(""), 0),
-                          table.quantity_or(prefix + "quadratic", units.over("^2"), 0),
-                          table.quantity_or(prefix + "cubic", units.over("^3"), 0));
-}
-
-LoadCurve load_curve(const StudyTable& table, const Units& units, Assembly& assembly) {
-  if (!table.has("deflections") && !table.has("table")) return polynomial(table, "", units);
-  for (const char* const key : {"stiffness", "quadratic", "cubic"})
-    if (table.has(key)) table.refuse(key, "the curve is given already by a table");
-  TableColumns columns =
-      read_columns(table, {"deflections", units.deflection, "loads", units.load}, assembly.files);
-  try {
-    return LoadCurve::table(std::move(columns.x), std::move(columns.y));
-  } catch (const InputError& error) {
-    table.refuse(table.has("table") ? "table" : "deflections", error.what());
-  }
-}
-
-ResistanceSide read_side(const StudyTable& table, const Units& units, Assembly& assembly) {
-  ResistanceSide side;
-  side.curve = load_curve(table, units, assembly);
-  side.stop = table.quantity_or("stop", units.deflection, side.stop);
-  side.beyond_stop = polynomial(table, "stop_", units);
-  side.unloading_ratio = table.number_or("unloading_ratio", side.unloading_ratio);
-  return side;
-}
-
-/// Curves of the table itself hold for both directions, those of its sub-tables for one.
-Resistance read_resistance_law(const StudyTable& table, const Units& units, Assembly& assembly) {
-  Resistance resistance;
-  resistance.positive = resistance.negative = read_side(table, units, assembly);
-  const auto side_of = [&](const char* key, ResistanceSide& side) {
-    if (!table.has(key)) return;
-    const StudyTable own = table.table(key);
-    side = read_side(own, units, assembly);
-    own.finish();
-  };
-  side_of("positive", resistance.positive);
-  side_of("negative", resistance.negative);
-  resistance.damping =
-      table.quantity_or("damping", units.load + "*s/" + units.deflection, resistance.damping);
-  resistance.friction = table.quantity_or("friction", units.load, resistance.friction);
-  resistance.full_rate =
-      table.quantity_or("full_rate", units.deflection + "/s", resistance.full_rate);
-  return resistance;
 }
 
 // -------------------------------------------------------------------------------- bushings
@@ -181,7 +120,7 @@ void read_spring(const StudyTable& table, Assembly& assembly) {
   spring.marker_i = marker_named(table, "lower", assembly);
   spring.marker_j = marker_named(table, "upper", assembly);
   spring.free_length_m = table.quantity("free_length", "m");
-  spring.resistance = read_resistance_law(table, kLinear, assembly);
+  spring.resistance = read_resistance_law(table, kLinearUnits, assembly.files);
   spring.resistance.tension_only = table.flag_or("tension_only", false);
   assembly.model.springs.push_back(std::move(spring));
   table.finish();
@@ -205,7 +144,8 @@ void read_resistance(const StudyTable& table, Assembly& assembly) {
   resistance.coordinate =
       static_cast<JointCoordinate>(choice(table, "coordinate", {"distance", "angle", "flexion"}));
   const bool is_linear = resistance.coordinate == JointCoordinate::distance;
-  resistance.resistance = read_resistance_law(table, is_linear ? kLinear : kAngular, assembly);
+  resistance.resistance =
+      read_resistance_law(table, is_linear ? kLinearUnits : kAngularUnits, assembly.files);
   assembly.model.resistances.push_back(std::move(resistance));
   table.finish();
 }

@@ -9,17 +9,38 @@ namespace flexneck::pipeline {
 
 using multibody::TimeTable;
 
+TimeTable FittedPulse::acceleration(double factor) const {
+  std::vector<double> values = deceleration_m_s2;
+  for (double& value : values) value *= -factor;
+  return {times_s, std::move(values), TimeTable::Outside::zero};
+}
+
 TimeTable braking_pulse(const std::vector<double>& times_s,
                         const std::vector<double>& deceleration_m_s2, double velocity_m_s) {
-  const TimeTable pulse(times_s, deceleration_m_s2, TimeTable::Outside::zero);
-  const double area = times_s.empty() ? 0 : pulse.integral(times_s.back());
-  if (!(area > 0)) {
+  return fitted_pulse(times_s, deceleration_m_s2, velocity_m_s, PulseFit::amplitude).acceleration();
+}
+
+FittedPulse fitted_pulse(const std::vector<double>& times_s,
+                         const std::vector<double>& deceleration_m_s2, double velocity_m_s,
+                         PulseFit fit) {
+  const TimeTable given(times_s, deceleration_m_s2, TimeTable::Outside::zero);
+  FittedPulse pulse;
+  pulse.area_m_s = times_s.empty() ? 0 : given.integral(times_s.back());
+  if (!(pulse.area_m_s > 0)) {
     throw InputError("expected a pulse that brakes, found one whose integral is " +
-                     std::to_string(area) + " in SI units");
+                     std::to_string(pulse.area_m_s) + " in SI units");
   }
-  std::vector<double> acceleration = deceleration_m_s2;
-  for (double& value : acceleration) value *= -velocity_m_s / area;
-  return {times_s, std::move(acceleration), TimeTable::Outside::zero};
+  const double factor = velocity_m_s / pulse.area_m_s;
+  if (fit == PulseFit::amplitude) pulse.amplitude_factor = factor;
+  if (fit == PulseFit::duration) pulse.duration_factor = factor;
+  pulse.times_s = times_s;
+  for (double& time : pulse.times_s)
+    time = times_s.front() + (time - times_s.front()) * pulse.duration_factor;
+  pulse.deceleration_m_s2 = deceleration_m_s2;
+  for (double& value : pulse.deceleration_m_s2) value *= pulse.amplitude_factor;
+  // What scaling leaves is rounding.
+  if (fit == PulseFit::none) pulse.velocity_left_m_s = velocity_m_s - pulse.area_m_s;
+  return pulse;
 }
 
 }  // namespace flexneck::pipeline

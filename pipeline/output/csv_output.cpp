@@ -21,8 +21,8 @@ std::string cell(const std::string& text) {
   return quoted + '"';
 }
 
-std::string header_of(const std::vector<multibody::Channel>& channels) {
-  std::string line = "time [s]";
+std::string header_of(const std::string& first, const std::vector<multibody::Channel>& channels) {
+  std::string line = first;
   for (const multibody::Channel& channel : channels)
     for (const std::string& column : channel.columns) {
       const bool is_one = channel.columns.size() == 1;
@@ -34,10 +34,10 @@ std::string header_of(const std::vector<multibody::Channel>& channels) {
 }  // namespace
 
 void write_csv(const fs::path& path, const Eigen::VectorXd& time_s,
-               const std::vector<multibody::Channel>& channels) {
+               const std::vector<multibody::Channel>& channels, const std::string& first) {
   const fs::path temporary = path.string() + ".part";
   std::ofstream file(temporary, std::ios::binary);
-  file << header_of(channels) << '\n';
+  file << header_of(first, channels) << '\n';
   for (Eigen::Index k = 0; k < time_s.size(); ++k) {
     std::string line = fmt::format("{}", time_s[k]);
     for (const multibody::Channel& channel : channels)

@@ -65,10 +65,7 @@ BodySection read_body(const StudyTable& table) {
       choice(table, "kind", {"ground", "driven", "rigid", "deformable"}));
   switch (body.kind) {
     case BodySection::Kind::ground:
-      break;
     case BodySection::Kind::driven:
-      body.pulse_times_s = table.quantities("pulse_times", "s", 0);
-      body.pulse_m_s2 = table.quantities("pulse_deceleration", "m/s^2", body.pulse_times_s.size());
       break;
     case BodySection::Kind::rigid:
       body.rigid = read_rigid(table);
@@ -113,27 +110,6 @@ ForceSection read_force(const StudyTable& table) {
   force.magnitudes_N = table.quantities("magnitudes", "N", force.times_s.size());
   table.finish();
   return force;
-}
-
-CaseSection read_case(const StudyTable& table) {
-  CaseSection experiment;
-  experiment.name = table.text("name");
-  experiment.kind = static_cast<CaseSection::Kind>(choice(table, "kind", {"pendulum", "static"}));
-  experiment.bodies = table.texts("bodies");
-  experiment.direction = static_cast<CaseSection::Direction>(
-      choice(table, "direction", {"flexion", "extension", "lateral"}));
-  experiment.duration_s = table.quantity("duration", "s");
-  if (!(experiment.duration_s > 0)) table.refuse("duration", "expected a positive time");
-  if (experiment.kind == CaseSection::Kind::pendulum) {
-    experiment.impact_velocity_m_s = table.quantity("impact_velocity", "m/s");
-    if (!(experiment.impact_velocity_m_s > 0)) {
-      table.refuse("impact_velocity", "expected a positive velocity");
-    }
-  } else {
-    experiment.forces = table.texts("forces");
-  }
-  table.finish();
-  return experiment;
 }
 
 }  // namespace flexneck::pipeline

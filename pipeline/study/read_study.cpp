@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <type_traits>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -95,11 +96,12 @@ void read_solver(const StudyTable& table, Study& study) {
 
 namespace {
 
-template <typename Section>
+template <typename Section, typename... More>
 std::vector<Section> read_all(const StudyTable& root, const std::string& key,
-                              Section (*read)(const StudyTable&)) {
+                              Section (*read)(const StudyTable&, More...),
+                              std::type_identity_t<More>... more) {
   std::vector<Section> sections;
-  for (const StudyTable& table : root.tables(key)) sections.push_back(read(table));
+  for (const StudyTable& table : root.tables(key)) sections.push_back(read(table, more...));
   check_names(names_of(sections), key);
   return sections;
 }
@@ -167,6 +169,12 @@ void check_references(const Study& study) {
     for (const std::string& force : experiment.forces) {
       require(who, names_of(study.forces), force, "force");
     }
+    if (experiment.kind != CaseSection::Kind::pendulum) continue;
+    require(who, names_of(study.pulses), experiment.pulse, "pulse");
+    if (!experiment.rigid_neck.empty())
+      require(who, names_of(study.rigid_necks), experiment.rigid_neck, "rigid_neck");
+    if (!experiment.head_spring.empty())
+      require(who, names_of(study.head_springs), experiment.head_spring, "head_spring");
   }
   if (!study.modes.attached_body.empty()) {
     require("modes.attached_body", bodies, study.modes.attached_body, "body");
@@ -216,13 +224,19 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.markers = read_all(root, "marker", read_marker);
   study.joints = read_all(root, "joint", read_joint);
   study.forces = read_all(root, "force", read_force);
-  study.cases = read_all(root, "case", read_case);
+  std::vector<InputFile> tables;
+  study.pulses = read_all(root, "pulse", read_pulse, tables);
+  study.rigid_necks = read_all(root, "rigid_neck", read_rigid_neck, tables);
+  study.head_springs = read_all(root, "head_spring", read_head_spring, tables);
+  study.cases = read_cases(root);
+  check_names(names_of(study.cases), "case");
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   root.finish();
   check_geometry(study);
   check_references(study);
   study.files = document.files();
+  study.files.insert(study.files.end(), tables.begin(), tables.end());
   study.parameters = document.parameters();
   study.defaults = document.defaults();
   forget_fit_of_changed_neck(study);

@@ -28,7 +28,12 @@ BodySection read_body(const StudyTable& body);
 MarkerSection read_marker(const StudyTable& marker);
 JointSection read_joint(const StudyTable& joint);
 ForceSection read_force(const StudyTable& force);
-CaseSection read_case(const StudyTable& experiment);
+/// The keys table, a CSV file, or times and deceleration. A file read is appended to `files`.
+PulseSection read_pulse(const StudyTable& pulse, std::vector<InputFile>& files);
+RigidNeckSection read_rigid_neck(const StudyTable& neck, std::vector<InputFile>& files);
+HeadSpringSection read_head_spring(const StudyTable& spring, std::vector<InputFile>& files);
+/// [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
+std::vector<CaseSection> read_cases(const StudyTable& root);
 void read_solver(const StudyTable& solver, Study& study);
 
 /// One of the texts in `names`, as its position. @throws InputError with the nearest name.

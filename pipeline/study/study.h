@@ -77,9 +77,6 @@ struct BodySection {
   double damping_ratio = 0;
   /// Of modes that only complete the static compliance.
   double correction_damping_ratio = kCorrectionDamping;
-  /// Deceleration of a driven body; a case scales it to its impact velocity.
-  std::vector<double> pulse_times_s;
-  std::vector<double> pulse_m_s2;
 };
 
 /// [[marker]]; the interfaces of deformable bodies are markers without being listed.
@@ -106,17 +103,63 @@ struct ForceSection {
   std::vector<double> magnitudes_N;
 };
 
-/// [[case]]: one experiment. Its bodies, and the joints between them, make the model.
+/// [[pulse]]: a deceleration; a case brings it to its impact velocity.
+struct PulseSection {
+  std::string name;
+  std::vector<double> times_s;  ///< from 0 or later on, strictly increasing
+  std::vector<double> deceleration_m_s2;
+};
+
+/// [[rigid_neck]]: the neck of the older model, a rigid link between two pivots that turn in the
+/// plane of the case.
+struct RigidNeckSection {
+  /// Springs and damper of a pivot: in the fore-aft plane, flexion positive, and in the lateral.
+  struct Pivot {
+    double height_m = 0;  ///< above the base, on the neck's axis
+    multibody::Resistance fore_aft, lateral;
+  };
+  std::string name;
+  /// Made to have the mass, the static stiffness and the damping of the deformable neck.
+  bool matches_neck = false;
+  multibody::RigidBody rigid;  ///< otherwise: neck frame,
+  Pivot lower, upper;          ///< and these
+};
+
+/// [[head_spring]]: nodding blocks and cable as a pin in place of the fixed joint of the head.
+struct HeadSpringSection {
+  std::string name;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
+  multibody::Resistance resistance;
+};
+
+/// [[case]]: one experiment. Its bodies, and the joints between them, make the model. Keys that all
+/// experiments of a kind share stand in [pendulum] and [static]; a [[variant]] makes cases of other
+/// ones.
 struct CaseSection {
   enum class Kind { pendulum, static_test };
   enum class Direction { flexion, extension, lateral };
+  enum class PulseScaling { amplitude, duration, none };
+  enum class Arm { translating, rotating };
   std::string name;
+  std::string variant_of;  ///< the case that a [[variant]] made this of; empty for none
+  std::string variant;     ///< name of that variant
   Kind kind = Kind::pendulum;
   std::vector<std::string> bodies;
-  std::vector<std::string> forces;
+  std::vector<std::string> forces;  ///< of a static test
   Direction direction = Direction::flexion;
-  double impact_velocity_m_s = 0;  ///< of a pendulum
   double duration_s = 1.0;
+  // Of a pendulum:
+  std::optional<double> drop_angle_rad;
+  std::optional<double> effective_length_m;  ///< of the pendulum as one of a point
+  double impact_velocity_m_s = 0;
+  bool velocity_is_given = true;  ///< otherwise it follows from angle and length
+  std::string pulse;
+  PulseScaling pulse_scaling = PulseScaling::amplitude;
+  Arm arm = Arm::translating;
+  double pivot_distance_m = 0;          ///< rotating: from the arm's pivot to the neck's base
+  double accelerometer_distance_m = 0;  ///< rotating: to where velocity and pulse are measured
+  std::string rigid_neck;               ///< in place of the deformable one; empty for none
+  std::string head_spring;              ///< in place of the head's fixed joint; empty for none
 };
 
 /// Everything that a study file says, checked and in SI units.
@@ -133,7 +176,10 @@ struct Study {
   std::vector<MarkerSection> markers;
   std::vector<JointSection> joints;
   std::vector<ForceSection> forces;
-  std::vector<CaseSection> cases;
+  std::vector<PulseSection> pulses;
+  std::vector<RigidNeckSection> rigid_necks;
+  std::vector<HeadSpringSection> head_springs;
+  std::vector<CaseSection> cases;                ///< variants after those they are made of
   Eigen::Vector3d gravity_m_s2{0, 0, -9.80665};  ///< of pendulum cases, world
   multibody::SolverOptions solver;
   double output_interval_s = 1e-3;

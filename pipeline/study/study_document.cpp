@@ -36,19 +36,31 @@ struct StudyTable::Node {
   std::shared_ptr<Records> records;
   std::string path;
   std::vector<std::string> known;
+  std::shared_ptr<Node> below;  // asked for keys that are not here; may be null
 
   std::string dotted(const std::string& key) const { return path.empty() ? key : path + "." + key; }
 
   const toml::node* find(const std::string& key) {
     if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
-    return table == nullptr ? nullptr : table->get(key);
+    const toml::node* const inherited = below ? below->find(key) : nullptr;
+    const toml::node* const own = table == nullptr ? nullptr : table->get(key);
+    return own != nullptr ? own : inherited;
+  }
+
+  /// The node that a key is found in; this one if it is nowhere.
+  const Node& holder(const std::string& key) const {
+    const bool is_here = table != nullptr && table->get(key) != nullptr;
+    if (is_here || !below) return *this;
+    const Node& deeper = below->holder(key);
+    return deeper.table != nullptr && deeper.table->get(key) != nullptr ? deeper : *this;
   }
 
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const {
-    const toml::node* node = table == nullptr ? nullptr : table->get(key);
-    if (node == nullptr) node = table;
+    const Node& at = holder(key);
+    const toml::node* node = at.table == nullptr ? nullptr : at.table->get(key);
+    if (node == nullptr) node = at.table;
     const std::string where = node == nullptr ? std::string() : location_of(*node);
-    throw InputError(where + dotted(key) + ": " + problem);
+    throw InputError(where + at.dotted(key) + ": " + problem);
   }
 
   /// A key that is there, that nobody has asked for and that may be meant to be this one.
@@ -150,9 +162,9 @@ Origin origin_of(const toml::table& labels, const std::string& key) {
 
 void StudyTable::Node::record(const std::string& key, const toml::node& value,
                               const toml::table* labels) {
-  Parameter parameter{dotted(key), text_of(value), Origin::synthetic, {}};
+  Parameter parameter{holder(key).dotted(key), text_of(value), Origin::synthetic, {}};
   if (labels != nullptr) {
-    parameter.origin = origin_of(*labels, dotted(key));
+    parameter.origin = origin_of(*labels, parameter.key);
     parameter.note = (*labels)["note"].value_or(std::string());
   }
   add_new(records->parameters, std::move(parameter));
@@ -160,7 +172,10 @@ void StudyTable::Node::record(const std::string& key, const toml::node& value,
 
 void StudyTable::Node::record_default(const std::string& key, const std::string& value) {
   find(key);
-  add_new(records->defaults, {dotted(key), value, Origin::synthetic, {}});
+  // A key that is in none of the layers belongs to the lowest, which they share.
+  const Node* lowest = this;
+  while (lowest->below) lowest = lowest->below.get();
+  add_new(records->defaults, {lowest->dotted(key), value, Origin::synthetic, {}});
 }
 
 const toml::node& StudyTable::Node::value(const std::string& key) {
@@ -280,7 +295,7 @@ std::vector<double> StudyTable::quantities(const std::string& key, const std::st
 StudyTable StudyTable::table(const std::string& key) const {
   auto child = std::make_shared<Node>();
   child->records = node_->records;
-  child->path = node_->dotted(key);
+  child->path = node_->holder(key).dotted(key);
   if (const toml::node* const node = node_->find(key)) {
     child->table = node->as_table();
     if (child->table == nullptr) refuse(key, "expected a table [" + child->path + "]");
@@ -309,6 +324,12 @@ std::vector<std::string> StudyTable::keys() const {
   if (node_->table == nullptr) return names;
   for (const auto& [key, ignored] : *node_->table) names.emplace_back(key.str());
   return names;
+}
+
+StudyTable StudyTable::over(const StudyTable& below) const {
+  auto node = std::make_shared<Node>(*node_);
+  node->below = below.node_;
+  return StudyTable(std::move(node));
 }
 
 std::filesystem::path StudyTable::folder_of(const std::string& key) const {

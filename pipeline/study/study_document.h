@@ -53,6 +53,9 @@ class StudyTable {
   /// An array of tables; an absent one is empty.
   std::vector<StudyTable> tables(const std::string& key) const;
   std::vector<std::string> keys() const;
+  /// This table with what another has besides: its own keys win. Parameters keep the names of the
+  /// table that they stand in.
+  StudyTable over(const StudyTable& below) const;
   /// Folder of the file that holds the key, for paths given relative to it.
   std::filesystem::path folder_of(const std::string& key) const;
 

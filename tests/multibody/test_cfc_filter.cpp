@@ -44,6 +44,30 @@ TEST_CASE("a channel class damps a sine as its poles say and does not shift it")
   if (share == 2.0775) CHECK(gain == Approx(0.5).epsilon(1e-12));
 }
 
+TEST_CASE("a channel class passes and damps as SAE J211 draws it") {
+  // Limits of the standard's figure in dB: up to the class +0.5 and -1, at class / 0.6, which it
+  // names the cutoff, +0.5 and -4; an octave above that at most -9 - 3 or so: well below -12.
+  const auto [cfc, cutoff_Hz] =
+      GENERATE(table<ChannelClass, double>({{ChannelClass::cfc60, 100},
+                                            {ChannelClass::cfc180, 300},
+                                            {ChannelClass::cfc600, 1000},
+                                            {ChannelClass::cfc1000, 1650}}));
+  const auto gain_dB = [&, cfc = cfc](double frequency_Hz) {
+    constexpr Index kCount = 8000;
+    const VectorXd signal = sine(frequency_Hz, kCount);
+    const VectorXd filtered = cfc_filtered(signal, kInterval_s, cfc);
+    const double gain = filtered.segment(3500, 1000).dot(signal.segment(3500, 1000)) /
+                        signal.segment(3500, 1000).squaredNorm();
+    return 20 * std::log10(gain);
+  };
+  const double number = static_cast<double>(cfc);
+  CHECK(gain_dB(number) > -1);
+  CHECK(gain_dB(number) < 0.5);
+  CHECK(gain_dB(cutoff_Hz) > -4);
+  CHECK(gain_dB(cutoff_Hz) < -1);
+  CHECK(gain_dB(2 * cutoff_Hz) < -12);
+}
+
 TEST_CASE("a channel class keeps a constant and a straight line up to the ends") {
   const VectorXd line = VectorXd::LinSpaced(500, -3, 9);
   CHECK((cfc_filtered(VectorXd::Constant(50, 7.5), kInterval_s, ChannelClass::cfc180).array() - 7.5)

@@ -9,35 +9,17 @@
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/pendulum_signals.h"
 #include "pipeline/experiments/static_test.h"
-#include "tests/support/beam_body.h"
+#include "tests/support/beam_experiment.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using Direction = CaseSection::Direction;
+using Experiment = testing::BeamExperiment;
 
 namespace {
 
 constexpr double kRounding = 1e-12;
-
-/// The built-in study with the modes of the beam that stands in for the neck.
-struct Experiment {
-  Study study = read_study(built_in_study(), {});
-  fe_modal::ModalBody body = testing::make_beam_body(testing::Beam());
-  Experiment() {
-    for (BodySection& section : study.bodies) {
-      if (section.kind != BodySection::Kind::deformable) continue;
-      section.modes.clear();
-      for (const fe_modal::ModeRecord& mode : body.modes) section.modes.push_back(mode.name);
-    }
-  }
-  const CaseSection& named(const std::string& name) const {
-    for (const CaseSection& each : study.cases) {
-      if (each.name == name) return each;
-    }
-    throw std::runtime_error("no case " + name);
-  }
-};
 
 Eigen::Vector4d elements(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
@@ -35,7 +38,7 @@ TEST_CASE("every shipped study reads, and its dimensions say where they come fro
     INFO(name);
     const Study study = read_study(built_in_study().parent_path() / (name + ".toml"), {});
     REQUIRE(study.geometry);
-    CHECK(study.cases.size() == 5);
+    CHECK(study.cases.size() == 47);  // 3 static, 11 pendulum, 33 variants
     for (const Parameter& parameter : study.parameters) {
       if (!parameter.key.starts_with("geometry.") || !is_physical(parameter)) continue;
       const bool is_file =
@@ -107,6 +110,54 @@ TEST_CASE("the head's inertia is the published principal one, turned") {
   CHECK(principal[0] / unit == Approx(0.1408).epsilon(5e-4));
   CHECK(principal[1] / unit == Approx(0.1956).epsilon(5e-4));
   CHECK(principal[2] / unit == Approx(0.2128).epsilon(5e-4));
+}
+
+TEST_CASE("cases take what they do not say from their kind, variants from their cases") {
+  const Study study = built_in({"pendulum.duration=0.25 s", "case.flexion-20.duration=0.5 s",
+                                "variant.duration.pulse=extension"});
+  const auto named = [&](const std::string& name) {
+    for (const CaseSection& each : study.cases)
+      if (each.name == name) return each;
+    throw std::runtime_error("no case " + name);
+  };
+  CHECK(named("flexion-40").duration_s == 0.25);
+  CHECK(named("flexion-20").duration_s == 0.5);
+  const CaseSection variant = named("flexion-20-duration");
+  CHECK(variant.variant_of == "flexion-20");
+  CHECK(variant.duration_s == 0.5);
+  CHECK(variant.pulse == "extension");
+  CHECK(variant.pulse_scaling == CaseSection::PulseScaling::duration);
+  CHECK(variant.impact_velocity_m_s == named("flexion-20").impact_velocity_m_s);
+  CHECK(named("lateral-65-rigid").direction == CaseSection::Direction::lateral);
+  // A point that falls through 60 degrees on 65.48 in: v^2 = g L.
+  CHECK(named("flexion-60").impact_velocity_m_s ==
+        Approx(std::sqrt(9.80665 * 65.48 * 0.0254)).epsilon(1e-12));
+  // The value stands once among the parameters, where the study gives it.
+  const auto count = std::count_if(study.parameters.begin(), study.parameters.end(), [](auto& p) {
+    return p.key.ends_with(".rigid_neck") || p.key == "pendulum.pivot_distance";
+  });
+  CHECK(count == 3);
+}
+
+TEST_CASE("an experiment that cannot be is refused with what there is") {
+  CHECK_THROWS_WITH(built_in({"variant.rigid.of=[\"flexoin-20\"]"}),
+                    Contains("variant.rigid.of: there is no case 'flexoin-20'") &&
+                        Contains("did you mean 'flexion-20'?"));
+  CHECK_THROWS_WITH(built_in({"variant.rigid.rigid_nek=sourced"}), Contains("rigid_nek: unknown"));
+  CHECK_THROWS_WITH(built_in({"pendulum.pulse=flection"}),
+                    Contains("there is no pulse 'flection' (did you mean 'flexion'?)"));
+  CHECK_THROWS_WITH(built_in({"pendulum.puls=flexion"}), Contains("pendulum.puls: unknown key"));
+  CHECK_THROWS_WITH(built_in({"case.flexion-40.drop_angle=40 in"}),
+                    Contains("case.flexion-40.drop_angle"));
+  CHECK_THROWS_WITH(built_in({"pulse.flexion.times=[\"0 ms\", \"4 ms\", \"4 ms\", \"20 ms\", "
+                              "\"30 ms\", \"36 ms\", \"42 ms\"]"}),
+                    Contains("pulse.flexion.times") && Contains("must increase strictly"));
+  CHECK_THROWS_WITH(
+      built_in({"pulse.flexion.deceleration=[\"0 g\", \"1 g\", \"1 g\", \"1 g\", \"1 g\", "
+                "\"1 g\", \"0 g\"]"}),
+      Contains("pulse.flexion.deceleration"));  // grams
+  CHECK_THROWS_WITH(built_in({"case.lateral-65.head_spring=nodding"}),
+                    Contains("a rigid neck has a pivot with a spring there already"));
 }
 
 TEST_CASE("what cannot be is refused before anything is computed") {

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/pulse_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/names.h"
+#include "geometry/foundation/units.h"
+#include "pipeline/experiments/pulse_spectrum.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr double kStandardGravity = 9.80665;
+
+/// 2 g (1 - cos): the square of the velocity over the length.
+double fall(const CaseSection& experiment) {
+  return 2 * kStandardGravity * (1 - std::cos(*experiment.drop_angle_rad));
+}
+
+/// The length of a point pendulum that a velocity implies; none without a drop angle.
+std::optional<double> implied_length(const CaseSection& experiment) {
+  if (!experiment.drop_angle_rad) return {};
+  return std::pow(experiment.impact_velocity_m_s, 2) / fall(experiment);
+}
+
+std::string in_inches(double length_m) {
+  return fmt::format("{:.2f}", length_m * factor_from_si("m", "in"));
+}
+
+/// Lengths that velocities which are given imply, as printed.
+std::set<std::string> lengths_given(const std::vector<PendulumEntry>& entries) {
+  std::set<std::string> lengths;
+  for (const PendulumEntry& entry : entries)
+    if (entry.experiment.velocity_is_given && entry.experiment.drop_angle_rad)
+      lengths.insert(in_inches(*implied_length(entry.experiment)));
+  return lengths;
+}
+
+/// Variants whose pulse is that of the case they are made of need no line of their own.
+bool has_own_pulse(const PendulumEntry& entry) {
+  return entry.experiment.variant_of.empty() || entry.pulse.amplitude_factor == 1;
+}
+
+std::vector<std::string> pulse_cells(const PendulumEntry& entry) {
+  const double in = factor_from_si("m", "in");
+  const FittedPulse& pulse = entry.pulse;
+  const double largest =
+      *std::max_element(pulse.deceleration_m_s2.begin(), pulse.deceleration_m_s2.end());
+  return {entry.experiment.pulse,
+          fmt::format("{:.1f}", pulse.area_m_s * in),
+          fmt::format("{:+.1f}", 100 * (pulse.area_m_s / entry.experiment.impact_velocity_m_s - 1)),
+          fmt::format("{:.4f}", pulse.amplitude_factor),
+          fmt::format("{:.4f}", pulse.duration_factor),
+          fmt::format("{:.1f}", pulse.velocity_left_m_s * in),
+          fmt::format("{:.2f}", largest * factor_from_si("m/s^2", "gn")),
+          fmt::format("{:.1f}", pulse.times_s.back() * 1e3)};
+}
+
+}  // namespace
+
+ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
+  const double in = factor_from_si("m", "in");
+  const std::set<std::string> lengths = lengths_given(entries);
+  ResultTable table;
+  table.name = "velocities";
+  table.title = "Head/neck pendulum, velocities and pulses";
+  table.columns = {{"case", ""},
+                   {"drop", "deg"},
+                   {"velocity", "in/s"},
+                   {"velocity from", ""},
+                   {"implies length", "in"}};
+  for (const std::string& length : lengths)
+    table.columns.push_back({"on " + length + " in", "in/s"});
+  for (const auto& [name, unit] :
+       std::vector<std::pair<const char*, const char*>>{{"pulse", ""},
+                                                        {"its area", "in/s"},
+                                                        {"against the velocity", "%"},
+                                                        {"amplitude times", "1"},
+                                                        {"duration times", "1"},
+                                                        {"velocity left", "in/s"},
+                                                        {"largest", "gn"},
+                                                        {"ends", "ms"}})
+    table.columns.push_back({name, unit});
+  std::set<std::string> used;
+  for (const PendulumEntry& entry : entries) {
+    if (!has_own_pulse(entry)) continue;
+    const CaseSection& experiment = entry.experiment;
+    if (!experiment.velocity_is_given) used.insert(in_inches(*experiment.effective_length_m));
+    const std::optional<double> length = implied_length(experiment);
+    std::vector<std::string> row = {
+        experiment.name, text_of(experiment.drop_angle_rad, "{:.0f}", factor_from_si("rad", "deg")),
+        fmt::format("{:.2f}", experiment.impact_velocity_m_s * in),
+        experiment.velocity_is_given ? "the study" : "drop and length",
+        length ? in_inches(*length) : "-"};
+    for (const std::string& each : lengths)
+      row.push_back(
+          length ? fmt::format("{:.2f}", std::sqrt(std::stod(each) / in * fall(experiment)) * in)
+                 : "-");
+    const std::vector<std::string> cells = pulse_cells(entry);
+    row.insert(row.end(), cells.begin(), cells.end());
+    table.rows.push_back(std::move(row));
+  }
+  table.notes.push_back(
+      "The paper gives the lowest and the highest velocity only. Taken as those of its smallest "
+      "and "
+      "largest drop they imply different lengths of a point pendulum, both shown.");
+  for (const std::string& length : used)
+    table.notes.push_back("Velocities that the study does not give are those on " + length +
+                          " in.");
+  for (const std::string& warning : pulse_warnings(entries)) table.notes.push_back(warning);
+  return table;
+}
+
+std::vector<std::string> pulse_warnings(const std::vector<PendulumEntry>& entries) {
+  constexpr double kMisfit = 0.01;
+  const double in = factor_from_si("m", "in");
+  std::vector<std::string> warnings;
+  for (const PendulumEntry& entry : entries) {
+    const double velocity = entry.experiment.impact_velocity_m_s;
+    if (!(std::abs(entry.pulse.velocity_left_m_s) > kMisfit * velocity)) continue;
+    warnings.push_back(fmt::format(
+        "Warning: {}: the pulse '{}' takes {:.1f} in/s of {:.1f} in/s and is used as it is: the "
+        "arm "
+        "keeps {:.1f} in/s; pulse_scaling = \"amplitude\" or \"duration\" would bring it to rest.",
+        entry.experiment.name, entry.experiment.pulse, entry.pulse.area_m_s * in, velocity * in,
+        entry.pulse.velocity_left_m_s * in));
+  }
+  return warnings;
+}
+
+namespace {
+
+/// Pulses that cases of the study use, in its order.
+std::vector<const PulseSection*> pulses_in_use(const Study& study) {
+  std::vector<const PulseSection*> pulses;
+  for (const PulseSection& pulse : study.pulses)
+    for (const CaseSection& experiment : study.cases)
+      if (experiment.pulse == pulse.name) {
+        pulses.push_back(&pulse);
+        break;
+      }
+  return pulses;
+}
+
+double share_left(const PulseSection& pulse, double frequency_Hz) {
+  const auto at = [&](double f) {
+    return std::abs(fourier_transform(pulse.times_s, pulse.deceleration_m_s2, f));
+  };
+  return at(frequency_Hz) / at(0);
+}
+
+}  // namespace
+
+ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>& entries,
+                           const fe_modal::ModalBody& body) {
+  const std::vector<const PulseSection*> pulses = pulses_in_use(study);
+  ResultTable table;
+  table.name = "pulse spectrum";
+  table.title = "Pulses beside the modes: what is left of a pulse's area at a frequency";
+  table.columns = {{"motion", ""}, {"frequency", "Hz"}, {"used", ""}};
+  for (const PulseSection* const pulse : pulses) table.columns.push_back({pulse->name, "%"});
+  const auto add = [&](const std::string& name, double frequency_Hz, bool is_used) {
+    std::vector<std::string> row = {name, fmt::format("{:.2f}", frequency_Hz),
+                                    is_used ? "yes" : "no"};
+    for (const PulseSection* const pulse : pulses)
+      row.push_back(fmt::format("{:.1f}", 100 * share_left(*pulse, frequency_Hz)));
+    table.rows.push_back(std::move(row));
+  };
+  std::set<CaseSection::Direction> seen;
+  for (const PendulumEntry& entry : entries) {
+    const CaseSection& experiment = entry.experiment;
+    if (!experiment.variant_of.empty() || !seen.insert(experiment.direction).second) continue;
+    add("neck and head, " + experiment.name, entry.hanging.frequency_Hz, true);
+  }
+  std::set<std::string> used;
+  for (const BodySection& section : study.bodies)
+    if (section.kind == BodySection::Kind::deformable)
+      for (const fe_modal::ModeRecord& mode : fe_modal::select_modes(body, section.modes).modes)
+        used.insert(mode.name);
+  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    const std::string& name = body.modes[static_cast<std::size_t>(k)].name;
+    add("neck alone, " + name, body.frequencies_Hz[k], used.contains(name));
+  }
+  table.notes = {
+      "The paper chose the first four bending modes by the frequencies in its deceleration "
+      "records. Pulses as the study gives them; by amplitude they keep these shares, a duration "
+      "times d moves them to frequencies divided by d.",
+      "A mode that the pulse does not reach still bends by its static compliance; the neck's own "
+      "frequencies fall with the head on."};
+  return table;
+}
+
+std::vector<multibody::Channel> spectrum_curves(const Study& study,
+                                                const Eigen::VectorXd& frequencies_Hz) {
+  std::vector<multibody::Channel> channels;
+  for (const PulseSection* const pulse : pulses_in_use(study))
+    channels.push_back(
+        {pulse->name,
+         "%",
+         {pulse->name},
+         frequencies_Hz.unaryExpr([&](double f) { return 100 * share_left(*pulse, f); })
+             .transpose(),
+         ""});
+  return channels;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/static_tables.h"
+
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/units.h"
+
+namespace flexneck::pipeline {
+
+using Eigen::Index;
+
+namespace {
+
+double deg() { return factor_from_si("rad", "deg"); }
+double lbf() { return factor_from_si("N", "lbf"); }
+double in_lbf() { return factor_from_si("N*m", "in*lbf"); }
+
+std::vector<std::string> row_of(const std::string& name, const StaticTestSignals& signals) {
+  const StaticTestResult result = static_test_result(signals);
+  return {name,
+          fmt::format("{:.3f}", result.rotation * deg()),
+          fmt::format("{:.3f}", result.deflection * factor_from_si("m", "in")),
+          fmt::format("{:.1f}", result.base_moment * in_lbf()),
+          fmt::format("{:.2f}", result.initial_stiffness * in_lbf() / deg()),
+          fmt::format("{:.2f}", result.final_stiffness * in_lbf() / deg()),
+          fmt::format("{:.1f}", 100 * signals.stretch.tail<1>()[0])};
+}
+
+/// The value of a signal at a time, between its samples linear.
+double at_time(const Eigen::VectorXd& time_s, const Eigen::VectorXd& signal, double wanted_s) {
+  Index k = 1;
+  while (k + 1 < time_s.size() && time_s[k] < wanted_s) ++k;
+  const double share = (wanted_s - time_s[k - 1]) / (time_s[k] - time_s[k - 1]);
+  return signal[k - 1] + share * (signal[k] - signal[k - 1]);
+}
+
+/// The first sample at which a signal passes a bound in size, if it does.
+std::optional<Index> passes(const Eigen::VectorXd& signal, double bound) {
+  for (Index k = 0; k < signal.size(); ++k)
+    if (std::abs(signal[k]) > bound) return k;
+  return {};
+}
+
+/// Where a linear body stops making sense, from its own motion.
+std::string stretch_note(const StaticEntry& entry) {
+  constexpr double kStretch = 0.01;
+  const StaticTestSignals& signals = entry.ramp;
+  const std::optional<Index> sample = passes(signals.stretch, kStretch);
+  if (!sample) return {};
+  return fmt::format(
+      "{}: the linear body's top moves along a straight line; from {:.0f} lbf and {:.0f} deg on "
+      "the neck's chord is more than 1 % longer than the neck. Beyond that its figures are those "
+      "of a straight extrapolation.",
+      entry.experiment.name, signals.load[*sample] * lbf(),
+      std::abs(signals.rotation[*sample]) * deg());
+}
+
+}  // namespace
+
+ResultTable static_table(const std::vector<StaticEntry>& entries, bool has_own_moduli) {
+  ResultTable table;
+  table.name = "static tests";
+  table.title = "Static neck tester, at the end of the ramp" +
+                std::string(has_own_moduli ? ", with the static moduli" : "");
+  table.columns = {{"case", ""},
+                   {"rotation", "deg"},
+                   {"deflection", "in"},
+                   {"base moment", "in*lbf"},
+                   {"initial", "in*lbf/deg"},
+                   {"final", "in*lbf/deg"},
+                   {"chord longer by", "%"}};
+  for (const StaticEntry& entry : entries) {
+    table.rows.push_back(row_of(entry.experiment.name, entry.ramp));
+    if (entry.chain) table.rows.push_back(row_of(entry.experiment.name + "-chain", *entry.chain));
+    if (const std::string note = stretch_note(entry); !note.empty()) table.notes.push_back(note);
+  }
+  table.notes.push_back(
+      "Initial and final: slope of the base moment over the top's rotation in the first and the "
+      "last tenth of the ramp. The published test curve is not available.");
+  if (!has_own_moduli)
+    table.notes.push_back(
+        "The moduli are the dynamic ones of the modes, as in the paper, which finds them too stiff "
+        "here; geometry.materials.<name>.static_modulus_ratio gives a material another one.");
+  return table;
+}
+
+ResultTable ramp_table(const std::vector<StaticEntry>& entries) {
+  ResultTable table;
+  table.name = "ramp against statics";
+  table.title = "Static neck tester: the moving ramp against true statics";
+  table.columns = {{"case", ""},
+                   {"largest difference", "deg"},
+                   {"of the rotation at the end", "%"},
+                   {"lag", "ms"}};
+  for (const StaticEntry& entry : entries) {
+    const StaticTestSignals& still = entry.settled;
+    const Index last = still.rotation.size() - 1;
+    double largest = 0;
+    for (Index k = 0; k <= last; ++k) {
+      const double difference =
+          still.rotation[k] - at_time(entry.ramp.time_s, entry.ramp.rotation, still.time_s[k]);
+      if (std::abs(difference) > std::abs(largest)) largest = difference;
+    }
+    const double rate = still.rotation[last] / still.time_s[last];
+    table.rows.push_back({entry.experiment.name, fmt::format("{:.4f}", largest * deg()),
+                          fmt::format("{:.3f}", 100 * largest / still.rotation[last]),
+                          fmt::format("{:.2f}", largest / rate * 1e3)});
+  }
+  table.notes = {
+      "The difference is the neck's damping: a body with the damping ratio zeta lags a ramp by "
+      "2 zeta / omega of its first mode. Inertia matters at the ramp's beginning only: the 2 s are "
+      "slow enough."};
+  return table;
+}
+
+ResultTable chain_table(const std::vector<StaticEntry>& entries) {
+  constexpr std::array kShares = {0.025, 0.25, 0.5, 0.75, 1.0};
+  constexpr double kApart = 0.05;
+  ResultTable table;
+  table.name = "linear against chain";
+  table.title = "Static neck tester: one linear body against a chain of bodies";
+  table.columns = {{"case", ""},
+                   {"load", "lbf"},
+                   {"rotation, linear", "deg"},
+                   {"rotation, chain", "deg"},
+                   {"deflection, linear", "in"},
+                   {"deflection, chain", "in"},
+                   {"moment, linear", "in*lbf"},
+                   {"moment, chain", "in*lbf"}};
+  const double in = factor_from_si("m", "in");
+  for (const StaticEntry& entry : entries) {
+    if (!entry.chain) continue;
+    const StaticTestSignals& linear = entry.settled;
+    const StaticTestSignals& chain = *entry.chain;
+    for (const double share : kShares) {
+      const double time_s = share * linear.time_s.tail<1>()[0];
+      const auto both = [&](auto member, double factor, const char* format) {
+        std::array<std::string, 2> texts;
+        texts[0] = fmt::format(fmt::runtime(format),
+                               factor * at_time(linear.time_s, linear.*member, time_s));
+        texts[1] = fmt::format(fmt::runtime(format),
+                               factor * at_time(chain.time_s, chain.*member, time_s));
+        return texts;
+      };
+      const auto rotation = both(&StaticTestSignals::rotation, deg(), "{:.2f}");
+      const auto deflection = both(&StaticTestSignals::deflection, in, "{:.3f}");
+      const auto moment = both(&StaticTestSignals::base_moment, in_lbf(), "{:.0f}");
+      table.rows.push_back(
+          {entry.experiment.name,
+           fmt::format("{:.0f}", lbf() * at_time(linear.time_s, linear.load, time_s)), rotation[0],
+           rotation[1], deflection[0], deflection[1], moment[0], moment[1]});
+    }
+    const Eigen::VectorXd apart =
+        (linear.deflection - chain.deflection).array() / linear.deflection.array().abs().max(1e-12);
+    if (const auto sample = passes(apart, kApart))
+      table.notes.push_back(
+          fmt::format("{}: the top's deflection of the linear body is more than 5 % off the "
+                      "chain's from {:.0f} "
+                      "lbf and {:.0f} deg on.",
+                      entry.experiment.name, linear.load[*sample] * lbf(),
+                      std::abs(chain.rotation[*sample]) * deg()));
+  }
+  table.notes.push_back(
+      "The chain's bodies are linear each in its own frame: rubber that stiffens at large strain, "
+      "slits that close and the cable are in neither.");
+  return table;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/variant_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/units.h"
+#include "pipeline/experiments/bending_plane.h"
+#include "pipeline/experiments/case_model.h"
+#include "pipeline/experiments/rigid_neck.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+const PendulumEntry& base_of(const std::vector<PendulumEntry>& entries,
+                             const PendulumEntry& variant) {
+  return *std::find_if(entries.begin(), entries.end(), [&](const PendulumEntry& entry) {
+    return entry.experiment.name == variant.experiment.variant_of;
+  });
+}
+
+/// In the order in which they come first.
+std::vector<std::string> variant_names(const std::vector<PendulumEntry>& entries) {
+  std::vector<std::string> names;
+  for (const PendulumEntry& entry : entries) {
+    const std::string& name = entry.experiment.variant;
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  }
+  return names;
+}
+
+/// A figure of the variant, that of the other case, …
+using Row = std::vector<std::string>;
+
+Row row_of(const PendulumEntry& variant, const PendulumEntry& base) {
+  const double deg = factor_from_si("rad", "deg");
+  const double gn = factor_from_si("m/s^2", "gn");
+  const double lbf_ft = factor_from_si("N*m", "lbf*ft");
+  Row row = {variant.experiment.name};
+  const auto add = [&](const char* format, double factor, const auto& figure) {
+    for (const PendulumEntry* const entry : {&variant, &base})
+      row.push_back(text_of(figure(*entry), format, factor));
+  };
+  using Entry = PendulumEntry;
+  add("{:.1f}", deg, [](const Entry& e) { return e.result.head_rotation.value; });
+  add("{:.1f}", 1e3, [](const Entry& e) { return e.result.head_rotation.time_s; });
+  add("{:.1f}", 1e3, [](const Entry& e) { return e.result.zero_crossing_s; });
+  add("{:.1f}", deg, [](const Entry& e) { return e.result.neck_rotation.value; });
+  add("{:.1f}", gn, [](const Entry& e) { return e.result.head_acceleration.value; });
+  add("{:.1f}", lbf_ft, [](const Entry& e) { return e.result.occipital_moment.value; });
+  add("{:.2f}", 1, [](const Entry& e) { return e.hanging.frequency_Hz; });
+  add("{:.3f}", 1, [](const Entry& e) { return e.hanging.damping_ratio; });
+  add("{:.2f}", 1, [](const Entry& e) { return e.result.run_frequency_Hz; });
+  add("{:.3f}", 1, [](const Entry& e) { return e.result.run_damping_ratio; });
+  return row;
+}
+
+/// What a variant is, from what it does.
+std::string title_of(const CaseSection& experiment) {
+  if (experiment.rigid_neck == "matched" || experiment.rigid_neck == "sourced")
+    return "Rigid neck on two pivots, " + experiment.rigid_neck +
+           " parameters, beside the deformable neck";
+  if (!experiment.rigid_neck.empty())
+    return "Rigid neck '" + experiment.rigid_neck + "' beside the deformable neck";
+  if (!experiment.head_spring.empty())
+    return "Head on a pin with the spring '" + experiment.head_spring + "', beside a fixed head";
+  if (experiment.arm == CaseSection::Arm::rotating)
+    return "Arm rotating about its pivot, beside one that translates";
+  if (experiment.pulse_scaling == CaseSection::PulseScaling::duration)
+    return "Pulse brought to the velocity by its duration, beside its amplitude";
+  return "Variant '" + experiment.variant + "' beside the cases it is made of";
+}
+
+std::vector<std::string> notes_of(const CaseSection& experiment) {
+  std::vector<std::string> notes = {
+      "(base): the same figure of the case that the variant is made of."};
+  if (!experiment.rigid_neck.empty()) {
+    notes.push_back(
+        "The parameters of the paper's rigid model are not published, nor are the curves of its "
+        "tests: the table says how far the models differ, not which is nearer to a neck.");
+    notes.push_back(
+        "Where a pivot's springs differ in the two directions, small motions are those of the side "
+        "to which the head hangs.");
+  }
+  if (!experiment.head_spring.empty())
+    notes.push_back(
+        "The spring's parameters are found by trial, as the paper proposes; they are not "
+        "measured. A pin across the plane of a lateral test does not move.");
+  if (experiment.arm == CaseSection::Arm::rotating)
+    notes.push_back(
+        "A rotating arm starts from the undeformed neck: while it swings there is no "
+        "equilibrium. The distance of the neck from the pivot is assumed.");
+  return notes;
+}
+
+/// Figures of a case and their units, in the order of row_of().
+constexpr std::array kFigures = {std::pair{"head rotation", "deg"},
+                                 std::pair{"at", "ms"},
+                                 std::pair{"back at zero", "ms"},
+                                 std::pair{"neck rotation", "deg"},
+                                 std::pair{"head acceleration", "gn"},
+                                 std::pair{"occipital moment", "lbf*ft"},
+                                 std::pair{"eigenvalue", "Hz"},
+                                 std::pair{"its damping", "1"},
+                                 std::pair{"run", "Hz"},
+                                 std::pair{"its damping", "1"}};
+
+}  // namespace
+
+ResultTable in_short(const ResultTable& table) {
+  constexpr std::array<std::size_t, 13> kShown = {0, 1, 2, 3, 4, 9, 10, 11, 12, 13, 14, 15, 16};
+  ResultTable result = table;
+  result.columns.clear();
+  for (const std::size_t column : kShown) result.columns.push_back(table.columns[column]);
+  for (auto& row : result.rows) {
+    std::vector<std::string> cells;
+    for (const std::size_t column : kShown) cells.push_back(row[column]);
+    row = cells;
+  }
+  return result;
+}
+
+std::vector<ResultTable> variant_tables(const std::vector<PendulumEntry>& entries) {
+  std::vector<ResultTable> tables;
+  for (const std::string& name : variant_names(entries)) {
+    ResultTable table;
+    table.name = "variant-" + name;
+    table.columns = {{"case", ""}};
+    for (const auto& [figure, unit] : kFigures) {
+      table.columns.push_back({figure, unit});
+      table.columns.push_back({"(base)", unit});
+    }
+    for (const PendulumEntry& entry : entries) {
+      if (entry.experiment.variant != name) continue;
+      if (table.rows.empty()) {
+        table.title = title_of(entry.experiment);
+        table.notes = notes_of(entry.experiment);
+      }
+      table.rows.push_back(row_of(entry, base_of(entries, entry)));
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+namespace {
+
+/// N m/rad between an angle of a thousandth and none.
+double small_stiffness(const multibody::ResistanceSide& side) {
+  constexpr double kSmall = 1e-3;
+  return side.load(kSmall) / kSmall;
+}
+
+Row rigid_row(const std::string& name, const std::string& plane, const RigidNeckSection& neck,
+              const multibody::Resistance& lower, const multibody::Resistance& upper) {
+  const double in = factor_from_si("m", "in");
+  const double stiffness = factor_from_si("N*m/rad", "in*lbf/deg");
+  const double damping = factor_from_si("N*m*s/rad", "in*lbf*s/deg");
+  Row row = {name, plane, fmt::format("{:.3f}", neck.rigid.mass_kg * factor_from_si("kg", "lb"))};
+  for (const auto& [height_m, law] :
+       {std::pair{neck.lower.height_m, &lower}, std::pair{neck.upper.height_m, &upper}}) {
+    row.push_back(fmt::format("{:.3f}", height_m * in));
+    row.push_back(fmt::format("{:.1f}", small_stiffness(law->positive) * stiffness));
+    row.push_back(fmt::format("{:.1f}", small_stiffness(law->negative) * stiffness));
+    row.push_back(fmt::format("{:.3f}", law->damping * damping));
+  }
+  return row;
+}
+
+}  // namespace
+
+ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body) {
+  ResultTable table;
+  table.name = "rigid necks";
+  table.title = "Rigid necks: pivots, springs at small angles, dampers";
+  table.columns = {{"neck", ""},
+                   {"plane", ""},
+                   {"mass", "lb"},
+                   {"lower pivot", "in"},
+                   {"one way", "in*lbf/deg"},
+                   {"the other", "in*lbf/deg"},
+                   {"damper", "in*lbf*s/deg"},
+                   {"upper pivot", "in"},
+                   {"one way", "in*lbf/deg"},
+                   {"the other", "in*lbf/deg"},
+                   {"damper", "in*lbf*s/deg"}};
+  std::set<std::pair<std::string, bool>> seen;
+  for (const CaseSection& experiment : study.cases) {
+    if (experiment.rigid_neck.empty()) continue;
+    const bool lateral = experiment.direction == CaseSection::Direction::lateral;
+    if (!seen.insert({experiment.rigid_neck, lateral}).second) continue;
+    const RigidNeckSection neck = rigid_neck_of(study, experiment, body);
+    table.rows.push_back(rigid_row(experiment.rigid_neck, lateral ? "lateral" : "fore-aft", neck,
+                                   lateral ? neck.lower.lateral : neck.lower.fore_aft,
+                                   lateral ? neck.upper.lateral : neck.upper.fore_aft));
+  }
+  table.notes = {
+      "One way: flexion, or to one side. Matched: the link and springs that answer any static load "
+      "at the neck's top as the modes used do, with their mass and the first mode's damping."};
+  return table;
+}
+
+ResultTable processor_table(const std::vector<PendulumEntry>& entries) {
+  ResultTable table;
+  table.name = "processor time";
+  table.title = "Processor time of the deformable neck over that of the rigid ones, measured";
+  table.columns = {{"case", ""},
+                   {"rigid neck", ""},
+                   {"deformable", "ms"},
+                   {"rigid", "ms"},
+                   {"ratio", "1"},
+                   {"evaluations deformable", ""},
+                   {"evaluations rigid", ""},
+                   {"ratio", "1"}};
+  std::map<std::string, std::array<double, 4>> sums;
+  const auto add_row = [&](const std::string& name, const std::string& neck,
+                           const std::array<double, 4>& figures) {
+    const auto& [deformable_s, rigid_s, deformable, rigid] = figures;
+    table.rows.push_back({name, neck, fmt::format("{:.2f}", deformable_s * 1e3),
+                          fmt::format("{:.2f}", rigid_s * 1e3),
+                          fmt::format("{:.1f}", deformable_s / rigid_s),
+                          fmt::format("{:.0f}", deformable), fmt::format("{:.0f}", rigid),
+                          fmt::format("{:.1f}", deformable / rigid)});
+  };
+  for (const PendulumEntry& entry : entries) {
+    if (entry.experiment.rigid_neck.empty() || entry.experiment.variant_of.empty()) continue;
+    const PendulumEntry& base = base_of(entries, entry);
+    if (!base.cost || !entry.cost) continue;
+    const std::array<double, 4> figures = {base.cost->processor_s, entry.cost->processor_s,
+                                           static_cast<double>(base.cost->evaluations),
+                                           static_cast<double>(entry.cost->evaluations)};
+    add_row(base.experiment.name, entry.experiment.rigid_neck, figures);
+    auto& sum = sums[entry.experiment.rigid_neck];
+    for (std::size_t k = 0; k < figures.size(); ++k) sum[k] += figures[k];
+  }
+  for (const auto& [neck, figures] : sums) add_row("all", neck, figures);
+  table.notes = {
+      "Integration over the case's time at the study's tolerance, recorded at its end only, each "
+      "on "
+      "one thread. A measured time: it differs from run to run. Evaluations of the equations of "
+      "motion do not.",
+      "The paper: its deformable model typically takes 2 to 6 times the rigid one."};
+  return table;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "pipeline/experiments/pendulum_tables.h"
+
+namespace flexneck::pipeline {
+
+/// "variant-<name>" for each variant: its cases beside those that it was made of.
+std::vector<ResultTable> variant_tables(const std::vector<PendulumEntry>& entries);
+
+/// The columns of such a table that fit a console.
+ResultTable in_short(const ResultTable& table);
+
+/// "rigid necks": pivots, springs and dampers of the rigid necks that cases use, by plane.
+ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body);
+
+/// "processor time": of the deformable neck over that of the rigid ones in the same run of the
+/// program. Measured, so that it differs from run to run.
+ResultTable processor_table(const std::vector<PendulumEntry>& entries);
+
+}  // namespace flexneck::pipeline

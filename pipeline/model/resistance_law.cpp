@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/model/resistance_law.h"
+
+#include "geometry/foundation/error.h"
+#include "pipeline/model/model_sections.h"
+
+namespace flexneck::pipeline {
+
+using multibody::LoadCurve;
+using multibody::Resistance;
+using multibody::ResistanceSide;
+
+namespace {
+
+LoadCurve polynomial(const StudyTable& table, const std::string& prefix,
+                     const ResistanceUnits& units) {
+  return LoadCurve::cubic(table.quantity_or(prefix + "stiffness", units.over(""), 0),
+                          table.quantity_or(prefix + "quadratic", units.over("^2"), 0),
+                          table.quantity_or(prefix + "cubic", units.over("^3"), 0));
+}
+
+LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units,
+                     std::vector<InputFile>& files) {
+  if (!table.has("deflections") && !table.has("table")) return polynomial(table, "", units);
+  for (const char* const key : {"stiffness", "quadratic", "cubic"})
+    if (table.has(key)) table.refuse(key, "the curve is given already by a table");
+  TableColumns columns =
+      read_columns(table, {"deflections", units.deflection, "loads", units.load}, files);
+  try {
+    return LoadCurve::table(std::move(columns.x), std::move(columns.y));
+  } catch (const InputError& error) {
+    table.refuse(table.has("table") ? "table" : "deflections", error.what());
+  }
+}
+
+}  // namespace
+
+ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUnits& units,
+                                    std::vector<InputFile>& files) {
+  ResistanceSide side;
+  side.curve = load_curve(table, units, files);
+  side.stop = table.quantity_or("stop", units.deflection, side.stop);
+  side.beyond_stop = polynomial(table, "stop_", units);
+  side.unloading_ratio = table.number_or("unloading_ratio", side.unloading_ratio);
+  return side;
+}
+
+Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& units,
+                               std::vector<InputFile>& files) {
+  Resistance resistance;
+  resistance.positive = resistance.negative = read_resistance_side(table, units, files);
+  const auto side_of = [&](const char* key, ResistanceSide& side) {
+    if (!table.has(key)) return;
+    const StudyTable own = table.table(key);
+    side = read_resistance_side(own, units, files);
+    own.finish();
+  };
+  side_of("positive", resistance.positive);
+  side_of("negative", resistance.negative);
+  resistance.damping =
+      table.quantity_or("damping", units.load + "*s/" + units.deflection, resistance.damping);
+  resistance.friction = table.quantity_or("friction", units.load, resistance.friction);
+  resistance.full_rate =
+      table.quantity_or("full_rate", units.deflection + "/s", resistance.full_rate);
+  return resistance;
+}
+
+}  // namespace flexneck::pipeline

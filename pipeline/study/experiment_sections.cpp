@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/error.h"
+#include "multibody/time_table.h"
+#include "pipeline/model/model_sections.h"
+#include "pipeline/model/resistance_law.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+PulseSection read_pulse(const StudyTable& table, std::vector<InputFile>& files) {
+  PulseSection pulse;
+  pulse.name = table.text("name");
+  TableColumns columns = read_columns(table, {"times", "s", "deceleration", "m/s^2"}, files);
+  const char* const key = table.has("table") ? "table" : "times";
+  // The table itself knows what times must be.
+  at_key(table, key, [&] {
+    return multibody::TimeTable(columns.x, columns.y, multibody::TimeTable::Outside::zero);
+  });
+  if (columns.x.size() < 2 || columns.x.front() < 0)
+    table.refuse(key, "expected two times or more, none before 0, when the arm is struck");
+  pulse.times_s = std::move(columns.x);
+  pulse.deceleration_m_s2 = std::move(columns.y);
+  table.finish();
+  return pulse;
+}
+
+namespace {
+
+RigidNeckSection::Pivot read_pivot(const StudyTable& table, std::vector<InputFile>& files) {
+  RigidNeckSection::Pivot pivot;
+  pivot.height_m = table.quantity("height", "m");
+  pivot.fore_aft.damping = pivot.lateral.damping = table.quantity_or("damping", "N*m*s/rad", 0);
+  const auto side = [&](const char* key) {
+    const StudyTable own = table.table(key);
+    multibody::ResistanceSide read = read_resistance_side(own, kAngularUnits, files);
+    own.finish();
+    return read;
+  };
+  pivot.fore_aft.positive = side("flexion");
+  pivot.fore_aft.negative = side("extension");
+  pivot.lateral.positive = pivot.lateral.negative = side("lateral");
+  table.finish();
+  return pivot;
+}
+
+}  // namespace
+
+RigidNeckSection read_rigid_neck(const StudyTable& table, std::vector<InputFile>& files) {
+  RigidNeckSection neck;
+  neck.name = table.text("name");
+  neck.matches_neck = table.flag_or("matches_neck", false);
+  if (!neck.matches_neck) {
+    neck.rigid = read_rigid(table);
+    neck.lower = read_pivot(table.table("lower"), files);
+    neck.upper = read_pivot(table.table("upper"), files);
+    if (!(neck.upper.height_m > neck.lower.height_m))
+      table.refuse("upper", "expected this pivot above the lower one");
+  }
+  table.finish();
+  return neck;
+}
+
+HeadSpringSection read_head_spring(const StudyTable& table, std::vector<InputFile>& files) {
+  HeadSpringSection spring;
+  spring.name = table.text("name");
+  if (table.has("axis")) spring.axis = unit_vector(table, "axis");
+  spring.resistance = read_resistance_law(table, kAngularUnits, files);
+  table.finish();
+  return spring;
+}
+
+}  // namespace flexneck::pipeline
