@@ -45,6 +45,8 @@ Provenance provenance_of(const std::vector<InputFile>& files,
 
 Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes) {
   Provenance provenance = provenance_of(study.files, {});
+  if (prefixes.empty())
+    provenance.inputs.insert(provenance.inputs.end(), study.tables.begin(), study.tables.end());
   const auto wanted = [&](const Parameter& parameter) {
     return prefixes.empty() ||
            std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {

@@ -224,10 +224,9 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.markers = read_all(root, "marker", read_marker);
   study.joints = read_all(root, "joint", read_joint);
   study.forces = read_all(root, "force", read_force);
-  std::vector<InputFile> tables;
-  study.pulses = read_all(root, "pulse", read_pulse, tables);
-  study.rigid_necks = read_all(root, "rigid_neck", read_rigid_neck, tables);
-  study.head_springs = read_all(root, "head_spring", read_head_spring, tables);
+  study.pulses = read_all(root, "pulse", read_pulse, study.tables);
+  study.rigid_necks = read_all(root, "rigid_neck", read_rigid_neck, study.tables);
+  study.head_springs = read_all(root, "head_spring", read_head_spring, study.tables);
   study.cases = read_cases(root);
   check_names(names_of(study.cases), "case");
   read_solver(root.table("solver"), study);
@@ -236,7 +235,6 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   check_geometry(study);
   check_references(study);
   study.files = document.files();
-  study.files.insert(study.files.end(), tables.begin(), tables.end());
   study.parameters = document.parameters();
   study.defaults = document.defaults();
   forget_fit_of_changed_neck(study);

@@ -185,7 +185,8 @@ struct Study {
   double output_interval_s = 1e-3;
   std::filesystem::path verification;  ///< table of reference figures; empty for none
 
-  std::vector<InputFile> files;
+  std::vector<InputFile> files;   ///< of the study itself
+  std::vector<InputFile> tables;  ///< CSV files that it names
   std::vector<Parameter> parameters;
   std::vector<Parameter> defaults;  ///< what holds for keys that the study does not give
 

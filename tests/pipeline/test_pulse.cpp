@@ -78,7 +78,7 @@ TEST_CASE("a user's pulse comes from a CSV file with its units") {
   const Study study = read_study(folder / "study.toml", {"pendulum.pulse_scaling=none"});
   CHECK(study.pulses.at(0).times_s.at(1) == Approx(0.01));
   CHECK(study.pulses.at(0).deceleration_m_s2.at(1) == Approx(20 * 9.80665));
-  CHECK(study.files.back().name == "mine.csv");
+  CHECK(study.tables.at(0).name == "mine.csv");
   const testing::BeamExperiment built_in;
   const FittedPulse pulse = case_pulse(study, built_in.named("flexion-120"));
   CHECK(pulse.area_m_s == Approx(0.5 * 0.05 * 20 * 9.80665));
