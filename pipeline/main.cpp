@@ -8,7 +8,6 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/commands/commands.h"
-#include "pipeline/commands/simulate.h"
 #include "pipeline/version.h"
 
 namespace {
@@ -22,7 +21,7 @@ constexpr int kComputationFailed = 3;
 
 struct Arguments {
   std::string command = "run";
-  std::string study;
+  std::vector<std::string> files;
   std::string folder = "out";
   std::vector<std::string> settings;
   bool quiet = false;
@@ -40,9 +39,10 @@ struct Arguments {
 void describe(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", std::string("flexneck ") + kVersion + " (" + kGitHash + ")");
   app.add_option("command", arguments.command, "What to do; see below")->option_text("COMMAND");
-  app.add_option("study", arguments.study,
-                 "Study file (default: the built-in Hybrid III study), or the model of simulate")
-      ->option_text("STUDY.toml");
+  app.add_option("files", arguments.files,
+                 "Study file (default: the built-in Hybrid III study), the model of simulate, or "
+                 "the files of info")
+      ->option_text("FILE ...");
   app.add_option("-o,--out,--output", arguments.folder, "Folder for results")
       ->option_text("DIR [out]");
   app.add_option("--set", arguments.settings, "Use another value, e.g. modes.count=12")
@@ -93,10 +93,16 @@ bool execute(const Arguments& arguments, const Console& console, const Ranks* ra
                                arguments.command + "'");
   }
   const ResultsFolder folder(arguments.folder);
-  if (list[which].run == nullptr)
-    return simulate_command({arguments.study, arguments.settings, folder, console});
+  if (list[which].run_on_files != nullptr) {
+    return list[which].run_on_files(
+        {{arguments.files.begin(), arguments.files.end()}, arguments.settings, folder, console});
+  }
+  if (arguments.files.size() > 1) {
+    throw flexneck::InputError(arguments.command + ": expected one study, found '" +
+                               arguments.files[1] + "' too");
+  }
   const Study study = read_study(
-      arguments.study.empty() ? built_in_study() : std::filesystem::path(arguments.study),
+      arguments.files.empty() ? built_in_study() : std::filesystem::path(arguments.files.front()),
       arguments.settings);
   if (ranks != nullptr && arguments.command != "modes" && arguments.command != "run") {
     console.step("Only modes are computed on many ranks: '" + arguments.command +

@@ -23,6 +23,9 @@ struct FileFormat {
   std::string_view made_by;  ///< the command that makes such a file, for error messages
 };
 
+/// What a file says that it is; empty if it is no HDF5 file that can be read or says nothing.
+std::string format_of(const std::filesystem::path& path);
+
 /// Writes an HDF5 file under a temporary name beside its own and renames it on commit(); without
 /// commit() nothing is left. Object names are absolute paths; missing groups are made on the way.
 /// The same writes give the same bytes. All members throw ComputationError when writing fails.

@@ -135,6 +135,22 @@ Hdf5Reader::Hdf5Reader(fs::path path, const FileFormat& format) : impl_(std::mak
   impl_->check_format(format, *this);
 }
 
+std::string format_of(const fs::path& path) {
+  silence_hdf5();
+  if (!fs::is_regular_file(path) || H5Fis_hdf5(path.c_str()) <= 0) return {};
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file || H5Aexists(file.get(), "format") <= 0) return {};
+  const Hdf5Handle attribute(H5Aopen(file.get(), "format", H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle stored(H5Aget_type(attribute.get()), H5Tclose);
+  if (H5Tis_variable_str(stored.get()) <= 0) return {};
+  const Hdf5Handle type = hdf5_string_type();
+  char* text = nullptr;
+  if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&text)) < 0) return {};
+  std::string format(text);
+  H5free_memory(text);
+  return format;
+}
+
 Hdf5Reader::~Hdf5Reader() = default;
 
 const fs::path& Hdf5Reader::path() const { return impl_->path; }

@@ -24,7 +24,9 @@ const std::vector<Command>& commands() {
        ".inp, .mtx, .petsc, .dat",
        export_command},
       {"report", "all results on one page: report.html", report_command},
-      {"simulate", "run a model file: <model>.h5 and <model>.csv", nullptr},
+      {"simulate", "run a model file: <model>.h5 and <model>.csv", nullptr, simulate_command},
+      {"info", "describe files that flexneck has written: what is in them, what made them", nullptr,
+       info_command},
       {"study", "print every input with its origin", study_command},
   };
   return list;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/commands/file_commands.h"
 #include "pipeline/console.h"
 #include "pipeline/results_folder.h"
 #include "pipeline/study/study.h"
@@ -29,7 +30,8 @@ struct CommandInput {
 struct Command {
   std::string name;
   std::string help;
-  bool (*run)(const CommandInput&);  ///< null for simulate, which has no study
+  bool (*run)(const CommandInput&);                  ///< null if it works on files
+  bool (*run_on_files)(const FileInput&) = nullptr;  ///< null if it works on a study
 };
 
 /// All commands, in the order of --help.

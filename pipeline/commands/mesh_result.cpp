@@ -16,7 +16,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-std::string part_table(const mesher::MeshSummary& summary, const ExactVolumes& exact) {
+std::string parts_table(const mesher::MeshSummary& summary, const ExactVolumes& exact) {
   std::vector<std::vector<std::string>> rows = {{"part", "element", "material", "elements",
                                                  "volume m^3", "mass kg", "scaled Jacobian",
                                                  "aspect ratio"}};
@@ -50,19 +50,25 @@ std::string add_orders(const MeshOrders& orders, mesher::MeshFile& file) {
 
 }  // namespace
 
+std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact) {
+  const mesher::MeshSummary summary = mesher::summarise(mesh);
+  const Eigen::Vector3d extent = mesher::bounding_box(mesh).extent_m();
+  return fmt::format("{} elements, {} nodes, {:.4g} x {:.4g} x {:.4g} m, {:.4g} kg\n{}",
+                     summary.elements, summary.nodes, extent[0], extent[1], extent[2],
+                     summary.mass_kg, parts_table(summary, exact));
+}
+
 void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVolumes& exact) {
   file.provenance.libraries["gmsh"] = mesher::gmsh_version();
   const std::string partition_lines = add_orders(input.study.mesh_orders, file);
   mesher::write_mesh(input.folder.mesh(), file);
   mesher::write_xdmf(input.folder.mesh(), file);
 
-  const mesher::MeshSummary summary = mesher::summarise(file.mesh);
-  const Eigen::Vector3d extent = mesher::bounding_box(file.mesh).extent_m();
-  input.console.result(fmt::format(
-      "\nMesh: {} elements, {} nodes, {:.4g} x {:.4g} x {:.4g} m, {:.4g} kg  ({})\n{}{}",
-      summary.elements, summary.nodes, extent[0], extent[1], extent[2], summary.mass_kg,
-      input.folder.mesh().string(), part_table(summary, exact), partition_lines));
-  for (const std::string& remark : geometry::implausibilities(extent.maxCoeff(), summary.mass_kg)) {
+  input.console.result("\nMesh  (" + input.folder.mesh().string() +
+                       "): " + mesh_text(file.mesh, exact) + partition_lines);
+  const double mass_kg = mesher::summarise(file.mesh).mass_kg;
+  const double extent_m = mesher::bounding_box(file.mesh).extent_m().maxCoeff();
+  for (const std::string& remark : geometry::implausibilities(extent_m, mass_kg)) {
     input.console.step("Warning: " + remark);
   }
 }

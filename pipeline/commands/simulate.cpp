@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/commands/simulate.h"
-
 #include <algorithm>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "multibody/history_file.h"
+#include "pipeline/commands/file_commands.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/summary.h"
@@ -69,9 +68,9 @@ multibody::HistoryFile result_of(const ModelFile& file, multibody::History histo
   return result;
 }
 
-void write(const SimulateInput& input, const multibody::HistoryFile& result) {
+void write(const FileInput& input, const multibody::HistoryFile& result) {
   input.folder.make();
-  const std::string name = input.model.stem().string();
+  const std::string name = input.files.front().stem().string();
   const fs::path table = input.folder.file(name + ".csv");
   multibody::write_history(input.folder.file(name + ".h5"), result);
   write_csv(table, result.history.time_s, result.channels);
@@ -83,11 +82,12 @@ void write(const SimulateInput& input, const multibody::HistoryFile& result) {
 
 }  // namespace
 
-bool simulate_command(const SimulateInput& input) {
-  if (input.model.empty())
-    throw InputError("simulate: name the model, 'flexneck simulate MODEL.toml'");
-  const ModelFile file = read_model_file(input.model, input.settings);
-  input.console.step("Simulating " + input.model.string());
+bool simulate_command(const FileInput& input) {
+  if (input.files.size() != 1)
+    throw InputError("simulate: name one model, 'flexneck simulate MODEL.toml'");
+  const std::filesystem::path& model = input.files.front();
+  const ModelFile file = read_model_file(model, input.settings);
+  input.console.step("Simulating " + model.string());
   const auto linearisation = linearised(file);
   const auto finish = [&](multibody::History history) {
     multibody::HistoryFile result = result_of(file, std::move(history));

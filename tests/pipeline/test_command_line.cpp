@@ -194,6 +194,17 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
     check_refused(run_flexneck("modes -o " + out + kCoarse + " --set modes.held_directions.top=w"),
                   "modes.held_directions.top: expected directions such as \"x\" or \"yz\"");
   }
+  SECTION("info tells what is in a file and what made it") {
+    const CommandOutcome mesh = run_flexneck("info " + out + "/mesh.h5");
+    CHECK(mesh.exit_code == 0);
+    CHECK_THAT(mesh.text, Contains("flexneck mesh") && Contains("top_plate") &&
+                              Contains("Node set bolts") && Contains("geometry.length"));
+    const CommandOutcome told = run_flexneck("info " + out + "/modes.h5");
+    CHECK_THAT(told.text, Contains("fixed: bolts") && Contains("fore-aft bending 1") &&
+                              Contains("Interface top") && Contains("mesh.h5"));
+    check_refused(run_flexneck("info " + out + "/mesh.xdmf"), "another kind of file");
+    check_refused(run_flexneck("info " + out + "/none.h5"), "no such file");
+  }
   SECTION("a truncated file is refused") {
     fs::resize_file(folder / "modes.h5", fs::file_size(folder / "modes.h5") / 2);
     check_refused(run_flexneck("static -o " + out + kCoarse),

@@ -10,16 +10,22 @@
 
 namespace flexneck::pipeline {
 
-struct SimulateInput {
-  std::filesystem::path model;  ///< a model file (pipeline/models/README.md)
+/// What the commands get that work on files they are given instead of a study.
+struct FileInput {
+  std::vector<std::filesystem::path> files;
   std::vector<std::string> settings;
   const ResultsFolder& folder;
   const Console& console;
 };
 
-/// Runs a model file: <its name>.h5 and <its name>.csv in the folder, a summary on the console.
+/// Runs a model file (pipeline/models/README.md): <its name>.h5 and <its name>.csv in the folder, a
+/// summary on the console.
 /// @throws InputError for what is wrong with the model; nothing is written then.
 /// @throws ComputationError if the run ends early; what was computed is written, marked incomplete.
-bool simulate_command(const SimulateInput& input);
+bool simulate_command(const FileInput& input);
+
+/// Describes files of ours: what is in them and what they were made from.
+/// @throws InputError for a file of another kind.
+bool info_command(const FileInput& input);
 
 }  // namespace flexneck::pipeline

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+
+#include <fmt/core.h>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/error.h"
+#include "mesher/mesh/bounding_box.h"
+#include "mesher/mesh/mesh_file.h"
+#include "multibody/history_file.h"
+#include "pipeline/commands/basis_text.h"
+#include "pipeline/commands/file_commands.h"
+#include "pipeline/commands/mesh_result.h"
+#include "pipeline/commands/mode_table.h"
+#include "pipeline/output/result_table.h"
+#include "pipeline/output/summary.h"
+#include "pipeline/text_table.h"
+#include "pipeline/verification/verification.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What a file is made from: program, files, libraries and values.
+std::string provenance_text(const Provenance& provenance) {
+  std::string text =
+      fmt::format("\nMade by {}, sources {}, from", provenance.program, provenance.git_hash);
+  for (const InputFile& input : provenance.inputs) text += "\n  " + input.name + "  " + input.hash;
+  for (const auto& [name, version] : provenance.libraries) text += "\n  " + name + " " + version;
+  if (provenance.parameters.empty()) return text;
+  std::vector<std::vector<std::string>> rows = {{"input", "value", "origin"}};
+  for (const Parameter& parameter : provenance.parameters)
+    rows.push_back({parameter.key, parameter.value, std::string(name_of(parameter.origin))});
+  return text + "\n" + text_table(rows, {0, 1, 2});
+}
+
+std::string describe_mesh(const fs::path& path) {
+  const mesher::MeshFile file = mesher::read_mesh(path);
+  std::string text = mesh_text(file.mesh, {});
+  for (const mesher::NodeSet& set : file.mesh.node_sets)
+    text += fmt::format("\nNode set {}: {} nodes", set.name, set.nodes.size());
+  for (const mesher::FaceSet& set : file.mesh.face_sets) {
+    std::size_t faces = 0;
+    for (const mesher::FaceBlock& block : set.blocks) faces += block.size();
+    text += fmt::format("\nFace set {}: {} faces", set.name, faces);
+  }
+  for (const mesher::Slit& slit : file.mesh.slits)
+    text += fmt::format("\nSlit {}: {} pairs of nodes, {}", slit.name, slit.lower.size(),
+                        slit.tied ? "closed" : "open");
+  return text + provenance_text(file.provenance);
+}
+
+std::string describe_modes(const fs::path& path) {
+  const fe_modal::ModalBodyFile file = fe_modal::read_modal_body(path);
+  std::string text =
+      fmt::format("{}, {}; mass {:.4g} kg, {} nodes\nSolver: {}\n{}{}", file.body.boundary,
+                  file.body.certificate, file.body.invariants.mass, file.body.nodes_m.cols(),
+                  file.body.solver, mode_table(file.body), basis_text(file.body));
+  for (const fe_modal::Interface& interface : file.body.interfaces) {
+    const Eigen::Vector3d& at = interface.position_m;
+    text += fmt::format("\nInterface {} at ({:.4g}, {:.4g}, {:.4g}) m", interface.name, at[0],
+                        at[1], at[2]);
+  }
+  return text + provenance_text(file.provenance);
+}
+
+std::string describe_history(const fs::path& path) {
+  const multibody::HistoryFile file = multibody::read_history(path);
+  const Eigen::VectorXd& times_s = file.history.time_s;
+  std::string text = run_summary(file.history);
+  if (times_s.size() > 0)
+    text += fmt::format("\n{} times from {:.4g} to {:.4g} s", times_s.size(), times_s[0],
+                        times_s[times_s.size() - 1]);
+  if (file.linearisation) text += "\n" + mode_summary(*file.linearisation);
+  if (!file.channels.empty()) text += "\n" + peak_table(times_s, file.channels);
+  return text + provenance_text(file.provenance);
+}
+
+std::string describe_tables(const fs::path& path) {
+  const TableFile file = read_tables(path);
+  std::string text;
+  for (const ResultTable& table : file.tables)
+    text += (text.empty() ? "" : "\n\n") + printed(table);
+  return text + "\n" + provenance_text(file.provenance);
+}
+
+std::string describe_verification(const fs::path& path) {
+  const VerificationFile file = read_verification(path);
+  return printed(file.table) + "\n" + provenance_text(file.provenance);
+}
+
+struct Kind {
+  std::string_view format;
+  std::string (*describe)(const fs::path&);
+};
+
+constexpr std::array<Kind, 3> kKinds = {{{mesher::kMeshFormat.name, describe_mesh},
+                                         {fe_modal::kModalBodyFormat.name, describe_modes},
+                                         {multibody::kHistoryFormat.name, describe_history}}};
+
+}  // namespace
+
+bool info_command(const FileInput& input) {
+  if (input.files.empty()) throw InputError("info: name a file, 'flexneck info out/modes.h5'");
+  for (const fs::path& path : input.files) {
+    if (!fs::is_regular_file(path)) throw InputError(path.string() + ": no such file");
+    const std::string format = format_of(path);
+    std::string text;
+    for (const Kind& kind : kKinds) {
+      if (format == kind.format) text = kind.describe(path);
+    }
+    if (text.empty() && holds_tables(path)) text = describe_tables(path);
+    if (text.empty() && path.extension() == ".json") text = describe_verification(path);
+    if (text.empty()) {
+      throw InputError(path.string() +
+                       ": expected a mesh, modes, a history, tables or a verification of flexneck, "
+                       "found another kind of file");
+    }
+    input.console.result(path.string() + ": " + (format.empty() ? "" : format) + "\n" + text);
+  }
+  return true;
+}
+
+}  // namespace flexneck::pipeline
