@@ -32,7 +32,10 @@ Eigen::VectorXd relative_rotation(const multibody::MarkerHistory& marker,
   Eigen::VectorXd angles(marker.rotation.cols());
   for (Eigen::Index k = 0; k < angles.size(); ++k) {
     const Eigen::AngleAxisd turn(rotation_at(reference, k).conjugate() * rotation_at(marker, k));
-    angles[k] = std::remainder(turn.angle() * turn.axis().dot(plane.axis), 2 * std::numbers::pi);
+    const double angle = turn.angle() * turn.axis().dot(plane.axis);
+    // Counted on beyond half a turn.
+    const double before = k > 0 ? angles[k - 1] : 0;
+    angles[k] = before + std::remainder(angle - before, 2 * std::numbers::pi);
   }
   return angles;
 }
