@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/commands.h"
 
-#include <algorithm>
-
-#include "pipeline/output/result_table.h"
-#include "pipeline/stages.h"
-#include "pipeline/text_table.h"
-#include "pipeline/verification/verification.h"
-
 namespace flexneck::pipeline {
 
 const std::vector<Command>& commands() {
@@ -30,105 +23,6 @@ const std::vector<Command>& commands() {
       {"study", "print every input with its origin", study_command},
   };
   return list;
-}
-
-namespace {
-
-/// "published 12, inferred 5, …"
-std::string origin_counts(const Study& study) {
-  std::string text;
-  for (std::size_t i = 0; i < kOriginNames.size(); ++i) {
-    const auto count = std::count_if(
-        study.parameters.begin(), study.parameters.end(),
-        [&](const Parameter& parameter) { return parameter.origin == static_cast<Origin>(i); });
-    text += (i > 0 ? ", " : "") + std::string(kOriginNames[i]) + " " + std::to_string(count);
-  }
-  return text;
-}
-
-/// The dimensions of the neck and the figures of its bodies, each with its origin.
-std::string origin_table(const Study& study) {
-  std::vector<std::vector<std::string>> rows = {{"input", "value", "origin"}};
-  for (const Parameter& parameter : study.parameters) {
-    if (parameter.origin == Origin::synthetic) continue;
-    rows.push_back({parameter.key, parameter.value, std::string(name_of(parameter.origin))});
-  }
-  return text_table(rows, {0, 1, 2});
-}
-
-}  // namespace
-
-namespace {
-
-/// A stage of `run`. A command that returns false, or throws, has not made it.
-struct Stage {
-  std::string name;
-  Provenance from;
-  std::vector<std::string> after;
-  bool (*command)(const CommandInput&);
-};
-
-Provenance without_study_files(Provenance provenance, const Study& study) {
-  // A study's file changes with every value in it, which do not all matter to every stage.
-  std::erase_if(provenance.inputs, [&](const InputFile& input) {
-    return std::any_of(study.files.begin(), study.files.end(),
-                       [&](const InputFile& file) { return file.name == input.name; });
-  });
-  return provenance;
-}
-
-std::vector<Stage> stages_of(const Study& study) {
-  if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
-  std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
-                               {"modes", modes_provenance(study), {"mesh"}, modes_command},
-                               {"pictures", {}, {"mesh", "modes"}, pictures_command}};
-  if (study.structure) return stages;  // the experiments below are the neck's
-  const Provenance experiments = experiment_provenance(study);
-  Provenance everything = provenance_of(study);
-  if (!study.verification.empty()) {
-    everything.inputs.push_back(
-        {study.verification.filename().string(), hash_of_file(study.verification.string())});
-  }
-  stages.push_back({"static", experiments, {"modes"}, static_command});
-  stages.push_back({"pendulum", experiments, {"modes"}, pendulum_command});
-  stages.push_back({"verify", everything, {"modes", "pendulum"}, verify_command});
-  stages.push_back({"report",
-                    everything,
-                    {"mesh", "modes", "pictures", "static", "pendulum", "verify"},
-                    report_command});
-  return stages;
-}
-
-void print_kept(const CommandInput& input, const std::string& stage) {
-  if (stage == "verify") {
-    const VerificationFile file = read_verification(input.folder.verification());
-    input.console.result("\n" + printed(file.table));
-  }
-  const std::filesystem::path tables = input.folder.file(stage + ".json");
-  if (!holds_tables(tables)) return;
-  for (const ResultTable& table : read_tables(tables).tables)
-    input.console.result("\n" + printed(table));
-}
-
-}  // namespace
-
-bool run_command(const CommandInput& input) {
-  const Study& study = input.study;
-  input.folder.make();
-  if (study.geometry) {
-    input.console.result("Inputs by origin: " + origin_counts(study) +
-                         "; 'flexneck study' lists them with their sources.\n" +
-                         origin_table(study));
-  }
-  Stages records(input.folder.path(), input.redo);
-  for (const Stage& stage : stages_of(study)) {
-    const bool made = records.make(stage.name, without_study_files(stage.from, study), stage.after,
-                                   [&] { stage.command(input); });
-    if (made) continue;
-    input.console.step("Nothing has changed for " + stage.name + ": kept");
-    print_kept(input, stage.name);
-  }
-  return !study.geometry || read_verification(input.folder.verification()).table.passed();
 }
 
 }  // namespace flexneck::pipeline

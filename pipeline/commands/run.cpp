@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "pipeline/commands/commands.h"
+#include "pipeline/output/result_table.h"
+#include "pipeline/stages.h"
+#include "pipeline/text_table.h"
+#include "pipeline/verification/verification.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// "published 12, inferred 5, …"
+std::string origin_counts(const Study& study) {
+  std::string text;
+  for (std::size_t i = 0; i < kOriginNames.size(); ++i) {
+    const auto count = std::count_if(
+        study.parameters.begin(), study.parameters.end(),
+        [&](const Parameter& parameter) { return parameter.origin == static_cast<Origin>(i); });
+    text += (i > 0 ? ", " : "") + std::string(kOriginNames[i]) + " " + std::to_string(count);
+  }
+  return text;
+}
+
+/// The dimensions of the neck and the figures of its bodies, each with its origin.
+std::string origin_table(const Study& study) {
+  std::vector<std::vector<std::string>> rows = {{"input", "value", "origin"}};
+  for (const Parameter& parameter : study.parameters) {
+    if (parameter.origin == Origin::synthetic) continue;
+    rows.push_back({parameter.key, parameter.value, std::string(name_of(parameter.origin))});
+  }
+  return text_table(rows, {0, 1, 2});
+}
+
+}  // namespace
+
+namespace {
+
+/// A stage of `run`. A command that returns false, or throws, has not made it.
+struct Stage {
+  std::string name;
+  Provenance from;
+  std::vector<std::string> after;
+  bool (*command)(const CommandInput&);
+};
+
+/// Less the study's own files: they change with every value, which do not all matter to a stage.
+Provenance without_studies(Provenance provenance, const Study& study) {
+  std::erase_if(provenance.inputs, [&](const InputFile& input) {
+    return std::any_of(study.files.begin(), study.files.end(),
+                       [&](const InputFile& file) { return file.name == input.name; });
+  });
+  return provenance;
+}
+
+/// Less the values whose keys begin so.
+Provenance without(Provenance provenance, const std::vector<std::string>& prefixes) {
+  std::erase_if(provenance.parameters, [&](const Parameter& parameter) {
+    return std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
+      return parameter.key.starts_with(prefix);
+    });
+  });
+  return provenance;
+}
+
+std::vector<Stage> stages_of(const Study& study) {
+  if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
+  std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
+                               {"modes", modes_provenance(study), {"mesh"}, modes_command},
+                               {"pictures", {}, {"mesh", "modes"}, pictures_command}};
+  if (study.structure) return stages;  // the experiments below are the neck's
+  const auto kind_of = [&](CaseSection::Kind kind) {
+    std::vector<std::string> prefixes;
+    for (const CaseSection& experiment : study.cases)
+      if (experiment.kind == kind) prefixes.push_back("case." + experiment.name + ".");
+    return prefixes;
+  };
+  std::vector<std::string> of_pendulum = kind_of(CaseSection::Kind::pendulum);
+  of_pendulum.insert(of_pendulum.end(), {"pendulum.", "pulse.", "head_spring."});
+  std::vector<std::string> of_static = kind_of(CaseSection::Kind::static_test);
+  of_static.insert(of_static.end(), {"static.", "force."});
+  const Provenance experiments = experiment_provenance(study);
+  Provenance everything = provenance_of(study);
+  if (!study.verification.empty()) {
+    everything.inputs.push_back(
+        {study.verification.filename().string(), hash_of_file(study.verification.string())});
+  }
+  stages.push_back({"static", without(experiments, of_pendulum), {"modes"}, static_command});
+  stages.push_back({"pendulum", without(experiments, of_static), {"modes"}, pendulum_command});
+  stages.push_back({"verify", everything, {"modes", "pendulum"}, verify_command});
+  stages.push_back({"report",
+                    everything,
+                    {"mesh", "modes", "pictures", "static", "pendulum", "verify"},
+                    report_command});
+  return stages;
+}
+
+void print_kept(const CommandInput& input, const std::string& stage) {
+  if (stage == "verify") {
+    const VerificationFile file = read_verification(input.folder.verification());
+    input.console.result("\n" + printed(file.table));
+  }
+  const std::filesystem::path tables = input.folder.file(stage + ".json");
+  if (!holds_tables(tables)) return;
+  for (const ResultTable& table : read_tables(tables).tables)
+    input.console.result("\n" + printed(table));
+}
+
+}  // namespace
+
+bool run_command(const CommandInput& input) {
+  const Study& study = input.study;
+  input.folder.make();
+  if (study.geometry) {
+    input.console.result("Inputs by origin: " + origin_counts(study) +
+                         "; 'flexneck study' lists them with their sources.\n" +
+                         origin_table(study));
+  }
+  Stages records(input.folder.path(), input.redo);
+  for (const Stage& stage : stages_of(study)) {
+    const bool made = records.make(stage.name, without_studies(stage.from, study), stage.after,
+                                   [&] { stage.command(input); });
+    if (made) continue;
+    input.console.step("Nothing has changed for " + stage.name + ": kept");
+    print_kept(input, stage.name);
+  }
+  return !study.geometry || read_verification(input.folder.verification()).table.passed();
+}
+
+}  // namespace flexneck::pipeline
