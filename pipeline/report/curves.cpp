@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 /// Of a run: a screen has hardly more points in a row. Every value shown is one of the file's.
-constexpr Eigen::Index kMostSamples = 2001;
+constexpr Eigen::Index kMostSamples = 1001;
 
 const char* name_of(Experiment::Kind kind) {
   return kind == Experiment::Kind::pendulum ? "pendulum" : "static";

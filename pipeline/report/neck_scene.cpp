@@ -87,9 +87,12 @@ const multibody::MarkerHistory* marker_of(const multibody::History& history,
   return found == history.markers.end() ? nullptr : &*found;
 }
 
-/// Every so many-th time, the first included.
+/// Every so many-th time, the first and the last included.
 Eigen::MatrixXd every(const Eigen::MatrixXd& columns, Eigen::Index stride) {
-  return columns(Eigen::all, Eigen::seq(0, columns.cols() - 1, stride));
+  std::vector<Eigen::Index> times;
+  for (Eigen::Index k = 0; k < columns.cols() - 1; k += stride) times.push_back(k);
+  times.push_back(columns.cols() - 1);
+  return columns(Eigen::all, times);
 }
 
 /// Position and quaternion (w, x, y, z) of a marker, seven numbers a frame.

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -35,7 +36,17 @@ class Reader {
  public:
   Reader(const fs::path& folder, const Study& study) : folder_(folder), study_(study) {}
 
-  Results take() && { return std::move(results_); }
+  Results take() && {
+    // The study has the cases in the order of interest; a variant follows its case.
+    std::sort(results_.experiments.begin(), results_.experiments.end(),
+              [&](const Experiment& a, const Experiment& b) {
+                const auto place = [&](const Experiment& run) {
+                  return std::pair(run.kind, place_of(run));
+                };
+                return place(a) != place(b) ? place(a) < place(b) : comes_before(a.name, b.name);
+              });
+    return std::move(results_);
+  }
 
   void mesh() {
     require("mesh.h5", "the mesh", "flexneck mesh", [&](const fs::path& path) {
@@ -109,6 +120,17 @@ class Reader {
 
  private:
   using ReadFile = std::function<Provenance(const fs::path&)>;
+
+  /// Place among the study's cases of the one that a run is, or varies; of others, after them.
+  std::size_t place_of(const Experiment& run) const {
+    const bool is_pendulum = run.kind == Experiment::Kind::pendulum;
+    const auto found =
+        std::find_if(study_.cases.begin(), study_.cases.end(), [&](const CaseSection& each) {
+          return (each.kind == CaseSection::Kind::pendulum) == is_pendulum &&
+                 (run.name == each.name || run.name.starts_with(each.name + "-"));
+        });
+    return static_cast<std::size_t>(found - study_.cases.begin());
+  }
 
   void read(const std::string& name, const std::string& command, const ReadFile& read_file) {
     const fs::path path = folder_ / name;

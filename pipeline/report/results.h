@@ -34,7 +34,7 @@ struct ResultFile {
 struct Results {
   std::optional<mesher::Mesh> mesh;
   std::optional<fe_modal::ModalBody> modes;
-  std::vector<Experiment> experiments;  ///< the pendulum's first, each by name and its numbers
+  std::vector<Experiment> experiments;  ///< the pendulum's first, as the study has them
   std::optional<VerificationTable> verification;
   std::vector<ResultTable> tables;    ///< of all files, in the order of their names
   std::vector<ResultFile> files;      ///< those read, by name

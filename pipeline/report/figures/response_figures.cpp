@@ -35,7 +35,8 @@ struct ResponseFigure {
 
 std::vector<CurveSpec> deformable_and_rigid(const std::string& channel) {
   return {{"flexion-20", channel, "deformable neck"},
-          {"flexion-20-rigid", channel, "rigid bodies, two pivots", true}};
+          {"flexion-20-rigid", channel, "rigid bodies on two pivots, sourced", true},
+          {"flexion-20-matched", channel, "the same, matched to the deformable neck", true}};
 }
 
 std::vector<CurveSpec> rotations(const std::string& experiment) {

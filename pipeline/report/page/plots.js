@@ -19,8 +19,11 @@
   }));
   const valuesOf = (channel) =>
       channel.unpacked || (channel.unpacked = flexneck.unpack(channel.values, Float32Array));
-  /** A case that varies none of the others: "flexion-60", not "flexion-60-rigid". */
-  const isPlain = (run, all) => !all.some((other) => run.name.startsWith(`${other.name}-`));
+  /** "flexion-60-rigid" is the variant "rigid" of the case "flexion-60", if there is such a case. */
+  const split = (run, all) => {
+    const base = all.find((other) => run.name.startsWith(`${other.name}-`));
+    return base ? [base.name, run.name.slice(base.name.length + 1)] : [run.name, ''];
+  };
 
   let isSi = false;
   const shown = (unit, kind) =>
@@ -52,10 +55,11 @@
         button.addEventListener('click', () => this.press(key, 1));
         controls.append(button);
       }
-      this.makeLegend();
+      this.makeChoices();
       this.drawing = element('div', {class: 'drawing'});
       this.reading = element('output', {class: 'note'});
-      container.append(controls, this.drawing, this.reading, this.legend);
+      this.legend = element('ul', {class: 'legend', 'aria-label': 'Curves drawn'});
+      container.append(controls, this.drawing, this.legend, this.reading, ...this.choices);
       this.svg = d3.select(this.drawing).append('svg')
           .attr({tabindex: 0, role: 'img', height}).node();
       this.listen();
@@ -63,27 +67,51 @@
       new ResizeObserver(() => this.draw()).observe(this.drawing);
     }
 
-    /** A button for each case: its line, its name and, while one reads, its value. */
-    makeLegend() {
-      const plain = this.runs.filter((run) => isPlain(run, this.runs)).slice(0, 6);
-      this.legend = element('div', {class: 'legend', role: 'group', 'aria-label': 'Cases shown'});
+    /** Cases and their variants: what is drawn is every chosen variant of every chosen case. */
+    makeChoices() {
+      const pairs = this.runs.map((run) => split(run, this.runs));
+      const cases = [...new Set(pairs.map(([name]) => name))];
+      const variants = [...new Set(pairs.map(([, variant]) => variant))];
+      this.shownCases = new Set(cases.slice(0, 5));
+      this.shownVariants = new Set(['']);
       this.curves = this.runs.map((run, k) => {
-        const stroke = colours[k % colours.length];
-        const dash = dashes[k % dashes.length];
-        const value = element('span', {class: 'value'});
-        const button = element('button', {type: 'button', 'data-case': run.name});
-        const line = d3.select(button).append('svg').attr({width: 34, height: 8, 'aria-hidden': true});
-        line.append('line').attr({x1: 1, x2: 33, y1: 4, y2: 4, class: 'curve', stroke,
-                                  'stroke-dasharray': dash});
-        button.append(run.name, value);
-        const curve = {run, stroke, dash, value, button, isShown: plain.includes(run)};
-        button.addEventListener('click', () => {
-          curve.isShown = !curve.isShown;
-          this.draw();
-        });
-        this.legend.append(button);
-        return curve;
+        const [place, variant] = [cases.indexOf(pairs[k][0]), variants.indexOf(pairs[k][1])];
+        return {run, case: pairs[k][0], variant: pairs[k][1],
+                stroke: colours[place % colours.length],
+                dash: dashes[(place + 2 * variant) % dashes.length]};
       });
+      const group = (label, names, chosen, textOf) => {
+        const buttons = names.map((name) => {
+          const button = element('button', {type: 'button', 'data-choice': name,
+                                            'aria-pressed': chosen.has(name)}, textOf(name));
+          button.addEventListener('click', () => {
+            if (!chosen.delete(name)) chosen.add(name);
+            button.setAttribute('aria-pressed', chosen.has(name));
+            this.draw();
+          });
+          return button;
+        });
+        return element('div', {class: 'controls', role: 'group', 'aria-label': label},
+                       element('span', {class: 'note'}, label), ...buttons);
+      };
+      this.choices = [group('Cases', cases, this.shownCases, (name) => name)];
+      if (variants.length > 1) {
+        this.choices.push(group('Variants', variants, this.shownVariants,
+                                (name) => name || 'as the paper has it'));
+      }
+    }
+
+    /** A line for each curve drawn: its stroke, its name and, while one reads, its value. */
+    fillLegend(drawn) {
+      this.legend.replaceChildren(...drawn.map((curve) => {
+        curve.value = element('span', {class: 'value'});
+        const item = element('li', {'data-curve': curve.run.name});
+        d3.select(item).append('svg').attr({width: 34, height: 8, 'aria-hidden': true})
+            .append('line').attr({x1: 1, x2: 33, y1: 4, y2: 4, class: 'curve',
+                                  stroke: curve.stroke, 'stroke-dasharray': curve.dash});
+        item.append(curve.run.name, curve.value);
+        return item;
+      }));
     }
 
     /** The points of a case in the units shown; none if it has not the channels. */
@@ -115,10 +143,12 @@
       const width = this.drawing.clientWidth;
       if (width === 0) return;
       for (const curve of this.curves) {
-        curve.points = curve.isShown ? this.points(curve.run) : [];
-        curve.button.setAttribute('aria-pressed', curve.isShown);
+        const isShown = this.shownCases.has(curve.case) && this.shownVariants.has(curve.variant);
+        curve.points = isShown ? this.points(curve.run) : [];
       }
       const drawn = this.curves.filter((curve) => curve.points.length > 0);
+      this.drawn = drawn;
+      this.fillLegend(drawn);
       this.full = d3.extent(drawn.flatMap((curve) => curve.points.map(([x]) => x)));
       const [left, right] = this.window || this.full;
       const inView = drawn.flatMap(
@@ -192,16 +222,15 @@
     /** Values at x, beside the names and on a line through the curves. */
     read(x) {
       this.cursor = x;
-      for (const curve of this.curves) curve.value.textContent = '';
+      for (const curve of this.drawn) curve.value.textContent = '';
       this.reading.textContent = '';
-      if (!this.mark) return;
+      if (!this.mark || this.drawn.length === 0) return;
       this.mark.selectAll('*').remove();
       if (x === null) return;
       const at = this.scaleX(x);
       this.mark.append('line').attr({class: 'cursor', x1: at, x2: at, y1: margin.top,
                                      y2: height - margin.bottom});
-      for (const curve of this.curves) {
-        if (curve.points.length === 0) continue;
+      for (const curve of this.drawn) {
         const nearest = curve.points.reduce(
             (best, point) => Math.abs(point[0] - x) < Math.abs(best[0] - x) ? point : best);
         curve.value.textContent = digits(nearest[1]);

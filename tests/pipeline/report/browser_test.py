@@ -215,7 +215,7 @@ class Report(unittest.TestCase):
         ActionChains(self.browser).move_to_element_with_offset(
             svg, int((x - 0.5) * svg.size["width"]), 0).perform()
         reading = plot.find_element(By.TAG_NAME, "output").text.split(":")[0].removeprefix("at ")
-        value = plot.find_element(By.CSS_SELECTOR, f"[data-case='{case}'] .value").text
+        value = plot.find_element(By.CSS_SELECTOR, f"[data-curve='{case}'] .value").text
         return [float(text.replace("−", "-")) for text in (reading, value)]
 
     def test_a_value_read_off_a_curve_is_the_one_of_the_file(self):
@@ -234,7 +234,7 @@ class Report(unittest.TestCase):
         plot = self.plot()
         curves = lambda: plot.find_elements(By.CSS_SELECTOR, ".drawing path.curve")
         shown = len(curves())
-        button = plot.find_element(By.CSS_SELECTOR, "[data-case=flexion-60]")
+        button = plot.find_element(By.CSS_SELECTOR, "[data-choice=flexion-60]")
         self.run_script("arguments[0].click()", button)
         self.assertEqual(len(curves()), shown - 1)
         self.run_script("arguments[0].click()", button)
