@@ -20,6 +20,12 @@ namespace {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
+/// End of the digits that begin at a place.
+std::size_t end_of_number(const std::string& text, std::size_t place) {
+  while (place < text.size() && is_digit(text[place])) ++place;
+  return place;
+}
+
 /// The files of a folder by name.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -170,10 +176,8 @@ bool comes_before(const std::string& a, const std::string& b) {
   std::size_t j = 0;
   while (i < a.size() && j < b.size()) {
     if (is_digit(a[i]) && is_digit(b[j])) {
-      const std::size_t a_end =
-          std::find_if_not(a.begin() + static_cast<long>(i), a.end(), is_digit) - a.begin();
-      const std::size_t b_end =
-          std::find_if_not(b.begin() + static_cast<long>(j), b.end(), is_digit) - b.begin();
+      const std::size_t a_end = end_of_number(a, i);
+      const std::size_t b_end = end_of_number(b, j);
       const std::string x = a.substr(i, a_end - i);
       const std::string y = b.substr(j, b_end - j);
       if (x.size() != y.size()) return x.size() < y.size();
