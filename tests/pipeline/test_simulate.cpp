@@ -107,7 +107,7 @@ TEST_CASE("a model that is not sound ends in one line, exit code 2 and no file")
   const CommandOutcome none =
       testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck simulate 2>&1");
   CHECK(none.exit_code == 2);
-  CHECK_THAT(none.text, Contains("name the model"));
+  CHECK_THAT(none.text, Contains("name one model"));
 }
 
 TEST_CASE("a run that cannot go on says when and why and keeps what it has, marked incomplete") {
