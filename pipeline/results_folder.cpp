@@ -75,11 +75,20 @@ Provenance modes_provenance(const Study& study) {
                                "body." + study.modes.attached_body + "."});
 }
 
-Provenance experiment_provenance(const Study& study) {
+Provenance experiment_provenance(const Study& study, CaseSection::Kind kind) {
+  std::vector<std::string> others(kOfTheModes.begin(), kOfTheModes.end());
+  if (kind == CaseSection::Kind::pendulum) {
+    others.insert(others.end(), {"static.", "force."});
+  } else {
+    others.insert(others.end(), {"pendulum.", "pulse.", "head_spring."});
+  }
+  for (const CaseSection& experiment : study.cases)
+    if (experiment.kind != kind) others.push_back("case." + experiment.name + ".");
   Provenance provenance = provenance_of(study);
-  std::erase_if(provenance.parameters, [](const Parameter& parameter) {
-    return std::any_of(kOfTheModes.begin(), kOfTheModes.end(),
-                       [&](const char* prefix) { return parameter.key.starts_with(prefix); });
+  std::erase_if(provenance.parameters, [&](const Parameter& parameter) {
+    return std::any_of(others.begin(), others.end(), [&](const std::string& prefix) {
+      return parameter.key.starts_with(prefix);
+    });
   });
   return provenance;
 }

@@ -54,8 +54,8 @@ Provenance provenance_of(const Study& study, const std::vector<std::string>& pre
 Provenance mesh_provenance(const Study& study);
 /// The same for the modes of a mesh.
 Provenance modes_provenance(const Study& study);
-/// The same for what is done with the modes.
-Provenance experiment_provenance(const Study& study);
+/// The same for the experiments of a kind with the modes.
+Provenance experiment_provenance(const Study& study, CaseSection::Kind kind);
 
 /// Refuses a file that was made with other values than the study has now.
 /// @throws InputError naming the first value that differs, and the command that makes the file.

@@ -20,7 +20,7 @@ namespace flexneck::pipeline {
 namespace {
 
 Provenance provenance_of_run(const CommandInput& input) {
-  Provenance provenance = provenance_of(input.study);
+  Provenance provenance = experiment_provenance(input.study, CaseSection::Kind::pendulum);
   provenance.inputs.push_back(
       {input.folder.modes().filename().string(), hash_of_file(input.folder.modes().string())});
   return provenance;

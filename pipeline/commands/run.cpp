@@ -54,40 +54,25 @@ Provenance without_studies(Provenance provenance, const Study& study) {
   return provenance;
 }
 
-/// Less the values whose keys begin so.
-Provenance without(Provenance provenance, const std::vector<std::string>& prefixes) {
-  std::erase_if(provenance.parameters, [&](const Parameter& parameter) {
-    return std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
-      return parameter.key.starts_with(prefix);
-    });
-  });
-  return provenance;
-}
-
 std::vector<Stage> stages_of(const Study& study) {
   if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
   std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
                                {"modes", modes_provenance(study), {"mesh"}, modes_command},
                                {"pictures", {}, {"mesh", "modes"}, pictures_command}};
   if (study.structure) return stages;  // the experiments below are the neck's
-  const auto kind_of = [&](CaseSection::Kind kind) {
-    std::vector<std::string> prefixes;
-    for (const CaseSection& experiment : study.cases)
-      if (experiment.kind == kind) prefixes.push_back("case." + experiment.name + ".");
-    return prefixes;
-  };
-  std::vector<std::string> of_pendulum = kind_of(CaseSection::Kind::pendulum);
-  of_pendulum.insert(of_pendulum.end(), {"pendulum.", "pulse.", "head_spring."});
-  std::vector<std::string> of_static = kind_of(CaseSection::Kind::static_test);
-  of_static.insert(of_static.end(), {"static.", "force."});
-  const Provenance experiments = experiment_provenance(study);
   Provenance everything = provenance_of(study);
   if (!study.verification.empty()) {
     everything.inputs.push_back(
         {study.verification.filename().string(), hash_of_file(study.verification.string())});
   }
-  stages.push_back({"static", without(experiments, of_pendulum), {"modes"}, static_command});
-  stages.push_back({"pendulum", without(experiments, of_static), {"modes"}, pendulum_command});
+  stages.push_back({"static",
+                    experiment_provenance(study, CaseSection::Kind::static_test),
+                    {"modes"},
+                    static_command});
+  stages.push_back({"pendulum",
+                    experiment_provenance(study, CaseSection::Kind::pendulum),
+                    {"modes"},
+                    pendulum_command});
   stages.push_back({"verify", everything, {"modes", "pendulum"}, verify_command});
   stages.push_back({"report",
                     everything,

@@ -74,7 +74,7 @@ bool static_command(const CommandInput& input) {
   const fs::path path = has_own_moduli ? input.folder.static_modes() : input.folder.modes();
   const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(path);
   require_same_inputs(path, modes.provenance, input.study, "flexneck modes");
-  Provenance provenance = provenance_of(input.study);
+  Provenance provenance = experiment_provenance(input.study, CaseSection::Kind::static_test);
   provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
   const std::vector<ChainLink> links = read_links(input, provenance);
   std::vector<StaticEntry> entries;
