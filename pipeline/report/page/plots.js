@@ -97,7 +97,7 @@
       this.choices = [group('Cases', cases, this.shownCases, (name) => name)];
       if (variants.length > 1) {
         this.choices.push(group('Variants', variants, this.shownVariants,
-                                (name) => name || 'as the paper has it'));
+                                (name) => name || 'plain'));
       }
     }
 
