@@ -124,6 +124,7 @@ ResultTable in_short(const ResultTable& table) {
   for (const std::size_t column : kShown) result.columns.push_back(table.columns[column]);
   for (auto& row : result.rows) {
     std::vector<std::string> cells;
+    cells.reserve(kShown.size());
     for (const std::size_t column : kShown) cells.push_back(row[column]);
     row = cells;
   }
@@ -131,8 +132,10 @@ ResultTable in_short(const ResultTable& table) {
 }
 
 std::vector<ResultTable> variant_tables(const std::vector<PendulumEntry>& entries) {
+  const std::vector<std::string> names = variant_names(entries);
   std::vector<ResultTable> tables;
-  for (const std::string& name : variant_names(entries)) {
+  tables.reserve(names.size());
+  for (const std::string& name : names) {
     ResultTable table;
     table.name = "variant-" + name;
     table.columns = {{"case", ""}};
