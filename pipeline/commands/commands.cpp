@@ -20,6 +20,7 @@ const std::vector<Command>& commands() {
       {"simulate", "run a model file: <model>.h5 and <model>.csv", nullptr, simulate_command},
       {"info", "describe files that flexneck has written: what is in them, what made them", nullptr,
        info_command},
+      {"compare", "folders of results side by side: comparison.html", nullptr, compare_command},
       {"study", "print every input with its origin", study_command},
   };
   return list;

@@ -28,4 +28,8 @@ bool simulate_command(const FileInput& input);
 /// @throws InputError for a file of another kind.
 bool info_command(const FileInput& input);
 
+/// Several folders of results side by side: comparison.html and comparison.json.
+/// @throws InputError for less than two, or one without results.
+bool compare_command(const FileInput& input);
+
 }  // namespace flexneck::pipeline

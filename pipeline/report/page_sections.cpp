@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "pipeline/report/embedding.h"
-#include "pipeline/report/html_table.h"
 
 namespace flexneck::pipeline {
 
@@ -78,26 +77,6 @@ std::string verification_html(const Results& results) {
 bool looks_like_number(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+- ");
   return first != std::string::npos && text[first] >= '0' && text[first] <= '9';
-}
-
-HtmlTable html_table_of(const ResultTable& result) {
-  HtmlTable table;
-  table.name = result.name;
-  table.caption = result.title;
-  for (std::size_t c = 0; c < result.columns.size(); ++c) {
-    const auto& [name, unit] = result.columns[c];
-    const bool is_number =
-        c > 0 && std::any_of(result.rows.begin(), result.rows.end(), [&](const auto& row) {
-          return c < row.size() && looks_like_number(row[c]);
-        });
-    table.columns.push_back({unit.empty() ? name : name + " (" + unit + ")", is_number});
-  }
-  for (const auto& cells : result.rows) {
-    HtmlTable::Row row;
-    std::transform(cells.begin(), cells.end(), std::back_inserter(row.cells), html_text);
-    table.rows.push_back(std::move(row));
-  }
-  return table;
 }
 
 std::string tables_html(const Results& results) {
@@ -220,6 +199,26 @@ std::string missing_html(const Results& results) {
 }
 
 }  // namespace
+
+HtmlTable html_table_of(const ResultTable& result) {
+  HtmlTable table;
+  table.name = result.name;
+  table.caption = result.title;
+  for (std::size_t c = 0; c < result.columns.size(); ++c) {
+    const auto& [name, unit] = result.columns[c];
+    const bool is_number =
+        c > 0 && std::any_of(result.rows.begin(), result.rows.end(), [&](const auto& row) {
+          return c < row.size() && looks_like_number(row[c]);
+        });
+    table.columns.push_back({unit.empty() ? name : name + " (" + unit + ")", is_number});
+  }
+  for (const auto& cells : result.rows) {
+    HtmlTable::Row row;
+    std::transform(cells.begin(), cells.end(), std::back_inserter(row.cells), html_text);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
 
 std::map<std::string, std::string> page_sections(const Results& results, const Study& study,
                                                  const PaperContext& context) {

@@ -4,10 +4,14 @@
 #include <map>
 #include <string>
 
+#include "pipeline/report/html_table.h"
 #include "pipeline/report/paper_context.h"
 #include "pipeline/report/results.h"
 
 namespace flexneck::pipeline {
+
+/// A table of results for the page.
+HtmlTable html_table_of(const ResultTable& result);
 
 /// The parts of the page that are text and tables, as HTML, by the names that page/report.html has
 /// for them.

@@ -17,15 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path page_part(const std::string& name) {
-  return fs::path(FLEXNECK_DATA_DIR) / "pipeline/report/page" / name;
-}
-
-/// A script of ours or of a package in an element of its own.
-std::string script(const std::string& source) {
-  return "<script>\n" + script_source(source) + "</script>\n";
-}
-
 PaperContext context_of(const Study& study) {
   if (study.verification.empty()) return {};
   fs::path path = study.verification;
@@ -42,17 +33,17 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   std::map<std::string, std::string> texts = page_sections(results, study, context);
   texts["figures"] =
       figures_html(draw_figures(results, study, context, path.parent_path() / "figures"));
-  texts["style"] = text_of_file(page_part("report.css"));
-  texts["scene"] = scene.is_null() ? "" : text_of_file(page_part("scene.html"));
-  texts["plots"] = curves.is_null() ? "" : text_of_file(page_part("plots.html"));
+  texts["style"] = page_part("report.css");
+  texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
+  texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
   texts["data"] = script_json(nlohmann::ordered_json{{"scene", scene}, {"curves", curves}}.dump());
   std::string& scripts = texts["scripts"];
-  if (!curves.is_null()) scripts += script(source_of(WebLibrary::d3));
-  if (!scene.is_null()) scripts += script(source_of(WebLibrary::three));
+  if (!curves.is_null()) scripts += script_element(source_of(WebLibrary::d3));
+  if (!scene.is_null()) scripts += script_element(source_of(WebLibrary::three));
   for (const char* name : {"data.js", "page.js", "plots.js", "orbit.js", "scene.js"}) {
-    scripts += script(text_of_file(page_part(name)));
+    scripts += script_element(page_part(name));
   }
-  write_text(path, filled(text_of_file(page_part("report.html")), texts));
+  write_text(path, filled(page_part("report.html"), texts));
 }
 
 }  // namespace flexneck::pipeline

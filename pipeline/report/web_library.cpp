@@ -40,4 +40,12 @@ std::string source_of(WebLibrary library) {
                    place.package);
 }
 
+std::string page_part(const std::string& name) {
+  return text_of_file(std::filesystem::path(FLEXNECK_DATA_DIR) / "pipeline/report/page" / name);
+}
+
+std::string script_element(const std::string& source) {
+  return "<script>\n" + script_source(source) + "</script>\n";
+}
+
 }  // namespace flexneck::pipeline

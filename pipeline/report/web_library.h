@@ -11,4 +11,10 @@ enum class WebLibrary { d3, three };
 /// Its source. @throws InputError with the package's name if it is not installed.
 std::string source_of(WebLibrary library);
 
+/// A part of our own pages, from pipeline/report/page. @throws InputError if it is not there.
+std::string page_part(const std::string& name);
+
+/// A script in an element of its own.
+std::string script_element(const std::string& source);
+
 }  // namespace flexneck::pipeline

@@ -138,6 +138,18 @@ effective_damping = 1
                                Contains("Head/neck pendulum: flexion-60") &&
                                Contains("Writing the report"));
   CHECK(bytes_of(folder / "first/modes.h5") == bytes_of(folder / "second/modes.h5"));
+
+  // Side by side they differ in that value and nothing else that they were made with.
+  const std::string both = (folder / "both").string();
+  const CommandOutcome compared = run_flexneck("compare " + first + " " + second + " -o " + both);
+  CHECK(compared.exit_code == 0);
+  CHECK_THAT(compared.text,
+             Contains("case.flexion-60.duration") && Contains("0.9 s") && !Contains("geometry."));
+  const auto tables = nlohmann::json::parse(bytes_of(folder / "both/comparison.json"))["tables"];
+  CHECK(tables[0]["rows"].size() == 1);
+  CHECK(fs::exists(folder / "both/comparison.html"));
+  check_refused(run_flexneck("compare " + first), "at least two folders");
+  check_refused(run_flexneck("compare " + first + " " + both + "/none"), "no such folder");
 }
 
 TEST_CASE("the mesh file holds the partitions and the order that the study asks for") {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/commands/file_commands.h"
+#include "pipeline/report/comparison.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The folder's own name, or all of its path where another one has the same.
+std::string label_of(const fs::path& folder, const std::vector<fs::path>& folders) {
+  const auto name = [](const fs::path& path) {
+    return fs::weakly_canonical(path).filename().string();
+  };
+  const auto same = std::count_if(folders.begin(), folders.end(), [&](const fs::path& other) {
+    return name(other) == name(folder);
+  });
+  return same > 1 ? folder.lexically_normal().generic_string() : name(folder);
+}
+
+}  // namespace
+
+bool compare_command(const FileInput& input) {
+  if (input.files.size() < 2) {
+    throw InputError("compare: name at least two folders of results, 'flexneck compare out other'");
+  }
+  std::vector<ComparedStudy> studies;
+  for (const fs::path& folder : input.files) {
+    if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
+    studies.push_back({label_of(folder, input.files), read_results(folder, Study())});
+    if (studies.back().results.files.empty()) {
+      throw InputError(folder.string() + ": holds no results; make them with 'flexneck run -o " +
+                       folder.string() + "'");
+    }
+    for (const std::string& warning : studies.back().results.warnings)
+      input.console.step("Warning: " + studies.back().label + ": " + warning);
+  }
+  input.folder.make();
+  const std::vector<ResultTable> tables = compared_tables(studies);
+  std::vector<InputFile> files;
+  for (const ComparedStudy& study : studies)
+    for (const ResultFile& file : study.results.files)
+      files.push_back({study.label + "/" + file.name, file.hash});
+  write_tables(input.folder.file("comparison.json"), tables, provenance_of(files, {}));
+  write_comparison(input.folder.file("comparison.html"), studies);
+  for (std::size_t t = 0; t < std::min<std::size_t>(3, tables.size()); ++t)
+    input.console.result("\n" + printed(tables[t]));
+  input.console.result("\nComparison: " + input.folder.file("comparison.html").string() + ", " +
+                       input.folder.file("comparison.json").string());
+  return true;
+}
+
+}  // namespace flexneck::pipeline

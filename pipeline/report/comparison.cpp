@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/comparison.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/report/curves.h"
+#include "pipeline/report/embedding.h"
+#include "pipeline/report/html_table.h"
+#include "pipeline/report/page_sections.h"
+#include "pipeline/report/web_library.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr const char* kNone = "-";
+
+/// Rows by their head, in the order of appearance, a cell for each study.
+class SideBySide {
+ public:
+  explicit SideBySide(std::size_t studies) : studies_(studies) {}
+
+  void put(const std::string& head, std::size_t study, const std::string& cell) {
+    const auto [place, is_new] = places_.try_emplace(head, rows_.size());
+    if (is_new) {
+      rows_.emplace_back(studies_ + 1, kNone);
+      rows_.back().front() = head;
+    }
+    rows_[place->second][study + 1] = cell;
+  }
+  std::vector<std::vector<std::string>> rows() && { return std::move(rows_); }
+
+ private:
+  std::size_t studies_;
+  std::map<std::string, std::size_t> places_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+ResultTable table_of(const std::string& name, const std::string& title, const std::string& head,
+                     const std::vector<ComparedStudy>& studies, SideBySide cells) {
+  ResultTable table{name, title, {{head, ""}}, std::move(cells).rows(), {}};
+  for (const ComparedStudy& study : studies) table.columns.push_back({study.label, ""});
+  return table;
+}
+
+ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
+  SideBySide cells(studies.size());
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    for (const ResultFile& file : studies[s].results.files)
+      for (const Parameter& parameter : file.provenance.parameters)
+        cells.put(parameter.key, s, parameter.value);
+  ResultTable table = table_of("inputs", "Inputs that differ", "input", studies, std::move(cells));
+  std::erase_if(table.rows, [](const std::vector<std::string>& row) {
+    return std::all_of(row.begin() + 2, row.end(),
+                       [&](const std::string& cell) { return cell == row[1]; });
+  });
+  return table;
+}
+
+ResultTable verifications(const std::vector<ComparedStudy>& studies) {
+  SideBySide cells(studies.size());
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    if (!studies[s].results.verification) continue;
+    for (const VerificationRow& row : studies[s].results.verification->rows) {
+      const std::string unit = row.unit == "1" ? "" : " " + row.unit;
+      const std::string error =
+          row.error_percent ? fmt::format(" ({:+.2f} %)", *row.error_percent) : "";
+      cells.put(row.quantity + ", " + row.detail + "; published " + row.reference + unit, s,
+                row.value + error);
+    }
+  }
+  return table_of("verification", "Computed, and its difference from what is published", "quantity",
+                  studies, std::move(cells));
+}
+
+ResultTable frequencies(const std::vector<ComparedStudy>& studies) {
+  SideBySide cells(studies.size());
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    if (!studies[s].results.modes) continue;
+    const fe_modal::ModalBody& body = *studies[s].results.modes;
+    for (std::size_t k = 0; k < body.modes.size(); ++k)
+      cells.put(body.modes[k].name, s,
+                fmt::format("{:.3f}", body.frequencies_Hz[static_cast<Eigen::Index>(k)]));
+  }
+  return table_of("modes", "Frequencies of the modes, Hz", "mode", studies, std::move(cells));
+}
+
+const ResultTable* find_table(const Results& results, const std::string& name) {
+  const auto found = std::find_if(results.tables.begin(), results.tables.end(),
+                                  [&](const ResultTable& table) { return table.name == name; });
+  return found == results.tables.end() ? nullptr : &*found;
+}
+
+bool has_same_columns(const ResultTable& one, const ResultTable& other) {
+  return std::equal(
+      one.columns.begin(), one.columns.end(), other.columns.begin(), other.columns.end(),
+      [](const auto& a, const auto& b) { return a.name == b.name && a.unit == b.unit; });
+}
+
+/// The rows of a table of all studies, those of the same head together.
+ResultTable merged(const ResultTable& first, const std::vector<ComparedStudy>& studies) {
+  ResultTable table{first.name, first.title, first.columns, {}, first.notes};
+  table.columns.insert(table.columns.begin() + 1, {"study", ""});
+  std::vector<std::string> heads;
+  std::multimap<std::string, std::vector<std::string>> rows;
+  for (const ComparedStudy& study : studies) {
+    const ResultTable* const other = find_table(study.results, first.name);
+    if (other == nullptr || !has_same_columns(first, *other)) continue;
+    for (std::vector<std::string> row : other->rows) {
+      if (rows.find(row.front()) == rows.end()) heads.push_back(row.front());
+      row.insert(row.begin() + 1, study.label);
+      rows.emplace(row.front(), row);
+    }
+  }
+  for (const std::string& head : heads) {
+    const auto [begin, end] = rows.equal_range(head);
+    for (auto row = begin; row != end; ++row) table.rows.push_back(row->second);
+  }
+  return table;
+}
+
+/// All runs; those of the other studies as variants of the first one's.
+Results all_runs(const std::vector<ComparedStudy>& studies) {
+  Results all;
+  for (const ComparedStudy& study : studies) {
+    for (Experiment run : study.results.experiments) {
+      if (&study != &studies.front()) run.name += "-" + study.label;
+      all.experiments.push_back(std::move(run));
+    }
+  }
+  return all;
+}
+
+std::string warnings_of(const std::vector<ComparedStudy>& studies) {
+  std::vector<std::string> warnings;
+  for (const ComparedStudy& study : studies)
+    for (const std::string& warning : study.results.warnings)
+      warnings.push_back(study.label + ": " + warning);
+  return html_list(warnings);
+}
+
+}  // namespace
+
+std::vector<ResultTable> compared_tables(const std::vector<ComparedStudy>& studies) {
+  std::vector<ResultTable> tables = {differing_inputs(studies), verifications(studies),
+                                     frequencies(studies)};
+  for (const ResultTable& table : studies.front().results.tables) {
+    const bool is_shared =
+        std::any_of(studies.begin() + 1, studies.end(), [&](const ComparedStudy& study) {
+          const ResultTable* const other = find_table(study.results, table.name);
+          return other != nullptr && has_same_columns(table, *other);
+        });
+    if (is_shared) tables.push_back(merged(table, studies));
+  }
+  return tables;
+}
+
+void write_comparison(const std::filesystem::path& path,
+                      const std::vector<ComparedStudy>& studies) {
+  std::string names;
+  for (const ComparedStudy& study : studies) names += (names.empty() ? "" : ", ") + study.label;
+  const nlohmann::ordered_json curves = curves_of(all_runs(studies), {});
+  std::map<std::string, std::string> texts = {{"studies", html_text(names)},
+                                              {"warnings", warnings_of(studies)},
+                                              {"style", page_part("report.css")},
+                                              {"scripts", ""}};
+  for (const ResultTable& table : compared_tables(studies))
+    texts["tables"] += html_of(html_table_of(table)) + html_list(table.notes);
+  texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
+  texts["data"] = script_json(nlohmann::ordered_json{{"curves", curves}}.dump());
+  if (!curves.is_null()) texts["scripts"] = script_element(source_of(WebLibrary::d3));
+  for (const char* const name : {"data.js", "plots.js"})
+    texts["scripts"] += script_element(page_part(name));
+  write_text(path, filled(page_part("comparison.html"), texts));
+}
+
+}  // namespace flexneck::pipeline
