@@ -52,58 +52,52 @@ Eigen::MatrixXd orthonormalise(Columns& block, const Eigen::VectorXd& shortest) 
   return factor.topRows(kept);
 }
 
-/// The M-orthonormal basis V with M V, and V^T M (K - shift M)^-1 M V.
+/// The M-orthonormal basis V, and V^T M (K - shift M)^-1 M V. M V is not kept: it would double what
+/// is stored, and a product with M is cheap beside a solve.
 class Basis {
  public:
   Basis(Eigen::Index size, Eigen::Index capacity)
-      : columns_{Eigen::MatrixXd(size, capacity), Eigen::MatrixXd(size, capacity)},
-        projected_(Eigen::MatrixXd::Zero(capacity, capacity)) {}
+      : vectors_(size, capacity), projected_(Eigen::MatrixXd::Zero(capacity, capacity)) {}
 
   Eigen::Index count() const { return count_; }
   Eigen::Index capacity() const { return projected_.cols(); }
-  auto vectors() const { return columns_.vectors.leftCols(count_); }
-  auto momenta() const { return columns_.momenta.leftCols(count_); }
+  auto vectors() const { return vectors_.leftCols(count_); }
   auto projected() const { return projected_.topLeftCorner(count_, count_); }
 
-  void append(const Columns& block) {
-    const Eigen::Index width = block.vectors.cols();
-    columns_.vectors.middleCols(count_, width) = block.vectors;
-    columns_.momenta.middleCols(count_, width) = block.momenta;
-    count_ += width;
+  void append(const Eigen::MatrixXd& block) {
+    vectors_.middleCols(count_, block.cols()) = block;
+    count_ += block.cols();
   }
   /// @param shares V^T M (K - shift M)^-1 M times the last block
   void project_last(const Eigen::MatrixXd& shares) {
     projected_.block(0, count_ - shares.cols(), count_, shares.cols()) = shares;
     projected_.block(count_ - shares.cols(), 0, shares.cols(), count_) = shares.transpose();
   }
-  void take(Mat mass, double shift, const EigenPairs& known) {
-    append({known.vectors, block_product(mass, known.vectors)});
+  void take(double shift, const EigenPairs& known) {
+    append(known.vectors);
     projected_.topLeftCorner(count_, count_) =
         (known.values.array() - shift).inverse().matrix().asDiagonal();
   }
   /// Keeps Ritz vectors.
   void cut_back(const Eigen::MatrixXd& combination, const Eigen::VectorXd& values) {
     constexpr Eigen::Index kRows = 4096;
-    for (Eigen::MatrixXd* const matrix : {&columns_.vectors, &columns_.momenta}) {
-      for (Eigen::Index first = 0; first < matrix->rows(); first += kRows) {
-        auto rows = matrix->middleRows(first, std::min(kRows, matrix->rows() - first));
-        const Eigen::MatrixXd turned = rows.leftCols(count_) * combination;
-        rows.leftCols(combination.cols()) = turned;
-      }
+    for (Eigen::Index first = 0; first < vectors_.rows(); first += kRows) {
+      auto rows = vectors_.middleRows(first, std::min(kRows, vectors_.rows() - first));
+      const Eigen::MatrixXd turned = rows.leftCols(count_) * combination;
+      rows.leftCols(combination.cols()) = turned;
     }
     count_ = combination.cols();
     projected_.topLeftCorner(count_, count_) = values.asDiagonal();
   }
 
  private:
-  Columns columns_;
+  Eigen::MatrixXd vectors_;
   Eigen::MatrixXd projected_;
   Eigen::Index count_ = 0;
 };
 
-/// Takes out of the block what lies in the basis, twice, for the first time leaves rounding.
-/// Between the two M X is made anew: what little is left of some columns is not M times what is
-/// left of X.
+/// Takes out of the block what lies in the basis, twice, for the first time leaves rounding. M X is
+/// made anew each time: where little is left of X it would not be M times that.
 /// @return {S, R} with the old block = V S + the new block R
 std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(Mat mass, const Basis& basis,
                                                           Columns& block) {
@@ -115,11 +109,10 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(Mat mass, const Basis&
   for (int pass = 0; pass < 2; ++pass) {
     const Eigen::MatrixXd more = inner_products(basis.vectors(), block.momenta);
     multiply(-1, basis.vectors(), more, 1, block.vectors);
-    multiply(-1, basis.momenta(), more, 1, block.momenta);
+    block.momenta = block_product(mass, block.vectors);
     shares += more * factor;
     factor = (orthonormalise(block, shortest) * factor).eval();
     shortest = Eigen::VectorXd::Zero(block.vectors.cols());
-    if (pass == 0) block.momenta = block_product(mass, block.vectors);
   }
   return {shares, factor};
 }
@@ -131,14 +124,14 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs
   const Eigen::Index size = start.rows();
   const Eigen::Index width = start.cols();
   Basis basis(size, std::min(known.values.size() + kBlocksOfBasis * width, size));
-  if (known.values.size() > 0) basis.take(mass, inverse.shift(), known);
+  if (known.values.size() > 0) basis.take(inverse.shift(), known);
   Columns block{std::move(start), Eigen::MatrixXd()};
   block.momenta = block_product(mass, block.vectors);
   orthogonalise(mass, basis, block);
   RitzState state;
   for (int blocks = 0; blocks < kMostBlocks; ++blocks) {
     const Eigen::Index last = block.vectors.cols();
-    basis.append(block);
+    basis.append(block.vectors);
     block.vectors = inverse.solve(block.momenta);
     block.momenta = block_product(mass, block.vectors);
     const auto [shares, coupling] = orthogonalise(mass, basis, block);

@@ -134,7 +134,7 @@ TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held"
   write_inp(files / "held.inp", mesh, {.is_reduced = false, .held = {"top"}, .mode_count = 1});
   CHECK_THAT(text_of(files / "held.inp"), !Contains("*EQUATION"));
   write_inp(files / "rollers.inp", mesh,
-            {.is_reduced = false, .held_directions = {{"top", {true, false, true}}}});
+            {.is_reduced = false, .held = {}, .held_directions = {{"top", {true, false, true}}}});
   const std::string rollers = text_of(files / "rollers.inp");
   CHECK_THAT(rollers, Contains("*EQUATION\n2\n" + upper + ",2,1.," + lower + ",2,-1.\n") &&
                           !Contains(upper + ",3,1.") && Contains("*BOUNDARY\ntop,1\ntop,3\n*STEP"));
