@@ -33,17 +33,17 @@ void* counting_malloc(std::size_t size) {
   ++allocations;
   return real_malloc(size);
 }
-void* __real_calloc(std::size_t count, std::size_t size);  // NOLINT
-void* __wrap_calloc(std::size_t count, std::size_t size);  // NOLINT
-void* __wrap_calloc(std::size_t count, std::size_t size) {
+void* real_calloc(std::size_t count, std::size_t size) __asm__("__real_calloc");
+void* counting_calloc(std::size_t count, std::size_t size) __asm__("__wrap_calloc");
+void* counting_calloc(std::size_t count, std::size_t size) {
   ++allocations;
-  return __real_calloc(count, size);
+  return real_calloc(count, size);
 }
-void* __real__Znwm(std::size_t size);  // NOLINT
-void* __wrap__Znwm(std::size_t size);  // NOLINT
-void* __wrap__Znwm(std::size_t size) {
+void* real_new(std::size_t size) __asm__("__real__Znwm");
+void* counting_new(std::size_t size) __asm__("__wrap__Znwm");
+void* counting_new(std::size_t size) {
   ++allocations;
-  return __real__Znwm(size);
+  return real_new(size);
 }
 }
 

@@ -6,12 +6,10 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/report/embedding.h"
-
-// NOLINTNEXTLINE(readability-redundant-declaration): POSIX leaves it to the program
-extern char** environ;
 
 namespace flexneck::pipeline {
 
