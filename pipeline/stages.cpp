@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::pipeline {
 
@@ -110,15 +110,7 @@ void Stages::write() const {
   for (const auto& [stage, record] : records_) {
     json["stages"][stage] = {{"inputs", record.inputs}, {"outputs", record.outputs}};
   }
-  const fs::path path = folder_ / kFile;
-  fs::path temporary = path;
-  temporary += ".part";
-  std::ofstream file(temporary);
-  file << json.dump(1) << '\n';
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(temporary, path, error);
-  if (!file || error) throw InputError(path.string() + ": cannot be written");
+  write_text(folder_ / kFile, json.dump(1) + "\n");
 }
 
 }  // namespace flexneck::pipeline

@@ -8,8 +8,8 @@
 
 #include "fe_modal/exchange/corner_fields.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/units.h"
-#include "mesher/exchange/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -29,7 +29,7 @@ std::vector<std::size_t> modes_to_write(const ModalBody& body) {
 
 std::string record(std::span<const double> numbers) {
   std::string line;
-  for (const double number : numbers) line += " " + mesher::exact_text(number);
+  for (const double number : numbers) line += " " + exact_text(number);
   return line + "\n";
 }
 
@@ -76,7 +76,7 @@ void write_atb_modal_file(const std::filesystem::path& path, const mesher::Mesh&
   const double inches_per_metre = factor_from_si("m", "in");
   const Eigen::VectorXd masses = factor_from_si("kg", "lbf*s^2/in") * corners.masses_kg;
 
-  mesher::OutputFile file(path);
+  OutputFile file(path);
   file.write(std::to_string(corners.nodes.size()) + " " + std::to_string(modes.size()) + "\n");
   for (const std::int32_t node : corners.nodes) {
     const Eigen::Vector3d position = inches_per_metre * body.nodes_m.col(node);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "mesher/exchange/output_file.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -90,7 +90,7 @@ constexpr double kMostRows = std::numeric_limits<std::int32_t>::max();
 
 void write_matrix_market(const std::filesystem::path& path,
                          const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& upper) {
-  mesher::OutputFile file(path);
+  OutputFile file(path);
   const std::string size = std::to_string(upper.rows());
   file.write("%%MatrixMarket matrix coordinate real symmetric\n" + size + " " + size + " " +
              std::to_string(upper.nonZeros()) + "\n");
@@ -99,7 +99,7 @@ void write_matrix_market(const std::filesystem::path& path,
     for (decltype(upper.nonZeros()) k = upper.outerIndexPtr()[row];
          k < upper.outerIndexPtr()[row + 1]; ++k) {
       file.write(std::to_string(upper.innerIndexPtr()[k] + 1) + column +
-                 mesher::exact_text(upper.valuePtr()[k]) + "\n");
+                 exact_text(upper.valuePtr()[k]) + "\n");
     }
   }
   file.commit();
@@ -128,10 +128,10 @@ MatrixEntries read_matrix_market(const std::filesystem::path& path) {
 }
 
 void write_matrix_market_array(const std::filesystem::path& path, const Eigen::MatrixXd& table) {
-  mesher::OutputFile file(path);
+  OutputFile file(path);
   file.write("%%MatrixMarket matrix array real general\n" + std::to_string(table.rows()) + " " +
              std::to_string(table.cols()) + "\n");
-  for (const double value : table.reshaped()) file.write(mesher::exact_text(value) + "\n");
+  for (const double value : table.reshaped()) file.write(exact_text(value) + "\n");
   file.commit();
 }
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "geometry/foundation/error.h"
-#include "mesher/exchange/output_file.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -28,7 +28,7 @@ std::array<char, sizeof(Number)> big_endian(Number number) {
 }
 
 template <typename Number>
-void write_number(mesher::OutputFile& file, Number number) {
+void write_number(OutputFile& file, Number number) {
   const auto bytes = big_endian(number);
   file.write({bytes.data(), bytes.size()});
 }
@@ -79,7 +79,7 @@ void write_petsc_matrix(const std::filesystem::path& path,
                         const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& upper) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t> full =
       upper.selfadjointView<Eigen::Upper>();
-  mesher::OutputFile file(path);
+  OutputFile file(path);
   for (const Eigen::Index number :
        {static_cast<Eigen::Index>(kMatrixClass), full.rows(), full.cols(), full.nonZeros()}) {
     write_number(file, static_cast<std::int32_t>(number));
@@ -124,7 +124,7 @@ MatrixEntries read_petsc_matrix(const std::filesystem::path& path) {
 }
 
 void write_petsc_vector(const std::filesystem::path& path, const Eigen::VectorXd& values) {
-  mesher::OutputFile file(path);
+  OutputFile file(path);
   write_number(file, kVectorClass);
   write_number(file, static_cast<std::int32_t>(values.size()));
   for (const double value : values) write_number(file, value);

@@ -10,10 +10,10 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/exchange/abaqus_elements.h"
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/inp_cards.h"
-#include "mesher/exchange/output_file.h"
 #include "mesher/mesh/side_key.h"
 
 namespace flexneck::mesher {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "geometry/foundation/error.h"
-#include "mesher/exchange/output_file.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/gmsh_groups.h"
 #include "mesher/mesh/bounding_box.h"
 

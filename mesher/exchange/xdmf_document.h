@@ -5,7 +5,7 @@
 #include <string>
 
 #include "geometry/foundation/hdf5_file.h"
-#include "mesher/exchange/output_file.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::mesher {

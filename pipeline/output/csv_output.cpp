@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/output/csv_output.h"
 
-#include <fstream>
-
 #include <fmt/core.h>
 
-#include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::pipeline {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -33,25 +29,17 @@ std::string header_of(const std::string& first, const std::vector<multibody::Cha
 
 }  // namespace
 
-void write_csv(const fs::path& path, const Eigen::VectorXd& time_s,
+void write_csv(const std::filesystem::path& path, const Eigen::VectorXd& time_s,
                const std::vector<multibody::Channel>& channels, const std::string& first) {
-  const fs::path temporary = path.string() + ".part";
-  std::ofstream file(temporary, std::ios::binary);
-  file << header_of(first, channels) << '\n';
+  OutputFile file(path);
+  file.write(header_of(first, channels) + "\n");
   for (Eigen::Index k = 0; k < time_s.size(); ++k) {
     std::string line = fmt::format("{}", time_s[k]);
     for (const multibody::Channel& channel : channels)
       for (const double value : channel.values.col(k)) line += fmt::format(",{}", value);
-    file << line << '\n';
+    file.write(line + "\n");
   }
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(temporary, path, error);
-  if (!file || error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw InputError(path.string() + ": cannot be written");
-  }
+  file.commit();
 }
 
 }  // namespace flexneck::pipeline

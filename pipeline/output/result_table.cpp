@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
+#include "pipeline/output/provenance_json.h"
 #include "pipeline/text_table.h"
 
 namespace flexneck::pipeline {
@@ -26,14 +28,6 @@ nlohmann::ordered_json json_of(const ResultTable& table) {
           {"columns", columns},
           {"rows", table.rows},
           {"notes", table.notes}};
-}
-
-nlohmann::ordered_json json_of(const Provenance& provenance) {
-  nlohmann::ordered_json json = {{"program", provenance.program},
-                                 {"git_hash", provenance.git_hash},
-                                 {"inputs", nlohmann::ordered_json::object()}};
-  for (const InputFile& input : provenance.inputs) json["inputs"][input.name] = input.hash;
-  return json;
 }
 
 ResultTable table_of(const nlohmann::ordered_json& json) {
@@ -62,12 +56,7 @@ TableFile file_of(const nlohmann::ordered_json& json) {
   }
   TableFile file;
   for (const auto& table : json.at("tables")) file.tables.push_back(table_of(table));
-  const auto& provenance = json.at("provenance");
-  file.provenance.program = provenance.at("program").get<std::string>();
-  file.provenance.git_hash = provenance.at("git_hash").get<std::string>();
-  for (const auto& input : provenance.at("inputs").items()) {
-    file.provenance.inputs.push_back({input.key(), input.value().get<std::string>()});
-  }
+  file.provenance = provenance_of_json(json.at("provenance"));
   return file;
 }
 
@@ -106,18 +95,7 @@ void write_tables(const fs::path& path, const std::vector<ResultTable>& tables,
                                  {"provenance", json_of(provenance)},
                                  {"tables", nlohmann::ordered_json::array()}};
   for (const ResultTable& table : tables) json["tables"].push_back(json_of(table));
-  fs::path temporary = path;
-  temporary += ".part";
-  std::ofstream file(temporary, std::ios::binary);
-  file << json.dump(2) << '\n';
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(temporary, path, error);
-  if (!file || error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw InputError(path.string() + ": cannot be written; choose another folder with -o");
-  }
+  write_text(path, json.dump(2) + "\n");
 }
 
 }  // namespace flexneck::pipeline

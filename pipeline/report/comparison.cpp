@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "geometry/foundation/output_file.h"
 #include "pipeline/report/curves.h"
 #include "pipeline/report/embedding.h"
 #include "pipeline/report/html_table.h"

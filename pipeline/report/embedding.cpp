@@ -99,21 +99,6 @@ std::string text_of_file(const fs::path& path) {
   return text;
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  fs::path temporary = path;
-  temporary += ".part";
-  std::ofstream file(temporary, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(temporary, path, error);
-  if (!file || error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw InputError(path.string() + ": cannot be written; choose another folder with -o");
-  }
-}
-
 std::string filled(std::string_view page, const std::map<std::string, std::string>& texts) {
   std::string result;
   while (true) {

@@ -36,9 +36,6 @@ std::string base64_floats(const Eigen::Ref<const Eigen::MatrixXd>& values);
 /// @throws InputError if the file cannot be read.
 std::string text_of_file(const std::filesystem::path& path);
 
-/// Writes under a temporary name and renames. @throws InputError if that fails.
-void write_text(const std::filesystem::path& path, const std::string& text);
-
 /// A template with each {{name}} replaced once; what is put in is not searched again.
 /// @throws std::logic_error for a name without a text: the template and the program differ.
 std::string filled(std::string_view page, const std::map<std::string, std::string>& texts);

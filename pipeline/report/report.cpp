@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/foundation/output_file.h"
 #include "pipeline/report/curves.h"
 #include "pipeline/report/embedding.h"
 #include "pipeline/report/figures/figures.h"

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
+#include "pipeline/output/provenance_json.h"
 #include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {
@@ -53,12 +55,7 @@ VerificationFile file_of(const nlohmann::ordered_json& json) {
   }
   VerificationFile file;
   for (const auto& row : json.at("rows")) file.table.rows.push_back(row_of(row));
-  const auto& provenance = json.at("provenance");
-  file.provenance.program = provenance.at("program").get<std::string>();
-  file.provenance.git_hash = provenance.at("git_hash").get<std::string>();
-  for (const auto& input : provenance.at("inputs").items()) {
-    file.provenance.inputs.push_back({input.key(), input.value().get<std::string>()});
-  }
+  file.provenance = provenance_of_json(json.at("provenance"));
   return file;
 }
 
@@ -82,23 +79,8 @@ void write_verification(const std::filesystem::path& path, const VerificationTab
                                  {"passed", table.passed()},
                                  {"rows", nlohmann::ordered_json::array()}};
   for (const VerificationRow& row : table.rows) json["rows"].push_back(json_of(row));
-  json["provenance"] = {{"program", provenance.program},
-                        {"git_hash", provenance.git_hash},
-                        {"inputs", nlohmann::ordered_json::object()}};
-  for (const InputFile& input : provenance.inputs) {
-    json["provenance"]["inputs"][input.name] = input.hash;
-  }
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  std::ofstream file(temporary);
-  file << json.dump(2) << "\n";
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(temporary, path, error);
-  if (!file || error) {
-    std::filesystem::remove(temporary, error);
-    throw InputError(path.string() + ": cannot be written; choose another folder with -o");
-  }
+  json["provenance"] = json_of(provenance);
+  write_text(path, json.dump(2) + "\n");
 }
 
 }  // namespace flexneck::pipeline

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/report/embedding.h"
 #include "pipeline/report/figures/gnuplot.h"

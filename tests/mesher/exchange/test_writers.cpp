@@ -3,10 +3,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/output_file.h"
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/inp_writer.h"
 #include "mesher/exchange/msh_writer.h"
-#include "mesher/exchange/output_file.h"
 #include "mesher/exchange/xdmf_writer.h"
 #include "tests/mesher/exchange/files.h"
 #include "tests/mesher/small_mesh.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/exchange/output_file.h"
+#include "geometry/foundation/output_file.h"
 
 #include <array>
 #include <charconv>
@@ -8,7 +8,7 @@
 
 #include "geometry/foundation/error.h"
 
-namespace flexneck::mesher {
+namespace flexneck {
 
 OutputFile::OutputFile(std::filesystem::path path)
     : path_(std::move(path)),
@@ -30,6 +30,12 @@ void OutputFile::commit() {
   if (!stream_ || error) throw ComputationError(path_.string() + ": writing failed");
 }
 
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
 std::string exact_text(double number) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
@@ -45,4 +51,4 @@ std::string text_within(double number, int width) {
   return text.data();
 }
 
-}  // namespace flexneck::mesher
+}  // namespace flexneck

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace flexneck::mesher {
+namespace flexneck {
 
 /// A file that is written under a temporary name beside its own and renamed by commit(); without
 /// commit() nothing is left.
@@ -30,9 +30,12 @@ class OutputFile {
   std::ofstream stream_;
 };
 
+/// A whole file at once. @throws as OutputFile does.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
 /// The shortest text that reads back as the same number.
 std::string exact_text(double number);
 /// The most exact text of at most `width` characters.
 std::string text_within(double number, int width);
 
-}  // namespace flexneck::mesher
+}  // namespace flexneck

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "geometry/foundation/provenance.h"
+
+namespace flexneck::pipeline {
+
+/// Program, sources and input files, as every JSON file of ours has them; the values stand in the
+/// HDF5 files.
+nlohmann::ordered_json json_of(const Provenance& provenance);
+
+/// @throws nlohmann::json::exception if a member is missing or of another type.
+Provenance provenance_of_json(const nlohmann::ordered_json& json);
+
+}  // namespace flexneck::pipeline
