@@ -2,8 +2,6 @@
 #include "pipeline/study/study_document.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -11,6 +9,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/study/toml_source.h"
 
@@ -120,12 +119,6 @@ struct StudyTable::Node {
 
 namespace {
 
-std::string text_of(double number) {
-  std::array<char, 32> digits{};
-  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-  return {digits.data(), end};
-}
-
 void add_new(std::vector<Parameter>& list, Parameter parameter) {
   const auto same = [&](const Parameter& other) { return other.key == parameter.key; };
   if (std::none_of(list.begin(), list.end(), same)) list.push_back(std::move(parameter));
@@ -134,7 +127,7 @@ void add_new(std::vector<Parameter>& list, Parameter parameter) {
 /// As the user would write it, without quotes and brackets.
 std::string text_of(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return *text;
-  if (const auto number = node.value_exact<double>()) return text_of(*number);
+  if (const auto number = node.value_exact<double>()) return exact_text(*number);
   if (const toml::array* const list = node.as_array()) {
     std::string text;
     for (const toml::node& each : *list) text += (text.empty() ? "" : ", ") + text_of(each);
@@ -260,7 +253,7 @@ double StudyTable::number(const std::string& key) const {
 
 double StudyTable::number_or(const std::string& key, double fallback) const {
   if (has(key)) return number(key);
-  node_->record_default(key, text_of(fallback));
+  node_->record_default(key, exact_text(fallback));
   return fallback;
 }
 
@@ -279,7 +272,7 @@ double StudyTable::quantity(const std::string& key, const std::string& si_unit) 
 double StudyTable::quantity_or(const std::string& key, const std::string& si_unit,
                                double fallback) const {
   if (has(key)) return quantity(key, si_unit);
-  node_->record_default(key, text_of(fallback) + " " + si_unit);
+  node_->record_default(key, exact_text(fallback) + " " + si_unit);
   return fallback;
 }
 
