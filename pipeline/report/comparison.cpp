@@ -165,9 +165,9 @@ void write_comparison(const std::filesystem::path& path,
   std::string names;
   for (const ComparedStudy& study : studies) names += (names.empty() ? "" : ", ") + study.label;
   const nlohmann::ordered_json curves = curves_of(all_runs(studies), {});
-  std::map<std::string, std::string> texts = {{"studies", html_text(names)},
+  std::map<std::string, std::string> texts = {{"head", page_head(html_text(names))},
+                                              {"studies", html_text(names)},
                                               {"warnings", warnings_of(studies)},
-                                              {"style", page_part("report.css")},
                                               {"scripts", ""}};
   for (const ResultTable& table : compared_tables(studies))
     texts["tables"] += html_of(html_table_of(table)) + html_list(table.notes);

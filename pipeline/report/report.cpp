@@ -34,7 +34,7 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   std::map<std::string, std::string> texts = page_sections(results, study, context);
   texts["figures"] =
       figures_html(draw_figures(results, study, context, path.parent_path() / "figures"));
-  texts["style"] = page_part("report.css");
+  texts["head"] = page_head(texts["study"]);
   texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
   texts["data"] = script_json(nlohmann::ordered_json{{"scene", scene}, {"curves", curves}}.dump());

@@ -44,6 +44,10 @@ std::string page_part(const std::string& name) {
   return text_of_file(std::filesystem::path(FLEXNECK_DATA_DIR) / "pipeline/report/page" / name);
 }
 
+std::string page_head(const std::string& title) {
+  return filled(page_part("head.html"), {{"title", title}, {"style", page_part("report.css")}});
+}
+
 std::string script_element(const std::string& source) {
   return "<script>\n" + script_source(source) + "</script>\n";
 }

@@ -14,6 +14,9 @@ std::string source_of(WebLibrary library);
 /// A part of our own pages, from pipeline/report/page. @throws InputError if it is not there.
 std::string page_part(const std::string& name);
 
+/// What every page of ours has between <head> and </head>. @param title  as HTML
+std::string page_head(const std::string& title);
+
 /// A script in an element of its own.
 std::string script_element(const std::string& source);
 
