@@ -6,9 +6,9 @@
 
 #include "fe_modal/assembly.h"
 #include "fe_modal/modal_analysis.h"
-#include "fe_modal/rigid_average.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
+#include "tests/fe_modal/interface_compliance.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"
 
@@ -109,24 +109,11 @@ TEST_CASE("residual modes carry the compliance of a body with held directions") 
   const FreeNodes all(mesh, {});
   const SystemMatrices system = assemble(mesh, all);
   const std::vector<Eigen::Index> kept = free_directions(mesh, options);
-  Eigen::MatrixXd average(6, all.dof_count());
-  const auto weights = RigidAverage(mesh, mesh.face_set("top"), kTip).weights(all.node_count());
-  for (std::size_t i = 0; i < 6; ++i) {
-    average.row(static_cast<Eigen::Index>(i)) = all.gather(weights[i]).transpose();
-  }
-  const Eigen::MatrixXd motions = average(Eigen::all, kept);
+  const Eigen::MatrixXd motions = average_motion(mesh, "top", kTip, all)(Eigen::all, kept);
   const Eigen::MatrixXd expected =
       motions * testing::symmetric_solution(rows_and_columns(system.stiffness.get(), kept),
                                             motions.transpose());
-  const Interface& tip = body.interface("tip");
-  Eigen::MatrixXd modal(6, body.mode_count());
-  modal << tip.translation, tip.rotation;
-  const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
-  const Eigen::MatrixXd found =
-      modal * omega.cwiseAbs2().cwiseInverse().asDiagonal() * modal.transpose();
-  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
-  CHECK((scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff() <
-        1e-8);
+  CHECK(difference(modal_compliance(body, "tip"), expected) < 1e-8);
 }
 
 TEST_CASE("directions that do not hold a body leave a mechanism, which is named") {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <numbers>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "fe_modal/assembly.h"
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/rigid_average.h"
+
+namespace flexneck::fe_modal {
+
+/// The average motion of a face set, three translations and three rotations about a point, as rows
+/// over the degrees of freedom of the free nodes.
+inline Eigen::MatrixXd average_motion(const mesher::Mesh& mesh, const std::string& face_set,
+                                      const Eigen::Vector3d& point_m, const FreeNodes& free_nodes) {
+  Eigen::MatrixXd average(6, free_nodes.dof_count());
+  const auto weights =
+      RigidAverage(mesh, mesh.face_set(face_set), point_m).weights(free_nodes.node_count());
+  for (std::size_t i = 0; i < 6; ++i)
+    average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
+  return average;
+}
+
+/// How an interface answers unit forces and moments on itself, as the modes sum it up.
+inline Eigen::MatrixXd modal_compliance(const ModalBody& body, const std::string& interface) {
+  const Interface& at = body.interface(interface);
+  Eigen::MatrixXd motions(6, body.mode_count());
+  motions << at.translation, at.rotation;
+  const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
+  return motions * omega.cwiseAbs2().cwiseInverse().asDiagonal() * motions.transpose();
+}
+
+/// The largest difference of two compliances, each entry over the size that the diagonal gives it:
+/// metres and radians side by side.
+inline double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+  return (scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff();
+}
+
+}  // namespace flexneck::fe_modal
