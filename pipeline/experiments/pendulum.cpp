@@ -61,7 +61,7 @@ FittedPulse case_pulse(const Study& study, const CaseSection& experiment) {
       study.pulses[find_name(names_of(study.pulses), experiment.pulse, "pulse")];
   try {
     return fitted_pulse(pulse.times_s, pulse.deceleration_m_s2, experiment.impact_velocity_m_s,
-                        static_cast<PulseFit>(experiment.pulse_scaling));
+                        experiment.pulse_scaling);
   } catch (const InputError& error) {
     throw InputError("pulse." + pulse.name + ": " + error.what());
   }

@@ -72,7 +72,7 @@ std::string title_of(const CaseSection& experiment) {
     return "Head on a pin with the spring '" + experiment.head_spring + "', beside a fixed head";
   if (experiment.arm == CaseSection::Arm::rotating)
     return "Arm rotating about its pivot, beside one that translates";
-  if (experiment.pulse_scaling == CaseSection::PulseScaling::duration)
+  if (experiment.pulse_scaling == PulseFit::duration)
     return "Pulse brought to the velocity by its duration, beside its amplitude";
   return "Variant '" + experiment.variant + "' beside the cases it is made of";
 }

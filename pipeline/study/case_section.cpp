@@ -44,8 +44,8 @@ void read_pendulum(const StudyTable& table, CaseSection& experiment) {
   read_velocity(table, experiment);
   experiment.pulse = table.text("pulse");
   if (table.has("pulse_scaling"))
-    experiment.pulse_scaling = static_cast<CaseSection::PulseScaling>(
-        choice(table, "pulse_scaling", {"amplitude", "duration", "none"}));
+    experiment.pulse_scaling =
+        static_cast<PulseFit>(choice(table, "pulse_scaling", {"amplitude", "duration", "none"}));
   if (table.has("arm"))
     experiment.arm =
         static_cast<CaseSection::Arm>(choice(table, "arm", {"translating", "rotating"}));

@@ -18,6 +18,7 @@
 #include "mesher/mesh/mesh.h"
 #include "multibody/model.h"
 #include "multibody/simulation.h"
+#include "pipeline/model/pulse.h"
 #include "pipeline/study/structure_section.h"
 #include "pipeline/study/substructure_section.h"
 
@@ -138,7 +139,6 @@ struct HeadSpringSection {
 struct CaseSection {
   enum class Kind { pendulum, static_test };
   enum class Direction { flexion, extension, lateral };
-  enum class PulseScaling { amplitude, duration, none };
   enum class Arm { translating, rotating };
   std::string name;
   std::string variant_of;  ///< the case that a [[variant]] made this of; empty for none
@@ -154,7 +154,7 @@ struct CaseSection {
   double impact_velocity_m_s = 0;
   bool velocity_is_given = true;  ///< otherwise it follows from angle and length
   std::string pulse;
-  PulseScaling pulse_scaling = PulseScaling::amplitude;
+  PulseFit pulse_scaling = PulseFit::amplitude;
   Arm arm = Arm::translating;
   double pivot_distance_m = 0;          ///< rotating: from the arm's pivot to the neck's base
   double accelerometer_distance_m = 0;  ///< rotating: to where velocity and pulse are measured

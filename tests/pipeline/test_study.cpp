@@ -126,7 +126,7 @@ TEST_CASE("cases take what they do not say from their kind, variants from their 
   CHECK(variant.variant_of == "flexion-20");
   CHECK(variant.duration_s == 0.5);
   CHECK(variant.pulse == "extension");
-  CHECK(variant.pulse_scaling == CaseSection::PulseScaling::duration);
+  CHECK(variant.pulse_scaling == PulseFit::duration);
   CHECK(variant.impact_velocity_m_s == named("flexion-20").impact_velocity_m_s);
   CHECK(named("lateral-65-rigid").direction == CaseSection::Direction::lateral);
   // A point that falls through 60 degrees on 65.48 in: v^2 = g L.
