@@ -5,6 +5,8 @@
 
 namespace flexneck {
 
+inline constexpr double kStandardGravity_m_s2 = 9.80665;  ///< the unit "gn"
+
 /// Value in SI units of a number with its unit, such as "0.4 in", "1.2 kpsi" or "0.1408
 /// lbf*s^2*in". `si_unit` is the SI unit of the expected dimension, e.g. "m", "Pa", "kg/m^3",
 /// "kg*m^2", "rad". "lb" is a mass, "lbf" a force; "gn" is the standard acceleration of gravity.

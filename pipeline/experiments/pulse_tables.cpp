@@ -10,35 +10,35 @@
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/experiments/pulse_spectrum.h"
+#include "pipeline/study/drop.h"
 
 namespace flexneck::pipeline {
 
 namespace {
 
-constexpr double kStandardGravity = 9.80665;
-
-/// 2 g (1 - cos): the square of the velocity over the length.
-double fall(const CaseSection& experiment) {
-  return 2 * kStandardGravity * (1 - std::cos(*experiment.drop_angle_rad));
-}
-
 /// The length of a point pendulum that a velocity implies; none without a drop angle.
 std::optional<double> implied_length(const CaseSection& experiment) {
   if (!experiment.drop_angle_rad) return {};
-  return std::pow(experiment.impact_velocity_m_s, 2) / fall(experiment);
+  return drop_length(experiment.impact_velocity_m_s, *experiment.drop_angle_rad);
 }
 
 std::string in_inches(double length_m) {
   return fmt::format("{:.2f}", length_m * factor_from_si("m", "in"));
 }
 
-/// Lengths that velocities which are given imply, as printed.
-std::set<std::string> lengths_given(const std::vector<PendulumEntry>& entries) {
-  std::set<std::string> lengths;
+/// To a hundredth of an inch, which is what velocities of three digits tell of a length.
+double rounded(double length_m) {
+  const double hundredths = 100 * factor_from_si("m", "in");
+  return std::round(length_m * hundredths) / hundredths;
+}
+
+/// Lengths that velocities which are given imply.
+std::set<double> lengths_given(const std::vector<PendulumEntry>& entries) {
+  std::set<double> lengths_m;
   for (const PendulumEntry& entry : entries)
     if (entry.experiment.velocity_is_given && entry.experiment.drop_angle_rad)
-      lengths.insert(in_inches(*implied_length(entry.experiment)));
-  return lengths;
+      lengths_m.insert(rounded(*implied_length(entry.experiment)));
+  return lengths_m;
 }
 
 /// Variants whose pulse is that of the case they are made of need no line of their own.
@@ -65,7 +65,7 @@ std::vector<std::string> pulse_cells(const PendulumEntry& entry) {
 
 ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
   const double in = factor_from_si("m", "in");
-  const std::set<std::string> lengths = lengths_given(entries);
+  const std::set<double> lengths_m = lengths_given(entries);
   ResultTable table;
   table.name = "velocities";
   table.title = "Head/neck pendulum, velocities and pulses";
@@ -74,8 +74,8 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
                    {"velocity", "in/s"},
                    {"velocity from", ""},
                    {"implies length", "in"}};
-  for (const std::string& length : lengths)
-    table.columns.push_back({"on " + length + " in", "in/s"});
+  for (const double length_m : lengths_m)
+    table.columns.push_back({"on " + in_inches(length_m) + " in", "in/s"});
   for (const auto& [name, unit] :
        std::vector<std::pair<const char*, const char*>>{{"pulse", ""},
                                                         {"its area", "in/s"},
@@ -86,7 +86,7 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
                                                         {"largest", "gn"},
                                                         {"ends", "ms"}})
     table.columns.push_back({name, unit});
-  std::set<std::string> used;
+  std::set<std::string> used;  // as shown: each is told once
   for (const PendulumEntry& entry : entries) {
     if (!has_own_pulse(entry)) continue;
     const CaseSection& experiment = entry.experiment;
@@ -97,10 +97,10 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
         fmt::format("{:.2f}", experiment.impact_velocity_m_s * in),
         experiment.velocity_is_given ? "the study" : "drop and length",
         length ? in_inches(*length) : "-"};
-    for (const std::string& each : lengths)
-      row.push_back(
-          length ? fmt::format("{:.2f}", std::sqrt(std::stod(each) / in * fall(experiment)) * in)
-                 : "-");
+    for (const double length_m : lengths_m) {
+      const std::optional<double>& angle = experiment.drop_angle_rad;
+      row.push_back(angle ? fmt::format("{:.2f}", drop_velocity(length_m, *angle) * in) : "-");
+    }
     const std::vector<std::string> cells = pulse_cells(entry);
     row.insert(row.end(), cells.begin(), cells.end());
     table.rows.push_back(std::move(row));

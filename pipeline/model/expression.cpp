@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/units.h"
 
 namespace flexneck::pipeline {
 
@@ -16,7 +17,7 @@ struct Expression::Impl {
 Expression::Expression(const std::string& text) : impl_(std::make_shared<Impl>()) {
   try {
     impl_->parser.DefineConst("pi", std::numbers::pi);
-    impl_->parser.DefineConst("gn", 9.80665);
+    impl_->parser.DefineConst("gn", kStandardGravity_m_s2);
     impl_->parser.DefineVar("t", &impl_->time_s);
     impl_->parser.SetExpr(text);
     impl_->parser.Eval();

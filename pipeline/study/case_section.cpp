@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
-
 #include "geometry/foundation/names.h"
+#include "pipeline/study/drop.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
 
 namespace {
 
-constexpr double kStandardGravity = 9.80665;
-
 double positive(const StudyTable& table, const std::string& key, const std::string& si_unit) {
   const double value = table.quantity(key, si_unit);
   if (!(value > 0)) table.refuse(key, "expected a positive value");
   return value;
-}
-
-/// The velocity of a point that has swung down on a length.
-double velocity_at_bottom(double length_m, double angle_rad) {
-  return std::sqrt(2 * kStandardGravity * length_m * (1 - std::cos(angle_rad)));
 }
 
 void read_velocity(const StudyTable& table, CaseSection& experiment) {
@@ -33,7 +25,7 @@ void read_velocity(const StudyTable& table, CaseSection& experiment) {
     experiment.impact_velocity_m_s = positive(table, "impact_velocity", "m/s");
   } else if (experiment.drop_angle_rad && experiment.effective_length_m) {
     experiment.impact_velocity_m_s =
-        velocity_at_bottom(*experiment.effective_length_m, *experiment.drop_angle_rad);
+        drop_velocity(*experiment.effective_length_m, *experiment.drop_angle_rad);
   } else {
     table.refuse("impact_velocity",
                  "expected this key, or a drop_angle and an effective_length to compute it from");

@@ -14,6 +14,7 @@
 #include "fe_modal/formulation.h"
 #include "fe_modal/solver.h"
 #include "geometry/foundation/provenance.h"
+#include "geometry/foundation/units.h"
 #include "geometry/neck_slits.h"
 #include "mesher/mesh/mesh.h"
 #include "multibody/model.h"
@@ -179,8 +180,8 @@ struct Study {
   std::vector<PulseSection> pulses;
   std::vector<RigidNeckSection> rigid_necks;
   std::vector<HeadSpringSection> head_springs;
-  std::vector<CaseSection> cases;                ///< variants after those they are made of
-  Eigen::Vector3d gravity_m_s2{0, 0, -9.80665};  ///< of pendulum cases, world
+  std::vector<CaseSection> cases;  ///< variants after those they are made of
+  Eigen::Vector3d gravity_m_s2{0, 0, -kStandardGravity_m_s2};  ///< of pendulum cases, world
   multibody::SolverOptions solver;
   double output_interval_s = 1e-3;
   std::filesystem::path verification;  ///< table of reference figures; empty for none
