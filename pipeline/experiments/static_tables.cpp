@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
+#include "multibody/time_table.h"
 
 namespace flexneck::pipeline {
 
@@ -28,12 +29,10 @@ std::vector<std::string> row_of(const std::string& name, const StaticTestSignals
           fmt::format("{:.1f}", 100 * signals.stretch.tail<1>()[0])};
 }
 
-/// The value of a signal at a time, between its samples linear.
-double at_time(const Eigen::VectorXd& time_s, const Eigen::VectorXd& signal, double wanted_s) {
-  Index k = 1;
-  while (k + 1 < time_s.size() && time_s[k] < wanted_s) ++k;
-  const double share = (wanted_s - time_s[k - 1]) / (time_s[k] - time_s[k - 1]);
-  return signal[k - 1] + share * (signal[k] - signal[k - 1]);
+multibody::TimeTable over_time(const Eigen::VectorXd& time_s, const Eigen::VectorXd& signal) {
+  return {{time_s.begin(), time_s.end()},
+          {signal.begin(), signal.end()},
+          multibody::TimeTable::Outside::constant};
 }
 
 /// The first sample at which a signal passes a bound in size, if it does.
@@ -97,10 +96,10 @@ ResultTable ramp_table(const std::vector<StaticEntry>& entries) {
   for (const StaticEntry& entry : entries) {
     const StaticTestSignals& still = entry.settled;
     const Index last = still.rotation.size() - 1;
+    const multibody::TimeTable moving = over_time(entry.ramp.time_s, entry.ramp.rotation);
     double largest = 0;
     for (Index k = 0; k <= last; ++k) {
-      const double difference =
-          still.rotation[k] - at_time(entry.ramp.time_s, entry.ramp.rotation, still.time_s[k]);
+      const double difference = still.rotation[k] - moving.value(still.time_s[k]);
       if (std::abs(difference) > std::abs(largest)) largest = difference;
     }
     const double rate = still.rotation[last] / still.time_s[last];
@@ -136,21 +135,18 @@ ResultTable chain_table(const std::vector<StaticEntry>& entries) {
     const StaticTestSignals& chain = *entry.chain;
     for (const double share : kShares) {
       const double time_s = share * linear.time_s.tail<1>()[0];
-      const auto both = [&](auto member, double factor, const char* format) {
-        std::array<std::string, 2> texts;
-        texts[0] = fmt::format(fmt::runtime(format),
-                               factor * at_time(linear.time_s, linear.*member, time_s));
-        texts[1] = fmt::format(fmt::runtime(format),
-                               factor * at_time(chain.time_s, chain.*member, time_s));
-        return texts;
+      using Signals = StaticTestSignals;
+      const auto at_load = [&](const Signals& signals, auto member, double factor, int digits) {
+        const double value = over_time(signals.time_s, signals.*member).value(time_s);
+        return fmt::format("{:.{}f}", factor * value, digits);
       };
-      const auto rotation = both(&StaticTestSignals::rotation, deg(), "{:.2f}");
-      const auto deflection = both(&StaticTestSignals::deflection, in, "{:.3f}");
-      const auto moment = both(&StaticTestSignals::base_moment, in_lbf(), "{:.0f}");
-      table.rows.push_back(
-          {entry.experiment.name,
-           fmt::format("{:.0f}", lbf() * at_time(linear.time_s, linear.load, time_s)), rotation[0],
-           rotation[1], deflection[0], deflection[1], moment[0], moment[1]});
+      table.rows.push_back({entry.experiment.name, at_load(linear, &Signals::load, lbf(), 0),
+                            at_load(linear, &Signals::rotation, deg(), 2),
+                            at_load(chain, &Signals::rotation, deg(), 2),
+                            at_load(linear, &Signals::deflection, in, 3),
+                            at_load(chain, &Signals::deflection, in, 3),
+                            at_load(linear, &Signals::base_moment, in_lbf(), 0),
+                            at_load(chain, &Signals::base_moment, in_lbf(), 0)});
     }
     const Eigen::VectorXd apart =
         (linear.deflection - chain.deflection).array() / linear.deflection.array().abs().max(1e-12);
