@@ -35,30 +35,44 @@ std::vector<std::string> variant_names(const std::vector<PendulumEntry>& entries
   return names;
 }
 
-/// A figure of the variant, that of the other case, …
-using Row = std::vector<std::string>;
+/// A figure of a case, shown beside that of the case it is made of.
+struct CaseFigure {
+  const char* name;
+  const char* unit;
+  const char* format;
+  double factor;  ///< from SI to the unit
+  std::optional<double> (*of)(const PendulumEntry&);
+  bool in_short;  ///< on the console too
+};
 
-Row row_of(const PendulumEntry& variant, const PendulumEntry& base) {
+std::vector<CaseFigure> case_figures() {
   const double deg = factor_from_si("rad", "deg");
   const double gn = factor_from_si("m/s^2", "gn");
   const double lbf_ft = factor_from_si("N*m", "lbf*ft");
-  Row row = {variant.experiment.name};
-  const auto add = [&](const char* format, double factor, const auto& figure) {
-    for (const PendulumEntry* const entry : {&variant, &base})
-      row.push_back(text_of(figure(*entry), format, factor));
-  };
   using Entry = PendulumEntry;
-  add("{:.1f}", deg, [](const Entry& e) { return e.result.head_rotation.value; });
-  add("{:.1f}", 1e3, [](const Entry& e) { return e.result.head_rotation.time_s; });
-  add("{:.1f}", 1e3, [](const Entry& e) { return e.result.zero_crossing_s; });
-  add("{:.1f}", deg, [](const Entry& e) { return e.result.neck_rotation.value; });
-  add("{:.1f}", gn, [](const Entry& e) { return e.result.head_acceleration.value; });
-  add("{:.1f}", lbf_ft, [](const Entry& e) { return e.result.occipital_moment.value; });
-  add("{:.2f}", 1, [](const Entry& e) { return e.hanging.frequency_Hz; });
-  add("{:.3f}", 1, [](const Entry& e) { return e.hanging.damping_ratio; });
-  add("{:.2f}", 1, [](const Entry& e) { return e.result.run_frequency_Hz; });
-  add("{:.3f}", 1, [](const Entry& e) { return e.result.run_damping_ratio; });
-  return row;
+  using Figure = std::optional<double>;
+  return {
+      {"head rotation", "deg", "{:.1f}", deg,
+       [](const Entry& e) -> Figure { return e.result.head_rotation.value; }, true},
+      {"at", "ms", "{:.1f}", 1e3,
+       [](const Entry& e) -> Figure { return e.result.head_rotation.time_s; }, true},
+      {"back at zero", "ms", "{:.1f}", 1e3,
+       [](const Entry& e) -> Figure { return e.result.zero_crossing_s; }, false},
+      {"neck rotation", "deg", "{:.1f}", deg,
+       [](const Entry& e) -> Figure { return e.result.neck_rotation.value; }, false},
+      {"head acceleration", "gn", "{:.1f}", gn,
+       [](const Entry& e) -> Figure { return e.result.head_acceleration.value; }, true},
+      {"occipital moment", "lbf*ft", "{:.1f}", lbf_ft,
+       [](const Entry& e) -> Figure { return e.result.occipital_moment.value; }, true},
+      {"eigenvalue", "Hz", "{:.2f}", 1,
+       [](const Entry& e) -> Figure { return e.hanging.frequency_Hz; }, true},
+      {"its damping", "1", "{:.3f}", 1,
+       [](const Entry& e) -> Figure { return e.hanging.damping_ratio; }, true},
+      {"run", "Hz", "{:.2f}", 1, [](const Entry& e) -> Figure { return e.result.run_frequency_Hz; },
+       false},
+      {"its damping", "1", "{:.3f}", 1,
+       [](const Entry& e) -> Figure { return e.result.run_damping_ratio; }, false},
+  };
 }
 
 /// What a variant is, from what it does.
@@ -103,29 +117,44 @@ std::vector<std::string> notes_of(const CaseSection& experiment) {
   return notes;
 }
 
-/// Figures of a case and their units, in the order of row_of().
-constexpr std::array kFigures = {std::pair{"head rotation", "deg"},
-                                 std::pair{"at", "ms"},
-                                 std::pair{"back at zero", "ms"},
-                                 std::pair{"neck rotation", "deg"},
-                                 std::pair{"head acceleration", "gn"},
-                                 std::pair{"occipital moment", "lbf*ft"},
-                                 std::pair{"eigenvalue", "Hz"},
-                                 std::pair{"its damping", "1"},
-                                 std::pair{"run", "Hz"},
-                                 std::pair{"its damping", "1"}};
+/// The table of a variant: each figure of its cases, then of those that they are made of.
+ResultTable variant_table(const std::string& name, const std::vector<PendulumEntry>& entries) {
+  const std::vector<CaseFigure> figures = case_figures();
+  ResultTable table;
+  table.name = "variant-" + name;
+  table.columns = {{"case", ""}};
+  for (const CaseFigure& figure : figures)
+    table.columns.insert(table.columns.end(),
+                         {{figure.name, figure.unit}, {"(base)", figure.unit}});
+  for (const PendulumEntry& entry : entries) {
+    if (entry.experiment.variant != name) continue;
+    if (table.rows.empty()) {
+      table.title = title_of(entry.experiment);
+      table.notes = notes_of(entry.experiment);
+    }
+    std::vector<std::string> row = {entry.experiment.name};
+    for (const CaseFigure& figure : figures)
+      for (const PendulumEntry* const shown : {&entry, &base_of(entries, entry)})
+        row.push_back(text_of(figure.of(*shown), figure.format, figure.factor));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
 
 }  // namespace
 
 ResultTable in_short(const ResultTable& table) {
-  constexpr std::array<std::size_t, 13> kShown = {0, 1, 2, 3, 4, 9, 10, 11, 12, 13, 14, 15, 16};
+  std::vector<std::size_t> shown = {0};
+  const std::vector<CaseFigure> figures = case_figures();
+  for (std::size_t k = 0; k < figures.size(); ++k)
+    if (figures[k].in_short) shown.insert(shown.end(), {2 * k + 1, 2 * k + 2});
   ResultTable result = table;
   result.columns.clear();
-  for (const std::size_t column : kShown) result.columns.push_back(table.columns[column]);
+  for (const std::size_t column : shown) result.columns.push_back(table.columns[column]);
   for (auto& row : result.rows) {
     std::vector<std::string> cells;
-    cells.reserve(kShown.size());
-    for (const std::size_t column : kShown) cells.push_back(row[column]);
+    cells.reserve(shown.size());
+    for (const std::size_t column : shown) cells.push_back(row[column]);
     row = cells;
   }
   return result;
@@ -135,24 +164,7 @@ std::vector<ResultTable> variant_tables(const std::vector<PendulumEntry>& entrie
   const std::vector<std::string> names = variant_names(entries);
   std::vector<ResultTable> tables;
   tables.reserve(names.size());
-  for (const std::string& name : names) {
-    ResultTable table;
-    table.name = "variant-" + name;
-    table.columns = {{"case", ""}};
-    for (const auto& [figure, unit] : kFigures) {
-      table.columns.push_back({figure, unit});
-      table.columns.push_back({"(base)", unit});
-    }
-    for (const PendulumEntry& entry : entries) {
-      if (entry.experiment.variant != name) continue;
-      if (table.rows.empty()) {
-        table.title = title_of(entry.experiment);
-        table.notes = notes_of(entry.experiment);
-      }
-      table.rows.push_back(row_of(entry, base_of(entries, entry)));
-    }
-    tables.push_back(std::move(table));
-  }
+  for (const std::string& name : names) tables.push_back(variant_table(name, entries));
   return tables;
 }
 
@@ -164,12 +176,14 @@ double small_stiffness(const multibody::ResistanceSide& side) {
   return side.load(kSmall) / kSmall;
 }
 
-Row rigid_row(const std::string& name, const std::string& plane, const RigidNeckSection& neck,
-              const multibody::Resistance& lower, const multibody::Resistance& upper) {
+std::vector<std::string> rigid_row(const std::string& name, const std::string& plane,
+                                   const RigidNeckSection& neck, const multibody::Resistance& lower,
+                                   const multibody::Resistance& upper) {
   const double in = factor_from_si("m", "in");
   const double stiffness = factor_from_si("N*m/rad", "in*lbf/deg");
   const double damping = factor_from_si("N*m*s/rad", "in*lbf*s/deg");
-  Row row = {name, plane, fmt::format("{:.3f}", neck.rigid.mass_kg * factor_from_si("kg", "lb"))};
+  std::vector<std::string> row = {
+      name, plane, fmt::format("{:.3f}", neck.rigid.mass_kg * factor_from_si("kg", "lb"))};
   for (const auto& [height_m, law] :
        {std::pair{neck.lower.height_m, &lower}, std::pair{neck.upper.height_m, &upper}}) {
     row.push_back(fmt::format("{:.3f}", height_m * in));
