@@ -31,6 +31,7 @@ bool compare_command(const FileInput& input) {
   std::vector<ComparedStudy> studies;
   for (const fs::path& folder : input.files) {
     if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
+    // Without a study of its own: a folder is what it is, not to be measured by today's values.
     studies.push_back({label_of(folder, input.files), read_results(folder, Study())});
     if (studies.back().results.files.empty()) {
       throw InputError(folder.string() + ": holds no results; make them with 'flexneck run -o " +

@@ -62,6 +62,18 @@ ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
   return table;
 }
 
+/// Whether each study has a quantity once at most.
+bool is_unique(const std::string& quantity, const std::vector<ComparedStudy>& studies) {
+  return std::all_of(studies.begin(), studies.end(), [&](const ComparedStudy& study) {
+    if (!study.results.verification) return true;
+    const std::vector<VerificationRow>& rows = study.results.verification->rows;
+    return std::count_if(rows.begin(), rows.end(),
+                         [&](const VerificationRow& row) { return row.quantity == quantity; }) <= 1;
+  });
+}
+
+/// A quantity may be met by another detail in another study, the first bending by the lateral mode:
+/// rows go by the quantity. Only where it has several rows does the detail tell them apart.
 ResultTable verifications(const std::vector<ComparedStudy>& studies) {
   SideBySide cells(studies.size());
   for (std::size_t s = 0; s < studies.size(); ++s) {
@@ -70,8 +82,12 @@ ResultTable verifications(const std::vector<ComparedStudy>& studies) {
       const std::string unit = row.unit == "1" ? "" : " " + row.unit;
       const std::string error =
           row.error_percent ? fmt::format(" ({:+.2f} %)", *row.error_percent) : "";
-      cells.put(row.quantity + ", " + row.detail + "; published " + row.reference + unit, s,
-                row.value + error);
+      const std::string published = "; published " + row.reference + unit;
+      const std::string detail = ", " + row.detail;
+      if (is_unique(row.quantity, studies))
+        cells.put(row.quantity + published, s, row.value + error + detail);
+      else
+        cells.put(row.quantity + detail + published, s, row.value + error);
     }
   }
   return table_of("verification", "Computed, and its difference from what is published", "quantity",
@@ -124,11 +140,27 @@ ResultTable merged(const ResultTable& first, const std::vector<ComparedStudy>& s
   return table;
 }
 
-/// All runs; those of the other studies as variants of the first one's.
+/// First cells of a folder's tables: its cases in the order of its study, which is not there.
+std::vector<std::string> cases_in_order(const Results& results) {
+  std::vector<std::string> names;
+  for (const ResultTable& table : results.tables)
+    for (const std::vector<std::string>& row : table.rows) names.push_back(row.front());
+  return names;
+}
+
+/// All runs in the order of the first study; those of the others as variants of its cases.
 Results all_runs(const std::vector<ComparedStudy>& studies) {
+  const std::vector<std::string> order = cases_in_order(studies.front().results);
   Results all;
   for (const ComparedStudy& study : studies) {
-    for (Experiment run : study.results.experiments) {
+    std::vector<Experiment> runs = study.results.experiments;
+    std::stable_sort(runs.begin(), runs.end(), [&](const Experiment& a, const Experiment& b) {
+      const auto place = [&](const Experiment& run) {
+        return std::pair(run.kind, std::find(order.begin(), order.end(), run.name));
+      };
+      return place(a) < place(b);
+    });
+    for (Experiment& run : runs) {
       if (&study != &studies.front()) run.name += "-" + study.label;
       all.experiments.push_back(std::move(run));
     }

@@ -7,6 +7,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
+#include "pipeline/report/comparison.h"
 #include "pipeline/report/embedding.h"
 #include "pipeline/report/report.h"
 #include "pipeline/report/results.h"
@@ -186,4 +187,45 @@ TEST_CASE("without gnuplot the package is named") {
   const Environment nothing_there("PATH", folder.path().string());
   CHECK_THROWS_WITH(page_of(folder.path()), Contains("gnuplot-nox"));
   CHECK_THROWS_AS(page_of(folder.path()), InputError);
+}
+
+TEST_CASE("studies side by side align by quantity and have their cases as the first one") {
+  const auto study = [](const std::string& label, const std::string& first_bending) {
+    ComparedStudy compared;
+    compared.label = label;
+    const auto row = [](const std::string& quantity, const std::string& detail) {
+      VerificationRow made;
+      made.quantity = quantity;
+      made.detail = detail;
+      made.unit = "Hz";
+      made.value = "5.1";
+      made.reference = "5";
+      return made;
+    };
+    compared.results.verification =
+        VerificationTable{{row("bending 1", first_bending), row("system frequency", "fore-aft"),
+                           row("system frequency", "lateral")}};
+    ResultTable peaks = small_table();
+    peaks.rows = {{"flexion-60", "31"}, {"extension-60", "32"}};
+    compared.results.tables = {peaks};
+    for (const char* const name : {"extension-60", "flexion-60"})
+      compared.results.experiments.push_back({Experiment::Kind::pendulum, name, small_run(3)});
+    return compared;
+  };
+  const std::vector<ComparedStudy> studies = {study("one", "fore-aft bending 1"),
+                                              study("two", "lateral bending 1")};
+  const std::vector<ResultTable> tables = compared_tables(studies);
+  REQUIRE(tables.size() == 4);
+  CHECK(tables[1].rows ==
+        std::vector<std::vector<std::string>>{
+            {"bending 1; published 5 Hz", "5.1, fore-aft bending 1", "5.1, lateral bending 1"},
+            {"system frequency, fore-aft; published 5 Hz", "5.1", "5.1"},
+            {"system frequency, lateral; published 5 Hz", "5.1", "5.1"}});
+  const TemporaryFolder folder;
+  write_comparison(folder / "comparison.html", studies);
+  const std::string page = text_of_file(folder / "comparison.html");
+  std::size_t place = 0;
+  for (const char* const run : {"flexion-60", "extension-60", "flexion-60-two", "extension-60-two"})
+    place = page.find("\"name\":\"" + std::string(run) + "\"", place);
+  CHECK(place != std::string::npos);
 }
