@@ -80,7 +80,7 @@ Provenance experiment_provenance(const Study& study, CaseSection::Kind kind) {
   if (kind == CaseSection::Kind::pendulum) {
     others.insert(others.end(), {"static.", "force."});
   } else {
-    others.insert(others.end(), {"pendulum.", "pulse.", "head_spring."});
+    others.insert(others.end(), {"pendulum.", "pulse.", "head_spring.", "rigid_neck."});
   }
   for (const CaseSection& experiment : study.cases)
     if (experiment.kind != kind) others.push_back("case." + experiment.name + ".");

@@ -9,6 +9,8 @@
 
 namespace flexneck::pipeline {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 /// "published 12, inferred 5, …"
@@ -33,11 +35,8 @@ std::string origin_table(const Study& study) {
   return text_table(rows, {0, 1, 2});
 }
 
-}  // namespace
-
-namespace {
-
-/// A stage of `run`. A command that returns false, or throws, has not made it.
+/// A stage of `run`. A command that throws has not made it; one that returns false has, only its
+/// verification failed.
 struct Stage {
   std::string name;
   Provenance from;
@@ -86,8 +85,8 @@ void print_kept(const CommandInput& input, const std::string& stage) {
     const VerificationFile file = read_verification(input.folder.verification());
     input.console.result("\n" + printed(file.table));
   }
-  const std::filesystem::path tables = input.folder.file(stage + ".json");
-  if (!holds_tables(tables)) return;
+  const fs::path tables = input.folder.file(stage + ".json");
+  if (!fs::exists(tables)) return;
   for (const ResultTable& table : read_tables(tables).tables)
     input.console.result("\n" + printed(table));
 }
