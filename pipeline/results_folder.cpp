@@ -13,9 +13,42 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What experiments know by the modes only.
-constexpr std::array<const char*, 5> kOfTheModes = {"geometry.", "mesh.", "modes.",
-                                                    "substructures.", "interface."};
+/// What experiments know by the modes only, and what a case has to name to depend on it.
+constexpr std::array<const char*, 13> kNotOfEveryCase = {
+    "geometry.", "mesh.",    "modes.", "substructures.", "interface.",  "pendulum.",   "static.",
+    "case.",     "variant.", "force.", "pulse.",         "rigid_neck.", "head_spring."};
+
+/// Of those, what a case does name. A variant also has the values of the case it is made of.
+std::vector<std::string> used_by(const CaseSection& experiment) {
+  const std::string& own = experiment.variant_of.empty() ? experiment.name : experiment.variant_of;
+  std::vector<std::string> prefixes = {
+      experiment.kind == CaseSection::Kind::pendulum ? "pendulum." : "static.",
+      "case." + own + "."};
+  const auto add = [&](const std::string& section, const std::string& name) {
+    if (!name.empty()) prefixes.push_back(section + "." + name + ".");
+  };
+  add("variant", experiment.variant);
+  add("pulse", experiment.pulse);
+  add("rigid_neck", experiment.rigid_neck);
+  add("head_spring", experiment.head_spring);
+  for (const std::string& force : experiment.forces) add("force", force);
+  return prefixes;
+}
+
+template <typename Prefixes>
+bool begins_with_one_of(const std::string& key, const Prefixes& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const auto& prefix) { return key.starts_with(prefix); });
+}
+
+Provenance provenance_using(const Study& study, const std::vector<std::string>& used) {
+  Provenance provenance = provenance_of(study);
+  std::erase_if(provenance.parameters, [&](const Parameter& parameter) {
+    return begins_with_one_of(parameter.key, kNotOfEveryCase) &&
+           !begins_with_one_of(parameter.key, used);
+  });
+  return provenance;
+}
 
 }  // namespace
 
@@ -48,10 +81,7 @@ Provenance provenance_of(const Study& study, const std::vector<std::string>& pre
   if (prefixes.empty())
     provenance.inputs.insert(provenance.inputs.end(), study.tables.begin(), study.tables.end());
   const auto wanted = [&](const Parameter& parameter) {
-    return prefixes.empty() ||
-           std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
-             return parameter.key.starts_with(prefix);
-           });
+    return prefixes.empty() || begins_with_one_of(parameter.key, prefixes);
   };
   std::copy_if(study.parameters.begin(), study.parameters.end(),
                std::back_inserter(provenance.parameters), wanted);
@@ -76,21 +106,17 @@ Provenance modes_provenance(const Study& study) {
 }
 
 Provenance experiment_provenance(const Study& study, CaseSection::Kind kind) {
-  std::vector<std::string> others(kOfTheModes.begin(), kOfTheModes.end());
-  if (kind == CaseSection::Kind::pendulum) {
-    others.insert(others.end(), {"static.", "force."});
-  } else {
-    others.insert(others.end(), {"pendulum.", "pulse.", "head_spring.", "rigid_neck."});
+  std::vector<std::string> used;
+  for (const CaseSection& experiment : study.cases) {
+    if (experiment.kind != kind) continue;
+    const std::vector<std::string> more = used_by(experiment);
+    used.insert(used.end(), more.begin(), more.end());
   }
-  for (const CaseSection& experiment : study.cases)
-    if (experiment.kind != kind) others.push_back("case." + experiment.name + ".");
-  Provenance provenance = provenance_of(study);
-  std::erase_if(provenance.parameters, [&](const Parameter& parameter) {
-    return std::any_of(others.begin(), others.end(), [&](const std::string& prefix) {
-      return parameter.key.starts_with(prefix);
-    });
-  });
-  return provenance;
+  return provenance_using(study, used);
+}
+
+Provenance case_provenance(const Study& study, const CaseSection& experiment) {
+  return provenance_using(study, used_by(experiment));
 }
 
 void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,

@@ -54,8 +54,10 @@ Provenance provenance_of(const Study& study, const std::vector<std::string>& pre
 Provenance mesh_provenance(const Study& study);
 /// The same for the modes of a mesh.
 Provenance modes_provenance(const Study& study);
-/// The same for the experiments of a kind with the modes.
+/// The same for the experiments of a kind with the modes, all cases.
 Provenance experiment_provenance(const Study& study, CaseSection::Kind kind);
+/// The same for one case: of sections with a name, only what it uses.
+Provenance case_provenance(const Study& study, const CaseSection& experiment);
 
 /// Refuses a file that was made with other values than the study has now.
 /// @throws InputError naming the first value that differs, and the command that makes the file.

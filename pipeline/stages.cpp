@@ -49,17 +49,20 @@ Stages::Stages(fs::path folder, bool redo)
   if (!redo) read();
 }
 
+bool Stages::is_made(const std::string& stage, const Provenance& from,
+                     const std::vector<std::string>& after) const {
+  const auto known = records_.find(stage);
+  return known != records_.end() && known->second.inputs == hash_of_inputs(from, after) &&
+         is_there(known->second);
+}
+
 bool Stages::make(const std::string& stage, const Provenance& from,
                   const std::vector<std::string>& after, const std::function<void()>& work) {
-  const std::string inputs = hash_of_inputs(from, after);
-  const auto known = records_.find(stage);
-  if (known != records_.end() && known->second.inputs == inputs && is_there(known->second)) {
-    return false;
-  }
+  if (is_made(stage, from, after)) return false;
   records_.erase(stage);
   const WriteTimes before = write_times(folder_);
   work();
-  records_[stage] = {inputs, hashes_of_written(folder_, before)};
+  records_[stage] = {hash_of_inputs(from, after), hashes_of_written(folder_, before)};
   write();
   return true;
 }

@@ -20,10 +20,13 @@ class Stages {
   /// A file of records that is missing, damaged or of another build of the program counts as none.
   Stages(std::filesystem::path folder, bool redo);
 
-  /// Runs `work` unless all that it wrote the last time is there, unchanged, and was made from the
-  /// same. What it writes into the folder is found by itself.
+  /// Whether all that a stage wrote the last time is there, unchanged, and was made from the same.
   /// @param from the values and files it depends on, besides what earlier stages wrote
   /// @param after stages whose files it reads, as far as they have been made
+  bool is_made(const std::string& stage, const Provenance& from,
+               const std::vector<std::string>& after) const;
+
+  /// Runs `work` unless the stage is made. What it writes into the folder is found by itself.
   /// @return whether it ran
   /// @throws what `work` throws; the stage counts as not made then
   bool make(const std::string& stage, const Provenance& from, const std::vector<std::string>& after,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/pendulum_cases.h"
 #include "pipeline/output/result_table.h"
 #include "pipeline/stages.h"
 #include "pipeline/text_table.h"
@@ -53,31 +56,38 @@ Provenance without_studies(Provenance provenance, const Study& study) {
   return provenance;
 }
 
-std::vector<Stage> stages_of(const Study& study) {
+/// Up to the experiments that are one stage.
+std::vector<Stage> stages_before_cases(const Study& study) {
   if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
   std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
                                {"modes", modes_provenance(study), {"mesh"}, modes_command},
                                {"pictures", {}, {"mesh", "modes"}, pictures_command}};
   if (study.structure) return stages;  // the experiments below are the neck's
+  stages.push_back({"static",
+                    experiment_provenance(study, CaseSection::Kind::static_test),
+                    {"modes"},
+                    static_command});
+  return stages;
+}
+
+std::string stage_of(const CaseSection& experiment) { return "pendulum-" + experiment.name; }
+
+/// What follows once every case of the pendulum was run.
+std::vector<Stage> stages_after_cases(const Study& study) {
   Provenance everything = provenance_of(study);
   if (!study.verification.empty()) {
     everything.inputs.push_back(
         {study.verification.filename().string(), hash_of_file(study.verification.string())});
   }
-  stages.push_back({"static",
-                    experiment_provenance(study, CaseSection::Kind::static_test),
-                    {"modes"},
-                    static_command});
-  stages.push_back({"pendulum",
-                    experiment_provenance(study, CaseSection::Kind::pendulum),
-                    {"modes"},
-                    pendulum_command});
-  stages.push_back({"verify", everything, {"modes", "pendulum"}, verify_command});
-  stages.push_back({"report",
-                    everything,
-                    {"mesh", "modes", "pictures", "static", "pendulum", "verify"},
-                    report_command});
-  return stages;
+  std::vector<std::string> runs = {"modes"};
+  for (const CaseSection* const experiment : pendulum_cases(study))
+    runs.push_back(stage_of(*experiment));
+  std::vector<std::string> results = runs;
+  results.insert(results.end(), {"mesh", "pictures", "static", "pendulum", "verify"});
+  return {{"pendulum", experiment_provenance(study, CaseSection::Kind::pendulum), runs,
+           pendulum_tables_command},
+          {"verify", everything, runs, verify_command},
+          {"report", everything, results, report_command}};
 }
 
 void print_kept(const CommandInput& input, const std::string& stage) {
@@ -91,6 +101,34 @@ void print_kept(const CommandInput& input, const std::string& stage) {
     input.console.result("\n" + printed(table));
 }
 
+void make(const CommandInput& input, Stages& records, const Stage& stage) {
+  const bool made = records.make(stage.name, without_studies(stage.from, input.study), stage.after,
+                                 [&] { stage.command(input); });
+  if (made) return;
+  input.console.step("Nothing has changed for " + stage.name + ": kept");
+  print_kept(input, stage.name);
+}
+
+/// Each case of the pendulum is a stage. Which of them are due is found before the first one is
+/// made, so that they can be computed ahead of their turn.
+void make_cases(const CommandInput& input, Stages& records) {
+  const std::vector<const CaseSection*> all = pendulum_cases(input.study);
+  const auto from = [&](const CaseSection& experiment) {
+    return without_studies(case_provenance(input.study, experiment), input.study);
+  };
+  std::vector<const CaseSection*> due;
+  for (const CaseSection* const experiment : all)
+    if (!records.is_made(stage_of(*experiment), from(*experiment), {"modes"}))
+      due.push_back(experiment);
+  if (due.size() < all.size())
+    input.console.step(fmt::format("Nothing has changed for {} of {} pendulum cases: kept",
+                                   all.size() - due.size(), all.size()));
+  if (due.empty()) return;
+  PendulumCases cases(input, due);
+  for (const CaseSection* const experiment : due)
+    records.make(stage_of(*experiment), from(*experiment), {"modes"}, [&] { cases.write_next(); });
+}
+
 }  // namespace
 
 bool run_command(const CommandInput& input) {
@@ -102,14 +140,11 @@ bool run_command(const CommandInput& input) {
                          origin_table(study));
   }
   Stages records(input.folder.path(), input.redo);
-  for (const Stage& stage : stages_of(study)) {
-    const bool made = records.make(stage.name, without_studies(stage.from, study), stage.after,
-                                   [&] { stage.command(input); });
-    if (made) continue;
-    input.console.step("Nothing has changed for " + stage.name + ": kept");
-    print_kept(input, stage.name);
-  }
-  return !study.geometry || read_verification(input.folder.verification()).table.passed();
+  for (const Stage& stage : stages_before_cases(study)) make(input, records, stage);
+  if (!study.geometry) return true;
+  make_cases(input, records);
+  for (const Stage& stage : stages_after_cases(study)) make(input, records, stage);
+  return read_verification(input.folder.verification()).table.passed();
 }
 
 }  // namespace flexneck::pipeline

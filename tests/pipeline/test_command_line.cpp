@@ -131,11 +131,18 @@ effective_damping = 1
   const CommandOutcome kept = run_flexneck("run -o " + second + kCoarse);
   CHECK(kept.exit_code == outcome.exit_code);
   CHECK_THAT(kept.text, Contains("Nothing has changed for report: kept") && !Contains("Meshing") &&
+                            Contains("Nothing has changed for 44 of 44 pendulum cases: kept") &&
                             Contains("Head/neck pendulum") && Contains("torsion 2"));
   const CommandOutcome touched =
       run_flexneck("run -o " + second + kCoarse + " --set case.flexion-60.duration='0.9 s'");
+  // The case, and what four variants make of it.
   CHECK_THAT(touched.text, Contains("Nothing has changed for modes: kept") &&
-                               Contains("Head/neck pendulum: flexion-60") &&
+                               Contains("Nothing has changed for static: kept") &&
+                               Contains("Nothing has changed for 39 of 44 pendulum cases: kept") &&
+                               Contains("Head/neck pendulum: flexion-60\n") &&
+                               Contains("Head/neck pendulum: flexion-60-rigid\n") &&
+                               !Contains("Head/neck pendulum: flexion-40") &&
+                               !Contains("Nothing has changed for verify") &&
                                Contains("Writing the report"));
   CHECK(bytes_of(folder / "first/modes.h5") == bytes_of(folder / "second/modes.h5"));
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -6,7 +7,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/names.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "pipeline/results_folder.h"
 #include "pipeline/stages.h"
 
 namespace flexneck::pipeline {
@@ -87,6 +90,34 @@ TEST_CASE("a stage that was stopped is made again, those before it are kept") {
   run_both();
   CHECK(first == 1);
   CHECK(second == 2);
+}
+
+TEST_CASE("a case is made from its own values, those of the case it varies and of what it names") {
+  const Study study = read_study(built_in_study(), {});
+  const auto has = [&](const std::string& name, const std::string& prefix) {
+    const CaseSection& experiment = study.cases[find_name(names_of(study.cases), name, "case")];
+    const Provenance provenance = case_provenance(study, experiment);
+    return std::any_of(
+        provenance.parameters.begin(), provenance.parameters.end(),
+        [&](const Parameter& parameter) { return parameter.key.starts_with(prefix); });
+  };
+  for (const char* const own :
+       {"case.flexion-60.", "variant.spring.", "head_spring.nodding.", "pulse.flexion.",
+        "pendulum.", "body.neck.", "solver.", "output."}) {
+    INFO(own);
+    CHECK(has("flexion-60-spring", own));
+  }
+  for (const char* const other :
+       {"case.flexion-20.", "case.flexion.", "variant.rigid.", "rigid_neck.", "pulse.extension.",
+        "force.", "static.", "geometry.", "modes."}) {
+    INFO(other);
+    CHECK_FALSE(has("flexion-60-spring", other));
+  }
+  CHECK(has("extension-60-rigid", "rigid_neck.sourced."));
+  CHECK_FALSE(has("extension-60-matched", "rigid_neck.sourced."));
+  CHECK_FALSE(has("flexion-60", "variant."));
+  CHECK(has("flexion", "force.forward load."));
+  CHECK_FALSE(has("flexion", "force.rearward load."));
 }
 
 }  // namespace flexneck::pipeline

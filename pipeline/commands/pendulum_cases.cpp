@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/pendulum_cases.h"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "multibody/history_file.h"
+#include "pipeline/output/csv_output.h"
+#include "pipeline/output/customary_units.h"
+
+namespace flexneck::pipeline {
+
+std::vector<const CaseSection*> pendulum_cases(const Study& study) {
+  std::vector<const CaseSection*> cases;
+  for (const CaseSection& experiment : study.cases)
+    if (experiment.kind == CaseSection::Kind::pendulum) cases.push_back(&experiment);
+  return cases;
+}
+
+NeckModes read_neck_modes(const CommandInput& input) {
+  const std::filesystem::path path = input.folder.modes();
+  fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(path);
+  require_same_inputs(path, modes.provenance, input.study, "flexneck modes");
+  return {std::move(modes.body), {path.filename().string(), hash_of_file(path.string())}};
+}
+
+PendulumCases::PendulumCases(const CommandInput& input, std::vector<const CaseSection*> cases)
+    : input_(input), cases_(std::move(cases)), modes_(read_neck_modes(input)) {}
+
+void PendulumCases::compute_ahead() {
+  const std::size_t ahead = std::max(1U, std::thread::hardware_concurrency());
+  while (running_.size() < ahead && written_ + running_.size() < cases_.size())
+    running_.push_back(std::async(std::launch::async, run_pendulum, std::cref(input_.study),
+                                  std::cref(*cases_[written_ + running_.size()]),
+                                  std::cref(modes_.body)));
+}
+
+void PendulumCases::write_next() {
+  compute_ahead();
+  if (running_.empty()) throw std::logic_error("every case of the pendulum has been written");
+  const CaseSection& experiment = *cases_[written_];
+  input_.console.step("Head/neck pendulum: " + experiment.name);
+  PendulumRun run = running_.front().get();
+  running_.pop_front();
+  ++written_;
+  write(experiment, std::move(run));
+}
+
+void PendulumCases::write(const CaseSection& experiment, PendulumRun&& run) const {
+  const ResultsFolder& folder = input_.folder;
+  write_csv(folder.curves(experiment), run.history.time_s, in_customary_units(run.channels));
+  multibody::HistoryFile file;
+  file.history = std::move(run.history);
+  file.channels = std::move(run.channels);
+  file.provenance = case_provenance(input_.study, experiment);
+  file.provenance.inputs.push_back(modes_.file);
+  multibody::write_history(folder.history(experiment), file);
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <future>
+#include <vector>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "pipeline/commands/commands.h"
+#include "pipeline/experiments/pendulum.h"
+
+namespace flexneck::pipeline {
+
+/// The study's cases of the pendulum, variants too, in its order.
+std::vector<const CaseSection*> pendulum_cases(const Study& study);
+
+struct NeckModes {
+  fe_modal::ModalBody body;
+  InputFile file;
+};
+
+/// @throws InputError if they are missing or were made with other values than the study has now.
+NeckModes read_neck_modes(const CommandInput& input);
+
+/// Runs cases of the pendulum: all processors compute ahead, files are written in order.
+class PendulumCases {
+ public:
+  PendulumCases(const CommandInput& input, std::vector<const CaseSection*> cases);
+  /// Waits for the next case and writes its files. @throws std::logic_error if there is none.
+  void write_next();
+
+ private:
+  void compute_ahead();
+  void write(const CaseSection& experiment, PendulumRun&& run) const;
+
+  const CommandInput& input_;
+  std::vector<const CaseSection*> cases_;
+  NeckModes modes_;
+  std::size_t written_ = 0;
+  std::deque<std::future<PendulumRun>> running_;  ///< last: they end before what they read
+};
+
+}  // namespace flexneck::pipeline
