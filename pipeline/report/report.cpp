@@ -41,7 +41,7 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   std::string& scripts = texts["scripts"];
   if (!curves.is_null()) scripts += script_element(source_of(WebLibrary::d3));
   if (!scene.is_null()) scripts += script_element(source_of(WebLibrary::three));
-  for (const char* name : {"data.js", "page.js", "plots.js", "orbit.js", "scene.js"}) {
+  for (const char* name : {"data.js", "page.js", "plots.js", "orbit.js", "stage.js", "scene.js"}) {
     scripts += script_element(page_part(name));
   }
   write_text(path, filled(page_part("report.html"), texts));

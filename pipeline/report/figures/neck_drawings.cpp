@@ -7,8 +7,8 @@
 
 #include <fmt/core.h>
 
-#include "geometry/foundation/names.h"
 #include "geometry/foundation/units.h"
+#include "pipeline/report/figures/bent_neck.h"
 #include "pipeline/report/figures/neck_outline.h"
 #include "pipeline/report/head_shape.h"
 
@@ -26,6 +26,10 @@ const char* const kVector = "lw 2 lc rgb '#0072b2'";
 const char* const kForce = "lw 3 lc rgb '#d55e00'";
 
 double inches(double metres) { return metres * factor_from_si("m", "in"); }
+
+Vector2d inches_in_plane(const Vector3d& metres) {
+  return {inches(metres.x()), inches(metres.z())};
+}
 
 Matrix2d turned(double angle_rad) {
   Matrix2d turn;
@@ -133,45 +137,6 @@ Figure section(const GeometrySection& geometry) {
   return figure;
 }
 
-/// Modes of a run among the body's, and their coordinates at a time.
-struct Bent {
-  std::vector<Eigen::Index> modes;
-  Eigen::VectorXd coordinates;
-};
-
-std::optional<Bent> bent_at(const multibody::History& history, const fe_modal::ModalBody& body,
-                            Eigen::Index time) {
-  if (history.modal.size() != 1) return {};
-  const std::vector<std::string> names = names_of(body.modes);
-  Bent bent{{}, history.modal.front().coordinates.col(time)};
-  for (const std::string& mode : history.modal.front().modes) {
-    const auto found = std::find(names.begin(), names.end(), mode);
-    if (found == names.end()) return {};
-    bent.modes.push_back(found - names.begin());
-  }
-  return bent;
-}
-
-/// Where the body's modes put the joint point, inches, in the plane.
-Vector2d joint_of(const fe_modal::ModalBody& body, const Bent& bent) {
-  const fe_modal::Interface& top = body.interface("top");
-  Vector3d point = top.position_m;
-  for (std::size_t m = 0; m < bent.modes.size(); ++m) {
-    point += bent.coordinates[static_cast<Eigen::Index>(m)] * top.translation.col(bent.modes[m]);
-  }
-  return {inches(point.x()), inches(point.z())};
-}
-
-/// Rotation of the joint's frame about y, rad, positive forward.
-double tip_angle(const fe_modal::ModalBody& body, const Bent& bent) {
-  const fe_modal::Interface& top = body.interface("top");
-  double angle = 0;
-  for (std::size_t m = 0; m < bent.modes.size(); ++m) {
-    angle += bent.coordinates[static_cast<Eigen::Index>(m)] * top.rotation(1, bent.modes[m]);
-  }
-  return angle;
-}
-
 Figure static_tester(const Results& results, const GeometrySection& geometry) {
   Figure figure{5, "Static test neck model",
                 "Clamped at the base, loaded at the occipital condyles; drawn at the end of the "
@@ -182,7 +147,7 @@ Figure static_tester(const Results& results, const GeometrySection& geometry) {
     return figure;
   }
   const multibody::History& history = run->file.history;
-  const auto bent = bent_at(history, *results.modes, history.time_s.size() - 1);
+  const auto bent = bent_neck(history, *results.modes, history.time_s.size() - 1);
   if (!bent) {
     figure.missing = "a static test 'flexion' with these modes";
     return figure;
@@ -196,7 +161,7 @@ Figure static_tester(const Results& results, const GeometrySection& geometry) {
   append(drawing.shapes, deformed.shapes(Matrix2d::Identity(), Vector2d::Zero()));
   append(drawing.shapes,
          undeformed.lines(Matrix2d::Identity(), Vector2d::Zero(), " undeformed", kDashed));
-  const Vector2d joint = joint_of(*results.modes, *bent);
+  const Vector2d joint = inches_in_plane(joint_of(*results.modes, *bent));
   drawing.arrows.push_back({joint, joint + Vector2d(2.6, 0), kForce});
   drawing.labels.push_back({"F", joint + Vector2d(2.8, 0)});
   drawing.labels.push_back({"clamped", {0, -0.25}, "center"});
@@ -217,12 +182,12 @@ Eigen::Index farthest(const multibody::History& history) {
 
 /// The pendulum as it hangs: what points up in the neck's frame points down.
 Drawing pendulum_drawing(const fe_modal::ModalBody& body, const GeometrySection& geometry,
-                         const Bent& bent, const HeadShape& head) {
+                         const BentNeck& bent, const HeadShape& head) {
   Matrix2d hanging = Matrix2d::Identity();
   hanging(1, 1) = -1;
   NeckOutline neck(geometry.neck);
   neck.deform(body, bent.modes, bent.coordinates);
-  const Vector2d joint = hanging * joint_of(body, bent);
+  const Vector2d joint = hanging * inches_in_plane(joint_of(body, bent));
   const double phi = tip_angle(body, bent);
   const double phi_neck = std::atan2(joint.x(), -joint.y());
 
@@ -233,7 +198,7 @@ Drawing pendulum_drawing(const fe_modal::ModalBody& body, const GeometrySection&
   append(drawing.shapes, neck.lines(hanging, Vector2d::Zero(), "", kThin));
   const Eigen::Matrix3d tilt = Eigen::AngleAxisd(phi, Vector3d::UnitY()).toRotationMatrix();
   const Vector3d centre = tilt * head.centre_m;
-  const Vector2d centre_in = joint + hanging * Vector2d(inches(centre.x()), inches(centre.z()));
+  const Vector2d centre_in = joint + hanging * inches_in_plane(centre);
   drawing.shapes.push_back(
       {"head", (inches(1) * hanging * outline_along_y(head, tilt)).colwise() + centre_in, "",
        kThin});
@@ -280,7 +245,7 @@ Figure pendulum(const Results& results, const Study& study) {
   }
   const multibody::History& history = run->file.history;
   const Eigen::Index time = farthest(history);
-  const auto bent = bent_at(history, *results.modes, time);
+  const auto bent = bent_neck(history, *results.modes, time);
   if (!bent) {
     figure.missing = "a run of the pendulum with these modes";
     return figure;
