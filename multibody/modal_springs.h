@@ -56,7 +56,7 @@ struct ModalSprings {
   Eigen::MatrixXd curvatures;  ///< (m m, m): T_k, one below the other; empty if e is a
 
  private:
-  Eigen::MatrixXd::ConstRowsBlockXpr curvature(Eigen::Index k) const {
+  Eigen::Block<const Eigen::MatrixXd> curvature(Eigen::Index k) const {
     return curvatures.middleRows(k * stiffness.size(), stiffness.size());
   }
   /// a^T T_k b.
