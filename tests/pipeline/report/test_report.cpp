@@ -68,18 +68,18 @@ std::string page_of(const fs::path& folder) {
   return text_of_file(folder / "report.html");
 }
 
-/// The value of an environment variable for a while.
-class Environment {
+/// The search path for a while.
+class SearchPath {
  public:
-  Environment(const char* name, const std::string& value) : name_(name), before_(getenv(name)) {
-    setenv(name, value.c_str(), 1);
+  explicit SearchPath(const std::string& path) {
+    if (const char* const before = getenv("PATH")) before_ = before;
+    setenv("PATH", path.c_str(), 1);
   }
-  ~Environment() { setenv(name_, before_.c_str(), 1); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
+  ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
+  SearchPath(const SearchPath&) = delete;
+  SearchPath& operator=(const SearchPath&) = delete;
 
  private:
-  const char* name_;
   std::string before_;
 };
 
@@ -184,7 +184,7 @@ TEST_CASE("a figure's data are the channel's in the units of its axes") {
 
 TEST_CASE("without gnuplot the package is named") {
   const TemporaryFolder folder;
-  const Environment nothing_there("PATH", folder.path().string());
+  const SearchPath nothing_there(folder.path().string());
   CHECK_THROWS_WITH(page_of(folder.path()), Contains("gnuplot-nox"));
   CHECK_THROWS_AS(page_of(folder.path()), InputError);
 }
