@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -10,7 +11,24 @@
 
 namespace flexneck::fe_modal {
 
+namespace {
+
+/// A process that no mpirun or batch system has started takes Open MPI a third of a second to set
+/// up for others, none of whom come: a daemon and the network.
+void stay_alone() {
+  for (const char* const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+    if (std::getenv(launched) != nullptr) return;
+  }
+  constexpr int kKeepTheUsers = 0;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", kKeepTheUsers);
+  setenv("OMPI_MCA_btl", "self", kKeepTheUsers);
+  setenv("OMPI_MCA_pml", "ob1", kKeepTheUsers);
+}
+
+}  // namespace
+
 PetscSession::PetscSession() {
+  stay_alone();
   int finalized = 0;
   MPI_Finalized(&finalized);
   PetscBool initialized = PETSC_FALSE;
