@@ -6,14 +6,9 @@
 #include <Eigen/Geometry>
 
 #include "fe_modal/block_lanczos.h"
+#include "fe_modal/matrix_product.h"
 
 namespace flexneck::fe_modal {
-namespace {
-
-constexpr const char* kAttaching = "attaching a rigid body";
-
-}  // namespace
-
 Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
                            const Eigen::Matrix3d& inertia_kg_m2) {
   Eigen::Matrix3d skew;
@@ -25,50 +20,14 @@ Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
   return matrix;
 }
 
-struct AttachedMass::Terms {
-  Mat mass;
-  Matrix6d rigid_mass;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> average;  ///< C, (6, dofs)
-
-  static PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
-    const Terms* terms = nullptr;
-    PetscErrorCode code = MatShellGetContext(shell, static_cast<void*>(&terms));
-    if (code == 0) code = MatMult(terms->mass, x, y);
-    const PetscScalar* in = nullptr;
-    PetscScalar* out = nullptr;
-    if (code == 0) code = VecGetArrayRead(x, &in);
-    if (code == 0) code = VecGetArray(y, &out);
-    if (code != 0) return code;
-    const Eigen::Index size = terms->average.cols();
-    const Vector6d motion = terms->average * Eigen::Map<const Eigen::VectorXd>(in, size);
-    Eigen::Map<Eigen::VectorXd>(out, size) +=
-        terms->average.transpose() * (terms->rigid_mass * motion);
-    code = VecRestoreArray(y, &out);
-    return code != 0 ? code : VecRestoreArrayRead(x, &in);
-  }
-};
-
-AttachedMass::AttachedMass(Mat mass, const FreeNodes& free_nodes, const RigidAverage& region,
-                           const Matrix6d& rigid_mass) {
-  auto terms = std::make_shared<Terms>();
-  terms->mass = mass;
-  terms->rigid_mass = rigid_mass;
-  terms->average.resize(6, free_nodes.dof_count());
-  const auto weights = region.weights(free_nodes.node_count());
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    terms->average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
-  }
-  terms_ = terms;
-  const auto size = static_cast<PetscInt>(free_nodes.dof_count());
-  require(MatCreateShell(PETSC_COMM_SELF, size, size, size, size, terms.get(), shell_.out()),
-          kAttaching);
-  require(MatShellSetOperation(shell_.get(), MATOP_MULT,
-                               reinterpret_cast<void (*)()>(&Terms::multiply)),
-          kAttaching);
-  require(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE), kAttaching);
-}
-
-Eigen::MatrixXd AttachedMass::loads() const { return terms_->average.transpose(); }
+AttachedMass::AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass)
+    : loads_(std::make_unique<const Eigen::MatrixXd>(loads)),
+      operator_(loads.rows(),
+                [mass, rigid_mass, own = loads_.get()](const Eigen::MatrixXd& fields) {
+                  Eigen::MatrixXd momenta = block_product(mass, fields);
+                  multiply(1, *own, rigid_mass * inner_products(*own, fields), 1, momenta);
+                  return momenta;
+                }) {}
 
 Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
                                    const Eigen::MatrixXd& modes, Eigen::Index count) {

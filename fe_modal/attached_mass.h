@@ -3,8 +3,7 @@
 
 #include <memory>
 
-#include "fe_modal/free_nodes.h"
-#include "fe_modal/petsc_handles.h"
+#include "fe_modal/operator_matrix.h"
 #include "fe_modal/rigid_average.h"
 #include "fe_modal/shift_inverse.h"
 
@@ -21,17 +20,16 @@ Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
 class AttachedMass {
  public:
   /// @param mass of the free degrees of freedom; must outlive this
-  AttachedMass(Mat mass, const FreeNodes& free_nodes, const RigidAverage& region,
-               const Matrix6d& rigid_mass);
+  /// @param loads C^T, (dofs, 6): unit forces and moments on the region
+  /// @param rigid_mass about the point that they act at
+  AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass);
 
-  Mat matrix() const { return shell_.get(); }
-  /// C^T, (dofs, 6): unit forces and moments on the region.
-  Eigen::MatrixXd loads() const;
+  Mat matrix() const { return operator_.get(); }
+  const Eigen::MatrixXd& loads() const { return *loads_; }
 
  private:
-  struct Terms;
-  std::shared_ptr<const Terms> terms_;  ///< at a fixed address: the shell points to it
-  MatHandle shell_;
+  std::unique_ptr<const Eigen::MatrixXd> loads_;  ///< at a fixed address: the operator points to it
+  OperatorMatrix operator_;
 };
 
 /// The lowest eigenvalues of K x = lambda (M + C^T M_rigid C) x by inverse iteration of the span of

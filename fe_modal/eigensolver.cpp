@@ -156,12 +156,13 @@ EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& invers
 }
 
 Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const EigenPairs& pairs, double shift) {
+  const Eigen::MatrixXd forces = block_product(stiffness, pairs.vectors);
+  const Eigen::MatrixXd momenta = block_product(mass, pairs.vectors);
   Eigen::VectorXd residuals(pairs.values.size());
   for (Eigen::Index k = 0; k < residuals.size(); ++k) {
-    const Eigen::VectorXd force = block_product(stiffness, pairs.vectors.col(k));
-    const Eigen::VectorXd momentum = block_product(mass, pairs.vectors.col(k));
-    const double scale = pairs.values[k] == 0 ? std::abs(shift) * momentum.norm() : force.norm();
-    residuals[k] = (force - pairs.values[k] * momentum).norm() / scale;
+    const double scale =
+        pairs.values[k] == 0 ? std::abs(shift) * momenta.col(k).norm() : forces.col(k).norm();
+    residuals[k] = (forces.col(k) - pairs.values[k] * momenta.col(k)).norm() / scale;
   }
   return residuals;
 }

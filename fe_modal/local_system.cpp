@@ -7,6 +7,13 @@
 
 namespace flexneck::fe_modal {
 
+LocalSystem::LocalSystem(SystemMatrices matrices, std::vector<std::int32_t> node_order)
+    : matrices_(std::move(matrices)),
+      node_order_(std::move(node_order)),
+      stiffness_(matrices_.stiffness.size(), [this](const Eigen::MatrixXd& columns) {
+        return block_product(matrices_.stiffness, columns);
+      }) {}
+
 std::unique_ptr<ShiftInverse> LocalSystem::shift_inverse(double shift) const {
   const std::vector<std::int32_t> order =
       node_order_.empty()

@@ -13,10 +13,9 @@ namespace flexneck::fe_modal {
 class LocalSystem : public ModalSystem {
  public:
   /// @param node_order of the free nodes; empty: by nested dissection
-  explicit LocalSystem(SystemMatrices matrices, std::vector<std::int32_t> node_order = {})
-      : matrices_(std::move(matrices)), node_order_(std::move(node_order)) {}
+  explicit LocalSystem(SystemMatrices matrices, std::vector<std::int32_t> node_order = {});
 
-  Mat stiffness() const override { return matrices_.stiffness.get(); }
+  Mat stiffness() const override { return stiffness_.get(); }
   Mat mass() const override { return matrices_.mass_operator(); }
   const NodalMass& nodal_mass() const override { return matrices_.nodal_mass; }
   std::unique_ptr<ShiftInverse> shift_inverse(double shift) const override;
@@ -28,6 +27,7 @@ class LocalSystem : public ModalSystem {
  private:
   SystemMatrices matrices_;
   std::vector<std::int32_t> node_order_;
+  OperatorMatrix stiffness_;  ///< points to the matrices
 };
 
 }  // namespace flexneck::fe_modal

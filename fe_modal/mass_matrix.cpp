@@ -7,8 +7,6 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kMaking = "making the mass matrix";
-
 NodalMass restrict_to_free(const NodalMass& all_nodes, const NodeGraph& graph,
                            const FreeNodes& free_nodes) {
   NodalMass result = zero_nodal_mass(graph);
@@ -30,29 +28,6 @@ NodalMass restrict_to_free(const NodalMass& all_nodes, const NodeGraph& graph,
   return result;
 }
 
-/// y = M x, three directions at once.
-PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
-  const NodalMass* mass = nullptr;
-  PetscErrorCode code = MatShellGetContext(shell, static_cast<void*>(&mass));
-  const PetscScalar* in = nullptr;
-  PetscScalar* out = nullptr;
-  if (code == 0) code = VecGetArrayRead(x, &in);
-  if (code == 0) code = VecGetArray(y, &out);
-  if (code != 0) return code;
-  const std::int32_t* columns = mass->innerIndexPtr();
-  const double* values = mass->valuePtr();
-  for (Eigen::Index row = 0; row < mass->rows(); ++row) {
-    double sum[3] = {0, 0, 0};
-    for (std::int32_t k = mass->outerIndexPtr()[row]; k < mass->outerIndexPtr()[row + 1]; ++k) {
-      const double* velocity = in + 3 * static_cast<std::ptrdiff_t>(columns[k]);
-      for (int a = 0; a < 3; ++a) sum[a] += values[k] * velocity[a];
-    }
-    std::copy_n(sum, 3, out + 3 * row);
-  }
-  code = VecRestoreArray(y, &out);
-  return code != 0 ? code : VecRestoreArrayRead(x, &in);
-}
-
 }  // namespace
 
 NodalMass zero_nodal_mass(const NodeGraph& graph) {
@@ -64,15 +39,9 @@ NodalMass zero_nodal_mass(const NodeGraph& graph) {
 
 MassMatrix::MassMatrix(const NodalMass& all_nodes, const NodeGraph& graph,
                        const FreeNodes& free_nodes)
-    : nodal_(std::make_unique<const NodalMass>(restrict_to_free(all_nodes, graph, free_nodes))) {
-  const auto size = static_cast<PetscInt>(free_nodes.dof_count());
-  // PETSc hands the context back as it is; the mass is not changed through it.
-  require(MatCreateShell(PETSC_COMM_SELF, size, size, size, size,
-                         const_cast<NodalMass*>(nodal_.get()), shell_.out()),
-          kMaking);
-  require(MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(&multiply)),
-          kMaking);
-  require(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE), kMaking);
-}
+    : nodal_(std::make_unique<const NodalMass>(restrict_to_free(all_nodes, graph, free_nodes))),
+      operator_(free_nodes.dof_count(), [mass = nodal_.get()](const Eigen::MatrixXd& columns) {
+        return block_product(*mass, columns);
+      }) {}
 
 }  // namespace flexneck::fe_modal

@@ -5,7 +5,7 @@
 
 #include "fe_modal/nodal_mass.h"
 #include "fe_modal/node_graph.h"
-#include "fe_modal/petsc_handles.h"
+#include "fe_modal/operator_matrix.h"
 
 namespace flexneck::fe_modal {
 
@@ -17,13 +17,13 @@ class MassMatrix {
   /// @param graph of the free nodes
   MassMatrix(const NodalMass& all_nodes, const NodeGraph& graph, const FreeNodes& free_nodes);
 
-  Mat get() const { return shell_.get(); }
+  Mat get() const { return operator_.get(); }
   /// Between the free nodes, by their indices; tied nodes are one.
   const NodalMass& between_nodes() const { return *nodal_; }
 
  private:
-  std::unique_ptr<const NodalMass> nodal_;  ///< at a fixed address: the shell points to it
-  MatHandle shell_;
+  std::unique_ptr<const NodalMass> nodal_;  ///< at a fixed address: the operator points to it
+  OperatorMatrix operator_;
 };
 
 /// Matrix of zeros with the sparsity of the graph.

@@ -163,18 +163,18 @@ std::vector<std::size_t> eigenvectors_of(const Reduction& basis) {
 
 /// @param modes the body's lowest eigenvectors
 std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
-                                               const FreeNodes& free_nodes,
                                                const ModalSystem& system,
                                                const ShiftInverse& inverse,
                                                const Eigen::MatrixXd& modes,
-                                               const std::vector<RigidAverage>& averages) {
-  const Eigen::Index count = std::min(kAttachedCount, free_nodes.dof_count());
+                                               const std::vector<RigidAverage>& averages,
+                                               const std::vector<InterfaceLoads>& loads) {
+  const Eigen::Index count = std::min(kAttachedCount, modes.rows());
   std::vector<AttachedFrequencies> result;
   for (const RigidAttachment& body : options.attachments) {
-    const RigidAverage& region = averages[interface_index(options, body.interface)];
-    const Matrix6d rigid_mass =
-        rigid_mass_matrix(body.mass_kg, body.center_m - region.point_m(), body.inertia_kg_m2);
-    const AttachedMass mass(system.mass(), free_nodes, region, rigid_mass);
+    const std::size_t region = interface_index(options, body.interface);
+    const Matrix6d rigid_mass = rigid_mass_matrix(
+        body.mass_kg, body.center_m - averages[region].point_m(), body.inertia_kg_m2);
+    const AttachedMass mass(system.mass(), loads[region].forces, rigid_mass);
     const Eigen::VectorXd values =
         modes.cols() < count
             ? lowest_eigenpairs(system.stiffness(), mass.matrix(), inverse, count).values
@@ -299,8 +299,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     times.start("iterate with bodies attached");
     report("solving with rigid bodies attached");
   }
-  body.attached = attach_bodies(options, free_nodes, system, *inverse,
-                                pairs.vectors(Eigen::all, eigenvectors), averages);
+  body.attached = attach_bodies(options, system, *inverse, pairs.vectors(Eigen::all, eigenvectors),
+                                averages, loads);
   body.solver = inverse->describe();
   times.stop();
   return body;

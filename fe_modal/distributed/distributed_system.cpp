@@ -85,7 +85,15 @@ DistributedSystem::DistributedSystem(MPI_Comm ranks, const mesher::Mesh& mesh,
                                      const FormulationChoice& formulation,
                                      const mesher::ElementPartition& partition,
                                      std::vector<std::int32_t> node_order)
-    : ranks_(ranks), node_order_(std::move(node_order)) {
+    : ranks_(ranks),
+      node_order_(std::move(node_order)),
+      stiffness_(free_nodes.dof_count(), [this](const Eigen::MatrixXd& columns) {
+        Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
+        for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+          add_forces(columns.col(k).data(), forces.col(k).data());
+        }
+        return forces;
+      }) {
   std::vector<Share> shares = share_out(mesh, free_nodes, partition);
   for (Share& share : shares) {
     share.formulation = formulation;
@@ -93,16 +101,6 @@ DistributedSystem::DistributedSystem(MPI_Comm ranks, const mesher::Mesh& mesh,
   }
   assemble_shares(shares);
   gather_mass(mesh, free_nodes, shares);
-
-  const auto size = static_cast<PetscInt>(free_nodes.dof_count());
-  constexpr const char* kMaking = "making the shared stiffness";
-  require(MatCreateShell(PETSC_COMM_SELF, size, size, size, size, this, stiffness_.out()), kMaking);
-  require(MatShellSetOperation(
-              stiffness_.get(), MATOP_MULT,
-              reinterpret_cast<void (*)()>(
-                  static_cast<PetscErrorCode (*)(Mat, Vec, Vec)>(&DistributedSystem::multiply))),
-          kMaking);
-  require(MatSetOption(stiffness_.get(), MAT_SYMMETRIC, PETSC_TRUE), kMaking);
 }
 
 void DistributedSystem::order_all(const Order& order) const {
@@ -156,21 +154,7 @@ void DistributedSystem::add_mass(const std::vector<std::int32_t>& nodes,
   }
 }
 
-PetscErrorCode DistributedSystem::multiply(Mat shell, Vec x, Vec y) {
-  const DistributedSystem* system = nullptr;
-  const PetscScalar* in = nullptr;
-  PetscScalar* out = nullptr;
-  PetscErrorCode code = MatShellGetContext(shell, static_cast<void*>(&system));
-  if (code == 0) code = VecSet(y, 0);
-  if (code == 0) code = VecGetArrayRead(x, &in);
-  if (code == 0) code = VecGetArray(y, &out);
-  if (code != 0) return code;
-  system->multiply(in, out);
-  code = VecRestoreArray(y, &out);
-  return code != 0 ? code : VecRestoreArrayRead(x, &in);
-}
-
-void DistributedSystem::multiply(const double* x, double* y) const {
+void DistributedSystem::add_forces(const double* x, double* y) const {
   for (std::size_t worker = 1; worker < nodes_of_.size(); ++worker) {
     send_order(ranks_, static_cast<int>(worker), {.task = Task::multiply});
     MessageWriter message;

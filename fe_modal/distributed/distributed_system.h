@@ -36,8 +36,8 @@ class DistributedSystem : public ModalSystem {
                    const std::vector<Share>& shares);
   void add_mass(const std::vector<std::int32_t>& nodes, const std::int32_t* offsets,
                 const std::int32_t* columns, const double* values);
-  static PetscErrorCode multiply(Mat shell, Vec x, Vec y);
-  void multiply(const double* x, double* y) const;
+  /// y += K x
+  void add_forces(const double* x, double* y) const;
 
   MPI_Comm ranks_;
   std::vector<std::int32_t> node_order_;
@@ -45,7 +45,7 @@ class DistributedSystem : public ModalSystem {
   std::unique_ptr<PartialSystem> own_;
   NodalMass nodal_mass_;
   std::unique_ptr<MassMatrix> mass_;
-  MatHandle stiffness_;
+  OperatorMatrix stiffness_;  ///< points to this
   mutable int last_factor_ = 0;
 };
 

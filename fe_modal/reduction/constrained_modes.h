@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/petsc_handles.h"
+#include "fe_modal/operator_matrix.h"
 
 namespace flexneck::fe_modal {
 
@@ -20,14 +20,14 @@ class ConstrainedMass {
   /// @param responses X, (dofs, n)
   ConstrainedMass(Mat mass, const Eigen::MatrixXd& constraints, const Eigen::MatrixXd& responses);
 
-  Mat matrix() const { return shell_.get(); }
+  Mat matrix() const { return operator_.get(); }
   /// P x of each column.
   Eigen::MatrixXd project(const Eigen::MatrixXd& columns) const;
 
  private:
   struct Terms;
-  std::shared_ptr<const Terms> terms_;  ///< at a fixed address: the shell points to it
-  MatHandle shell_;
+  std::shared_ptr<const Terms> terms_;
+  OperatorMatrix operator_;
 };
 
 }  // namespace flexneck::fe_modal

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <unsupported/Eigen/KroneckerProduct>
+
 #include <catch2/catch.hpp>
 
 #include "fe_modal/assembly.h"
 #include "fe_modal/block_product.h"
+#include "fe_modal/operator_matrix.h"
+#include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 
@@ -12,14 +17,39 @@ TEST_CASE("many columns at once are multiplied as by the dense matrix") {
   const mesher::Mesh mesh =
       testing::box({2, 2, 3}, {0.05, 0.05, 0.1}, {"metal", 2.1e11, 0.3, 7850}).make();
   const SystemMatrices system = assemble(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes));
+  const NodalMass& nodal_mass = system.mass.between_nodes();
   const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
-  for (const Eigen::Index count : {1, 8, 11}) {
+  const Eigen::MatrixXd mass =
+      Eigen::kroneckerProduct(Eigen::MatrixXd(nodal_mass), Eigen::Matrix3d::Identity());
+  // One, all together, and some that are left over and go by themselves or not.
+  for (const Eigen::Index count : {1, 8, 10, 19}) {
     const Eigen::MatrixXd columns = Eigen::MatrixXd::Random(stiffness.rows(), count);
-    const Eigen::MatrixXd expected = stiffness * columns;
     // Sums of some hundred terms each.
-    CHECK(block_product(system.stiffness, columns).isApprox(expected, 1e-13));
-    CHECK(block_product(system.stiffness.get(), columns).isApprox(expected, 1e-13));
+    const Eigen::MatrixXd forces = stiffness * columns;
+    CHECK(block_product(system.stiffness, columns).isApprox(forces, 1e-13));
+    CHECK(block_product(system.stiffness.get(), columns).isApprox(forces, 1e-13));
+    const Eigen::MatrixXd momenta = mass * columns;
+    CHECK(block_product(nodal_mass, columns).isApprox(momenta, 1e-13));
+    CHECK(block_product(system.mass.get(), columns).isApprox(momenta, 1e-13));
   }
+}
+
+TEST_CASE("an operator serves PETSc by single vectors and us by blocks, and its failure is told") {
+  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(6, 6);
+  Eigen::Index widest = 0;
+  const OperatorMatrix shell(6, [&](const Eigen::MatrixXd& columns) {
+    widest = std::max(widest, columns.cols());
+    return Eigen::MatrixXd(matrix * columns);
+  });
+  CHECK(dense(shell.get()).isApprox(matrix, 1e-14));
+  CHECK(widest == 1);
+  CHECK(block_product(shell.get(), matrix).isApprox(matrix * matrix, 1e-14));
+  CHECK(widest == 6);
+
+  const OperatorMatrix broken(6, [](const Eigen::MatrixXd&) -> Eigen::MatrixXd {
+    throw ComputationError("no rank answers");
+  });
+  CHECK_THROWS_AS(dense(broken.get()), ComputationError);
 }
 
 }  // namespace flexneck::fe_modal
