@@ -25,6 +25,10 @@ class ShiftInverse {
   virtual void solve(Vec right_hand_side, Vec solution) const = 0;
   /// For each column, (N, k).
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const = 0;
+  /// Near that, symmetric and positive definite: all that conjugate gradients need.
+  virtual Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const {
+    return solve(residuals);
+  }
   /// The lowest eigenpairs of K x = lambda M x by a method of its own, where solves are dear;
   /// nothing where a Krylov method serves.
   virtual std::optional<EigenPairs> iterate(Mat /*mass*/, Eigen::Index /*count*/) const {

@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include "fe_modal/matrix_product.h"
 #include "geometry/foundation/error.h"
@@ -17,11 +17,11 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr Eigen::Index kGuards = 4;         ///< columns beyond those wanted
-constexpr Eigen::Index kBlocksOfBasis = 5;  ///< when the basis is that wide, it is cut back
+constexpr Eigen::Index kBlocksOfBasis = 4;  ///< when the basis is that wide, it is cut back
 constexpr int kMostIterations = 500;
-/// Of r^T P r / lambda, which estimates the relative error of lambda if P is near K^-1: that of
-/// shapes is its root.
-constexpr double kTolerance = 1e-13;
+/// Of r^T P r / lambda, which estimates the relative error of lambda if P is near K^-1. That of
+/// shapes is its root, and static compliances, which are asked for to 1e-8, take shapes as exact.
+constexpr double kTolerance = 1e-15;
 /// Columns that are so much shorter after orthogonalisation have nothing new.
 constexpr double kNothingNew = 1e-10;
 
@@ -31,48 +31,45 @@ Eigen::MatrixXd product(const MatrixView& columns, const MatrixView& combination
   return result;
 }
 
-/// V, K V, M V with V^T M V = 1.
-struct Columns {
-  Eigen::MatrixXd vectors;
-  Eigen::MatrixXd forces;
-  Eigen::MatrixXd momenta;
-};
-
-/// As many of them as have been found, in memory that is taken once: at a million degrees of
-/// freedom it would not do to copy it.
+/// The basis V, V^T M V = 1, and V^T K V. K V and M V are not kept, for products with K and M are
+/// cheap beside the preconditioner. Memory is taken once: at a million degrees of freedom it would
+/// not do to copy it.
 class Basis {
  public:
   Basis(Eigen::Index size, Eigen::Index capacity)
-      : all_{Eigen::MatrixXd(size, capacity), Eigen::MatrixXd(size, capacity),
-             Eigen::MatrixXd(size, capacity)} {}
+      : vectors_(size, capacity), projected_(Eigen::MatrixXd::Zero(capacity, capacity)) {}
 
   Eigen::Index count() const { return count_; }
-  auto vectors() const { return all_.vectors.leftCols(count_); }
-  auto forces() const { return all_.forces.leftCols(count_); }
-  auto momenta() const { return all_.momenta.leftCols(count_); }
+  Eigen::Index capacity() const { return vectors_.cols(); }
+  auto vectors() const { return vectors_.leftCols(count_); }
+  auto projected() const { return projected_.topLeftCorner(count_, count_); }
 
-  void append(const Columns& more) {
-    const Eigen::Index columns = more.vectors.cols();
-    all_.vectors.middleCols(count_, columns) = more.vectors;
-    all_.forces.middleCols(count_, columns) = more.forces;
-    all_.momenta.middleCols(count_, columns) = more.momenta;
+  /// @param forces K times the block
+  void append(const Eigen::MatrixXd& block, const Eigen::MatrixXd& forces) {
+    const Eigen::Index columns = block.cols();
+    vectors_.middleCols(count_, columns) = block;
     count_ += columns;
+    const Eigen::MatrixXd shares = inner_products(vectors(), forces);
+    projected_.block(0, count_ - columns, count_, columns) = shares;
+    projected_.block(count_ - columns, 0, columns, count_) = shares.transpose();
   }
   /// Keeps combinations of the columns.
-  void turn(const Eigen::MatrixXd& combination) {
+  /// @param combination orthonormal
+  void cut_back(const Eigen::MatrixXd& combination) {
     constexpr Eigen::Index kRows = 4096;
-    for (Eigen::MatrixXd* const matrix : {&all_.vectors, &all_.forces, &all_.momenta}) {
-      for (Eigen::Index first = 0; first < matrix->rows(); first += kRows) {
-        auto rows = matrix->middleRows(first, std::min(kRows, matrix->rows() - first));
-        const Eigen::MatrixXd turned = product(rows.leftCols(count_), combination);
-        rows.leftCols(combination.cols()) = turned;
-      }
+    for (Eigen::Index first = 0; first < vectors_.rows(); first += kRows) {
+      auto rows = vectors_.middleRows(first, std::min(kRows, vectors_.rows() - first));
+      const Eigen::MatrixXd turned = product(rows.leftCols(count_), combination);
+      rows.leftCols(combination.cols()) = turned;
     }
+    const Eigen::MatrixXd turned = combination.transpose() * projected() * combination;
     count_ = combination.cols();
+    projected_.topLeftCorner(count_, count_) = turned;
   }
 
  private:
-  Columns all_;
+  Eigen::MatrixXd vectors_;
+  Eigen::MatrixXd projected_;
   Eigen::Index count_ = 0;
 };
 
@@ -87,14 +84,12 @@ Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns) {
 }
 
 /// What of the columns is M-orthogonal to the basis, M-orthonormal among themselves.
-Columns orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperator& stiffness,
-                    const BlockOperator& mass) {
+Eigen::MatrixXd orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperator& mass) {
   Eigen::MatrixXd momenta = mass(block);
   for (int pass = 0; pass < 2; ++pass) {
     if (basis.count() > 0) {
-      const Eigen::MatrixXd shares = inner_products(basis.vectors(), momenta);
-      multiply(-1, basis.vectors(), shares, 1, block);
-      multiply(-1, basis.momenta(), shares, 1, momenta);
+      multiply(-1, basis.vectors(), inner_products(basis.vectors(), momenta), 1, block);
+      momenta = mass(block);
     }
     Eigen::MatrixXd gram = inner_products(block, momenta);
     const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -108,8 +103,18 @@ Columns orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperat
     block = product(block, combination);
     momenta = product(momenta, combination);
   }
-  Eigen::MatrixXd forces = stiffness(block);
-  return {std::move(block), std::move(forces), std::move(momenta)};
+  return block;
+}
+
+/// The Ritz vectors and those of the iteration before, which make it converge as if the basis had
+/// not been cut back (Stathopoulos and Saad, Electron. Trans. Numer. Anal. 7 (1998) 163).
+/// @param best, before of the basis now and then, which has grown since; orthonormal
+Eigen::MatrixXd restart_combination(const Eigen::MatrixXd& best, const Eigen::MatrixXd& before) {
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(best.rows(), best.cols() + before.cols());
+  both.leftCols(best.cols()) = best;
+  both.topRightCorner(before.rows(), before.cols()) = before;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(both);
+  return factors.householderQ() * Eigen::MatrixXd::Identity(both.rows(), both.cols());
 }
 
 }  // namespace
@@ -119,27 +124,31 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
                               Eigen::Index count) {
   const Eigen::Index width = std::min(count + kGuards, size);
   // Of a small body a block may be added when little is left to find.
-  const Eigen::Index capacity = std::min(kBlocksOfBasis * width, size + width);
-  Basis basis(size, capacity);
+  Basis basis(size, std::min(kBlocksOfBasis * width, size + width));
   Eigen::MatrixXd block = preconditioner(mass(random_block(size, width)));
+  Eigen::MatrixXd before;
   for (int iteration = 1; iteration <= kMostIterations; ++iteration) {
-    const Eigen::Index before = basis.count();
-    basis.append(orthonormal(basis, std::move(block), stiffness, mass));
-    if (basis.count() == before) break;
-    const Eigen::MatrixXd reduced = inner_products(basis.vectors(), basis.forces());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
-    const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, reduced.rows()));
+    block = orthonormal(basis, std::move(block), mass);
+    if (block.cols() == 0) break;
+    basis.append(block, stiffness(block));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());
+    const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, basis.count()));
     const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
-    Eigen::MatrixXd residuals = product(basis.forces(), best);
-    multiply(-1, basis.momenta(), best * values.asDiagonal(), 1, residuals);
+    EigenPairs pairs{values, product(basis.vectors(), best)};
+    Eigen::MatrixXd residuals = stiffness(pairs.vectors);
+    residuals -= mass(pairs.vectors) * values.asDiagonal();
     block = preconditioner(residuals);
     const Eigen::VectorXd errors =
         block.cwiseProduct(residuals).colwise().sum().transpose().cwiseQuotient(values);
     if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
-      return {{values.head(count), product(basis.vectors(), best.leftCols(count))}, iteration};
+      return {{values.head(count), pairs.vectors.leftCols(count)}, iteration};
     }
-    if (basis.count() + width > capacity) {
-      basis.turn(ritz.eigenvectors().leftCols(2 * width));
+    if (basis.count() + width > basis.capacity()) {
+      const Eigen::MatrixXd combination = restart_combination(best, before);
+      basis.cut_back(combination);
+      before = Eigen::MatrixXd::Identity(combination.cols(), width);
+    } else {
+      before = best;
     }
     // What has converged needs no more.
     Eigen::Index open = 0;

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
-
 #include <Eigen/Core>
 
-#include "fe_modal/eigensolver.h"
+#include "fe_modal/block_product.h"
+#include "fe_modal/eigen_pairs.h"
 
 namespace flexneck::fe_modal {
-
-/// A matrix times each column, (N, k).
-using BlockOperator = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 
 struct DavidsonResult {
   EigenPairs pairs;

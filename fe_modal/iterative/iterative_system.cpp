@@ -7,7 +7,8 @@
 #include <string>
 
 #include "fe_modal/block_product.h"
-#include "fe_modal/iterative/conjugate_gradients.h"
+#include "fe_modal/conjugate_gradients.h"
+#include "fe_modal/iterative/block_davidson.h"
 #include "fe_modal/iterative/schwarz.h"
 #include "geometry/foundation/error.h"
 
@@ -39,11 +40,14 @@ class IterativeSystem::Inverse : public ShiftInverse {
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override {
-    const ConjugateGradientResult result = conjugate_gradients(
-        [&](const Eigen::MatrixXd& x) { return block_product(matrix_, x); },
-        [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, right_hand_sides);
-    gradient_iterations_ += result.iterations;
-    return result.solutions;
+    return conjugate_gradients([&](const Eigen::MatrixXd& x) { return block_product(matrix_, x); },
+                               [&](const Eigen::MatrixXd& r) { return precondition(r); },
+                               right_hand_sides);
+  }
+
+  Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const override {
+    ++gradient_iterations_;
+    return preconditioner_.apply(residuals);
   }
 
   std::optional<EigenPairs> iterate(Mat mass, Eigen::Index count) const override {

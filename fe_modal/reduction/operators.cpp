@@ -10,7 +10,7 @@ BodyOperators operators_of(const ModalSystem& system, const ShiftInverse& invers
     return [matrix](const Eigen::MatrixXd& in) { return block_product(matrix, in); };
   };
   return {multiply_by(system.stiffness()), multiply_by(system.mass()),
-          [&inverse](const Eigen::MatrixXd& loads) { return inverse.solve(loads); },
+          [&inverse](const Eigen::MatrixXd& loads) { return inverse.precondition(loads); },
           inverse.shift()};
 }
 

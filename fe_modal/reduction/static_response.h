@@ -18,8 +18,9 @@ void remove_modes(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& momenta,
 /// modes Phi. If Phi holds a free body's six rigid motions, X is its deformation under the loads
 /// and the inertia forces that balance them (inertia relief). Without modes it is K^-1 F.
 ///
-/// Conjugate gradients with (K - shift M)^-1: one step and one of refinement where the shift is
-/// zero, else as many as the first elastic mode that is not in Phi is small against the shift.
+/// By conjugate gradients, which a factor of K ends after one step and one of refinement; the
+/// shift of a free body makes them more if the first elastic mode that is not in Phi is small
+/// against it.
 /// @param loads F, (dofs, n)
 /// @param kept the modes, M-orthonormal eigenpairs; all rigid motions if the shift is not zero
 /// @throws ComputationError if it does not converge to 1e-10 of the energy norm.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/iterative/conjugate_gradients.h"
+#include "fe_modal/conjugate_gradients.h"
 
 #include <string>
 #include <utility>
@@ -45,34 +45,35 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& c
 
 }  // namespace
 
-ConjugateGradientResult conjugate_gradients(const BlockOperator& matrix,
-                                            const BlockOperator& preconditioner,
-                                            const Eigen::MatrixXd& right_hand_sides) {
-  ConjugateGradientResult result{
-      Eigen::MatrixXd::Zero(right_hand_sides.rows(), right_hand_sides.cols())};
+Eigen::MatrixXd conjugate_gradients(const BlockOperator& matrix,
+                                    const BlockOperator& preconditioner,
+                                    const Eigen::MatrixXd& right_hand_sides,
+                                    const Eigen::VectorXd& known_energies) {
+  Eigen::MatrixXd solutions =
+      Eigen::MatrixXd::Zero(right_hand_sides.rows(), right_hand_sides.cols());
   Eigen::MatrixXd residuals = right_hand_sides;
   Eigen::MatrixXd directions = preconditioner(residuals);
-  const Eigen::VectorXd aims = kTolerance * dots(residuals, directions);
-  Eigen::VectorXd squares = aims / kTolerance;
-  while ((squares.array() > aims.array()).any()) {
-    if (++result.iterations > kMostIterations) {
-      throw ComputationError("conjugate gradients have not converged in " +
-                             std::to_string(kMostIterations) + " iterations");
-    }
+  Eigen::VectorXd energies = dots(residuals, directions);
+  if (known_energies.size() > 0) energies += known_energies;
+  bool converged = false;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     Eigen::MatrixXd forces = matrix(directions);
     const Eigen::MatrixXd combinations =
         orthonormal_combinations(inner_products(directions, forces));
     directions = product(directions, combinations);
-    forces = product(forces, combinations);
     const Eigen::MatrixXd steps = inner_products(directions, residuals);
-    multiply(1, directions, steps, 1, result.solutions);
+    multiply(1, directions, steps, 1, solutions);
+    if (converged) return solutions;
+    forces = product(forces, combinations);
     multiply(-1, forces, steps, 1, residuals);
     Eigen::MatrixXd next = preconditioner(residuals);
-    squares = dots(residuals, next);
+    // The direction is at hand by then: one more step costs no preconditioner.
+    converged = (dots(residuals, next).array() <= kTolerance * energies.array()).all();
     multiply(-1, directions, inner_products(forces, next), 1, next);
     directions = std::move(next);
   }
-  return result;
+  throw ComputationError("conjugate gradients have not converged in " +
+                         std::to_string(kMostIterations) + " iterations");
 }
 
 }  // namespace flexneck::fe_modal
