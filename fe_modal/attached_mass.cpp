@@ -21,23 +21,22 @@ Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
 }
 
 AttachedMass::AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass)
-    : loads_(std::make_unique<const Eigen::MatrixXd>(loads)),
-      operator_(loads.rows(),
-                [mass, rigid_mass, own = loads_.get()](const Eigen::MatrixXd& fields) {
-                  Eigen::MatrixXd momenta = block_product(mass, fields);
-                  multiply(1, *own, rigid_mass * inner_products(*own, fields), 1, momenta);
-                  return momenta;
-                }) {}
+    : loads_(loads),
+      operator_(loads.rows(), [mass, rigid_mass, &loads](const Eigen::MatrixXd& fields) {
+        Eigen::MatrixXd momenta = block_product(mass, fields);
+        multiply(1, loads, rigid_mass * inner_products(loads, fields), 1, momenta);
+        return momenta;
+      }) {}
 
 Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
-                                   const Eigen::MatrixXd& modes, Eigen::Index count) {
+                                   const Eigen::Ref<const Eigen::MatrixXd>& modes,
+                                   Eigen::Index count) {
   // Its own method needs no exact solves, which are dear there and never quite exact.
   if (const auto own = inverse.iterate(mass.matrix(), count)) return own->values;
   // The error of an eigenvalue is the square of this, over the relative gap to the next.
   constexpr double kResidual = 1e-6;
-  const Eigen::MatrixXd responses = inverse.solve(mass.loads());
-  Eigen::MatrixXd start(modes.rows(), modes.cols() + responses.cols());
-  start << modes, responses;
+  Eigen::MatrixXd start(modes.rows(), modes.cols() + mass.loads().cols());
+  start << modes, inverse.solve(mass.loads());
   start.colwise().normalize();
   const Settled settled = [](const RitzState& state) {
     return state.residuals.maxCoeff() < kResidual;

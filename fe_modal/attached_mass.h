@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
-
 #include "fe_modal/operator_matrix.h"
 #include "fe_modal/rigid_average.h"
 #include "fe_modal/shift_inverse.h"
@@ -20,15 +18,15 @@ Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
 class AttachedMass {
  public:
   /// @param mass of the free degrees of freedom; must outlive this
-  /// @param loads C^T, (dofs, 6): unit forces and moments on the region
+  /// @param loads C^T, (dofs, 6): unit forces and moments on the region; must outlive this
   /// @param rigid_mass about the point that they act at
   AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass);
 
   Mat matrix() const { return operator_.get(); }
-  const Eigen::MatrixXd& loads() const { return *loads_; }
+  const Eigen::MatrixXd& loads() const { return loads_; }
 
  private:
-  std::unique_ptr<const Eigen::MatrixXd> loads_;  ///< at a fixed address: the operator points to it
+  const Eigen::MatrixXd& loads_;
   OperatorMatrix operator_;
 };
 
@@ -39,6 +37,7 @@ class AttachedMass {
 /// @param inverse of K
 /// @param modes (dofs, m) the body's lowest; m is at least `count`
 Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
-                                   const Eigen::MatrixXd& modes, Eigen::Index count);
+                                   const Eigen::Ref<const Eigen::MatrixXd>& modes,
+                                   Eigen::Index count);
 
 }  // namespace flexneck::fe_modal

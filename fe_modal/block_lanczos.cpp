@@ -109,6 +109,7 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(Mat mass, const Basis&
   for (int pass = 0; pass < 2; ++pass) {
     const Eigen::MatrixXd more = inner_products(basis.vectors(), block.momenta);
     multiply(-1, basis.vectors(), more, 1, block.vectors);
+    block.momenta.resize(0, 0);
     block.momenta = block_product(mass, block.vectors);
     shares += more * factor;
     factor = (orthonormalise(block, shortest) * factor).eval();
@@ -132,6 +133,7 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs
   for (int blocks = 0; blocks < kMostBlocks; ++blocks) {
     const Eigen::Index last = block.vectors.cols();
     basis.append(block.vectors);
+    block.vectors.resize(0, 0);  // frees it before the solution comes
     block.vectors = inverse.solve(block.momenta);
     block.momenta = block_product(mass, block.vectors);
     const auto [shares, coupling] = orthogonalise(mass, basis, block);

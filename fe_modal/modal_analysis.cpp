@@ -152,20 +152,18 @@ std::pair<Reduction, std::string> reduced_basis(
   return {complete_modes(operators, pairs, loads, options.basis, progress), certificate};
 }
 
-/// Places of the body's own eigenvectors, which are its lowest, in the basis.
-std::vector<std::size_t> eigenvectors_of(const Reduction& basis) {
-  std::vector<std::size_t> places;
-  for (std::size_t k = 0; k < basis.kinds.size(); ++k) {
-    if (basis.kinds[k] == kNormalMode || basis.kinds[k] == kRigidMode) places.push_back(k);
-  }
-  return places;
+/// How many of the basis, its first, are the body's own eigenvectors, which are its lowest.
+Eigen::Index eigenvector_count(const Reduction& basis) {
+  return std::count_if(basis.kinds.begin(), basis.kinds.end(), [](const std::string& kind) {
+    return kind == kNormalMode || kind == kRigidMode;
+  });
 }
 
 /// @param modes the body's lowest eigenvectors
 std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
                                                const ModalSystem& system,
                                                const ShiftInverse& inverse,
-                                               const Eigen::MatrixXd& modes,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& modes,
                                                const std::vector<RigidAverage>& averages,
                                                const std::vector<InterfaceLoads>& loads) {
   const Eigen::Index count = std::min(kAttachedCount, modes.rows());
@@ -272,13 +270,14 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
                               relative_residuals(system.stiffness(), system.mass(), pairs, shift));
-  const std::vector<std::size_t> eigenvectors = eigenvectors_of(basis);
-  if (options.certify && !eigenvectors.empty()) {
+  const Eigen::Index eigenvectors = eigenvector_count(basis);
+  if (options.certify && eigenvectors > 0) {
     times.start("refine and solve again");
-    const EigenPairs normal = {pairs.values(eigenvectors), pairs.vectors(Eigen::all, eigenvectors)};
+    const EigenPairs normal = {pairs.values.head(eigenvectors),
+                               pairs.vectors.leftCols(eigenvectors)};
     const auto errors = mesh_errors({mesh, free_nodes, system.mass(), normal}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) {
-      body.modes[eigenvectors[k]].mesh_error = errors[k];
+      body.modes[k].mesh_error = errors[k];
     }
     times.start("post-process");
   }
@@ -299,7 +298,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     times.start("iterate with bodies attached");
     report("solving with rigid bodies attached");
   }
-  body.attached = attach_bodies(options, system, *inverse, pairs.vectors(Eigen::all, eigenvectors),
+  body.attached = attach_bodies(options, system, *inverse, pairs.vectors.leftCols(eigenvectors),
                                 averages, loads);
   body.solver = inverse->describe();
   times.stop();
