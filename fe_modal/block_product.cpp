@@ -19,9 +19,9 @@ using ThreeEntries = std::array<const double*, 3>;
 /// sum += A x and y += A^T x', with the 3 x 3 block A whose rows begin at `entries`.
 template <std::size_t lanes>
 void multiply_both_ways(const ThreeEntries& entries, const ThreeRows<lanes>& x,
-                        ThreeRows<lanes>& sum, const ThreeRows<lanes>& own_x, ThreeRows<lanes>& y) {
+                        ThreeRows<lanes>& __restrict sum, const ThreeRows<lanes>& own_x,
+                        ThreeRows<lanes>& __restrict y) {
   const auto& [a, b, c] = entries;
-#pragma GCC ivdep
   for (std::size_t k = 0; k < lanes; ++k) {
     sum[0][k] += a[0] * x[0][k] + a[1] * x[1][k] + a[2] * x[2][k];
     sum[1][k] += b[0] * x[0][k] + b[1] * x[1][k] + b[2] * x[2][k];
@@ -84,6 +84,7 @@ void add_product(const NodalMass& mass, const std::vector<ThreeRows<lanes>>& x,
 template <std::size_t lanes, typename Matrix>
 void multiply_by_lanes(const Matrix& matrix, const Eigen::Ref<const Eigen::MatrixXd>& columns,
                        Eigen::Ref<Eigen::MatrixXd> result) {
+  if (columns.cols() == 0) return;
   constexpr auto kLanes = static_cast<Eigen::Index>(lanes);
   std::vector<ThreeRows<lanes>> in(static_cast<std::size_t>(columns.rows() / 3));
   std::vector<ThreeRows<lanes>> out(in.size());
