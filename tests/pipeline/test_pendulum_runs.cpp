@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/names.h"
@@ -13,6 +11,7 @@
 #include "pipeline/experiments/rigid_neck.h"
 #include "pipeline/experiments/sampling.h"
 #include "tests/support/beam_experiment.h"
+#include "tests/support/dense_solvers.h"
 
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
@@ -43,7 +42,8 @@ class LinearPendulum {
     const MatrixXd mass = neck.invariants.Maa + head.mass_kg * B_.transpose() * B_ +
                           top.rotation.transpose() * head.inertia_kg_m2 * top.rotation;
     const VectorXd omega = 2 * std::numbers::pi * neck.frequencies_Hz;
-    const MatrixXd inverse = mass.inverse();
+    const MatrixXd inverse =
+        testing::symmetric_solution(mass, MatrixXd::Identity(omega.size(), omega.size()));
     const Eigen::Index n = omega.size();
     MatrixXd A = MatrixXd::Zero(2 * n, 2 * n);
     A.topRightCorner(n, n).setIdentity();
@@ -51,10 +51,10 @@ class LinearPendulum {
     A.bottomRightCorner(n, n) = -inverse * (2 * damping_ratio * omega).asDiagonal();
     VectorXd b = VectorXd::Zero(2 * n);
     b.tail(n) = -inverse * (neck.invariants.S2 + head.mass_kg * B_).row(0).transpose();
-    const Eigen::EigenSolver<MatrixXd> solver(A);
-    lambda_ = solver.eigenvalues();
-    shapes_ = solver.eigenvectors();
-    beta_ = shapes_.inverse() * b;
+    const testing::ComplexPairs pairs = testing::complex_pairs(A);
+    lambda_ = pairs.values;
+    shapes_ = pairs.vectors;
+    beta_ = pairs.inverse * b;
   }
 
   /// [q; q'] at a time from rest, under an acceleration that is linear between rows.

@@ -18,6 +18,13 @@ DensePairs dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& 
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 /// Of any square matrix.
 Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXd& matrix);
+struct ComplexPairs {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+  Eigen::MatrixXcd inverse;  ///< of the vectors
+};
+/// A x = lambda x of a matrix that has as many vectors as columns.
+ComplexPairs complex_pairs(const Eigen::MatrixXd& matrix);
 /// A^-1 B with a symmetric A.
 Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 /// The columns span all x with A x = 0.
