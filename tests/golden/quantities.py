@@ -73,6 +73,11 @@ def close_modes(frequencies):
     return [slice(*ends) for ends in zip([0, *ends], [*ends, len(frequencies)])]
 
 
+def frequencies(path):
+    with h5py.File(path) as file:
+        return file["frequencies"][:]
+
+
 def shape_datasets(file):
     """Name, dataset and its axes that run over the modes."""
     for name, axes in SHAPES.items():
@@ -107,8 +112,8 @@ def modes_rows(path):
             rows += selected(interface, INTERFACE_VALUES, f"interfaces/{name}/")
         for name, body in file.get("attached", {}).items():
             rows += selected(body, ATTACHED_VALUES, f"attached/{name}/")
-            for basis, frequencies in datasets(body, "mode_counts"):
-                rows += rows_of(f"attached/{name}/{basis}", frequencies[:], "Hz", "own")
+            for basis, found in datasets(body, "mode_counts"):
+                rows += rows_of(f"attached/{name}/{basis}", found[:], "Hz", "own")
         return rows
 
 
