@@ -2,6 +2,8 @@
 """Reads the numbers that are stored from the files of a run: rows (name, unit, numbers). The only code
 here that knows the names of datasets: who renames one changes this file, and the tables stay."""
 
+import json
+
 import h5py
 import numpy as np
 
@@ -156,3 +158,13 @@ def time_of(peak, curve, times, size):
     """NaN where rounding decides it, since several times come as near to the peak."""
     near = np.flatnonzero(np.abs(curve - peak) <= 1e-6 * size)
     return times[near[0]] if len(near) == 1 else np.nan
+
+
+def text_rows(path):
+    """The cells of the tables in a file as they are printed, or of a verification."""
+    content = json.loads(path.read_text(encoding="utf-8"))
+    if "rows" in content:
+        return [(f"{row['quantity']}, {row['detail']}", row["unit"],
+                 [row["value"], row["reference"], row["status"]]) for row in content["rows"]]
+    return [(f"{table['name']}/{k + 1}", "", cells)
+            for table in content["tables"] for k, cells in enumerate(table["rows"])]

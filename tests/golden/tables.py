@@ -10,19 +10,20 @@ from dataclasses import dataclass
 FLOOR = 1e-3
 TIME_TOLERANCE_S = 1e-9
 VALUES = ["name", "unit", "numbers"]
+TEXTS = ["name", "unit", "cells"]  # compared as they are
 PEAKS = ["name", "unit", "least", "time [s]", "largest", "time [s]", "last"]
 
 
 @dataclass
 class Table:
     name: str
-    columns: list  # VALUES or PEAKS
+    columns: list  # VALUES, PEAKS or TEXTS
     tolerance: float  # relative to the scale that rows share
-    rows: list  # (name, unit, numbers)
+    rows: list  # (name, unit, numbers), or texts in place of numbers
 
 
-def written(number):
-    return f"{number:.11e}"
+def written(cell):
+    return cell if isinstance(cell, str) else f"{cell:.11e}"
 
 
 def write(path, table):
@@ -35,8 +36,9 @@ def write(path, table):
 
 def read(path):
     with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))[1:]
-    return [(name, unit, [float(number) for number in numbers]) for name, unit, *numbers in rows]
+        columns, *rows = csv.reader(file)
+    cell_of = str if columns == TEXTS else float
+    return [(name, unit, [cell_of(cell) for cell in cells]) for name, unit, *cells in rows]
 
 
 def dataset_of(row):
@@ -67,10 +69,25 @@ def scales_of(table, rows):
             sizes[key(row)] = max(size, sizes.get(key(row), 0))
         return lambda row: sizes[key(row)]
 
+    if table.columns == TEXTS:
+        return lambda row: 1
     if table.columns == VALUES:
         return largest(dataset_of)
     own, of_unit = largest(channel_of), largest(unit_of)
     return lambda row: max(own(row), FLOOR * of_unit(row))
+
+
+def differ(stored, found, scale, tolerance):
+    """A text if two numbers or texts are not the same."""
+    if isinstance(stored, str):
+        return f"stored '{stored}', found '{found}'" if stored != found else ""
+    if math.isnan(stored) and math.isnan(found):
+        return ""
+    difference = abs(found - stored) / scale
+    if difference <= tolerance:
+        return ""
+    return (f"stored {written(stored)}, found {written(found)}, "
+            f"relative difference {difference:.1e}")
 
 
 def difference_of(row, other, table, scale):
@@ -78,17 +95,14 @@ def difference_of(row, other, table, scale):
     if other is None:
         return "stored, but not found"
     if row[1] != other[1] or len(row[2]) != len(other[2]):
-        return f"stored {len(row[2])} numbers in {row[1]}, found {len(other[2])} in {other[1]}"
+        return f"stored {len(row[2])} in '{row[1]}', found {len(other[2])} in '{other[1]}'"
+    texts = []
     for k, (stored, found) in enumerate(zip(row[2], other[2])):
-        column = table.columns[2 + k] if table.columns == PEAKS else ""
-        is_time = column == "time [s]"
-        difference = abs(found - stored) / (1 if is_time else scale)
-        if math.isnan(stored) and math.isnan(found):
-            continue
-        if not difference <= (TIME_TOLERANCE_S if is_time else table.tolerance):  # NaN differs
-            return (f"{column or f'number {k + 1}'}: stored {written(stored)}, "
-                    f"found {written(found)}, relative difference {difference:.1e}")
-    return ""
+        column = table.columns[2 + k] if table.columns == PEAKS else f"{k + 1}"
+        limits = (1, TIME_TOLERANCE_S) if column == "time [s]" else (scale, table.tolerance)
+        if text := differ(stored, found, *limits):
+            texts.append(f"{column}: {text}")
+    return "; ".join(texts)
 
 
 def differences(stored, table):
