@@ -75,7 +75,7 @@ def compare(counts, compiler):
         old, new = stored.get(name, 0), counts.get(name, 0)
         growth = (new - old) / old if old else float("inf")
         print(f"{name:40} {old:10} {new:10} {100 * growth:+9.2f}")
-        failed = failed or growth > MOST_GROWTH
+        failed = failed or growth > MOST_GROWTH or new == 0
     return 1 if failed else 0
 
 
@@ -83,7 +83,8 @@ def main(action, program, compiler):
     if not shutil.which("valgrind"):
         print("SKIPPED: there is no valgrind; install valgrind")
         return SKIPPED
-    return {"compare": compare, "store": store}[action](count(program), compiler)
+    counts = count(str(Path(program).resolve()))
+    return {"compare": compare, "store": store}[action](counts, compiler)
 
 
 if __name__ == "__main__":
