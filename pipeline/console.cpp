@@ -26,6 +26,8 @@ void Console::result(const std::string& text) const {
 
 void Console::step(const std::string& line) const { spdlog::info(line); }
 
+void Console::warning(const std::string& line) const { spdlog::error("Warning: {}", line); }
+
 void Console::error(const std::string& line) const { spdlog::error("flexneck: {}", line); }
 
 Progress Console::detail() const {

@@ -15,10 +15,11 @@ class Console {
  public:
   explicit Console(Verbosity verbosity);
 
-  void result(const std::string& text) const;  ///< tables; silent when quiet
-  void step(const std::string& line) const;    ///< what is done now; silent when quiet
-  void error(const std::string& line) const;   ///< always
-  Progress detail() const;                     ///< for the stages: shown when verbose
+  void result(const std::string& text) const;   ///< tables; silent when quiet
+  void step(const std::string& line) const;     ///< what is done now; silent when quiet
+  void warning(const std::string& line) const;  ///< always: a result may not be what it seems
+  void error(const std::string& line) const;    ///< always
+  Progress detail() const;                      ///< for the stages: shown when verbose
 
  private:
   Verbosity verbosity_;

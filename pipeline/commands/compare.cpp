@@ -38,7 +38,7 @@ bool compare_command(const FileInput& input) {
                        folder.string() + "'");
     }
     for (const std::string& warning : studies.back().results.warnings)
-      input.console.step("Warning: " + studies.back().label + ": " + warning);
+      input.console.warning(studies.back().label + ": " + warning);
   }
   input.folder.make();
   const std::vector<ResultTable> tables = compared_tables(studies);

@@ -69,7 +69,7 @@ void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVo
   const double mass_kg = mesher::summarise(file.mesh).mass_kg;
   const double extent_m = mesher::bounding_box(file.mesh).extent_m().maxCoeff();
   for (const std::string& remark : geometry::implausibilities(extent_m, mass_kg)) {
-    input.console.step("Warning: " + remark);
+    input.console.warning(remark);
   }
 }
 

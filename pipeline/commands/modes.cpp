@@ -147,7 +147,7 @@ bool modes_command(const CommandInput& input) {
   fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
   share_work(input, mesh, options);
   for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, options.formulation)) {
-    input.console.step("Warning: " + line);
+    input.console.warning(line);
   }
   input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
   times.start("start PETSc");

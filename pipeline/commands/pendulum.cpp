@@ -52,7 +52,7 @@ void print(const CommandInput& input, const std::vector<PendulumEntry>& entries,
   for (const ResultTable& table : variants) show(in_short(table));
   for (const ResultTable& table : measured) show(table);
   input.console.result("\nAll figures: " + input.folder.file("pendulum.json").string());
-  for (const std::string& warning : pulse_warnings(entries)) input.console.step(warning);
+  for (const std::string& warning : pulse_warnings(entries)) input.console.warning(warning);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ bool report_command(const CommandInput& input) {
   input.console.step("Writing the report");
   const std::filesystem::path page = input.folder.file("report.html");
   const Results results = read_results(page.parent_path(), input.study);
-  for (const std::string& warning : results.warnings) input.console.step("Warning: " + warning);
+  for (const std::string& warning : results.warnings) input.console.warning(warning);
   write_report(page, results, input.study);
   input.console.result("\nReport: " + page.string());
   return true;

@@ -108,7 +108,7 @@ bool show_command(const CommandInput& input) {
                        division_line(geometry));
   for (const std::string& remark : geometry::implausibilities(
            std::max(geometry.neck.length, geometry.neck.plate_diameter), measures.mass_kg)) {
-    input.console.step("Warning: " + remark);
+    input.console.warning(remark);
   }
   return true;
 }

@@ -112,7 +112,8 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
   for (const std::string& length : used)
     table.notes.push_back("Velocities that the study does not give are those on " + length +
                           " in.");
-  for (const std::string& warning : pulse_warnings(entries)) table.notes.push_back(warning);
+  for (const std::string& warning : pulse_warnings(entries))
+    table.notes.push_back("Warning: " + warning);
   return table;
 }
 
@@ -124,7 +125,7 @@ std::vector<std::string> pulse_warnings(const std::vector<PendulumEntry>& entrie
     const double velocity = entry.experiment.impact_velocity_m_s;
     if (!(std::abs(entry.pulse.velocity_left_m_s) > kMisfit * velocity)) continue;
     warnings.push_back(fmt::format(
-        "Warning: {}: the pulse '{}' takes {:.1f} in/s of {:.1f} in/s and is used as it is: the "
+        "{}: the pulse '{}' takes {:.1f} in/s of {:.1f} in/s and is used as it is: the "
         "arm "
         "keeps {:.1f} in/s; pulse_scaling = \"amplitude\" or \"duration\" would bring it to rest.",
         entry.experiment.name, entry.experiment.pulse, entry.pulse.area_m_s * in, velocity * in,
