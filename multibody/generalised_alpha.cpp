@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 8;
 /// Newton's method stops at this share of the tolerance, and is given up if a correction is not
 /// smaller than this share of the last.
-constexpr double kConverged = 1e-2;
+constexpr double kConverged = 1e-3;
 constexpr double kSlow = 0.6;
 /// Cut of a step over which it does not converge.
 constexpr double kCut = 0.25;
@@ -79,7 +79,6 @@ void GeneralisedAlpha::begin(double length_s) {
   equations_.derivative(time_s_ + ahead, y_trial_, rate_next_);
   offset_rate_ = (alpha_.shift / ahead) * (rate_next_.segment(nq_, nv_) - now_.V_rate);
   last_length_s_ = 0;
-  linearised_here_ = false;
   fresh_ = true;
 }
 
@@ -89,20 +88,29 @@ double GeneralisedAlpha::first_step() const {
   return std::clamp(length, limits_.smallest_s, limits_.largest_s);
 }
 
-void GeneralisedAlpha::linearise() {
-  matrix_.linearise(equations_, time_s_, y_, now_.V_rate, now_.lambda);
-  linearised_ = linearised_here_ = true;
+/// About the end of a step as it is predicted: on the way there the joints may have passed a
+/// singular configuration, on whose other side the rows of the beginning lead away.
+void GeneralisedAlpha::linearise(double length_s) {
+  predict(length_s);
+  update_end(length_s);
+  matrix_.linearise(equations_, time_s_ + length_s, y_next_, next_.V_rate, next_.lambda);
+  linearised_ = true;
   factorised_for_s_ = 0;
   ++linearisations_;
 }
 
 bool GeneralisedAlpha::attempt(double length_s) {
   now_.a = now_.V_rate + length_s * offset_rate_;
-  if (!linearised_) linearise();
-  if (iterate(length_s)) return true;
-  if (linearised_here_) return false;
-  linearise();
-  return iterate(length_s);
+  const bool first = !linearised_;
+  if (first) linearise(length_s);
+  const auto succeeds = [&] {
+    return iterate(length_s) &&
+           matrix_.leaves_out_only_redundant(equations_, time_s_ + length_s, y_next_);
+  };
+  if (succeeds()) return true;
+  if (first) return false;
+  linearise(length_s);
+  return succeeds();
 }
 
 void GeneralisedAlpha::predict(double length_s) {
@@ -126,12 +134,11 @@ void GeneralisedAlpha::update_end(double length_s) {
   y_next_.segment(nq_, nv_) = V + h * ((1 - alpha_.gamma) * now_.a + alpha_.gamma * next_.a);
 }
 
-ErrorEstimate GeneralisedAlpha::size_of(const Vector& d, double q, double v) {
+ErrorEstimate GeneralisedAlpha::size_of(const Vector& d, double q) {
   change_ = q * d.head(nv_);
   y_trial_.head(nq_) = y_next_.head(nq_);
   equations_.retract(y_trial_.head(nq_), change_);
   error_.head(nq_) = y_trial_.head(nq_) - y_next_.head(nq_);
-  error_.segment(nq_, nv_) = v * d.head(nv_);
   return equations_.measure(y_, y_next_, error_);
 }
 
@@ -148,7 +155,7 @@ bool GeneralisedAlpha::iterate(double length_s) {
     matrix_.solve(residual_);
     next_.V_rate += residual_.head(nv_);
     next_.lambda += residual_.tail(nc_);
-    const ErrorEstimate size = size_of(residual_, q, v);
+    const ErrorEstimate size = size_of(residual_, q);
     if (!std::isfinite(size.value)) {
       last_estimate_ = size;
       return false;
@@ -171,7 +178,7 @@ ErrorEstimate GeneralisedAlpha::local_error(double length_s) {
   change_ = residual_.head(nv_);
   matrix_.filter(change_);
   residual_.head(nv_) = change_;
-  return size_of(residual_, 1, 0);
+  return size_of(residual_, 1);
 }
 
 void GeneralisedAlpha::accept(double length_s) {
@@ -190,7 +197,6 @@ void GeneralisedAlpha::accept(double length_s) {
   previous_time_s_ = time_s_;
   time_s_ += length_s;
   last_length_s_ = length_s;
-  linearised_here_ = false;
   ++accepted_;
 }
 

@@ -61,14 +61,14 @@ class GeneralisedAlpha final : public TimeIntegrator {
   };
 
   void begin(double length_s);
-  void linearise();
+  void linearise(double length_s);
   /// @return whether Newton's method converged.
   bool attempt(double length_s);
   bool iterate(double length_s);
   void predict(double length_s);
   void update_end(double length_s);
-  /// Of changes dQ = q d, dV = v d at the end of the step, against the tolerance.
-  ErrorEstimate size_of(const Vector& d, double q, double v);
+  /// Of a displacement q d at the end of the step, against the tolerance.
+  ErrorEstimate size_of(const Vector& d, double q);
   ErrorEstimate local_error(double length_s);
   void accept(double length_s);
   double first_step() const;
@@ -86,9 +86,8 @@ class GeneralisedAlpha final : public TimeIntegrator {
   double last_length_s_ = 0;  ///< zero behind a restart: nothing to extrapolate
   double proposed_s_ = 0;     ///< zero: to be chosen
   double factorised_for_s_ = 0;
-  bool fresh_ = false;            ///< `now_` and rate_ belong to the present state
-  bool linearised_ = false;       ///< ever, and
-  bool linearised_here_ = false;  ///< about the present state
+  bool fresh_ = false;       ///< `now_` and rate_ belong to the present state
+  bool linearised_ = false;  ///< ever
   int linearisations_ = 0;
 };
 

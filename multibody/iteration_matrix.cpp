@@ -28,16 +28,28 @@ IterationMatrix::IterationMatrix(const Equations& equations, Index state_size)
       base_(nv_ + nc_),
       moved_(nv_ + nc_),
       state_(state_size),
+      rate_(Vector::Zero(state_size)),
       right_(nv_ + nc_),
       change_(Vector::Zero(nv_)) {
   redundant_.reserve(static_cast<std::size_t>(nc_));
+  redundant_elsewhere_.reserve(static_cast<std::size_t>(nc_));
+}
+
+bool IterationMatrix::leaves_out_only_redundant(Equations& equations, double time_s,
+                                                const Vector& state) {
+  if (redundant_.empty()) return true;
+  equations.derivative(time_s, state, rate_);
+  equations.redundant_rows(redundant_elsewhere_);
+  return std::includes(redundant_elsewhere_.begin(), redundant_elsewhere_.end(), redundant_.begin(),
+                       redundant_.end());
 }
 
 void IterationMatrix::linearise(Equations& equations, double time_s, const Vector& state,
                                 const Vector& accelerations, const Vector& multipliers) {
+  if (nc_ > 0) equations.derivative(time_s, state, rate_);
+  equations.redundant_rows(redundant_);
   equations.residual(time_s, state, accelerations, multipliers, base_);
   equations.inertia(mass_, rows_transposed_);
-  equations.redundant_rows(redundant_);
   state_ = state;
   for (Index i = 0; i < nv_; ++i) {
     const double rate = state[nq_ + i];

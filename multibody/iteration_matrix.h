@@ -31,13 +31,17 @@ class IterationMatrix {
   void solve(Vector& residual);
   /// change (velocities) <- S^-1 [mass change; 0]: what is left of it once the stiff modes resist.
   void filter(Vector& change);
+  /// Whether the constraints that were redundant where it was linearised are so at another state:
+  /// in a singular configuration, such as a parallelogram that lies flat, there are more of them.
+  bool leaves_out_only_redundant(Equations& equations, double time_s, const Vector& state);
 
  private:
   Eigen::Index nq_, nv_, nc_;
-  std::vector<Eigen::Index> redundant_;  ///< constraints that others hold: their multiplier is zero
+  /// Constraints that others hold, ascending: their multiplier is zero.
+  std::vector<Eigen::Index> redundant_, redundant_elsewhere_;
   Eigen::MatrixXd mass_, damping_, stiffness_, rows_transposed_, matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
-  Vector base_, moved_, state_, right_, change_;
+  Vector base_, moved_, state_, rate_, right_, change_;
   double q_ = 0;
 };
 
