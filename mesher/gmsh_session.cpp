@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -61,6 +62,9 @@ std::string GmshSession::errors_of(const std::function<void()>& action) {
   gmsh::logger::start();
   try {
     action();
+  } catch (const std::bad_alloc&) {
+    gmsh::logger::stop();
+    throw;
   } catch (const std::exception& error) {
     thrown = error.what();
   } catch (const std::string& error) {  // gmsh up to 4.8 throws its messages as strings …

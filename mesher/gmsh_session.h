@@ -17,7 +17,7 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 
   /// Runs `action` and collects the errors that gmsh reports meanwhile, whether it throws or only
-  /// logs them. Returns them joined by "; ", empty if there were none.
+  /// logs them. Returns them joined by "; ", empty if there were none. Want of memory passes.
   std::string errors_of(const std::function<void()>& action);
 };
 

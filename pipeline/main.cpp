@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exception>
 #include <optional>
+#include <span>
 
 #include <CLI/CLI.hpp>
 
 #include "fe_modal/distributed/ranks.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/child_tasks.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/version.h"
 
@@ -129,6 +131,8 @@ int exit_code_of(const Arguments& arguments, const Ranks* ranks) {
 
 int main(int argc, char** argv) {
   try {
+    const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+    if (is_child(words)) child_main(words, child_tasks());
     std::optional<Ranks> ranks;
     if (Ranks::are_many()) ranks.emplace();
     if (ranks && !ranks->is_leader()) {

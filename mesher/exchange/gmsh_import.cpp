@@ -65,6 +65,7 @@ void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double si
   gmsh::vectorpair shapes;
   gmsh::model::occ::importShapes(copy.path().string(), shapes, true, is_step ? "step" : "brep");
   gmsh::model::occ::synchronize();
+  if (options.when_read) options.when_read();
   gmsh::vectorpair volumes;
   gmsh::model::getEntities(volumes, 3);
   if (volumes.empty()) throw InputError(options.file.string() + ": the shape has no volume");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct ImportOptions {
   double element_size_m = 0;   ///< of STEP and BREP shapes; 0: gmsh's choice
   bool keeps_doubles = false;  ///< nodes in the same place are meant, as at a crack
   std::vector<BoxSet> box_sets;
+  /// Called once a shape is read, before it is meshed; may be empty.
+  std::function<void()> when_read = {};
 };
 
 /// Reads the file; a shape is meshed with 10-node tetrahedra. The parts are

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/regular_file.h"
 #include "mesher/exchange/file_signature.h"
 
 namespace flexneck::mesher {
@@ -52,11 +53,9 @@ const FormatRecord& record_of(const fs::path& file) {
 }
 
 std::string contents_of(const fs::path& file) {
-  std::error_code ignored;
+  size_of_file(file);  // a pipe would wait
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || !fs::is_regular_file(file, ignored)) {
-    throw InputError(file.string() + ": the file cannot be read");
-  }
+  if (!stream) throw InputError(file.string() + ": the file cannot be read");
   std::ostringstream contents;
   contents << stream.rdbuf();
   return contents.str();

@@ -4,31 +4,13 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/neck_measures.h"
-#include "mesher/script_mesher.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/make_mesh.h"
 #include "pipeline/commands/mesh_result.h"
-#include "pipeline/commands/mesh_structure.h"
 
 namespace flexneck::pipeline {
 
 namespace {
-
-mesher::ScriptMeshOptions mesh_options(const GeometrySection& geometry) {
-  mesher::ScriptMeshOptions options;
-  options.script = geometry.script;
-  options.constants = geometry::script_constants(geometry.neck, geometry.divisions);
-  options.materials = geometry.materials;
-  options.constants.merge(geometry::script_constants(geometry.slits));
-  if (geometry.element == mesher::ElementKind::tet10) options.constants["recombine"] = 0;
-  options.element = geometry.element;
-  options.slits = geometry::slit_face_sets(geometry.slits);
-  options.slits_tied = geometry.slits.state == geometry::SlitState::closed;
-  options.material_of_part = geometry.material_of_part;
-  const auto centres = geometry::bolt_centres(geometry.neck);
-  options.patches = {
-      {"bolts", "base", {centres.begin(), centres.end()}, geometry.neck.bolt_patch_radius}};
-  return options;
-}
 
 ExactVolumes exact_volumes(const GeometrySection& geometry) {
   std::map<std::string, double> density_kg_m3;
@@ -47,17 +29,19 @@ ExactVolumes exact_volumes(const GeometrySection& geometry) {
 }  // namespace
 
 bool mesh_command(const CommandInput& input) {
-  if (input.study.structure) return mesh_structure(input);
-  if (!input.study.geometry) {
-    throw InputError(input.study.file.string() + ": there is no [geometry], so nothing to mesh");
+  const Study& study = input.study;
+  if (!study.geometry && !study.structure) {
+    throw InputError(study.file.string() + ": there is no [geometry], so nothing to mesh");
   }
-  const GeometrySection& geometry = *input.study.geometry;
   input.folder.make();
-  input.console.step("Meshing " + geometry.script.filename().string());
+  const std::filesystem::path& source =
+      study.structure ? study.structure->file() : study.geometry->script;
+  input.console.step("Meshing " + source.filename().string());
   mesher::MeshFile file;
-  file.mesh = mesher::mesh_script(mesh_options(geometry), input.console.detail());
-  file.provenance = mesh_provenance(input.study);
-  finish_mesh(input, std::move(file), exact_volumes(geometry));
+  file.mesh = make_mesh(study, input.console);
+  file.provenance = mesh_provenance(study);
+  finish_mesh(input, std::move(file),
+              study.geometry ? exact_volumes(*study.geometry) : ExactVolumes());
   return true;
 }
 

@@ -208,6 +208,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   const StudyTable root = document.root();
   Study study;
   study.file = path;
+  study.settings = settings;
   const StudyTable mesh = root.table("mesh");
   study.mesh_orders = read_mesh_orders(mesh);
   if (root.has("geometry")) read_what_is_meshed(root.table("geometry"), mesh, study);

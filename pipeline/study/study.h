@@ -166,6 +166,7 @@ struct CaseSection {
 /// Everything that a study file says, checked and in SI units.
 struct Study {
   std::filesystem::path file;
+  std::vector<std::string> settings;          ///< in place of the file's values: key=value
   std::optional<GeometrySection> geometry;    ///< the neck, or …
   std::optional<StructureSection> structure;  ///< … another structure
   std::optional<MatricesSection> matrices;    ///< … or matrices from elsewhere

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/child_tasks.h"
+
+#include "pipeline/commands/make_mesh.h"
+
+namespace flexneck::pipeline {
+
+const std::vector<ChildTask>& child_tasks() {
+  static const std::vector<ChildTask> list = {{"mesh", mesh_task}};
+  return list;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/make_mesh.h"
+
+#include <filesystem>
+#include <optional>
+#include <unistd.h>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/regular_file.h"
+#include "geometry/foundation/temporary_folder.h"
+#include "geometry/neck_measures.h"
+#include "mesher/exchange/import_check.h"
+#include "mesher/exchange/mesh_import.h"
+#include "mesher/exchange/outside_file.h"
+#include "mesher/mesh/mesh_file.h"
+#include "mesher/script_mesher.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using mesher::OutsideFormat;
+
+/// It reads what it can of a damaged shape, and complains of the rest on standard output.
+constexpr const char* kShapeReader = "OpenCASCADE";
+
+mesher::ScriptMeshOptions neck_options(const GeometrySection& geometry) {
+  mesher::ScriptMeshOptions options;
+  options.script = geometry.script;
+  options.constants = geometry::script_constants(geometry.neck, geometry.divisions);
+  options.materials = geometry.materials;
+  options.constants.merge(geometry::script_constants(geometry.slits));
+  if (geometry.element == mesher::ElementKind::tet10) options.constants["recombine"] = 0;
+  options.element = geometry.element;
+  options.slits = geometry::slit_face_sets(geometry.slits);
+  options.slits_tied = geometry.slits.state == geometry::SlitState::closed;
+  options.material_of_part = geometry.material_of_part;
+  const auto centres = geometry::bolt_centres(geometry.neck);
+  options.patches = {
+      {"bolts", "base", {centres.begin(), centres.end()}, geometry.neck.bolt_patch_radius}};
+  return options;
+}
+
+/// @param when_read  called once a shape is read, before it is meshed
+mesher::Mesh structure_mesh(const StructureSection& structure, const ChildLines& lines,
+                            void (*when_read)()) {
+  if (const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&structure.source)) {
+    mesher::Mesh mesh = mesher::mesh_script(*script, lines.detail);
+    try {  // a script may leave bodies apart, or lay them over one another
+      mesher::check_import(mesh, !script->slits.empty());
+    } catch (const InputError& error) {
+      throw InputError(script->script.string() + ": " + error.what());
+    }
+    return mesh;
+  }
+  auto options = std::get<mesher::ImportOptions>(structure.source);
+  if (when_read != nullptr) options.when_read = when_read;
+  return mesher::import_mesh(options, lines.detail);
+}
+
+mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, void (*when_read)()) {
+  return study.structure ? structure_mesh(*study.structure, lines, when_read)
+                         : mesher::mesh_script(neck_options(*study.geometry), lines.detail);
+}
+
+bool is_shipped(const fs::path& script) {
+  std::error_code none;
+  return fs::equivalent(script, fs::path(FLEXNECK_DATA_DIR) / "geometry/neck.geo", none);
+}
+
+std::uint64_t memory_of_machine() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// What a child meshes, and may take for it; none for what this process may mesh itself.
+std::optional<IsolatedTask> task_of(const Study& study) {
+  IsolatedTask task;
+  task.name = "mesh";
+  task.library = "gmsh";
+  task.limits.memory_bytes = memory_of_machine();
+  task.advice = "correct the script";
+  task.file = study.structure ? study.structure->file() : study.geometry->script;
+  const std::uint64_t size = size_of_file(task.file);
+  if (!study.structure) return is_shipped(task.file) ? std::nullopt : std::optional(task);
+  if (std::holds_alternative<mesher::ScriptMeshOptions>(study.structure->source)) return task;
+  const OutsideFormat format = mesher::outside_format_of(task.file);
+  if (format == OutsideFormat::inp) return std::nullopt;  // read by us, not by gmsh
+  const bool is_shape = format == OutsideFormat::step || format == OutsideFormat::brep;
+  task.advice = "if it is not damaged, write it anew or in another format";
+  task.limits.processor_s = static_cast<unsigned>(10 + (is_shape ? 10 : 1) * (size >> 20U));
+  task.limits.clock_s = 20 * task.limits.processor_s;
+  if (is_shape) {
+    task.library = kShapeReader;
+  } else {
+    task.limits.memory_bytes = (768U << 20U) + 16 * size;
+  }
+  return task;
+}
+
+ChildLines lines_to(const Console& console) {
+  return {.detail = console.detail(),
+          .warning = [&](const std::string& line) { console.warning(line); },
+          .chatter = console.detail()};
+}
+
+/// Joins lines as far as they fit one.
+Progress collector_of(std::string& text) {
+  constexpr std::size_t kEnough = 300;
+  return [&text](const std::string& line) {
+    if (text.size() < kEnough) text += (text.empty() ? "" : "; ") + line.substr(0, kEnough);
+  };
+}
+
+}  // namespace
+
+mesher::Mesh make_mesh(const Study& study, const Console& console) {
+  ChildLines lines = lines_to(console);
+  std::optional<IsolatedTask> task = task_of(study);
+  if (!task) return mesh_here(study, lines, nullptr);
+  const TemporaryFolder folder;
+  const fs::path result = folder / "mesh.h5";
+  task->arguments = {result.string(), study.file.string()};
+  task->arguments.insert(task->arguments.end(), study.settings.begin(), study.settings.end());
+  std::string complaints;
+  if (task->library == kShapeReader) lines.chatter = collector_of(complaints);
+  run_isolated(*task, folder.path(), lines);
+  if (!complaints.empty()) {
+    console.warning(task->file.string() + ": " + kShapeReader + " complains: " + complaints +
+                    "; compare volumes and sets with what they should be");
+  }
+  return mesher::read_mesh(result).mesh;
+}
+
+void mesh_task(const std::vector<std::string>& arguments, const ChildLines& lines) {
+  const Study study = read_study(arguments.at(1), {arguments.begin() + 2, arguments.end()});
+  mesher::write_mesh(arguments.front(),
+                     {.mesh = mesh_here(study, lines, lift_time_limits), .provenance = {}});
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/isolation/child_limits.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// Libraries' data, stacks and, under a sanitizer, terabytes that are reserved but not used.
+std::uint64_t bytes_at_start() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t size = 0;
+  std::uint64_t resident = 0;
+  std::uint64_t shared = 0;
+  std::uint64_t text = 0;
+  std::uint64_t library = 0;
+  std::uint64_t data = 0;
+  file >> size >> resident >> shared >> text >> library >> data;
+  return data * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard) {
+  const rlimit value{soft, hard};
+  if (setrlimit(resource, &value) != 0) {
+    throw ComputationError("the system refuses to limit a child process");
+  }
+}
+
+/// What was ignored or blocked in the parent would not end the child.
+void receive(int signal) {
+  std::signal(signal, SIG_DFL);
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, signal);
+  sigprocmask(SIG_UNBLOCK, &one, nullptr);
+}
+
+}  // namespace
+
+void limit_this_process(const ChildLimits& limits, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) std::_Exit(EXIT_FAILURE);  // it was gone before
+  limit(RLIMIT_CORE, 0, 0);
+  const rlim_t bytes = bytes_at_start() + limits.memory_bytes;
+  limit(RLIMIT_DATA, bytes, bytes);
+  receive(SIGXCPU);
+  receive(SIGALRM);
+  if (limits.processor_s > 0) limit(RLIMIT_CPU, limits.processor_s, RLIM_INFINITY);
+  alarm(limits.clock_s);
+}
+
+void lift_time_limits() {
+  limit(RLIMIT_CPU, RLIM_INFINITY, RLIM_INFINITY);
+  alarm(0);
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/isolation/child_process.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <string_view>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr std::size_t kMaxLine = 1 << 16;
+constexpr int kLook_ms = 20;
+
+/// Variables by which MPI knows its ranks, and that of the folder, which is set anew.
+constexpr std::array<std::string_view, 5> kNotInherited = {"OMPI_", "PMIX_", "PMI_", "OPAL_",
+                                                           "TMPDIR="};
+
+std::vector<std::string> environment_with(const std::filesystem::path& temporary) {
+  std::vector<std::string> variables = {"TMPDIR=" + temporary.string()};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (std::none_of(kNotInherited.begin(), kNotInherited.end(),
+                     [&](std::string_view prefix) { return text.starts_with(prefix); })) {
+      variables.emplace_back(text);
+    }
+  }
+  return variables;
+}
+
+/// As exec wants them: pointers, the last one null.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Nothing to read, all output into one pipe, every other file closed.
+class FileActions {
+ public:
+  explicit FileActions(int output) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, output, STDERR_FILENO);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
+  }
+  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
+  FileActions(const FileActions&) = delete;
+  FileActions& operator=(const FileActions&) = delete;
+
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+};
+
+ChildEnd end_of(int status) {
+  if (WIFSIGNALED(status)) return {.exit_code = 0, .signal = WTERMSIG(status)};
+  return {.exit_code = WEXITSTATUS(status), .signal = 0};
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::filesystem::path& program,
+                           const std::vector<std::string>& arguments,
+                           const std::filesystem::path& temporary) {
+  std::array<int, 2> pipe_ends{};
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
+    throw ComputationError("a pipe to a child process cannot be made: " +
+                           std::string(std::strerror(errno)));
+  }
+  output_ = pipe_ends[0];
+  std::vector<std::string> words = {program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> variables = environment_with(temporary);
+  const FileActions actions(pipe_ends[1]);
+  const int error = posix_spawn(&id_, program.c_str(), actions.get(), nullptr,
+                                pointers_to(words).data(), pointers_to(variables).data());
+  close(pipe_ends[1]);
+  if (error == 0) return;
+  close(output_);
+  throw ComputationError(program.string() +
+                         ": cannot be started as a child process: " + std::strerror(error));
+}
+
+ChildProcess::~ChildProcess() {
+  close(output_);
+  if (id_ < 0) return;
+  kill(id_, SIGKILL);
+  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+bool ChildProcess::has_output(int timeout_ms) const {
+  pollfd readable{output_, POLLIN, 0};
+  return is_open_ && poll(&readable, 1, timeout_ms) > 0;
+}
+
+void ChildProcess::read_lines(const LineReceiver& on_line) {
+  std::array<char, 4096> bytes{};
+  const ssize_t count = read(output_, bytes.data(), bytes.size());
+  if (count <= 0) {
+    is_open_ = count < 0 && errno == EINTR;
+    return;
+  }
+  unread_.append(bytes.data(), static_cast<std::size_t>(count));
+  std::size_t begin = 0;
+  for (std::size_t end = unread_.find('\n'); end != std::string::npos;
+       end = unread_.find('\n', begin)) {
+    on_line(unread_.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  unread_.erase(0, begin);
+  if (unread_.size() > kMaxLine) on_line(std::exchange(unread_, {}));
+}
+
+ChildEnd ChildProcess::wait(const LineReceiver& on_line) {
+  int status = 0;
+  pid_t ended = 0;
+  while (ended == 0) {
+    // The output ends with the process, unless a program that it started still holds it.
+    if (has_output(kLook_ms)) read_lines(on_line);
+    ended = waitpid(id_, &status, is_open_ ? WNOHANG : 0);
+    if (ended < 0 && errno == EINTR) ended = 0;
+  }
+  if (ended < 0) throw ComputationError("a child process is lost: the system has ended it");
+  id_ = -1;
+  while (has_output(0)) read_lines(on_line);
+  if (!unread_.empty()) on_line(std::exchange(unread_, {}));
+  return end_of(status);
+}
+
+}  // namespace flexneck::pipeline

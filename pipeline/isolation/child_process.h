@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace flexneck::pipeline {
+
+/// How a process ended: by itself with an exit code, or by a signal.
+struct ChildEnd {
+  int exit_code = 0;
+  int signal = 0;  ///< 0: none
+};
+
+/// Another program as a process of its own, started by posix_spawn: never by fork, which is not
+/// allowed once MPI runs. It inherits no files, reads nothing, and does not know that this process
+/// may be one of several under mpirun. It does not outlive this object.
+class ChildProcess {
+ public:
+  /// @param temporary  its folder for temporary files, which are found there whatever ends it
+  /// @throws ComputationError if the program cannot be started.
+  ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+               const std::filesystem::path& temporary);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  using LineReceiver = std::function<void(const std::string& line)>;
+
+  /// Hands out each line of the process's standard output and error, without its end and cut where
+  /// it is very long, until the process ends. Programs that it started and left behind do not
+  /// matter. To be called once.
+  ChildEnd wait(const LineReceiver& on_line);
+
+ private:
+  bool has_output(int timeout_ms) const;
+  void read_lines(const LineReceiver& on_line);
+
+  pid_t id_ = -1;        ///< -1: it has ended
+  int output_ = -1;      ///< end of the pipe that this process reads
+  bool is_open_ = true;  ///< whether more may come from there
+  std::string unread_;   ///< beginning of a line
+};
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/isolation/isolated_task.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <unistd.h>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/isolation/child_main.h"
+#include "pipeline/isolation/child_process.h"
+#include "pipeline/isolation/child_report.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// Without control characters and the sequences by which a terminal colours.
+std::string printable(const std::string& line) {
+  std::string text;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line.compare(k, 2, "\x1b[") == 0) {
+      k = std::min(line.find_first_not_of("0123456789;", k + 2), line.size());
+    } else if (static_cast<unsigned char>(line[k]) >= ' ' && line[k] != '\x7f') {
+      text += line[k];
+    }
+  }
+  return text;
+}
+
+/// What became of a child that did not say itself why it ended.
+std::string death_of(const ChildEnd& end, const ChildLimits& limits) {
+  if (end.exit_code == kChildOutOfMemory) {
+    return fmt::format("wants more than {:.1f} GB of memory for it",
+                       static_cast<double>(limits.memory_bytes) / 1e9);
+  }
+  if (end.signal == SIGXCPU)
+    return fmt::format("is not done with it after {} s", limits.processor_s);
+  if (end.signal == SIGALRM) return fmt::format("is not done with it after {} s", limits.clock_s);
+  if (end.signal == SIGKILL) return "was killed while it read it, perhaps for want of memory";
+  if (end.signal != 0) return fmt::format("crashes on it ({})", strsignal(end.signal));
+  return fmt::format("gives up on it (exit code {})", end.exit_code);
+}
+
+/// What a child has told that decides how the task ends.
+struct LastWords {
+  std::optional<ChildReport> error;
+  std::string chatter;
+
+  void receive(const std::string& line, const ChildLines& lines) {
+    const std::optional<ChildReport> report = report_in(line);
+    if (!report) {
+      const std::string text = printable(line);
+      if (text.empty()) return;
+      chatter = text;
+      if (lines.chatter) lines.chatter(text);
+    } else if (report->kind == ChildReport::Kind::detail) {
+      if (lines.detail) lines.detail(report->text);
+    } else if (report->kind == ChildReport::Kind::warning) {
+      if (lines.warning) lines.warning(report->text);
+    } else {
+      error = report;
+    }
+  }
+};
+
+}  // namespace
+
+void run_isolated(const IsolatedTask& task, const std::filesystem::path& temporary,
+                  const ChildLines& lines) {
+  std::vector<std::string> arguments = child_arguments(task.name, task.limits, getpid());
+  arguments.insert(arguments.end(), task.arguments.begin(), task.arguments.end());
+  ChildProcess child(task.program, arguments, temporary);
+  LastWords last;
+  const ChildEnd end = child.wait([&](const std::string& line) { last.receive(line, lines); });
+  if (end.signal == 0 && end.exit_code == 0) return;
+  if (end.signal == 0 && last.error) {
+    if (end.exit_code == kChildInputError) throw InputError(last.error->text);
+    if (end.exit_code == kChildComputationError) throw ComputationError(last.error->text);
+  }
+  throw InputError(
+      fmt::format("{}: {} {}{}; {}", task.file.string(), task.library, death_of(end, task.limits),
+                  last.chatter.empty() ? "" : ", last it said: " + last.chatter, task.advice));
+}
+
+}  // namespace flexneck::pipeline

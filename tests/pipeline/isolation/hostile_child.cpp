@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A program whose tasks do what libraries do over damaged files.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/isolation/child_main.h"
+
+namespace {
+
+using namespace flexneck;
+using namespace flexneck::pipeline;
+using Arguments = std::vector<std::string>;
+
+void crash(const Arguments& /*none*/, const ChildLines& /*lines*/) {
+  std::puts("reading \x1b[31msection 7");
+  std::fflush(stdout);
+  std::abort();
+}
+
+void compute(const Arguments& /*none*/, const ChildLines& /*lines*/) {
+  volatile bool forever = true;
+  while (forever) {
+  }
+}
+
+void sleep_on(const Arguments& /*none*/, const ChildLines& lines) {
+  lines.detail(std::to_string(getpid()));
+  while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+void allocate(const Arguments& /*none*/, const ChildLines& /*lines*/) {
+  std::vector<std::vector<char>> blocks;
+  while (true) blocks.emplace_back(std::size_t{1} << 20U, 'x');
+}
+
+void leave(const Arguments& /*none*/, const ChildLines& /*lines*/) { std::_Exit(1); }
+
+void refuse(const Arguments& /*none*/, const ChildLines& /*lines*/) {
+  throw InputError("bar.msh: it has\nno volume");
+}
+
+void fail(const Arguments& /*none*/, const ChildLines& /*lines*/) {
+  throw std::runtime_error("the disk is full");
+}
+
+void crash_at_exit(const Arguments& /*none*/, const ChildLines& /*lines*/) {
+  std::atexit([] { std::abort(); });
+}
+
+/// Arguments, environment and open files, as the child sees them.
+void tell(const Arguments& arguments, const ChildLines& lines) {
+  std::fputs("a line without an end", stdout);
+  for (const std::string& argument : arguments) lines.detail("argument " + argument);
+  for (char** variable = environ; *variable != nullptr; ++variable) lines.detail(*variable);
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+    lines.detail("file " + entry.path().filename().string());
+  lines.warning("a part is left out");
+}
+
+/// Has a child of its own, which sleeps.
+void have_child(const Arguments& /*none*/, const ChildLines& lines) {
+  IsolatedTask task;
+  task.name = "sleep";
+  run_isolated(task, "/tmp", lines);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  child_main({argv, static_cast<std::size_t>(argc)}, {{"crash", crash},
+                                                      {"compute", compute},
+                                                      {"sleep", sleep_on},
+                                                      {"allocate", allocate},
+                                                      {"leave", leave},
+                                                      {"refuse", refuse},
+                                                      {"fail", fail},
+                                                      {"crash at exit", crash_at_exit},
+                                                      {"tell", tell},
+                                                      {"have child", have_child}});
+}
