@@ -1,0 +1,42 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs a long campaign and notes its outcome in tests/reliability/campaigns.md.
+# Usage: sh tests/long.sh NAME [SEED [COUNT]]     (no NAME: the list; SEED: the commit's hash)
+# What fails is kept in build/long/NAME. Exit code: that of the campaign, 0 for no finding.
+set -eu
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+cd "$root"
+notes=tests/reliability/campaigns.md
+
+# NAME COUNT COMMAND, which finds $seed, $count and $out, a fresh folder.
+campaigns='
+mutation-of-files 20000 python3 tests/reliability/mutate_files.py build/flexneck --seed $seed --runs $count --out $out
+'
+
+if [ $# -lt 1 ]; then
+  echo "$campaigns" | awk 'NF { printf "%-20s %s\n", $1, $2 }'
+  exit 0
+fi
+name=$1
+line=$(echo "$campaigns" | awk -v name="$name" '$1 == name')
+[ -n "$line" ] || { echo "there is no campaign '$name'; 'sh tests/long.sh' lists them"; exit 2; }
+commit=$(git rev-parse --short=12 HEAD)
+git diff --quiet HEAD -- || commit="$commit and changes"
+seed=${2:-$(git rev-parse --short=12 HEAD)}
+count=${3:-$(echo "$line" | awk '{ print $2 }')}
+out=build/long/$name
+rm -rf "$out"
+mkdir -p "$out"
+
+begin=$(date +%s)
+code=0
+eval "$(echo "$line" | cut -d' ' -f3-)" || code=$?
+seconds=$(($(date +%s) - begin))
+
+outcome="no finding"
+[ "$code" = 0 ] || outcome="exit code $code"
+grep -v "^| $name |" "$notes" > "$out/notes"
+echo "| $name | $commit | $seed | $count | $seconds | $outcome |" >> "$out/notes"
+mv "$out/notes" "$notes"
+exit "$code"
