@@ -11,6 +11,8 @@
 #include "tests/support/beam_body.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"
+#include "tests/support/element_choices.h"
+#include "tests/support/element_meshes.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -88,6 +90,98 @@ double work_on_drawing(const ModalBody& body, std::size_t k, std::size_t n, doub
   return mass / kLength * work;
 }
 
+/// A clamped stub without any symmetry, turned about in its axes.
+ModalBody stub(mesher::ElementKind kind, Formulation formulation, const Eigen::Matrix3d& turn) {
+  testing::BlockMesh block = testing::box({1, 1, 2}, {1, 1, 1}, {"plastic", 3e9, 0.4, 1200});
+  block.position = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    const double taper = 1 - 0.3 * p.z();
+    return turn * Eigen::Vector3d(0.05 * taper * (p.x() - 0.3) + 0.02 * p.z() * p.z(),
+                                  0.08 * taper * (p.y() - 0.4) + 0.01 * p.x() * p.z(),
+                                  0.2 * p.z() * (1 + 0.1 * p.x()));
+  };
+  ModalOptions options;
+  options.mode_count = 4;
+  options.formulation.of_others = formulation;
+  options.basis = BasisKind::residual;
+  options.geometric_stiffness = true;
+  options.held_set = "bottom";
+  options.interfaces = {{"tip", "top", turn * Eigen::Vector3d(0.02, 0, 0.2)}};
+  options.sign_interface = "tip";
+  options.length_m = 0.2;
+  options.rigid_parts = {"block"};
+  return analyse_modes(testing::with_kind(block.make(), kind), options, {});
+}
+
+/// The modes of a body on a turned one, which may have the opposite sign: a diagonal of +1 and -1.
+Eigen::VectorXd signs_of(const ModalBody& turned, const ModalBody& body,
+                         const Eigen::Matrix3d& turn) {
+  Eigen::VectorXd signs(body.mode_count());
+  for (Eigen::Index k = 0; k < signs.size(); ++k) {
+    const auto l = static_cast<std::size_t>(k);
+    signs[k] = turned.shapes[l].cwiseProduct(turn * body.shapes[l]).sum() < 0 ? -1 : 1;
+  }
+  return signs;
+}
+
+/// What of an array along x, y, z stands along an axis.
+Eigen::MatrixXd along(const Eigen::Vector3d& axis, const std::vector<Eigen::MatrixXd>& matrices) {
+  return axis.x() * matrices.at(0) + axis.y() * matrices.at(1) + axis.z() * matrices.at(2);
+}
+
+/// Under a spin, of the matrices for its products xx, yy, zz, xy, xz, yz.
+Eigen::MatrixXd spun(const Eigen::Vector3d& w, const std::vector<Eigen::MatrixXd>& products) {
+  return w.x() * w.x() * products.at(0) + w.y() * w.y() * products.at(1) +
+         w.z() * w.z() * products.at(2) + w.x() * w.y() * products.at(3) +
+         w.x() * w.z() * products.at(4) + w.y() * w.z() * products.at(5);
+}
+
+/// Modes are as exact as the eigensolver's tolerance.
+constexpr double kExact = 1e-7;
+
+double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+  return (found - expected).norm() / expected.norm();
+}
+
+/// Of matrices over the modes, some of which have the opposite sign.
+double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected,
+                  const Eigen::VectorXd& signs) {
+  return difference(found, signs.asDiagonal() * expected * signs.asDiagonal());
+}
+
+void check_inertia(const ModalBody& turned, const ModalBody& body, const Eigen::Matrix3d& turn,
+                   const Eigen::VectorXd& signs) {
+  const InertiaInvariants& found = turned.invariants;
+  const InertiaInvariants& inertia = body.invariants;
+  CHECK(difference(found.S1, turn * inertia.S1) < kExact);
+  CHECK(difference(found.J0, turn * inertia.J0 * turn.transpose()) < kExact);
+  CHECK(difference(found.S2, turn * inertia.S2 * signs.asDiagonal()) < kExact);
+  CHECK(difference(found.N0, turn * inertia.N0 * signs.asDiagonal()) < kExact);
+  for (Eigen::Index k = 0; k < signs.size(); ++k) {
+    const auto l = static_cast<std::size_t>(k);
+    CHECK(difference(signs[k] * found.G0[l], turn * inertia.G0[l] * turn.transpose()) < kExact);
+  }
+  const Interface& tip = body.interface("tip");
+  const Interface& there = turned.interface("tip");
+  CHECK(difference(there.translation, turn * tip.translation * signs.asDiagonal()) < kExact);
+  CHECK(difference(there.rotation, turn * tip.rotation * signs.asDiagonal()) < kExact);
+}
+
+/// @param there  the axis in the turned body
+void check_stiffness(const GeometricStiffness& turned, const Eigen::Vector3d& there,
+                     const GeometricStiffness& body, const Eigen::Vector3d& axis,
+                     const Eigen::VectorXd& signs) {
+  CHECK(difference(spun(there, turned.velocity_products), spun(axis, body.velocity_products),
+                   signs) < kExact);
+  CHECK(difference(along(there, turned.acceleration), along(axis, body.acceleration), signs) <
+        kExact);
+  CHECK(difference(along(there, turned.angular_acceleration),
+                   along(axis, body.angular_acceleration), signs) < kExact);
+  const GeometricStiffness::OfInterface& tip = body.interfaces.at(0);
+  const GeometricStiffness::OfInterface& turned_tip = turned.interfaces.at(0);
+  CHECK(difference(along(there, turned_tip.force), along(axis, tip.force), signs) < kExact);
+  CHECK(difference(along(there, turned_tip.moment), along(axis, tip.moment), signs) < kExact);
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -144,6 +238,32 @@ TEST_CASE("a deep cantilever under a tip load topples sideways at Prandtl's load
   const double expected = 4.013 / (held * held) * std::sqrt(EI * GJ) / (kLength * kLength);
   const GeometricStiffness::OfInterface& tip = body.geometric_stiffness->interfaces.at(0);
   CHECK(buckling_load(body, tip.force[1]) == Approx(expected).epsilon(kMesh));
+}
+
+TEST_CASE("a body of any elements that is turned about in its axes is the same body") {
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond(0.3, -0.8, 0.41, 0.77).normalized().toRotationMatrix();
+  const mesher::ElementKind kind = GENERATE(from_range(kVolumes));
+  const Formulation formulation = GENERATE(from_range(kFormulations));
+  if (!offered(kind, formulation)) return;
+  CAPTURE(mesher::name_of(kind), name_of(formulation));
+  const ModalBody body = stub(kind, formulation, Eigen::Matrix3d::Identity());
+  const ModalBody turned = stub(kind, formulation, turn);
+  REQUIRE(turned.mode_count() == body.mode_count());
+  CHECK(difference(turned.frequencies_Hz, body.frequencies_Hz) < kExact);
+  const Eigen::VectorXd signs = signs_of(turned, body, turn);
+  check_inertia(turned, body, turn, signs);
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1),
+        Eigen::Vector3d(1, 2, -3), Eigen::Vector3d(-2, 1, 1), Eigen::Vector3d(1, -1, 2)})
+    check_stiffness(*turned.geometric_stiffness, turn * axis, *body.geometric_stiffness, axis,
+                    signs);
+  for (Eigen::Index k = 0; k < signs.size(); ++k) {
+    const auto of_mode = [k](const ModalBody& of) {
+      return of.geometric_stiffness->modal_acceleration[static_cast<std::size_t>(k)];
+    };
+    CHECK(difference(signs[k] * of_mode(turned), of_mode(body), signs) < kExact);
+  }
 }
 
 }  // namespace flexneck::fe_modal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -113,6 +114,40 @@ TEST_CASE("a load curve is its table or its cubic, and its energy the integral")
   CHECK(LoadCurve().value(1) == 0);
   CHECK_THROWS_WITH(LoadCurve::table({0, 0.1, 0.1}, {0, 1, 2}), Contains("row 3"));
   CHECK_THROWS_WITH(LoadCurve::table({0.1, 0.2}, {0, 1}), Contains("first row"));
+}
+
+TEST_CASE("a resistance loads and unloads each of its sides by that side's own law") {
+  Resistance resistance;
+  resistance.positive.curve = LoadCurve::cubic(100);
+  resistance.positive.stop = 0.2;
+  resistance.positive.beyond_stop = LoadCurve::cubic(400);
+  resistance.positive.unloading_ratio = 0.5;
+  resistance.negative.curve = LoadCurve::table({0, 0.1, 0.5}, {0, 5, 12});
+  resistance.damping = 0.4;
+  resistance.friction = 0.8;
+  resistance.full_rate = 2;
+  Resistance mirrored = resistance;
+  std::swap(mirrored.positive, mirrored.negative);
+  struct Expected {
+    double x, v, load, stored_J, lost_W;
+  };
+  // Loaded 30 + 40 N, at rest 3/4 of it; at half the full rate half of what is lost besides 0.4 v.
+  const double at_rest_N = 0.75 * 70;
+  const double stored_J = 0.75 * (4.5 + 2);
+  for (const Expected& at : {Expected{0.3, 1, at_rest_N + 8.75 + 0.4 + 0.4, stored_J, 9.55},
+                             {0.3, -4, at_rest_N - 17.5 - 1.6 - 0.8, stored_J, 4 * 19.9},
+                             {-0.3, 1, -8.5 + 0.4 + 0.4, 0.25 + 1.35, 0.8},
+                             {-0.3, -4, -8.5 - 1.6 - 0.8, 0.25 + 1.35, 4 * 2.4}}) {
+    CAPTURE(at.x, at.v);
+    const ResistanceLoad found = evaluate(resistance, at.x, at.v);
+    CHECK(found.load == Approx(at.load));
+    CHECK(found.stored_J == Approx(at.stored_J));
+    CHECK(found.lost_W == Approx(at.lost_W));
+    const ResistanceLoad image = evaluate(mirrored, -at.x, -at.v);
+    CHECK(image.load == Approx(-at.load));
+    CHECK(image.stored_J == Approx(at.stored_J));
+    CHECK(image.lost_W == Approx(at.lost_W));
+  }
 }
 
 TEST_CASE("friction stops a block where it must") {

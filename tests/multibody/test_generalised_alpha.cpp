@@ -15,6 +15,7 @@
 using namespace flexneck::multibody;
 using namespace flexneck::testing;
 using Catch::Matchers::Contains;
+using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -193,6 +194,55 @@ TEST_CASE("generalised-alpha steps over stiff vibrations that hold up the explic
   CHECK(steps == found.statistics.accepted);
   CHECK_THAT(exact.statistics.limits.front().what,
              Contains("deformation of body 'bar'") || Contains("velocity of body"));
+}
+
+TEST_CASE("generalised-alpha keeps the books of energy, damped and not, in closed form") {
+  // A block on a slider between a spring with a damper and a force that is the same at all times.
+  constexpr double kMass_kg = 2;
+  constexpr double kStiffness = 800;  // N/m: 20 rad/s
+  constexpr double kForce_N = 40;
+  constexpr double kFree_m = 1;     // length of the spring
+  constexpr double kStart_m = 0.1;  // beyond it
+  const double zeta = GENERATE(0.0, 0.1);
+  const double omega = std::sqrt(kStiffness / kMass_kg);
+  ModelBuilder build;
+  const auto ground = build.ground();
+  const auto block =
+      build.body("block", RigidBody{kMass_kg, Vector3d::Zero(), Matrix3d::Identity()},
+                 {{kFree_m + kStart_m, 0, 0}});
+  const auto wall = build.marker("wall", ground);
+  const auto hook = build.marker("hook", block);
+  build.joint("rail", JointKind::slider, wall, hook, Vector3d::UnitX());
+  Resistance stretch;
+  stretch.positive.curve = stretch.negative.curve = LoadCurve::cubic(kStiffness);
+  stretch.damping = 2 * zeta * omega * kMass_kg;
+  build.model.springs.push_back({"spring", wall, hook, kFree_m, stretch});
+  build.force("push", hook, Vector3d::UnitX(), constant_table(kForce_N));
+  SolverOptions solver = solver_of(1e-9, 1e-12);
+  solver.integrator = Integrator::generalised_alpha;
+  const History history = simulate(build.model, solver, {.end_time_s = 0.5, .interval_s = 0.05});
+  // About its rest it swings freely: x - rest = offset e^(-zeta omega t) (cos + sin zeta / ..).
+  const double rest = kForce_N / kStiffness;
+  const double offset = kStart_m - rest;
+  const double damped = omega * std::sqrt(1 - zeta * zeta);
+  const double whole_J = 0.5 * kStiffness * kStart_m * kStart_m;
+  const double tolerance_J = 1e-4 * whole_J;
+  for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
+    const double t = history.time_s[k];
+    const double decay = offset * std::exp(-zeta * omega * t);
+    const double x =
+        rest + decay * (std::cos(damped * t) + zeta * omega / damped * std::sin(damped * t));
+    const double v = -decay * omega * omega / damped * std::sin(damped * t);
+    const double kinetic_J = 0.5 * kMass_kg * v * v;
+    const double strain_J = 0.5 * kStiffness * x * x;
+    const double work_J = kForce_N * (x - kStart_m);
+    CAPTURE(zeta, t);
+    CHECK(history.energy.kinetic_J[k] == Approx(kinetic_J).margin(tolerance_J));
+    CHECK(history.energy.strain_J[k] == Approx(strain_J).margin(tolerance_J));
+    CHECK(history.energy.work_J[k] == Approx(work_J).margin(tolerance_J));
+    CHECK(history.energy.dissipated_J[k] ==
+          Approx(whole_J + work_J - kinetic_J - strain_J).margin(tolerance_J));
+  }
 }
 
 TEST_CASE("generalised-alpha closes loops whose joints repeat each other") {
