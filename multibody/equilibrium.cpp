@@ -114,11 +114,8 @@ VectorXd settled_positions(EquationsOfMotion& equations, const VectorXd& positio
 }
 
 VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equations) {
-  const System& system = equations.system();
-  carried_velocities(model, system);
-  VectorXd state = given_state(model, system);
-  join(model, equations, state, Check::positions);
-  return settled_positions(equations, state.head(system.position_count), 0);
+  carried_velocities(model, equations.system());
+  return settled_positions(equations, given_positions(model, equations), 0);
 }
 
 }  // namespace flexneck::multibody

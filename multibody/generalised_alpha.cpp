@@ -14,8 +14,10 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kMostIterations = 8;
-/// Newton's method stops at this share of the tolerance, and is given up if a correction is not
-/// smaller than this share of the last.
+/// Newton's method stops at this share of the positions' tolerance, and is given up if a correction
+/// is not smaller than this share of the last. Velocities are not asked for besides: over a short
+/// step rounding of the constraints leaves more of them than a tight tolerance allows
+/// (equations.md section 9).
 constexpr double kConverged = 1e-3;
 constexpr double kSlow = 0.6;
 /// Cut of a step over which it does not converge.
@@ -200,14 +202,17 @@ void GeneralisedAlpha::accept(double length_s) {
   ++accepted_;
 }
 
+void GeneralisedAlpha::give_up(double length_s) const {
+  std::ostringstream message;
+  message.precision(9);
+  message << "Newton's method does not converge over a step of " << length_s << " s at " << time_s_
+          << " s";
+  throw ComputationError(message.str());
+}
+
 void GeneralisedAlpha::fixed_step(double length_s) {
   if (!fresh_) begin(length_s);
-  if (!attempt(length_s)) {
-    std::ostringstream message;
-    message << "Newton's method does not converge over a step of " << length_s << " s at "
-            << time_s_ << " s";
-    throw ComputationError(message.str());
-  }
+  if (!attempt(length_s)) give_up(length_s);
   accept(length_s);
 }
 
@@ -217,6 +222,7 @@ void GeneralisedAlpha::step(double limit_s) {
   bool rejected_before = false;
   bool failed_before = false;
   while (true) {
+    if (proposed_s_ < limits_.smallest_s && failed_before) give_up(limits_.smallest_s);
     if (proposed_s_ < limits_.smallest_s) collapse(last_estimate_);
     double length = std::min(proposed_s_, limits_.largest_s);
     reason_ = length < proposed_s_ ? StepReason::largest_step : StepReason::error;
@@ -247,6 +253,7 @@ void GeneralisedAlpha::step(double limit_s) {
     }
     ++rejected_;
     rejected_before = true;
+    failed_before = false;
     proposed_s_ = length * (std::isfinite(error) ? std::max(factor, kLargestCut) : kLargestCut);
   }
 }

@@ -72,6 +72,7 @@ class GeneralisedAlpha final : public TimeIntegrator {
   ErrorEstimate local_error(double length_s);
   void accept(double length_s);
   double first_step() const;
+  [[noreturn]] void give_up(double length_s) const;
 
   Equations& equations_;
   AlphaParameters alpha_;

@@ -162,10 +162,11 @@ struct ModeNumber {
   double SystemMode::*member;
   const char* unit;
 };
-constexpr std::array<ModeNumber, 3> kModeNumbers = {
+constexpr std::array<ModeNumber, 4> kModeNumbers = {
     {{"frequency", &SystemMode::frequency_Hz, "Hz"},
      {"damped_frequency", &SystemMode::damped_frequency_Hz, "Hz"},
-     {"damping_ratio", &SystemMode::damping_ratio, "1"}}};
+     {"damping_ratio", &SystemMode::damping_ratio, "1"},
+     {"growth_rate", &SystemMode::growth_rate_1_s, "1/s"}}};
 
 struct ShapePart {
   const char* name;
@@ -290,6 +291,9 @@ LinearisationRecord read_linearisation(const Hdf5Reader& file) {
   record.about = file.string_attribute(kLinearisation, "about");
   record.markers = file.read_strings(path_of(kLinearisation, "markers"));
   for (const ModeNumber& number : kModeNumbers) {
+    // Files of earlier versions hold stable modes only, without their growth.
+    const bool may_lack = number.member == &SystemMode::growth_rate_1_s;
+    if (may_lack && !file.has(path_of(kLinearisation, number.name))) continue;
     const std::vector<double> values =
         file.read_doubles(path_of(kLinearisation, number.name),
                           {record.modes.empty() ? kAnyExtent : record.modes.size()}, number.unit);

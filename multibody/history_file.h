@@ -29,7 +29,7 @@ struct Channel {
 
 /// Modes of the linearised model, /linearisation. Shapes as in ModeShape, (modes, markers, 3).
 struct LinearisationRecord {
-  std::string about;                 ///< "equilibrium" or "given"
+  std::string about;                 ///< "equilibrium", "steady rotation" or "given"
   std::vector<std::string> markers;  ///< of the model, in its order
   std::vector<ModeShape> modes;
 };

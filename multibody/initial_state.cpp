@@ -60,4 +60,10 @@ void join(const Model& model, EquationsOfMotion& equations, VectorXd& state, Che
   Projection(equations).apply(0, state);
 }
 
+VectorXd given_positions(const Model& model, EquationsOfMotion& equations) {
+  VectorXd state = given_state(model, equations.system());
+  join(model, equations, state, Check::positions);
+  return state.head(equations.system().position_count);
+}
+
 }  // namespace flexneck::multibody

@@ -20,4 +20,8 @@ enum class Check { positions, positions_and_velocities };
 /// system's largest speed. The message names the joint.
 void join(const Model& model, EquationsOfMotion& equations, Eigen::VectorXd& state, Check check);
 
+/// The positions that the model's bodies are given, put onto the joints at time zero.
+/// @throws as join().
+Eigen::VectorXd given_positions(const Model& model, EquationsOfMotion& equations);
+
 }  // namespace flexneck::multibody

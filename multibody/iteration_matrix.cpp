@@ -46,6 +46,7 @@ bool IterationMatrix::leaves_out_only_redundant(Equations& equations, double tim
 
 void IterationMatrix::linearise(Equations& equations, double time_s, const Vector& state,
                                 const Vector& accelerations, const Vector& multipliers) {
+  // Which rows are redundant is known of the last configuration that was factorised.
   if (nc_ > 0) equations.derivative(time_s, state, rate_);
   equations.redundant_rows(redundant_);
   equations.residual(time_s, state, accelerations, multipliers, base_);

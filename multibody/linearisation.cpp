@@ -20,6 +20,8 @@ using Eigen::VectorXd;
 /// A squared eigenvalue below this share of the largest stiffness is what differences leave of
 /// zero.
 constexpr double kZero = 1e-9;
+/// A growth below this share of the fastest motion is what they leave of none.
+constexpr double kGrowth = 3e-7;
 
 struct RealEigenvalue {
   double value;
@@ -28,12 +30,15 @@ struct RealEigenvalue {
 };
 
 SystemMode mode_of_pair(double l1, double l2) {
+  const double growth = std::max({l1, l2, 0.0});
+  if (l1 * l2 <= 0) return {0, 0, 0, growth};
   const double omega = std::sqrt(l1 * l2);
-  return {omega / (2 * std::numbers::pi), 0, -(l1 + l2) / (2 * omega)};
+  return {omega / (2 * std::numbers::pi), 0, -(l1 + l2) / (2 * omega), growth};
 }
 
 /// The eigenvalues of an overdamped mode share their shape, at least when the damping does not
-/// couple the modes: each takes the most similar partner, slowest first.
+/// couple the modes: each takes the most similar partner, slowest first. The partner of one alone
+/// is zero.
 std::vector<Eigenmode> overdamped_modes(std::vector<RealEigenvalue> values) {
   std::sort(values.begin(), values.end(),
             [](const auto& a, const auto& b) { return std::abs(a.value) < std::abs(b.value); });
@@ -48,10 +53,15 @@ std::vector<Eigenmode> overdamped_modes(std::vector<RealEigenvalue> values) {
       best = similarity;
       partner = k;
     }
-    if (partner == values.size()) break;
-    values[first].used = values[partner].used = true;
-    modes.push_back(
-        {mode_of_pair(values[first].value, values[partner].value), values[first].shape});
+    RealEigenvalue& slow = values[first];
+    if (partner == values.size()) {
+      if (slow.value > 0) modes.push_back({mode_of_pair(slow.value, 0), slow.shape});
+      break;
+    }
+    RealEigenvalue& fast = values[partner];
+    slow.used = fast.used = true;
+    const bool moves_away = slow.value < 0 && fast.value > 0;
+    modes.push_back({mode_of_pair(slow.value, fast.value), moves_away ? fast.shape : slow.shape});
   }
   return modes;
 }
@@ -77,14 +87,13 @@ std::vector<Eigenmode> eigenmodes_of(const MatrixXd& A, Index positions) {
     const std::complex<double> lambda = eigen.eigenvalues()[i];
     const double magnitude = std::abs(lambda);
     if (magnitude * magnitude < kZero) continue;
-    if (lambda.real() > std::sqrt(kZero) * 1e-2)
-      throw ComputationError("the state is not stable: a motion about it grows by " +
-                             std::to_string(lambda.real() * rate) + " / s");
     const Eigen::VectorXcd shape = eigen.eigenvectors().col(i).head(positions);
+    const double growth = lambda.real() > kGrowth ? lambda.real() * rate : 0;
     if (lambda.imag() > 0)
-      modes.push_back({{magnitude * rate / (2 * std::numbers::pi),
-                        lambda.imag() * rate / (2 * std::numbers::pi), -lambda.real() / magnitude},
-                       shape});
+      modes.push_back(
+          {{magnitude * rate / (2 * std::numbers::pi),
+            lambda.imag() * rate / (2 * std::numbers::pi), -lambda.real() / magnitude, growth},
+           shape});
     if (lambda.imag() == 0) real.push_back({lambda.real() * rate, shape.real().normalized()});
   }
   for (Eigenmode& mode : overdamped_modes(std::move(real))) modes.push_back(std::move(mode));

@@ -12,16 +12,17 @@ namespace flexneck::multibody {
 /// Modes of xi'' + damping xi' + stiffness xi = 0, ascending in frequency: from each conjugate pair
 /// of eigenvalues lambda, f = |lambda| / 2 pi and zeta = -Re lambda / |lambda|. Real eigenvalues,
 /// those of overdamped motion, are paired by their shapes: with l1 and l2 those of a pair,
-/// (2 pi f)^2 = l1 l2 and zeta = -(l1 + l2) / (2 sqrt(l1 l2)) >= 1, damped frequency zero. A motion
-/// without restoring force has frequency and damping ratio zero.
-/// @throws ComputationError if a motion grows instead of swinging: there is no stable equilibrium.
+/// (2 pi f)^2 = l1 l2 and zeta = -(l1 + l2) / (2 sqrt(l1 l2)), at least 1 if both decay, damped
+/// frequency zero. A motion without restoring force has frequency and damping ratio zero, and so
+/// has one that moves away, with eigenvalues of both signs. An unstable motion has a growth rate.
 std::vector<SystemMode> modes_of(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping);
 
 /// A of xi'' + damping xi' + stiffness xi = 0 in y = [xi; xi'].
 Eigen::MatrixXd second_order(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping);
 
 /// A mode and its eigenvector in the coordinates xi; of an overdamped one that of the slower
-/// motion, of a motion without restoring force empty.
+/// motion, of one that moves away that of the growing motion, of a motion without restoring force
+/// empty.
 struct Eigenmode {
   SystemMode mode;
   Eigen::VectorXcd shape;
@@ -30,7 +31,6 @@ struct Eigenmode {
 /// The modes of y' = A y, y = [positions; rates], ascending in frequency, as modes_of().
 /// @param positions  how many; the rest are rates. Positions may be more than rates by what
 ///                   normalised quaternions have too many.
-/// @throws ComputationError as modes_of().
 std::vector<Eigenmode> eigenmodes_of(const Eigen::MatrixXd& A, Eigen::Index positions);
 
 /// A mode of a whole model: how its markers swing, x(t) = Re(amplitude exp(i omega t)), scaled so
@@ -44,13 +44,18 @@ struct ModeShape {
 
 /// About what a model is linearised.
 enum class LinearisedAt {
-  equilibrium,  ///< see system_modes()
-  given         ///< what the bodies are given, velocities and the drive at time zero included
+  /// The free bodies at rest against the driven ones: the static equilibrium, or where driven
+  /// bodies turn at time zero, steady rotation with them (steady_rotation.h). Motions are then seen
+  /// from the bodies that turn, in axes that are the world's at time zero.
+  equilibrium,
+  given  ///< what the bodies are given, velocities and the drive at time zero included
 };
 
 /// Small motions about a state. About a given one, which need not be an equilibrium, they are those
-/// of the coefficients as they are there: exact where they stay, as on a hub that turns evenly.
-/// @throws as system_modes(); InputError if a model that is given in motion closes a loop.
+/// of the coefficients as they are there: exact where they stay, as on a hub that turns evenly, but
+/// without the deformation that spin causes.
+/// @throws as simulate_from_equilibrium() or rotating_positions(); InputError if a model that is
+/// given in motion closes a loop.
 std::vector<ModeShape> linearise(const Model& model, LinearisedAt at);
 
 }  // namespace flexneck::multibody

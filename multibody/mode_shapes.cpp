@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Models linearised about a state: eigenmodes of their coordinates, told as motions of markers.
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "geometry/foundation/error.h"
@@ -10,6 +11,7 @@
 #include "multibody/linearisation.h"
 #include "multibody/reduced_dynamics.h"
 #include "multibody/rotation.h"
+#include "multibody/steady_rotation.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_start.h"
 
@@ -67,16 +69,17 @@ std::vector<ModeShape> shapes_of(const std::vector<Eigenmode>& modes,
   return shapes;
 }
 
-/// At rest, in the independent coordinates of all bodies: every model.
-std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& held, const VectorXd& positions) {
-  const System& system = held.system();
-  ReducedDynamics reduced(held, positions);
+/// At rest against a frame, in the independent coordinates of all bodies: every model.
+std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& equations, const VectorXd& positions,
+                                         const TurningFrame& frame = {}) {
+  const System& system = equations.system();
+  ReducedDynamics reduced(equations, positions, 0, frame);
   const std::vector<Eigenmode> modes =
       eigenmodes_of(second_order(reduced.stiffness(), reduced.damping()), reduced.count());
-  held.set_positions(0, positions);
+  equations.set_positions(0, positions);
   const VectorXd still = VectorXd::Zero(system.velocity_count);
-  held.set_velocities(still);
-  held.update_idle_markers(still);
+  equations.set_velocities(still);
+  equations.update_idle_markers(still);
   const auto markers = static_cast<Index>(system.markers.size());
   MarkerMotions motions{MatrixXd::Zero(3 * markers, reduced.count()),
                         MatrixXd::Zero(3 * markers, reduced.count())};
@@ -84,7 +87,7 @@ std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& held, const VectorXd
     const auto index = static_cast<std::size_t>(k);
     const std::size_t b = system.markers[index].free_body;
     if (b == JointPlace::kNoBody) continue;
-    const NodeKinematics& node = held.marker(index);
+    const NodeKinematics& node = equations.marker(index);
     const auto basis = reduced.basis().middleRows(system.bodies[b].velocity, node.P.cols());
     motions.translation.middleRows<3>(3 * k) = node.P * basis;
     motions.rotation.middleRows<3>(3 * k) = node.W * basis;
@@ -174,11 +177,22 @@ std::vector<ModeShape> linearise(const Model& model, LinearisedAt at) {
         "velocities, or linearise about the equilibrium");
   const System system(model);
   EquationsOfMotion held(system, Drive::held);
-  if (at == LinearisedAt::equilibrium)
+  if (at == LinearisedAt::equilibrium) {
+    if (const std::optional<TurningFrame> frame = steady_rotation(model)) {
+      EquationsOfMotion turning(system);
+      const VectorXd given = given_positions(model, turning);
+      return linearise_at_rest(turning, rotating_positions(turning, *frame, given), *frame);
+    }
     return linearise_at_rest(held, equilibrium_positions(model, held));
-  VectorXd state = given_state(model, system);
-  join(model, held, state, Check::positions);
-  return linearise_at_rest(held, state.head(system.position_count));
+  }
+  return linearise_at_rest(held, given_positions(model, held));
+}
+
+std::vector<SystemMode> system_modes(const Model& model) {
+  std::vector<SystemMode> modes;
+  for (const ModeShape& each : linearise(model, LinearisedAt::equilibrium))
+    modes.push_back(each.mode);
+  return modes;
 }
 
 }  // namespace flexneck::multibody

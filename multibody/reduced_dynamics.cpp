@@ -3,15 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+
+#include "multibody/rotation.h"
 
 namespace flexneck::multibody {
 namespace {
 
 using Eigen::Index;
+using Eigen::Matrix3d;
 using Eigen::MatrixXd;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// Extent of the displacements that differences are taken over: their error, of second order in it,
@@ -49,8 +54,12 @@ void assemble_rows_transposed(const EquationsOfMotion& equations, MatrixXd& B_tr
 }
 
 ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& positions,
-                                 double time_s)
-    : equations_(equations), projection_(equations), origin_(positions), time_s_(time_s) {
+                                 double time_s, TurningFrame frame)
+    : equations_(equations),
+      projection_(equations),
+      origin_(positions),
+      time_s_(time_s),
+      frame_(std::move(frame)) {
   equations_.set_positions(time_s_, origin_);
   // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
   MatrixXd M;
@@ -91,15 +100,64 @@ VectorXd ReducedDynamics::positions_at(const VectorXd& xi) {
   return positions;
 }
 
+ReducedDynamics ReducedDynamics::turned(double time_s) const {
+  ReducedDynamics result = *this;
+  const Vector3d angle = (time_s - time_s_) * frame_.rate_rad_s;
+  const Matrix3d R = rotation_exp(angle);
+  const Eigen::Quaterniond q = quaternion_exp(angle);
+  for (const FreeBody& body : equations_.system().bodies) {
+    auto place = result.origin_.segment<7>(body.position);
+    place.head<3>() = frame_.point_m + R * (place.head<3>() - frame_.point_m);
+    const Eigen::Quaterniond before(place[3], place[4], place[5], place[6]);
+    const Eigen::Quaterniond after = q * before;
+    place[3] = after.w();
+    place.tail<3>() = after.vec();
+    // Forces and accelerations of the origin are in world axes, all else is in the body's.
+    for (MatrixXd* each : {&result.N_, &result.MN_})
+      each->middleRows<3>(body.velocity) = R * each->middleRows<3>(body.velocity);
+  }
+  result.time_s_ = time_s;
+  return result;
+}
+
+VectorXd ReducedDynamics::carried_velocities() const {
+  const System& system = equations_.system();
+  VectorXd velocities = VectorXd::Zero(system.velocity_count);
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const BodyTerms& terms = equations_.body(b);
+    auto V = velocities.segment<6>(system.bodies[b].velocity);
+    V.head<3>() = frame_.rate_rad_s.cross(terms.x - frame_.point_m);
+    V.tail<3>() = terms.A.transpose() * frame_.rate_rad_s;
+  }
+  return velocities;
+}
+
 VectorXd ReducedDynamics::solve(const VectorXd& velocities) {
-  equations_.set_velocities(velocities);
+  const System& system = equations_.system();
+  const VectorXd carried = carried_velocities();
+  equations_.set_velocities(carried + velocities);
   equations_.solve();
-  return MN_.transpose() * equations_.accelerations();
+  VectorXd accelerations = equations_.accelerations();
+  // x'' = x_rel'' + 2 Omega x x_rel' + Omega x (Omega x r), w' = w_rel' - w_rel x A^T Omega.
+  const Vector3d& rate = frame_.rate_rad_s;
+  for (const FreeBody& body : system.bodies) {
+    const auto V = velocities.segment<6>(body.velocity);
+    const auto frame_V = carried.segment<6>(body.velocity);
+    const Vector3d v = V.head<3>();
+    const Vector3d w = V.tail<3>();
+    accelerations.segment<3>(body.velocity) -= rate.cross(2 * v + Vector3d(frame_V.head<3>()));
+    accelerations.segment<3>(body.velocity + 3) += w.cross(Vector3d(frame_V.tail<3>()));
+  }
+  return MN_.transpose() * accelerations;
 }
 
 VectorXd ReducedDynamics::accelerations_at(const VectorXd& xi) {
+  return accelerations_at(xi, VectorXd::Zero(count()));
+}
+
+VectorXd ReducedDynamics::accelerations_at(const VectorXd& xi, const VectorXd& rates) {
   equations_.set_positions(time_s_, positions_at(xi));
-  return solve(VectorXd::Zero(equations_.system().velocity_count));
+  return solve(N_ * rates);
 }
 
 MatrixXd ReducedDynamics::stiffness() {

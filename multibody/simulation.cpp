@@ -8,11 +8,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/driven_path.h"
 #include "multibody/equations.h"
-#include "multibody/equilibrium.h"
-#include "multibody/linearisation.h"
 #include "multibody/motion.h"
-#include "multibody/reduced_dynamics.h"
-#include "multibody/system.h"
 #include "multibody/tree/tree.h"
 
 namespace flexneck::multibody {
@@ -84,14 +80,6 @@ History settle(const Model& model, const SolverOptions& solver, const OutputOpti
   check_options(solver, output);
   const std::unique_ptr<Equations> equations = equations_of(model, solver, Drive::held);
   return settle_along(model, *equations, output);
-}
-
-std::vector<SystemMode> system_modes(const Model& model) {
-  check(model);
-  const System system(model);
-  EquationsOfMotion held(system, Drive::held);
-  ReducedDynamics reduced(held, equilibrium_positions(model, held));
-  return modes_of(reduced.stiffness(), reduced.damping());
 }
 
 }  // namespace flexneck::multibody

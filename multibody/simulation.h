@@ -57,6 +57,9 @@ struct SystemMode {
   double frequency_Hz = 0;  ///< |lambda| / 2 pi, the undamped frequency
   double damped_frequency_Hz = 0;
   double damping_ratio = 0;
+  double growth_rate_1_s = 0;  ///< of an unstable one: its largest Re lambda; of others zero
+
+  bool is_unstable() const { return growth_rate_1_s > 0; }
 };
 
 /// Runs a model from the state its bodies are given; constraints are projected first. Joints that
@@ -82,10 +85,11 @@ History simulate_from_equilibrium(const Model& model, const SolverOptions& solve
 /// @throws IncompleteRun if no equilibrium is found at some time, as where a column buckles.
 History settle(const Model& model, const SolverOptions& solver, const OutputOptions& output);
 
-/// Small motions about that equilibrium, ascending in frequency. An overdamped mode has a damping
-/// ratio of one or more and the damped frequency zero; a motion without restoring force has
-/// frequency zero.
-/// @throws as simulate_from_equilibrium(); ComputationError also if the equilibrium is not stable.
+/// Small motions about that equilibrium, or about steady rotation where driven bodies turn (see
+/// LinearisedAt), ascending in frequency. An overdamped mode has a damping ratio of one or more and
+/// the damped frequency zero; a motion without restoring force has frequency zero. One that grows
+/// is unstable: with a frequency it swings, with frequency zero it moves away.
+/// @throws as linearise().
 std::vector<SystemMode> system_modes(const Model& model);
 
 }  // namespace flexneck::multibody

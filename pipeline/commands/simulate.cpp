@@ -3,9 +3,12 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "multibody/campbell.h"
 #include "multibody/history_file.h"
+#include "multibody/steady_rotation.h"
 #include "pipeline/commands/file_commands.h"
 #include "pipeline/model/model_file.h"
+#include "pipeline/output/campbell_output.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/summary.h"
 #include "pipeline/results_folder.h"
@@ -37,12 +40,22 @@ multibody::History run(const ModelFile& file) {
   });
 }
 
+std::string about(const ModelFile& file) {
+  if (*file.linearised_at == multibody::LinearisedAt::given) return "given";
+  return multibody::steady_rotation(file.model) ? "steady rotation" : "equilibrium";
+}
+
 std::optional<multibody::LinearisationRecord> linearised(const ModelFile& file) {
   if (!file.linearised_at) return {};
-  const bool at_rest = *file.linearised_at == multibody::LinearisedAt::equilibrium;
-  return multibody::LinearisationRecord{
-      at_rest ? "equilibrium" : "given", names_of(file.model.markers),
-      named(file, [&] { return multibody::linearise(file.model, *file.linearised_at); })};
+  return named(file, [&] {
+    return multibody::LinearisationRecord{about(file), names_of(file.model.markers),
+                                          multibody::linearise(file.model, *file.linearised_at)};
+  });
+}
+
+std::optional<multibody::CampbellDiagram> campbell(const ModelFile& file) {
+  if (file.rates_rad_s.empty()) return {};
+  return named(file, [&] { return multibody::campbell_diagram(file.model, file.rates_rad_s); });
 }
 
 template <class Histories>
@@ -80,6 +93,16 @@ void write(const FileInput& input, const multibody::HistoryFile& result) {
                        peak_table(result.history.time_s, result.channels));
 }
 
+void write(const FileInput& input, const multibody::CampbellDiagram& diagram) {
+  input.folder.make();
+  const std::string name = input.files.front().stem().string() + "-campbell";
+  const fs::path table = input.folder.file(name + ".csv");
+  const fs::path picture = input.folder.file(name + ".svg");
+  write_campbell_table(table, diagram);
+  draw_campbell(picture, diagram);
+  input.console.result("Campbell diagram: " + table.string() + ", " + picture.string());
+}
+
 }  // namespace
 
 bool simulate_command(const FileInput& input) {
@@ -89,10 +112,12 @@ bool simulate_command(const FileInput& input) {
   const ModelFile file = read_model_file(model, input.settings);
   input.console.step("Simulating " + model.string());
   const auto linearisation = linearised(file);
+  const auto diagram = campbell(file);
   const auto finish = [&](multibody::History history) {
     multibody::HistoryFile result = result_of(file, std::move(history));
     result.linearisation = linearisation;
     write(input, result);
+    if (diagram) write(input, *diagram);
   };
   try {
     finish(run(file));

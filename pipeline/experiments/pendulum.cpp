@@ -201,6 +201,10 @@ multibody::SystemMode first_system_mode(const Study& study, const CaseSection& e
     throw InputError("case." + experiment.name +
                      ": none of the modes chosen moves in the plane of the case");
   }
+  if (modes.front().is_unstable()) {
+    throw ComputationError("case." + experiment.name +
+                           ": the equilibrium of neck and head is not stable");
+  }
   return modes.front();
 }
 

@@ -49,6 +49,11 @@ void read_linearisation(const StudyTable& root, ModelFile& file) {
   const StudyTable table = root.table("linearisation");
   file.linearised_at =
       static_cast<multibody::LinearisedAt>(choice(table, "about", {"equilibrium", "given"}));
+  if (table.has("rates")) {
+    file.rates_rad_s = table.quantities("rates", "rad/s", 0);
+    if (file.linearised_at != multibody::LinearisedAt::equilibrium)
+      table.refuse("rates", "a Campbell diagram is about steady rotation: about = \"equilibrium\"");
+  }
   table.finish();
 }
 

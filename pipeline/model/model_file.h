@@ -41,6 +41,7 @@ struct ModelFile {
   Analysis analysis = Analysis::motion;
   Start start = Start::given;
   std::optional<multibody::LinearisedAt> linearised_at;
+  std::vector<double> rates_rad_s;  ///< of a Campbell diagram; empty for none
   double end_time_s = 1;
   OutputSection output;
 

@@ -50,6 +50,8 @@ std::string mode_summary(const multibody::LinearisationRecord& linearisation) {
     } else {
       row.insert(row.end(), {"", ""});
     }
+    if (each.mode.is_unstable())
+      row.back() += fmt::format("  UNSTABLE, grows by {:.4g} / s", each.mode.growth_rate_1_s);
     rows.push_back(row);
   }
   return text_table(rows, {0, 4, 5});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command as it is built.
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -87,6 +88,66 @@ TEST_CASE("simulate tells the modes of small motions and keeps their shapes") {
     CHECK(found.rotation == expected[k].rotation);
     CHECK(found.translation.cwiseAbs().maxCoeff() == Approx(1));
   }
+}
+
+TEST_CASE("simulate draws a Campbell diagram and says which motion about steady rotation grows") {
+  // 1 kg on a rail that turns with the hub, held to the axis by 400 N/m.
+  const std::string text = R"(
+[solver]
+end_time = "2 ms"
+[linearisation]
+about = "equilibrium"
+rates = ["0 rad/s", "10 rad/s", "30 rad/s"]
+[[body]]
+name = "hub"
+kind = "driven"
+[body.turn]
+axis = [0, 0, 1]
+initial_rate = "30 rad/s"
+[[body]]
+name = "block"
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["0.01 kg*m^2", "0.01 kg*m^2", "0.01 kg*m^2"]
+[[marker]]
+body = "hub"
+name = "rail"
+position = ["0 m", "0 m", "0 m"]
+[[marker]]
+body = "block"
+name = "centre"
+position = ["0 m", "0 m", "0 m"]
+[[joint]]
+name = "rail"
+kind = "slider"
+axis = [1, 0, 0]
+lower = "hub.rail"
+upper = "block.centre"
+[[resistance]]
+name = "spring"
+joint = "rail"
+coordinate = "distance"
+stiffness = "400 N/m"
+)";
+  const TemporaryFolder folder;
+  const CommandOutcome outcome = simulate(write_text(folder / "rotor.toml", text), folder / "out");
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  // sqrt(30^2 - 20^2) / s.
+  CHECK_THAT(outcome.text,
+             Contains("mode about steady rotation") && Contains("UNSTABLE, grows by 22.36 / s"));
+  const auto file = multibody::read_history(folder / "out/rotor.h5");
+  CHECK(file.linearisation->modes[0].mode.growth_rate_1_s == Approx(std::sqrt(500.)).epsilon(1e-7));
+  const std::string table = bytes_of(folder / "out/rotor-campbell.csv");
+  CHECK(lines_in(table) == 4);
+  CHECK_THAT(table, Contains("rate [rad/s],mode 1 frequency [Hz]") &&
+                        Contains("\n10,2.7566444"));  // sqrt(300) / 2 pi
+  CHECK_THAT(bytes_of(folder / "out/rotor-campbell.svg"), Contains("one per turn"));
+  const CommandOutcome refused = simulate(folder / "rotor.toml", folder / "no",
+                                          " --set 'solver.gravity=[\"1 gn\", \"0 gn\", \"0 gn\"]'");
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.text, Contains("rotor.toml: gravity is not along the axis"));
 }
 
 TEST_CASE("a model that is not sound ends in one line, exit code 2 and no file") {

@@ -284,5 +284,7 @@ TEST_CASE("a pressed column softens to nothing at Euler's load; a linear one doe
     CHECK(first_square(column(kModes, false, share * euler_N)) ==
           Approx(omega * omega).epsilon(1e-8));
   }
-  CHECK_THROWS_AS(system_modes(column(kModes, true, 1.01 * euler_N)), ComputationError);
+  const SystemMode buckling = system_modes(column(kModes, true, 1.01 * euler_N))[0];
+  CHECK(buckling.frequency_Hz == 0);
+  CHECK(buckling.is_unstable());
 }

@@ -90,7 +90,7 @@ void draw_curves(const CurvePlot& plot, Figure& figure) {
                       "set xrange [0:*]\nset yrange [*:{}]\n"
                       "set label {} at graph 0.99,0.035 right textcolor rgb '#777777' font ',11'\n",
                       gnuplot_text(plot.x_label), gnuplot_text(plot.y_label), top_of(plot.bands),
-                      gnuplot_text("No reference curve: the paper's curves are not in its text")) +
+                      gnuplot_text(plot.note)) +
                   bands_script(plot.bands) + "plot";
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
     const std::size_t x = shares_x ? 1 : 2 * c + 1;

@@ -25,6 +25,8 @@ struct CurvePlot {
   std::string x_label, y_label;  ///< with their units: "time [ms]"
   std::vector<FigureCurve> curves;
   std::vector<FigureBand> bands = {};
+  /// At the foot of the picture.
+  std::string note = "No reference curve: the paper's curves are not in its text";
 };
 
 /// Fills in the CSV and the script. Curves over the same x share its column.
