@@ -12,6 +12,7 @@ notes=tests/reliability/campaigns.md
 # NAME COUNT COMMAND, which finds $seed, $count and $out, a fresh folder.
 campaigns='
 mutation-of-files 20000 python3 tests/reliability/mutate_files.py build/flexneck --seed $seed --runs $count --out $out
+mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '
 
 if [ $# -lt 1 ]; then
