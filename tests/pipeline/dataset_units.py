@@ -52,6 +52,7 @@ UNITS = {
         r"constraints/orientation": "rad",
         r"linearisation/(frequency|damped_frequency)": "Hz",
         r"linearisation/damping_ratio": "1",
+        r"linearisation/growth_rate": "1/s",
         r"linearisation/translation_(real|imaginary)": "m",
         r"linearisation/rotation_(real|imaginary)": "rad",
         r"statistics/limited_steps": "1",

@@ -87,6 +87,11 @@ def datasets(file):
     return found
 
 
+def text(value):
+    """Of variable or of fixed length."""
+    return value.decode() if isinstance(value, bytes) else value
+
+
 def skew(v):
     return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
@@ -126,7 +131,7 @@ class Datasets(unittest.TestCase):
 
     def check_units(self, path, table):
         file = self.open(path)
-        self.assertEqual(file.attrs["units"], "SI")
+        self.assertEqual(text(file.attrs["units"]), "SI")
         used = set()
         for name, dataset in datasets(file).items():
             if name.startswith("provenance/"):
@@ -134,7 +139,7 @@ class Datasets(unittest.TestCase):
             patterns = [pattern for pattern in table if re.fullmatch(pattern, name)]
             self.assertEqual(len(patterns), 1, f"{path}: {name}")
             used |= set(patterns)
-            unit = dataset.attrs.get("units")
+            unit = text(dataset.attrs.get("units"))
             self.assertEqual(unit, table[patterns[0]], f"{path}: {name}")
             self.assertEqual(unit is not None, dataset.dtype.kind == "f", f"{path}: {name}")
         return used
@@ -234,8 +239,8 @@ class Datasets(unittest.TestCase):
         summed = lambda rate: np.concatenate(([0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(time))))
         self.assertEqual(energy["kinetic"][0], 0)  # at rest, bent by the weight
         modes = self.open("bar/modes.h5")
-        names = [name.decode() for name in modes["mode_names"][:]]
-        chosen = [names.index(name.decode()) for name in file["modal/bar/modes"][:]]
+        names = [text(name) for name in modes["mode_names"][:]]
+        chosen = [names.index(text(name)) for name in file["modal/bar/modes"][:]]
         omega = 2 * np.pi * modes["frequencies"][:][chosen]
         amplitudes = file["modal/bar/coordinates"][:]
         scale = energy["strain"].max()
@@ -281,7 +286,7 @@ class Datasets(unittest.TestCase):
         for (name, expected), unit in zip(columns.items(), units, strict=True):
             expected = np.column_stack(expected)
             with self.subTest(name):
-                self.assertEqual(file[f"channels/{name}/values"].attrs["units"], unit)
+                self.assertEqual(text(file[f"channels/{name}/values"].attrs["units"]), unit)
                 np.testing.assert_allclose(file[f"channels/{name}/values"][:], expected, rtol=0, atol=1e-6)
                 if name in recorded:
                     np.testing.assert_allclose(file[recorded[name]][:], expected, rtol=0, atol=1e-6)
