@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/printable.h"
 
 namespace flexneck {
 namespace {
@@ -60,6 +61,10 @@ void check_names(const std::vector<std::string>& names, const std::string& kind)
     const std::string& name = names[k];
     if (name.empty()) {
       throw InputError(kind + " " + std::to_string(k + 1) + " has no name; give it one");
+    }
+    if (find_unprintable(name) != std::string::npos) {
+      throw InputError(kind + " '" + printable(name) +
+                       "': a name must not contain control characters; choose another");
     }
     if (name.find('/') != std::string::npos) {
       throw InputError(kind + " '" + name + "': a name must not contain '/'; choose another");

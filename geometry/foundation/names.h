@@ -18,7 +18,8 @@ std::string did_you_mean(const std::vector<std::string>& candidates, const std::
 std::size_t find_name(const std::vector<std::string>& names, const std::string& name,
                       const std::string& kind);
 
-/// Names label groups of our files: refuses empty ones, ones with '/' and doubles.
+/// Names label groups of our files: refuses empty ones, doubles, and ones with '/' or what is
+/// unprintable (printable.h).
 /// @throws InputError
 void check_names(const std::vector<std::string>& names, const std::string& kind);
 

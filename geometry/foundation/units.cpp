@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/foundation/units.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <regex>
 #include <string>
 
 #include <udunits2.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/printable.h"
 
 namespace flexneck {
 
@@ -36,11 +39,42 @@ const ut_system& unit_system() {
   return *system;
 }
 
+/// Names with whole exponents, joined by '*', '.', '/' or a space. UDUNITS-2 takes multiples
+/// besides
+/// ("kg 2", "kg^2.5" and "m/2" are 2 kg, 5 kg^2 and 0.5 m), origins and logarithms: all of them
+/// would change the number that stands before the unit without a word.
+bool is_plain_unit(const std::string& text) {
+  constexpr std::size_t kMostCharacters = 80;  // std::regex takes stack for each
+  static const std::regex kPattern = [] {
+    const std::string power = "((\\^|\\*\\*)?[+-]?[0-9]+)?";
+    const std::string factor = "(\\( *)*((\u00b5)?[A-Za-z_]+|%)" + power + "( *\\)" + power + ")*";
+    return std::regex("1|(1 */ *)?" + factor + "(( *[*./] *| +)" + factor + ")*");
+  }();
+  return text.size() <= kMostCharacters && std::regex_match(text, kPattern);
+}
+
 Unit parse_unit(std::string_view text) {
   const std::string name(text);
+  if (!is_plain_unit(name)) {
+    throw InputError("expected a unit such as 'kg*m^2' or 'm/s', found '" + printable(name) +
+                     "'; a number has a decimal point, and no number stands within a unit");
+  }
   Unit unit(ut_parse(&unit_system(), name.c_str(), UT_ASCII), ut_free);
   if (!unit) throw InputError("unknown unit '" + name + "'");
   return unit;
+}
+
+/// Exponent of the radian: UDUNITS-2 converts as if it were 1, so that 1 Hz would be 1 rad/s.
+int radians(const ut_unit& unit) {
+  std::array<char, 256> definition{};
+  const int length =
+      ut_format(&unit, definition.data(), definition.size(), UT_ASCII | UT_DEFINITION);
+  if (length < 0 || length >= static_cast<int>(definition.size())) return 0;
+  std::cmatch found;
+  static const std::regex kPattern("(^|[ .])rad(-?[0-9]*)([ .]|$)");
+  if (!std::regex_search(definition.data(), found, kPattern)) return 0;
+  const std::string exponent = found[2];
+  return exponent.empty() ? 1 : std::stoi(exponent);
 }
 
 /// Factor between two units. An offset (as in degrees Celsius) has no place here.
@@ -48,13 +82,14 @@ double factor(std::string_view from, std::string_view to) {
   const Unit source = parse_unit(from);
   const Unit target = parse_unit(to);
   const Converter converter(ut_get_converter(source.get(), target.get()), cv_free);
-  const bool angle_wanted = to == "rad" || from == "rad";
-  const bool is_pure_number = ut_is_dimensionless(source.get()) != 0 && !angle_wanted;
-  if (!converter || (is_pure_number && to != from)) {
+  const int angle = radians(*source);
+  const bool is_pure_number = ut_is_dimensionless(source.get()) != 0 && angle == 0;
+  if (!converter || angle != radians(*target) || (is_pure_number && to != from) ||
+      cv_convert_double(converter.get(), 0.0) != 0) {
     throw InputError("expected a unit such as '" + std::string(to) + "', found '" +
                      std::string(from) + "', which measures something else");
   }
-  return cv_convert_double(converter.get(), 1.0) - cv_convert_double(converter.get(), 0.0);
+  return cv_convert_double(converter.get(), 1.0);
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -70,16 +105,17 @@ double parse_quantity(std::string_view text, std::string_view si_unit) {
   double value = 0;
   const auto [end, error] = std::from_chars(body.data(), body.data() + body.size(), value);
   const std::string example = "\"1.5 " + std::string(si_unit) + "\"";
+  const std::string found = ", found \"" + printable(text) + "\"";
   if (error != std::errc() || !std::isfinite(value)) {
-    throw InputError("expected a number with its unit such as " + example + ", found \"" +
-                     std::string(text) + "\"");
+    throw InputError("expected a number with its unit such as " + example + found);
   }
   const std::string_view unit = trimmed(body.substr(static_cast<std::size_t>(end - body.data())));
   if (unit.empty()) {
-    throw InputError("expected a unit after the number, such as " + example + ", found \"" +
-                     std::string(text) + "\"");
+    throw InputError("expected a unit after the number, such as " + example + found);
   }
-  return value * factor(unit, si_unit);
+  const double in_si = value * factor(unit, si_unit);
+  if (!std::isfinite(in_si)) throw InputError("expected a finite number" + found);
+  return in_si;
 }
 
 double factor_from_si(std::string_view si_unit, std::string_view unit) {

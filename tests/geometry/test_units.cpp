@@ -47,3 +47,30 @@ TEST_CASE("a quantity without a usable unit is refused with the reason") {
   CHECK_THROWS_AS(parse_quantity("1 Hz", "rad"), InputError);
   CHECK_THROWS_AS(parse_quantity("30 deg", "m/m"), InputError);
 }
+
+TEST_CASE("a number within a unit, a comma and what measures something else are no factors") {
+  // UDUNITS-2 alone takes the first ten as 2 kg, 2 kg, 2 kg, 5 kg^2, 0.5 m, m, 0.2 m, s^-2, K, W.
+  for (const auto& [text, si_unit] : std::vector<std::pair<const char*, const char*>>{
+           {"1 kg 2", "kg"},    {"1 2 kg", "kg"},     {"1 kg.2", "kg"},        {"1 kg^2.5", "kg^2"},
+           {"1 m/2", "m"},      {"1 m 1", "m"},       {"1.5.2 m", "m"},        {"1 m-s", "m*s"},
+           {"20 K @ 273", "K"}, {"1 lg(re mW)", "W"}, {"9,81 m/s^2", "m/s^2"}, {"1 / 2 m", "m"},
+           {"0x10 m", "m"},     {"1e3e kg", "kg"},    {"1_000 m", "m"},        {"inf m", "m"},
+           {"nan m", "m"},      {"1e999 m", "m"},     {"1e308 km", "m"},       {"20 degC", "K"},
+           {"1 m\n", "m"},      {"5 Hz", "rad/s"},    {"5 rad/s", "Hz"},       {"5 N*m", "N*m/rad"},
+           {"5 rpm", "Hz"},     {"5 %", "1"}}) {
+    INFO(text);
+    CHECK_THROWS_AS(parse_quantity(text, si_unit), InputError);
+  }
+  CHECK_THROWS_AS(parse_quantity("1 " + std::string(100000, 'm'), "m"), InputError);
+  // What is meant is taken, as it is written in tables and textbooks.
+  const auto near = [](double value) { return Approx(value).epsilon(kRounding).margin(0); };
+  CHECK(parse_quantity("3 kg m^2", "kg*m^2") == near(3));
+  CHECK(parse_quantity("3 kg.m2", "kg*m^2") == near(3));
+  CHECK(parse_quantity("3 kg m^2 s**-2", "J") == near(3));
+  CHECK(parse_quantity("3 (m/s)^2", "m^2/s^2") == near(3));
+  CHECK(parse_quantity("3 N/(m*s)", "N/(m*s)") == near(3));
+  CHECK(parse_quantity("3 1/s", "Hz") == near(3));
+  CHECK(parse_quantity("3 rpm", "rad/s") == near(3 * 2 * std::numbers::pi / 60));
+  CHECK(parse_quantity("3 ft*lbf/deg", "N*m/rad") ==
+        near(3 * 0.3048 * 0.45359237 * 9.80665 * 180 / std::numbers::pi));
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/input_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck {
+
+namespace {
+
+/// What the user can mend; anything else is the system's.
+bool is_users_fault(int reason) {
+  constexpr std::array<int, 6> kUsers = {ENOENT, ENOTDIR, EACCES, ELOOP, ENAMETOOLONG, ENXIO};
+  return std::find(kUsers.begin(), kUsers.end(), reason) != kUsers.end();
+}
+
+}  // namespace
+
+FileDescriptor open_to_read(const std::filesystem::path& path) {
+  // Without O_NONBLOCK a pipe would have to be opened by a writer first.
+  FileDescriptor file(
+      uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
+  if (!file) {
+    const int reason = errno;
+    const std::string text = path.string() + ": cannot be read (" + std::strerror(reason) + ")";
+    if (is_users_fault(reason)) throw InputError(text);
+    throw ComputationError(text);
+  }
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+    throw InputError(path.string() + ": cannot be read (expected a regular file)");
+  }
+  return file;
+}
+
+std::size_t read_at(const FileDescriptor& file, std::uint64_t place, std::span<char> block,
+                    const std::filesystem::path& path) {
+  std::size_t done = 0;
+  while (done < block.size()) {
+    const ssize_t count = uninterrupted([&] {
+      return ::pread(file.get(), block.data() + done, block.size() - done,
+                     static_cast<off_t>(place + done));
+    });
+    if (count < 0) {
+      throw ComputationError(path.string() + ": cannot be read (" + std::strerror(errno) + ")");
+    }
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  return done;
+}
+
+std::string text_of_file(const std::filesystem::path& path) {
+  const FileDescriptor file = open_to_read(path);
+  std::array<char, 1 << 16> block{};
+  std::string text;
+  for (;;) {
+    const std::size_t count = read_at(file, text.size(), block, path);
+    text.append(block.data(), count);
+    if (count < block.size()) return text;
+  }
+}
+
+}  // namespace flexneck

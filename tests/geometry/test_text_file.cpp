@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "geometry/foundation/printable.h"
+#include "geometry/foundation/temporary_folder.h"
+#include "geometry/foundation/text_file.h"
+
+using namespace flexneck;
+using Catch::Matchers::Contains;
+using namespace std::string_literals;
+
+TEST_CASE("what a terminal would obey or an eye not see is spelt out, all else left as it is") {
+  CHECK(printable("Ψ° φ′ 漢 𝜔 \\n") == "Ψ° φ′ 漢 𝜔 \\n");
+  CHECK(printable("a\nb\t\r\x1b[31m\x7f"s) == "a\\nb\\t\\r\\x1b[31m\\x7f");
+  CHECK(printable("a\0b"s) == "a\\x00b");
+  CHECK(printable("line\nline", "\n") == "line\nline");
+  // C1's CSI, a separator of lines, an override of the direction.
+  CHECK(printable("\u009b1m") == "\\u009b1m");
+  CHECK(printable("\u2028 \u202e") == "\\u2028 \\u202e");
+  // Not UTF-8: Latin-1, overlong, a surrogate, beyond Unicode, cut short.
+  CHECK(printable("\xe9t\xe9") == "\\xe9t\\xe9");
+  CHECK(printable("\xc0\xaf") == "\\xc0\\xaf");
+  CHECK(printable("\xed\xa0\x80") == "\\xed\\xa0\\x80");
+  CHECK(printable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");
+  CHECK(printable("\xe2\x82") == "\\xe2\\x82");
+  CHECK(find_unprintable("ab\n") == 2);
+  CHECK(find_unprintable("Ψ") == std::string::npos);
+  CHECK_THROWS_WITH(check_names({"a\x1b"}, "part"), Contains("part 'a\\x1b'"));
+}
+
+TEST_CASE("only regular files are read, and nothing else is waited for") {
+  const TemporaryFolder folder;
+  const std::string text = "first\nsecond\n";
+  std::ofstream(folder / "text") << text;
+  std::filesystem::create_symlink("text", folder / "link");
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(read_text(folder / "text", 100) == text);
+  CHECK(read_text(folder / "link", text.size()) == text);
+  const auto told = [](const std::filesystem::path& path) {
+    try {
+      read_text(path, 12);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was refused");
+  };
+  CHECK_THAT(told(folder / "pipe"), Contains("pipe: cannot be read"));
+  CHECK_THAT(told("/dev/zero"), Contains("cannot be read"));
+  CHECK_THAT(told(folder.path()), Contains("cannot be read"));
+  CHECK_THAT(told(folder / "none"), Contains("none: cannot be read (No such file"));
+  CHECK_THAT(told(std::string(5000, 'x')), Contains("File name too long"));
+  CHECK_THAT(told(folder / "text"), Contains("at most 0 KiB of text, found more"));
+}
+
+TEST_CASE("a text that is not one is refused with its line") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& bytes) {
+    std::ofstream(folder / "text", std::ios::binary) << bytes;
+    return read_text(folder / "text", 1000);
+  };
+  CHECK(read("\xEF\xBB\xBFname\r\n\tφ\n") == "name\r\n\tφ\n");
+  CHECK_THROWS_WITH(read("a\nb\0c"s),
+                    Contains("text:2: expected UTF-8") && Contains("found \\x00"));
+  CHECK_THROWS_WITH(read("a\nb\n\xff"), Contains("text:3:") && Contains("found \\xff"));
+  CHECK_THROWS_WITH(read("\x1b[2J"), Contains("text:1:") && Contains("found \\x1b"));
+}
