@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/model/csv_table.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <string_view>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/text_file.h"
 #include "geometry/foundation/units.h"
 
 namespace flexneck::pipeline {
 namespace {
 
+constexpr std::size_t kMostBytes = 64U << 20U;
+
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
+  const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -30,21 +34,24 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Lines that count, one after the other.
+/// Lines that count, one after the other; all have as many cells as the first.
 class CsvFile {
  public:
-  explicit CsvFile(const std::filesystem::path& path) : path_(path), stream_(path) {
-    std::error_code ignored;
-    if (!stream_ || !std::filesystem::is_regular_file(path, ignored))
-      throw InputError(path.string() + ": expected a table (CSV), found none that can be read");
-  }
+  explicit CsvFile(const std::filesystem::path& path)
+      : path_(path), stream_(read_text(path, kMostBytes)) {}
 
   bool next(std::vector<std::string>& cells) {
     for (std::string line; std::getline(stream_, line);) {
       ++line_;
+      if (line.ends_with('\r')) line.pop_back();
+      if (line.find('\r') != std::string::npos) refuse("expected lines that end in LF or CRLF");
       const std::string_view text = trimmed(line);
       if (text.empty() || text.front() == '#') continue;
       cells = cells_of(line);
+      if (columns_ == 0) columns_ = cells.size();
+      if (cells.size() != columns_)
+        refuse("expected " + std::to_string(columns_) + " cells as in the line of names, found " +
+               std::to_string(cells.size()) + kMarks);
       return true;
     }
     return false;
@@ -54,10 +61,13 @@ class CsvFile {
     throw InputError(path_.string() + ":" + std::to_string(line_) + ": " + problem);
   }
 
+  static constexpr const char* kMarks = "; commas stand between cells, and decimals have a point";
+
  private:
   std::filesystem::path path_;
-  std::ifstream stream_;
+  std::istringstream stream_;
   int line_ = 0;
+  std::size_t columns_ = 0;
 };
 
 struct Header {
@@ -79,38 +89,37 @@ Header header_of(const CsvFile& file, const std::string& cell, const std::string
   }
 }
 
-std::string name_of(const std::string& cell) {
-  return std::string(trimmed(cell.substr(0, cell.find('['))));
-}
-
+/// Place of the column y: the one of that name among those after the first, which is x.
 std::size_t column_index(const CsvFile& file, const std::vector<std::string>& cells,
                          const std::string& column) {
-  if (cells.size() < 2) file.refuse("expected at least two columns with their units");
+  if (cells.size() < 2)
+    file.refuse(std::string("expected at least two columns with their units") + CsvFile::kMarks);
   std::vector<std::string> names;
-  for (const std::string& cell : cells) names.push_back(name_of(cell));
+  std::string listed;
+  for (std::size_t c = 1; c < cells.size(); ++c) {
+    names.emplace_back(trimmed(cells[c].substr(0, cells[c].find('['))));
+    listed += " '" + names.back() + "'";
+  }
   if (column.empty()) {
     if (cells.size() == 2) return 1;
-    std::string listed;
-    for (const std::string& name : names) listed += " '" + name + "'";
     file.refuse("there are several columns; choose one with the key 'column':" + listed);
   }
+  if (std::count(names.begin(), names.end(), column) > 1)
+    file.refuse("there are several columns '" + column + "'; names must differ");
   try {
-    return find_name(names, column, "column");
+    return 1 + find_name(names, column, "column");
   } catch (const InputError& error) {
     file.refuse(error.what());
   }
 }
 
-double number_in(const CsvFile& file, const std::vector<std::string>& cells, std::size_t index) {
-  if (index >= cells.size())
-    file.refuse("expected " + std::to_string(index + 1) + " cells, found " +
-                std::to_string(cells.size()));
-  const std::string& cell = cells[index];
+double number_in(const CsvFile& file, const std::string& cell, double to_si) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    file.refuse("expected a finite number, found \"" + cell + "\"");
-  return value;
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value * to_si))
+    file.refuse("expected a finite number, found \"" + cell + "\"" +
+                (cell.find_first_of(",; \t") == std::string::npos ? "" : CsvFile::kMarks));
+  return value * to_si;
 }
 
 }  // namespace
@@ -125,12 +134,12 @@ TableColumns read_csv_columns(const std::filesystem::path& path, const std::stri
   const Header y = header_of(file, cells[y_index], y_unit);
   TableColumns table;
   while (file.next(cells)) {
-    const double value = number_in(file, cells, 0) * x.to_si;
+    const double value = number_in(file, cells[0], x.to_si);
     if (!table.x.empty() && !(value > table.x.back()))
       file.refuse("the column '" + x.name + "' must increase strictly, but " + cells[0] +
                   " follows a value that is not smaller");
     table.x.push_back(value);
-    table.y.push_back(number_in(file, cells, y_index) * y.to_si);
+    table.y.push_back(number_in(file, cells[y_index], y.to_si));
   }
   if (table.x.empty()) file.refuse("expected rows of numbers below the columns' names");
   return table;

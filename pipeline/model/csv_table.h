@@ -13,11 +13,11 @@ struct TableColumns {
 };
 
 /// Reads two columns of a CSV file. Its first line names the columns with their units, such as
-/// "time [ms], acceleration [gn]"; x is the first. Empty lines and those that begin with # count
-/// for nothing.
+/// "time [ms], acceleration [gn]"; x is the first. Commas stand between cells, decimals have a
+/// point, lines end in LF or CRLF. Empty lines and those that begin with # count for nothing.
 /// @param column  name of the column y; empty if the file has two columns only
-/// @throws InputError with file and line for what is missing, not a number, not finite, of another
-/// unit, or an x that does not increase.
+/// @throws InputError with file and line for a missing or surplus cell, what is not a number, not
+/// finite or of another unit, and an x that does not increase.
 TableColumns read_csv_columns(const std::filesystem::path& path, const std::string& x_unit,
                               const std::string& y_unit, const std::string& column);
 

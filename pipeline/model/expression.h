@@ -7,7 +7,7 @@
 namespace flexneck::pipeline {
 
 /// A function of time written as a text, such as "0.05 * sin(2 * pi * 3 * t)": t in s, the
-/// constants pi and gn, the operators and functions of muParser.
+/// constants pi and gn, the functions of muParser and its operators but assignment and sequence.
 class Expression {
  public:
   /// @throws InputError for what cannot be read: where, and what is wrong.

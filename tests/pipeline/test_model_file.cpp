@@ -9,6 +9,7 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "pipeline/model/csv_table.h"
+#include "pipeline/model/expression.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/modal_files.h"
 #include "tests/support/model_text.h"
@@ -168,6 +169,25 @@ TEST_CASE("a driven body follows a table, a pulse or an expression, and one of t
   CHECK_THAT(refusal(folder, sled("")), Contains("a driven body needs a motion"));
 }
 
+TEST_CASE("an expression is one value: no sequence, no assignment, no chain of comparisons") {
+  const Expression sine("0.05 * sin(2 * pi * 3 * t) + max(t, 0.5 * t, (1))");
+  CHECK(sine(0.1) == Approx(0.05 * std::sin(0.6 * std::numbers::pi) + 1).epsilon(1e-15));
+  CHECK(Expression("(0 < t) && (t <= 1) ? t == 0.5 ? 7 : 2 : t != 3")(0.5) == 7);
+  CHECK(Expression("-t^2")(3) == -9);
+  // muParser alone takes all of them: 81, 5 t, 4, 0, t, 2, and 1 for any time.
+  for (const char* const text : {"9,81", "0,5*t", "1 ? 2 : 3, 4", "t = 0", "(t = 1) + t",
+                                 "max(t = 1, 2)", "0 < t < 0.1", "t == 1 == 1"}) {
+    INFO(text);
+    CHECK_THROWS_WITH(Expression(text), Contains("cannot be read: at character"));
+  }
+  CHECK_THROWS_WITH(Expression("9,81"), Contains("decimals have a point"));
+  for (const char* const text : {"", "2 t", "sin(9,81)", "(9,81)", "\"t\"", "t;1", "inf", "0x10"}) {
+    INFO(text);
+    CHECK_THROWS_WITH(Expression(text), Contains("cannot be read"));
+  }
+  CHECK_THROWS_AS(Expression(std::string(100000, '(') + "t"), InputError);
+}
+
 TEST_CASE("a driven body turns by the same kinds of motion, and its body starts with it") {
   const TemporaryFolder folder;
   const auto turntable = [&](const std::string& motion) {
@@ -281,10 +301,43 @@ TEST_CASE("a CSV file that is not sound is told with its line") {
   CHECK_THAT(told("time [s], load\n0, 0\n"), Contains("a column's name and unit"));
   CHECK_THAT(told("time [s], load [N]\n0, x\n"), Contains("t.csv:2: expected a finite number"));
   CHECK_THAT(told("time [s], load [N]\n0, nan\n"), Contains("finite number, found \"nan\""));
-  CHECK_THAT(told("time [s], load [N]\n0\n"), Contains("expected 2 cells, found 1"));
-  CHECK_THAT(told("time [s], a [N], b [N]\n0, 1, 2\n"), Contains("'column': 'time' 'a' 'b'"));
+  CHECK_THAT(told("time [s], load [N]\n0\n"),
+             Contains("t.csv:2: expected 2 cells") && Contains("found 1"));
+  CHECK_THAT(told("time [s], a [N], b [N]\n0, 1, 2\n"), Contains("'column': 'a' 'b'"));
   CHECK_THAT(told("time [s], load [N]\n"), Contains("expected rows"));
   CHECK_THROWS_WITH(read_csv_columns(folder / "none.csv", "s", "N", ""), Contains("none.csv"));
+}
+
+TEST_CASE("surplus cells, decimal commas and other separators of a CSV file are refused") {
+  const TemporaryFolder folder;
+  const auto columns = [&](const std::string& text, const std::string& column = "") {
+    return read_csv_columns(write_text(folder / "t.csv", text), "s", "N", column);
+  };
+  const std::string names = "time [s], load [N]\n";
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    INFO(text);
+    CHECK_THROWS_WITH(columns(text), Contains(why));
+  };
+  refused(names + "0, 1\n10, 24,15\n",
+          "t.csv:3: expected 2 cells as in the line of names, found 3; "
+          "commas stand between cells, and decimals have a point");
+  refused(names + "0, 1,\n", "t.csv:2: expected 2 cells");
+  refused(names + "0 1\n", "decimals have a point");
+  refused("time [s]; load [N]\n0; 1\n", "commas stand between cells");
+  refused("time [s]\tload [N]\n0\t1\n", "commas stand between cells");
+  refused(names + "0, 1;5\n", "decimals have a point");
+  refused(names + "0, 1\r1, 2\r", "lines that end in LF or CRLF");
+  refused(names + "0, 0x10\n", "expected a finite number");
+  refused(names + "0, 1e999\n", "expected a finite number");
+  refused("time [s], load [Mt km/s^2]\n0, 1e302\n", "expected a finite number");
+  refused(names + std::string("0, 1\0\n", 6), "found \\x00");
+  refused("time [2 s], load [N]\n0, 1\n", "no number stands within a unit");
+  CHECK_THROWS_WITH(columns("time [s], a [N], a [N]\n0, 1, 2\n", "a"),
+                    Contains("several columns 'a'"));
+  const TableColumns same =
+      columns("\xEF\xBB\xBF" + ("# mine\r\n\r\n" + names) + "0, 1\r\n \n1,\t2");
+  CHECK(same.x == std::vector<double>{0, 1});
+  CHECK(same.y == std::vector<double>{1, 2});
 }
 
 TEST_CASE("modes of a deformable body are chosen by name, damped one by one, and may be offset") {
