@@ -91,7 +91,10 @@ void StudyTable::Node::record(const std::string& key, const toml::node& value,
   Parameter parameter{holder(key).dotted(key), text_of(value), Origin::synthetic, {}};
   if (labels != nullptr) {
     parameter.origin = origin_of(*labels, parameter.key);
-    parameter.note = (*labels)["note"].value_or(std::string());
+    if (const toml::node* const note = labels->get("note")) {
+      if (!note->is_string()) refuse(key, "expected a note that is a text in quotes");
+      parameter.note = note->value_or(std::string());
+    }
   }
   add_new(records->parameters, std::move(parameter));
 }

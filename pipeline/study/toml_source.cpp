@@ -2,16 +2,22 @@
 #include "pipeline/study/toml_source.h"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/printable.h"
+#include "geometry/foundation/text_file.h"
+#include "pipeline/study/toml_limits.h"
 
 namespace flexneck::pipeline {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::size_t kMostBytes = 4U << 20U;  ///< of a file; long lists belong into CSV files
+constexpr std::size_t kMostFiles = 100;
+constexpr std::size_t kDeepestInclude = 16;
 
 /// Moves what `over` holds into `base`; tables are merged key by key, everything else replaced.
 /// Nodes are moved because a copy would lose its line and column.
@@ -27,20 +33,12 @@ void merge(toml::table& base, toml::table&& over) {
   }
 }
 
-std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code ignored;
-  if (!file || !fs::is_regular_file(path, ignored)) {
-    throw InputError(path.string() + ": expected a study file (TOML), found none that can be read");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 toml::table parse(const fs::path& path, const std::string& text) {
   try {
-    return toml::parse(text, path.string());
+    check_nesting(text, path.string());
+    toml::table table = toml::parse(text, path.string());
+    check_texts(table);
+    return table;
   } catch (const toml::parse_error& error) {
     std::ostringstream message;
     message << path.string() << ":" << error.source().begin.line << ":"
@@ -49,35 +47,57 @@ toml::table parse(const fs::path& path, const std::string& text) {
   }
 }
 
-toml::table parse_file(const fs::path& path, std::vector<InputFile>& files,
-                       std::vector<fs::path>& open) {
-  const fs::path canonical = fs::weakly_canonical(path);
-  if (std::find(open.begin(), open.end(), canonical) != open.end()) {
-    throw InputError(path.string() + ": includes itself; remove one of the include lines");
-  }
-  open.push_back(canonical);
-  const std::string text = read_text(path);
-  toml::table own = parse(path, text);
-  toml::table merged;
-  if (toml::node* const include = own.get("include")) {
-    if (!include->is_array() || !include->as_array()->is_homogeneous<std::string>()) {
-      throw InputError(location_of(*include) + "include: expected a list of file names");
+/// Reads a file and what it includes.
+class Reading {
+ public:
+  explicit Reading(std::vector<InputFile>& files) : files_(files) {}
+
+  toml::table merged(const fs::path& path) {
+    open(path);
+    const std::string text = read_text(path, kMostBytes);
+    toml::table own = parse(path, text);
+    toml::table table;
+    if (toml::node* const include = own.get("include")) {
+      if (!include->is_array() || !include->as_array()->is_homogeneous<std::string>()) {
+        throw InputError(location_of(*include) + "include: expected a list of file names");
+      }
+      for (const toml::node& name : *include->as_array()) {
+        merge(table, merged(path.parent_path() / name.value_or(std::string())));
+      }
+      own.erase("include");
     }
-    for (const toml::node& name : *include->as_array()) {
-      merge(merged, parse_file(path.parent_path() / name.value_or(std::string()), files, open));
-    }
-    own.erase("include");
+    merge(table, std::move(own));
+    files_.push_back({path.filename().string(), hash_of_text(text)});
+    open_.pop_back();
+    return table;
   }
-  merge(merged, std::move(own));
-  files.push_back({path.filename().string(), hash_of_text(text)});
-  open.pop_back();
-  return merged;
-}
+
+ private:
+  void open(const fs::path& path) {
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(path, error);
+    if (error) throw InputError(path.string() + ": cannot be read (" + error.message() + ")");
+    if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+      throw InputError(path.string() + ": includes itself; remove one of the include lines");
+    }
+    if (open_.size() == kDeepestInclude || ++count_ > kMostFiles) {
+      throw InputError(path.string() + ": expected at most " + std::to_string(kMostFiles) +
+                       " files included, and " + std::to_string(kDeepestInclude) +
+                       " within one another; remove some of the include lines");
+    }
+    open_.push_back(canonical);
+  }
+
+  std::vector<InputFile>& files_;
+  std::vector<fs::path> open_;  ///< the file that is read and those that include it
+  std::size_t count_ = 0;
+};
 
 /// The value as TOML if it parses as such, else as a plain string: shells strip quotes.
 void assign(toml::table& table, const std::string& key, const std::string& text) {
   try {
     toml::table parsed = toml::parse("value = " + text);
+    check_texts(parsed);
     parsed.get("value")->visit([&](auto& value) { table.insert_or_assign(key, std::move(value)); });
   } catch (const toml::parse_error&) {
     table.insert_or_assign(key, text);
@@ -103,8 +123,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }  // namespace
 
 toml::table parse_with_includes(const fs::path& path, std::vector<InputFile>& files) {
-  std::vector<fs::path> open;
-  return parse_file(path, files, open);
+  return Reading(files).merged(path);
 }
 
 void apply_setting(toml::table& root, const std::string& setting) {
@@ -113,6 +132,11 @@ void apply_setting(toml::table& root, const std::string& setting) {
   if (equals == std::string::npos || path.empty()) {
     throw InputError("--set " + setting + ": expected key=value");
   }
+  if (find_unprintable(setting) != std::string::npos || path.size() > kMostNested) {
+    throw InputError("--set " + setting + ": expected a key of at most " +
+                     std::to_string(kMostNested) + " parts and no control characters");
+  }
+  check_nesting(setting.substr(equals + 1), "--set " + setting);
   toml::table* table = &root;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     if (toml::array* const array = (*table)[path[i]].as_array(); array != nullptr) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
+#include <sys/stat.h>
 
 #include <catch2/catch.hpp>
 
@@ -92,7 +93,7 @@ TEST_CASE("what a study gets wrong is told with file, line, column, key and reme
   CHECK_THROWS_WITH(misspelt.finish(),
                     Contains("part.plate_diametre: unknown key (did you mean 'plate_diameter'?)"));
   CHECK_THROWS_WITH(document_of(folder, "[part\nwidth = 1"), Contains("study.toml:1:"));
-  CHECK_THROWS_WITH(StudyDocument(folder / "none.toml", {}), Contains("none.toml: expected"));
+  CHECK_THROWS_WITH(StudyDocument(folder / "none.toml", {}), Contains("none.toml: cannot be read"));
 }
 
 TEST_CASE("an including file wins over what it includes, key by key") {
@@ -134,4 +135,68 @@ count = 2
   CHECK_THROWS_WITH(
       document_of(folder, text, {"part.width=4"}).root().table("part").quantity("width", "m"),
       Contains("command line: part.width: expected a number with its unit"));
+}
+
+TEST_CASE("what nests or includes without end is refused before it takes the stack or the hours") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    INFO(text.substr(0, 40));
+    CHECK_THROWS_WITH(document_of(folder, text), Contains(why));
+  };
+  const auto repeated = [](const std::string& part, int times) {
+    std::string text;
+    for (int k = 0; k < times; ++k) text += part;
+    return text;
+  };
+  constexpr int kMany = 50'000;
+  const std::string too_deep = "study.toml:2: expected at most 32 brackets";
+  refused("\n" + repeated("a.", kMany) + "a = 1", too_deep);
+  refused("\n" + repeated("\"a b\" . ", kMany) + "a = 1", too_deep);
+  refused("\n[" + repeated("a.", kMany) + "a]", too_deep);
+  refused("\nx = " + repeated("{ a = ", kMany), too_deep);
+  refused("\nx = " + repeated("[", kMany), too_deep);
+  CHECK_THROWS_WITH(document_of(folder, "", {repeated("a.", kMany) + "a=1"}),
+                    Contains("a key of at most 32 parts"));
+  CHECK_THROWS_WITH(document_of(folder, "", {"a=" + repeated("[", kMany)}), Contains("at most 32"));
+  // Dots and brackets in texts and comments nest nothing.
+  CHECK(document_of(folder, "x = \"" + repeated("a.[", 100) + "\"\n# " + repeated("b.[", 100))
+            .root()
+            .text("x")
+            .size() == 300);
+
+  // Each file includes the next twice.
+  for (int k = 0; k < 30; ++k) {
+    const std::string next = "\"" + std::to_string(k + 1) + ".toml\"";
+    std::ofstream(folder / (std::to_string(k) + ".toml"))
+        << "include = [" + next + "," + next + "]\n";
+  }
+  refused("include = [\"0.toml\"]", "expected at most 100 files included, and 16 within");
+  refused("include = [\"14.toml\", \"20.toml\"]", "expected at most 100 files included");
+}
+
+TEST_CASE(
+    "pipes, folders and files that are no text are refused in one line, wherever they are named") {
+  const TemporaryFolder folder;
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    INFO(text);
+    CHECK_THROWS_WITH(document_of(folder, text), Contains(why) && !Contains("\n"));
+  };
+  CHECK_THROWS_WITH(StudyDocument(folder / "pipe", {}), Contains("pipe: cannot be read"));
+  refused("include = [\"pipe\"]", "pipe: cannot be read");
+  refused("include = [\"/dev/zero\"]", "zero: cannot be read");
+  refused("include = [\".\"]", "cannot be read");
+  refused("include = [\"" + std::string(5000, 'x') + "\"]", "File name too long");
+  refused(std::string("x = \"a\0b\"", 9), "study.toml:1:");
+  refused("x = \"\xff\"", "study.toml:1:");
+  // Escapes make control characters out of sound text.
+  refused("\n[part]\nwhat = \"x\\nsystem('touch y')\"",
+          "study.toml:3:8: what: expected a text without control characters, found \"x\\n");
+  refused("names = [\"a\", \"\\u001b[2J\"]", "found \"\\x1b[2J\"");
+  refused("w = { value = 1, note = \"\\u202e\" }", "\\u202e");
+  refused("\"a\\tb\" = 1", "found \"a\\tb\"");
+  CHECK_THROWS_WITH(document_of(folder, "", {"part.name=\"a\\u0007\""}), Contains("\\x07"));
+  CHECK_THROWS_WITH(document_of(folder, "", {"part.name=a\nb"}), Contains("no control characters"));
+  CHECK_THROWS_WITH(document_of(folder, "w = { value = 1, note = 2 }").root().number("w"),
+                    Contains("w: expected a note that is a text"));
 }

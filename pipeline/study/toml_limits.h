@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <toml++/toml.h>
+
+namespace flexneck::pipeline {
+
+inline constexpr std::size_t kMostNested = 32;  ///< brackets within brackets, parts of a dotted key
+
+/// Refuses what nests deeper than kMostNested before it is parsed: each level takes stack in the
+/// parser, in every walk over its tables and when they are destroyed.
+/// @param place  what stands before the line in the message, such as the file's name
+/// @throws InputError
+void check_nesting(const std::string& text, const std::string& place);
+
+/// Refuses keys and texts with control characters (geometry/foundation/printable.h), which escapes
+/// such as "\n" make: no terminal, picture or page that shows them should obey them.
+/// @throws InputError
+void check_texts(const toml::table& table);
+
+}  // namespace flexneck::pipeline
