@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/console.h"
 
+#include <cstdint>
 #include <cstdio>
 
 #include <fmt/core.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "geometry/foundation/printable.h"
+
 namespace flexneck::pipeline {
+
+namespace {
+
+/// What a user's file made long is shortened in the middle.
+std::string shortened(std::string line) {
+  constexpr std::size_t kLongest = 4000;
+  constexpr std::size_t kKept = kLongest / 2;
+  if (line.size() <= kLongest) return line;
+  const auto is_inside_character = [&](std::size_t place) {
+    return (static_cast<std::uint8_t>(line[place]) & 0xC0U) == 0x80;
+  };
+  std::size_t begin = kKept;
+  std::size_t end = line.size() - kKept;
+  while (is_inside_character(begin)) --begin;
+  while (is_inside_character(end)) --end;
+  return line.replace(begin, end - begin, " […] ");
+}
+
+std::string one_line(const std::string& text) { return shortened(printable(text)); }
+
+}  // namespace
 
 Console::Console(Verbosity verbosity) : verbosity_(verbosity) {
   auto logger = spdlog::stderr_color_mt("flexneck");
@@ -20,18 +44,22 @@ Console::Console(Verbosity verbosity) : verbosity_(verbosity) {
 
 void Console::result(const std::string& text) const {
   if (verbosity_ == Verbosity::quiet) return;
-  fmt::print("{}\n", text);
+  fmt::print("{}\n", printable(text, "\n"));
   std::fflush(stdout);
 }
 
-void Console::step(const std::string& line) const { spdlog::info(line); }
+void Console::step(const std::string& line) const { spdlog::info(one_line(line)); }
 
-void Console::warning(const std::string& line) const { spdlog::error("Warning: {}", line); }
+void Console::warning(const std::string& line) const {
+  spdlog::error("Warning: {}", one_line(line));
+}
 
-void Console::error(const std::string& line) const { spdlog::error("flexneck: {}", line); }
+void Console::error(const std::string& line) const {
+  spdlog::error("flexneck: {}", one_line(line));
+}
 
 Progress Console::detail() const {
-  return [](const std::string& line) { spdlog::debug("  {}", line); };
+  return [](const std::string& line) { spdlog::debug("  {}", one_line(line)); };
 }
 
 }  // namespace flexneck::pipeline

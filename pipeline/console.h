@@ -10,7 +10,9 @@ namespace flexneck::pipeline {
 /// How much the command says.
 enum class Verbosity { quiet, normal, verbose };
 
-/// Progress and errors go to standard error, results to standard output.
+/// Progress and errors go to standard error, results to standard output. What a terminal would obey
+/// is spelt out (geometry/foundation/printable.h), since names come from foreign files. All but
+/// results are one line each.
 class Console {
  public:
   explicit Console(Verbosity verbosity);

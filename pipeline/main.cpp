@@ -2,6 +2,7 @@
 #include <exception>
 #include <optional>
 #include <span>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -127,6 +128,21 @@ int exit_code_of(const Arguments& arguments, const Ranks* ranks) {
   }
 }
 
+/// What asks for help or the version comes as an "error", too.
+int exit_code_of(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream help;
+  std::ostringstream ignored;
+  const Console console(Verbosity::normal);
+  if (app.exit(error, help, ignored) != 0) {
+    console.error(std::string(error.what()) + "; 'flexneck --help' lists what there is");
+    return kUnusableInput;
+  }
+  std::string text = help.str();
+  text.erase(text.find_last_not_of('\n') + 1);
+  console.result(text);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -145,7 +161,7 @@ int main(int argc, char** argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      return app.exit(error) == 0 ? 0 : kUnusableInput;
+      return exit_code_of(app, error);
     }
     return exit_code_of(arguments, ranks ? &*ranks : nullptr);
   } catch (...) {
