@@ -3,13 +3,15 @@
 
 #include <fmt/core.h>
 
+#include "geometry/foundation/printable.h"
+
 namespace flexneck::pipeline {
 
 std::string stem_of(const Figure& figure) { return fmt::format("figure-{:02}", figure.number); }
 
 std::string gnuplot_text(const std::string& text) {
   std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  for (const char c : printable(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
   return quoted + "' noenhanced";
 }
 

@@ -19,7 +19,8 @@ struct Figure {
 /// "figure-07"
 std::string stem_of(const Figure& figure);
 
-/// A text in single quotes for gnuplot: enhanced text and quotes in it mean nothing.
+/// A text in single quotes for gnuplot, the one way for a text into a script: enhanced text and
+/// quotes in it mean nothing, and a line break, which would begin a command, is spelt out.
 std::string gnuplot_text(const std::string& text);
 
 /// Beginning of every script: size, fonts and the name of the picture.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/report/figures/gnuplot.h"
 
-#include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
+#include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/report/embedding.h"
@@ -36,16 +38,34 @@ class SpawnActions {
   posix_spawn_file_actions_t actions_{};
 };
 
+/// What gnuplot needs of ours. Its own variables (GNUPLOT_LIB, GNUTERM, FIT_SCRIPT …) would have it
+/// read other files.
+std::vector<std::string> environment() {
+  std::vector<std::string> variables = {"LC_ALL=C.UTF-8"};
+  for (const char* const name : {"PATH", "LD_LIBRARY_PATH", "TMPDIR"})
+    if (const char* const value = std::getenv(name))
+      variables.push_back(std::string(name) + "=" + value);
+  return variables;
+}
+
+/// As exec takes them, the end included.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 }  // namespace
 
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script_name) {
   const SpawnActions actions(folder);
-  std::string program = "gnuplot";
-  std::string script = script_name;
-  const std::array<char*, 3> arguments = {program.data(), script.data(), nullptr};
+  // -d: without the settings of the machine and of the user, which are programs.
+  std::vector<std::string> arguments = {"gnuplot", "-d", script_name};
+  std::vector<std::string> variables = environment();
   pid_t process = 0;
-  const int failure =
-      posix_spawnp(&process, program.c_str(), actions.get(), nullptr, arguments.data(), environ);
+  const int failure = posix_spawnp(&process, arguments.front().c_str(), actions.get(), nullptr,
+                                   pointers_to(arguments).data(), pointers_to(variables).data());
   if (failure == ENOENT) {
     throw InputError(
         "report: gnuplot draws the figures and is missing; install the package "
