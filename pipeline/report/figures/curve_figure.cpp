@@ -10,10 +10,15 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Distinct in colour without colour vision, and in grey by their dashes.
-constexpr std::array<const char*, 4> kStyles = {
-    "lw 2.2 lc rgb '#0072b2'", "lw 2.2 dt (8,4) lc rgb '#d55e00'",
-    "lw 2.2 dt (2,4) lc rgb '#009e73'", "lw 2.2 dt (10,3,2,3) lc rgb '#7f7f7f'"};
+/// Distinct in colour without colour vision, and in grey by their dashes; what exceeds these is
+/// drawn wider.
+std::string style_of(std::size_t curve) {
+  constexpr std::array<const char*, 4> kStyles = {"lc rgb '#0072b2'", "dt (8,4) lc rgb '#d55e00'",
+                                                  "dt (2,4) lc rgb '#009e73'",
+                                                  "dt (10,3,2,3) lc rgb '#7f7f7f'"};
+  return fmt::format("lw {:.1f} {}", 2.2 + 2.0 * static_cast<double>(curve / kStyles.size()),
+                     kStyles[curve % kStyles.size()]);
+}
 
 bool have_same_x(const std::vector<FigureCurve>& curves) {
   return std::all_of(curves.begin(), curves.end(), [&](const FigureCurve& curve) {
@@ -95,9 +100,9 @@ void draw_curves(const CurvePlot& plot, Figure& figure) {
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
     const std::size_t x = shares_x ? 1 : 2 * c + 1;
     const std::size_t y = shares_x ? c + 2 : 2 * c + 2;
-    figure.script += fmt::format("{} '{}.csv' skip 1 using {}:{} with lines {} title {}",
-                                 c > 0 ? "," : "", stem_of(figure), x, y,
-                                 kStyles[c % kStyles.size()], gnuplot_text(plot.curves[c].title));
+    figure.script +=
+        fmt::format("{} '{}.csv' skip 1 using {}:{} with lines {} title {}", c > 0 ? "," : "",
+                    stem_of(figure), x, y, style_of(c), gnuplot_text(plot.curves[c].title));
   }
   figure.script += "\n";
 }

@@ -10,7 +10,19 @@
   const height = 360;
   /** Distinct without colour vision (Okabe and Ito); the dashes distinguish them in grey, too. */
   const colours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#7f7f7f'];
-  const dashes = ['', '8 3', '2 3', '9 3 2 3', '5 2'];
+  /** Solid, dashed, dotted and mixed, then with ever more dashes to a dot or dots to a dash. */
+  const dashOf = (k) => {
+    const first = ['', '8 4', '2 3', '9 3 2 3', '18 4', '9 3 2 3 2 3'];
+    if (k < first.length) return first[k];
+    const [dash, dot, many] = ['9 3 ', '2 3 ', Math.floor(k / 2)];
+    return (k % 2 === 0 ? dash.repeat(many) + dot : dash + dot.repeat(many)).trim();
+  };
+  /** Colour and width tell the case, the dashes its variant: no two curves look alike. */
+  const styleOf = (place, variant, variants) => ({
+    stroke: colours[place % colours.length],
+    width: 1.8 + 1.6 * Math.floor(place / colours.length),
+    dash: dashOf((place + variant) % Math.max(variants, 6)),
+  });
 
   const runs = data.runs.map((run) => ({
     ...run,
@@ -77,8 +89,7 @@
       this.curves = this.runs.map((run, k) => {
         const [place, variant] = [cases.indexOf(pairs[k][0]), variants.indexOf(pairs[k][1])];
         return {run, case: pairs[k][0], variant: pairs[k][1],
-                stroke: colours[place % colours.length],
-                dash: dashes[(place + 2 * variant) % dashes.length]};
+                ...styleOf(place, variant, variants.length)};
       });
       const group = (label, names, chosen, textOf) => {
         const buttons = names.map((name) => {
@@ -106,9 +117,10 @@
       this.legend.replaceChildren(...drawn.map((curve) => {
         curve.value = element('span', {class: 'value'});
         const item = element('li', {'data-curve': curve.run.name});
-        d3.select(item).append('svg').attr({width: 34, height: 8, 'aria-hidden': true})
-            .append('line').attr({x1: 1, x2: 33, y1: 4, y2: 4, class: 'curve',
-                                  stroke: curve.stroke, 'stroke-dasharray': curve.dash});
+        d3.select(item).append('svg').attr({width: 62, height: 8, 'aria-hidden': true})
+            .append('line').attr({x1: 1, x2: 61, y1: 4, y2: 4, class: 'curve',
+                                  stroke: curve.stroke, 'stroke-width': curve.width,
+                                  'stroke-dasharray': curve.dash});
         item.append(curve.run.name, curve.value);
         return item;
       }));
@@ -173,7 +185,7 @@
       const line = d3.svg.line().x(([x]) => this.scaleX(x)).y(([, y]) => this.scaleY(y));
       for (const curve of drawn) {
         inside.append('path').attr({class: 'curve', d: line(curve.points), stroke: curve.stroke,
-                                    'stroke-dasharray': curve.dash});
+                                    'stroke-width': curve.width, 'stroke-dasharray': curve.dash});
       }
       this.mark = inside.append('g');
       this.read(this.cursor);
@@ -215,7 +227,7 @@
         inside.append('rect').attr({class: 'corridor', x: left, width: right - left,
                                     y: top - 2, height: bottom - top + 4});
         inside.append('text').attr({class: 'corridor', x: right + 5, y: top + 10 - (top === bottom) * 18})
-            .text(`${what}, Part 572`);
+            .text(what);
       }
     }
 

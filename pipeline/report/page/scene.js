@@ -106,7 +106,8 @@ flexneck.startScene = (data, canvas) => {
       draw(clock) {
         const amplitude = 0.3 * length * Number(control('size').value) / most;
         const sway = Math.sin(2 * Math.PI * clock);
-        show(displaced([k], [amplitude * sway]), amplitude * Math.abs(sway) || 1);
+        // Of this moment: a mode keeps its colours as it swings.
+        show(displaced([k], [amplitude * sway]), amplitude * most * Math.abs(sway));
         return `${Math.round(360 * clock)}°`;
       },
     };
@@ -122,7 +123,7 @@ flexneck.startScene = (data, canvas) => {
     const at = (frame) => coordinates.subarray(count * frame, count * frame + count);
     let most = null;
     const findMost = () => {
-      for (let frame = 0; frame < times.length; frame += 4) {
+      for (let frame = 0; frame < times.length; ++frame) {
         most = Math.max(most, largest(displaced(motion.modes, at(frame))));
       }
       return most;

@@ -193,6 +193,33 @@ class Report(unittest.TestCase):
             self.assertNotEqual(still["hash"], moved["hash"], source)
             self.assertGreater(moved["colours"], 50)
 
+    def test_a_mode_has_its_brightest_colour_at_its_largest_displacement_only(self):
+        """Viridis' upper end on a few pixels, its lower at the clamped base, much in between."""
+        self.show(self.sources()[0])
+        self.picture_after(lambda: self.set_clock(0.25))
+        shares = self.run_script("""
+            const canvas = document.getElementById('scene-canvas');
+            const copy = document.createElement('canvas');
+            [copy.width, copy.height] = [canvas.width, canvas.height];
+            const context = copy.getContext('2d');
+            context.drawImage(canvas, 0, 0);
+            const {data} = context.getImageData(0, 0, copy.width, copy.height);
+            const counts = {yellow: 0, green: 0, violet: 0, all: 0};
+            for (let i = 0; i < data.length; i += 4) {
+              const [red, green, blue] = data.subarray(i, i + 3);
+              if (data[i + 3] < 255 || Math.max(red, green, blue) < 1.25 * Math.min(red, green, blue))
+                continue;  // nothing, lines
+              ++counts.all;
+              if (red > 0.8 * green && green > 2 * blue) ++counts.yellow;
+              else if (green > 1.2 * red && green > 1.2 * blue) ++counts.green;
+              else if (blue > green && red > 0.4 * blue) ++counts.violet;
+            }
+            return counts;""")
+        self.assertGreater(shares["all"], 1000)
+        self.assertLess(shares["yellow"], 0.3 * shares["all"], shares)
+        self.assertGreater(shares["green"], 0.05 * shares["all"], shares)
+        self.assertGreater(shares["violet"], 0.05 * shares["all"], shares)
+
     def test_play_runs_and_stops(self):
         self.show(self.sources()[0])
         self.centre(self.find("#scene-play")).click()
@@ -247,6 +274,26 @@ class Report(unittest.TestCase):
         self.assertNotEqual(ticks(), everything)
         svg.send_keys(Keys.HOME)
         self.assertEqual(ticks(), everything)
+
+    def test_no_two_curves_of_the_study_look_alike(self):
+        for kind in ("pendulum", "static"):
+            plot = self.find(f".plot[data-kind={kind}]")
+            for choice in plot.find_elements(By.CSS_SELECTOR, "[data-choice][aria-pressed=false]"):
+                self.run_script("arguments[0].click()", choice)
+            runs = len(list(self.folder.glob(f"{kind}-*.h5")))
+            styles = self.run_script("""
+                return [...arguments[0].querySelectorAll('.drawing path.curve')].map((path) => {
+                  const {stroke, strokeDasharray, strokeWidth} = getComputedStyle(path);
+                  return [stroke, strokeDasharray, strokeWidth].join(' | ');
+                });""", plot)
+            legend = self.run_script("""
+                return [...arguments[0].querySelectorAll('.legend line')].map((line) => {
+                  const {stroke, strokeDasharray, strokeWidth} = getComputedStyle(line);
+                  return [stroke, strokeDasharray, strokeWidth].join(' | ');
+                });""", plot)
+            self.assertEqual(len(styles), runs)
+            self.assertEqual(len(set(styles)), runs)
+            self.assertEqual(legend, styles)
 
     def test_si_units_are_a_button_away(self):
         units = self.find("#units")
