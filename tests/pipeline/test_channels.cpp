@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -151,4 +153,18 @@ TEST_CASE("channels come back from the history file") {
   CHECK(back.channels[0].filter == "CFC 60");
   CHECK(back.channels[0].columns == file.channels[0].columns);
   CHECK(back.channels[0].values == file.channels[0].values);
+}
+
+TEST_CASE("a table has the components of a vector in the order of their names, row by row") {
+  const TemporaryFolder folder;
+  Channel place{"place", "m", {"x", "y", "z"}, Eigen::MatrixXd(3, 2), ""};
+  place.values << 1, 4, 2, 5, 3, 6;  // (1, 2, 3) at first, then (4, 5, 6)
+  const Channel load{"load, \"axial\"", "N", {"load"}, Eigen::RowVector2d(-0.1, 8), ""};
+  write_csv(folder / "t.csv", Eigen::Vector2d(0, 0.5), {place, load}, "time [s]");
+  std::ifstream file(folder / "t.csv");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK(text ==
+        "time [s],place x [m],place y [m],place z [m],\"load, \"\"axial\"\" [N]\"\n"
+        "0,1,2,3,-0.1\n"
+        "0.5,4,5,6,8\n");
 }

@@ -66,6 +66,20 @@ TEST_CASE("a frequency beyond the tolerance, or missing, fails the verification"
   CHECK(row(off, "bending 2").status == Status::failed);
   CHECK(row(off, "mode order").detail == "bending, torsion, axial: the same");
 
+  const VerificationTable low = verify(
+      Study(),
+      body_with({{"lateral bending 1", 9.88}, {"fore-aft bending 1", 11}, {"torsion 1", 19.9}}), {},
+      example());
+  CHECK_FALSE(low.passed());
+  CHECK(row(low, "bending 1").status == Status::failed);
+  CHECK(*row(low, "bending 1").error_percent == Approx(-1.2));
+  CHECK(row(low, "torsion 1").status == Status::passed);
+  const VerificationTable low_torsion = verify(
+      Study(),
+      body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}, {"torsion 1", 19.7}}), {},
+      example());
+  CHECK(row(low_torsion, "torsion 1").status == Status::failed);
+
   const VerificationTable missing = verify(
       Study(), body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}}), {}, example());
   CHECK(row(missing, "torsion 1").status == Status::failed);
