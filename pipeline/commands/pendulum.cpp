@@ -46,7 +46,7 @@ void print(const CommandInput& input, const std::vector<PendulumEntry>& entries,
   for (const PendulumEntry& entry : entries)
     if (entry.experiment.variant_of.empty()) bases.push_back(entry);
   const auto show = [&](const ResultTable& table) { input.console.result("\n" + printed(table)); };
-  show(peak_table(bases));
+  show(peak_table(input.study, bases));
   show(oscillation_table(bases));
   show(velocity_table(entries));
   for (const ResultTable& table : variants) show(in_short(table));
@@ -69,8 +69,8 @@ bool pendulum_tables_command(const CommandInput& input) {
   std::vector<PendulumEntry> entries;
   for (const CaseSection* const experiment : pendulum_cases(input.study))
     entries.push_back(entry_of(input, *experiment, modes.body));
-  const std::vector<ResultTable> variants = variant_tables(entries);
-  std::vector<ResultTable> tables = {peak_table(entries), oscillation_table(entries),
+  const std::vector<ResultTable> variants = variant_tables(input.study, entries);
+  std::vector<ResultTable> tables = {peak_table(input.study, entries), oscillation_table(entries),
                                      velocity_table(entries),
                                      spectrum_table(input.study, entries, modes.body)};
   tables.insert(tables.end(), variants.begin(), variants.end());

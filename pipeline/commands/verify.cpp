@@ -48,7 +48,7 @@ bool verify_command(const CommandInput& input) {
     provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
   }
   write_verification(input.folder.verification(), table, provenance);
-  input.console.result("\nVerification against published figures  (" +
+  input.console.result("\nVerification against " + table.reference_origins + " figures  (" +
                        input.folder.verification().string() + ")\n" + printed(table));
   if (!table.passed()) input.console.error("a verification failed, see the table");
   return table.passed();

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
+#include "pipeline/study/origins.h"
 
 namespace flexneck::pipeline {
 
@@ -11,7 +12,7 @@ std::string text_of(const std::optional<double>& value, const char* format, doub
   return value ? fmt::format(fmt::runtime(format), *value * factor) : "-";
 }
 
-ResultTable peak_table(const std::vector<PendulumEntry>& entries) {
+ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& entries) {
   const double deg = factor_from_si("rad", "deg");
   const double lbf_ft = factor_from_si("N*m", "lbf*ft");
   const double gn = factor_from_si("m/s^2", "gn");
@@ -46,7 +47,8 @@ ResultTable peak_table(const std::vector<PendulumEntry>& entries) {
     table.rows.push_back(std::move(row));
   }
   table.notes = {
-      "The pulses are synthetic: the paper's deceleration records are not published.",
+      "Origin of the pulses by the study: " + pulse_origins(study) +
+          ". The paper's deceleration records are not published.",
       "Head acceleration: kinematic, along the arm's motion, CFC 1000. Moments: load of the lower "
       "body on the upper one, signs of SAE J211.",
       "Back at zero: the head's rotation passes its hanging equilibrium after its peak."};

@@ -20,7 +20,7 @@ struct PendulumEntry {
 };
 
 /// "peaks": largest rotations, acceleration and moments with their times.
-ResultTable peak_table(const std::vector<PendulumEntry>& entries);
+ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& entries);
 /// "oscillations": frequency and damping of small motions and of the run.
 ResultTable oscillation_table(const std::vector<PendulumEntry>& entries);
 

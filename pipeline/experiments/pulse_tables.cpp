@@ -11,6 +11,7 @@
 #include "geometry/foundation/units.h"
 #include "pipeline/experiments/pulse_spectrum.h"
 #include "pipeline/study/drop.h"
+#include "pipeline/study/origins.h"
 
 namespace flexneck::pipeline {
 
@@ -105,10 +106,11 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
     row.insert(row.end(), cells.begin(), cells.end());
     table.rows.push_back(std::move(row));
   }
-  table.notes.push_back(
-      "The paper gives the lowest and the highest velocity only. Taken as those of its smallest "
-      "and "
-      "largest drop they imply different lengths of a point pendulum, both shown.");
+  table.notes.emplace_back(
+      "The paper gives the lowest and the highest velocity of its drops only." +
+      std::string(lengths_m.size() < 2 ? ""
+                                       : " The velocities that the study gives with a drop imply "
+                                         "different lengths of a point pendulum, all shown."));
   for (const std::string& length : used)
     table.notes.push_back("Velocities that the study does not give are those on " + length +
                           " in.");
@@ -135,18 +137,6 @@ std::vector<std::string> pulse_warnings(const std::vector<PendulumEntry>& entrie
 }
 
 namespace {
-
-/// Pulses that cases of the study use, in its order.
-std::vector<const PulseSection*> pulses_in_use(const Study& study) {
-  std::vector<const PulseSection*> pulses;
-  for (const PulseSection& pulse : study.pulses)
-    for (const CaseSection& experiment : study.cases)
-      if (experiment.pulse == pulse.name) {
-        pulses.push_back(&pulse);
-        break;
-      }
-  return pulses;
-}
 
 double share_left(const PulseSection& pulse, double frequency_Hz) {
   const auto at = [&](double f) {

@@ -108,9 +108,8 @@ ResultTable ramp_table(const std::vector<StaticEntry>& entries) {
                           fmt::format("{:.2f}", largest / rate * 1e3)});
   }
   table.notes = {
-      "The difference is the neck's damping: a body with the damping ratio zeta lags a ramp by "
-      "2 zeta / omega of its first mode. Inertia matters at the ramp's beginning only: the 2 s are "
-      "slow enough."};
+      "The difference is what damping and inertia make of the ramp: a body with the damping ratio "
+      "zeta lags a slow one by 2 zeta / omega of its first mode."};
   return table;
 }
 

@@ -12,6 +12,7 @@
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/rigid_neck.h"
+#include "pipeline/study/origins.h"
 
 namespace flexneck::pipeline {
 
@@ -77,11 +78,8 @@ std::vector<CaseFigure> case_figures() {
 
 /// What a variant is, from what it does.
 std::string title_of(const CaseSection& experiment) {
-  if (experiment.rigid_neck == "matched" || experiment.rigid_neck == "sourced")
-    return "Rigid neck on two pivots, " + experiment.rigid_neck +
-           " parameters, beside the deformable neck";
   if (!experiment.rigid_neck.empty())
-    return "Rigid neck '" + experiment.rigid_neck + "' beside the deformable neck";
+    return "Rigid neck '" + experiment.rigid_neck + "' on two pivots beside the deformable neck";
   if (!experiment.head_spring.empty())
     return "Head on a pin with the spring '" + experiment.head_spring + "', beside a fixed head";
   if (experiment.arm == CaseSection::Arm::rotating)
@@ -91,7 +89,17 @@ std::string title_of(const CaseSection& experiment) {
   return "Variant '" + experiment.variant + "' beside the cases it is made of";
 }
 
-std::vector<std::string> notes_of(const CaseSection& experiment) {
+/// Of the key where it counts: the variant's, else that of its case, else what all cases have.
+std::string pivot_origin(const Study& study, const CaseSection& experiment) {
+  const std::string key = "pivot_distance";
+  for (const std::string& table :
+       {"variant." + experiment.variant, "case." + experiment.variant_of})
+    if (const std::string origin = origins_of(study.parameters, table, {key}); !origin.empty())
+      return origin;
+  return origins_of(study.parameters, "pendulum", {key});
+}
+
+std::vector<std::string> notes_of(const Study& study, const CaseSection& experiment) {
   std::vector<std::string> notes = {
       "(base): the same figure of the case that the variant is made of."};
   if (!experiment.rigid_neck.empty()) {
@@ -104,21 +112,25 @@ std::vector<std::string> notes_of(const CaseSection& experiment) {
   }
   if (!experiment.head_spring.empty()) {
     notes.push_back(
-        "The spring's parameters are found by trial, as the paper proposes; they are not "
-        "measured. A pin across the plane of a lateral test does not move.");
+        "Origin of the spring by the study: " +
+        origins_of(study.parameters, "head_spring." + experiment.head_spring) +
+        ". The paper proposes to find its parameters by trial. A pin across the plane of a lateral "
+        "test does not move.");
     notes.push_back(
         "The paper: a system frequency of about 5 Hz and an effective damping of about 0.2; it "
         "ascribes a peak of the moment at about 50 ms, in flexion only, to the nodding blocks.");
   }
   if (experiment.arm == CaseSection::Arm::rotating)
     notes.push_back(
-        "A rotating arm starts from the undeformed neck: while it swings there is no "
-        "equilibrium. The distance of the neck from the pivot is assumed.");
+        "A rotating arm starts from the undeformed neck: while it swings there is no equilibrium. "
+        "Origin of the distance of the neck from the pivot by the study: " +
+        pivot_origin(study, experiment) + ".");
   return notes;
 }
 
 /// The table of a variant: each figure of its cases, then of those that they are made of.
-ResultTable variant_table(const std::string& name, const std::vector<PendulumEntry>& entries) {
+ResultTable variant_table(const Study& study, const std::string& name,
+                          const std::vector<PendulumEntry>& entries) {
   const std::vector<CaseFigure> figures = case_figures();
   ResultTable table;
   table.name = "variant-" + name;
@@ -130,7 +142,7 @@ ResultTable variant_table(const std::string& name, const std::vector<PendulumEnt
     if (entry.experiment.variant != name) continue;
     if (table.rows.empty()) {
       table.title = title_of(entry.experiment);
-      table.notes = notes_of(entry.experiment);
+      table.notes = notes_of(study, entry.experiment);
     }
     std::vector<std::string> row = {entry.experiment.name};
     for (const CaseFigure& figure : figures)
@@ -160,11 +172,12 @@ ResultTable in_short(const ResultTable& table) {
   return result;
 }
 
-std::vector<ResultTable> variant_tables(const std::vector<PendulumEntry>& entries) {
+std::vector<ResultTable> variant_tables(const Study& study,
+                                        const std::vector<PendulumEntry>& entries) {
   const std::vector<std::string> names = variant_names(entries);
   std::vector<ResultTable> tables;
   tables.reserve(names.size());
-  for (const std::string& name : names) tables.push_back(variant_table(name, entries));
+  for (const std::string& name : names) tables.push_back(variant_table(study, name, entries));
   return tables;
 }
 

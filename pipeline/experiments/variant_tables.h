@@ -8,7 +8,8 @@
 namespace flexneck::pipeline {
 
 /// "variant-<name>" for each variant: its cases beside those that it was made of.
-std::vector<ResultTable> variant_tables(const std::vector<PendulumEntry>& entries);
+std::vector<ResultTable> variant_tables(const Study& study,
+                                        const std::vector<PendulumEntry>& entries);
 
 /// The columns of such a table that fit a console.
 ResultTable in_short(const ResultTable& table);

@@ -82,7 +82,8 @@ ResultTable verifications(const std::vector<ComparedStudy>& studies) {
       const std::string unit = row.unit == "1" ? "" : " " + row.unit;
       const std::string error =
           row.error_percent ? fmt::format(" ({:+.2f} %)", *row.error_percent) : "";
-      const std::string published = "; published " + row.reference + unit;
+      const std::string published =
+          "; " + studies[s].results.verification->reference_origins + " " + row.reference + unit;
       const std::string detail = ", " + row.detail;
       if (is_unique(row.quantity, studies))
         cells.put(row.quantity + published, s, row.value + error + detail);
@@ -90,7 +91,7 @@ ResultTable verifications(const std::vector<ComparedStudy>& studies) {
         cells.put(row.quantity + detail + published, s, row.value + error);
     }
   }
-  return table_of("verification", "Computed, and its difference from what is published", "quantity",
+  return table_of("verification", "Computed, and its difference from the reference", "quantity",
                   studies, std::move(cells));
 }
 
@@ -204,7 +205,7 @@ void write_comparison(const std::filesystem::path& path,
   for (const ResultTable& table : compared_tables(studies))
     texts["tables"] += html_of(html_table_of(table)) + html_list(table.notes);
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
-  texts["data"] = script_json(nlohmann::ordered_json{{"curves", curves}}.dump());
+  texts["data"] = script_json({{"curves", curves}});
   if (!curves.is_null()) texts["scripts"] = script_element(source_of(WebLibrary::d3));
   for (const char* const name : {"data.js", "plots.js"})
     texts["scripts"] += script_element(page_part(name));

@@ -61,12 +61,12 @@ Json units_json(const Results& results) {
   return units;
 }
 
-Json corridors_json(const std::vector<Corridor>& corridors) {
+Json corridors_json(const PaperContext& context) {
   Json list = Json::array();
-  for (const Corridor& corridor : corridors) {
+  for (const Corridor& corridor : context.corridors) {
     list.push_back({{"case", corridor.experiment},
                     {"channel", corridor.channel},
-                    {"what", corridor.what},
+                    {"what", context.corridor_label + ", " + corridor.what},
                     {"unit", corridor.unit},
                     {"times", {corridor.from_s, corridor.to_s}},
                     {"values", {corridor.low, corridor.high}}});
@@ -80,7 +80,7 @@ std::string shown_unit(const std::string& si_unit, Experiment::Kind kind) {
   return customary_unit(si_unit, kind == Experiment::Kind::pendulum ? "lbf*ft" : "in*lbf");
 }
 
-Json curves_of(const Results& results, const std::vector<Corridor>& corridors) {
+Json curves_of(const Results& results, const PaperContext& context) {
   Json runs = Json::array();
   for (const Experiment& experiment : results.experiments) {
     if (!experiment.file.channels.empty()) runs.push_back(run_json(experiment));
@@ -88,7 +88,7 @@ Json curves_of(const Results& results, const std::vector<Corridor>& corridors) {
   if (runs.empty()) return nullptr;
   return {{"runs", std::move(runs)},
           {"units", units_json(results)},
-          {"corridors", corridors_json(corridors)}};
+          {"corridors", corridors_json(context)}};
 }
 
 }  // namespace flexneck::pipeline

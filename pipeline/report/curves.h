@@ -10,7 +10,7 @@ namespace flexneck::pipeline {
 
 /// The channels of all runs in SI units, the units in which the paper shows them, and the corridors
 /// that stand behind them, as page/plots.js reads it. Null if no run has channels.
-nlohmann::ordered_json curves_of(const Results& results, const std::vector<Corridor>& corridors);
+nlohmann::ordered_json curves_of(const Results& results, const PaperContext& context);
 
 /// The unit in which a quantity of that SI unit is shown: "deg" for "rad". Itself if there is none.
 std::string shown_unit(const std::string& si_unit, Experiment::Kind kind);

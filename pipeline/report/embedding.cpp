@@ -6,7 +6,10 @@
 #include <iterator>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/printable.h"
 
 namespace flexneck::pipeline {
 
@@ -28,7 +31,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 std::string html_text(std::string_view text) {
   std::string result;
   result.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : printable(text, "\n")) {
     switch (c) {
       case '&':
         result += "&amp;";
@@ -52,9 +55,11 @@ std::string html_text(std::string_view text) {
   return result;
 }
 
-std::string script_json(std::string json) {
-  replace_all(json, "<", "\\u003c");
-  return json;
+std::string script_json(const nlohmann::ordered_json& json) {
+  using Json = nlohmann::ordered_json;
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  replace_all(text, "<", "\\u003c");
+  return text;
 }
 
 std::string script_source(std::string source) {

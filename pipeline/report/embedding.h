@@ -10,14 +10,16 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
 
 namespace flexneck::pipeline {
 
-/// Text for HTML, between tags or in an attribute in quotes.
+/// Text for HTML, between tags or in an attribute in quotes. What is unprintable is spelt out.
 std::string html_text(std::string_view text);
 
-/// JSON for a <script> of type application/json: nothing in it can end the element.
-std::string script_json(std::string json);
+/// JSON for a <script> of type application/json: nothing in it can end the element, and bytes that
+/// are not UTF-8 are replaced.
+std::string script_json(const nlohmann::ordered_json& json);
 
 /// JavaScript for a <script>: what would end the element is spelt otherwise within its texts.
 std::string script_source(std::string source);

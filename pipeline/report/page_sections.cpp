@@ -61,8 +61,9 @@ std::string verification_html(const Results& results) {
   if (!results.verification) return note("There is no comparison in this folder yet.");
   HtmlTable table;
   table.name = "verification";
-  table.caption = "Computed beside published";
-  table.columns = {{"quantity"}, {"how"},           {"computed", true}, {"published", true},
+  const std::string& reference = results.verification->reference_origins;
+  table.caption = "Computed beside " + reference;
+  table.columns = {{"quantity"}, {"how"},           {"computed", true}, {reference, true},
                    {"unit"},     {"error %", true}, {"verdict"}};
   for (const VerificationRow& row : results.verification->rows) {
     table.rows.push_back(
@@ -222,12 +223,15 @@ HtmlTable html_table_of(const ResultTable& result) {
 
 std::map<std::string, std::string> page_sections(const Results& results, const Study& study,
                                                  const PaperContext& context) {
+  std::vector<std::string> remarks = context.remarks;
+  const std::vector<std::string> on_pulses = pulse_remarks(study, context);
+  if (!remarks.empty()) remarks.insert(remarks.end(), on_pulses.begin(), on_pulses.end());
   return {{"study", html_text(study.file.filename().string())},
           {"warnings", warnings_html(results)},
           {"verification", verification_html(results)},
           {"tables", tables_html(results)},
           {"modes", modes_html(results)},
-          {"remarks", html_list(context.remarks)},
+          {"remarks", html_list(remarks)},
           {"parameters", parameters_html(study)},
           {"provenance", provenance_html(results, study)},
           {"missing", missing_html(results)}};

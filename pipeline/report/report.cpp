@@ -22,7 +22,7 @@ PaperContext context_of(const Study& study) {
   if (study.verification.empty()) return {};
   fs::path path = study.verification;
   path.replace_filename(path.stem().string() + "_context.toml");
-  return fs::exists(path) ? read_context(path) : PaperContext();
+  return fs::exists(path) ? read_context(path, study) : PaperContext();
 }
 
 }  // namespace
@@ -30,14 +30,14 @@ PaperContext context_of(const Study& study) {
 void write_report(const fs::path& path, const Results& results, const Study& study) {
   const PaperContext context = context_of(study);
   const nlohmann::ordered_json scene = scene_of(results, study);
-  const nlohmann::ordered_json curves = curves_of(results, context.corridors);
+  const nlohmann::ordered_json curves = curves_of(results, context);
   std::map<std::string, std::string> texts = page_sections(results, study, context);
   texts["figures"] =
       figures_html(draw_figures(results, study, context, path.parent_path() / "figures"));
   texts["head"] = page_head(texts["study"]);
   texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
-  texts["data"] = script_json(nlohmann::ordered_json{{"scene", scene}, {"curves", curves}}.dump());
+  texts["data"] = script_json({{"scene", scene}, {"curves", curves}});
   std::string& scripts = texts["scripts"];
   if (!curves.is_null()) scripts += script_element(source_of(WebLibrary::d3));
   if (!scene.is_null()) scripts += script_element(source_of(WebLibrary::three));

@@ -66,6 +66,19 @@ geometry::NeckDivisions read_divisions(const StudyTable& table) {
   return divisions;
 }
 
+/// Whether a file of another folder than that of the fit gives a dimension or a material: the fit
+/// was to the values that stand beside it.
+bool has_values_from_elsewhere(const StudyTable& geometry) {
+  const std::filesystem::path folder = geometry.folder_of("fitted_to");
+  for (const geometry::NeckDimension& dimension : geometry::neck_dimensions())
+    if (geometry.folder_of(dimension.name) != folder) return true;
+  const StudyTable materials = geometry.table("materials");
+  for (const std::string& name : materials.keys())
+    for (const char* const key : {"youngs_modulus", "poissons_ratio", "density"})
+      if (materials.table(name).folder_of(key) != folder) return true;
+  return geometry.folder_of("joint_point") != folder;
+}
+
 }  // namespace
 
 MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
@@ -116,6 +129,7 @@ GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh
   section.joint_point_m = Eigen::Map<const Eigen::Vector3d>(point.data());
   section.fitted_to = geometry.texts_or_none("fitted_to");
   section.material_models = read_materials(geometry, section.materials, section.material_of_part);
+  if (!section.fitted_to.empty() && has_values_from_elsewhere(geometry)) section.fitted_to.clear();
   geometry.finish();
   section.divisions = read_divisions(mesh);
   section.element = read_element(mesh);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/verification/reference.h"
 
+#include "pipeline/study/origins.h"
 #include "pipeline/study/study_document.h"
 
 namespace flexneck::pipeline {
@@ -18,6 +19,9 @@ Reference read_reference(const std::filesystem::path& path) {
   reference.frequency_ratio = table.number("frequency_ratio");
   reference.effective_damping = table.number("effective_damping");
   table.finish();
+  reference.origins = origins_of(document.parameters(), "",
+                                 {"bending", "torsion", "mode_order", "weight", "system_frequency",
+                                  "frequency_ratio", "effective_damping"});
   return reference;
 }
 

@@ -7,11 +7,12 @@
 
 namespace flexneck::pipeline {
 
-/// Published figures of the neck, SI units.
+/// Figures of the neck to compare with, published ones as a rule, SI units.
 struct Reference {
+  std::string origins = "published";  ///< what the file says of them
   double tolerance_percent = 0;
   std::vector<double> bending_Hz, torsion_Hz;  ///< ascending
-  std::vector<std::string> mode_order;         ///< kinds in the published order
+  std::vector<std::string> mode_order;         ///< kinds in the order of frequency
   double weight_kg = 0;
   double system_frequency_Hz = 0;
   double frequency_ratio = 0;  ///< first bending frequency over the system's

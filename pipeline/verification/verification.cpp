@@ -174,6 +174,7 @@ VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
                          const std::vector<PendulumEvidence>& pendulum,
                          const Reference& reference) {
   VerificationTable table;
+  table.reference_origins = reference.origins;
   const bool fitted = is_fitted(study, "frequencies");
   const double tolerance = reference.tolerance_percent;
   add_frequencies(table, body, "bending", reference.bending_Hz, tolerance, fitted);
@@ -188,7 +189,7 @@ VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
 
 std::string printed(const VerificationTable& table) {
   std::vector<std::vector<std::string>> rows = {
-      {"quantity", "how", "computed", "published", "unit", "error %", "", ""}};
+      {"quantity", "how", "computed", table.reference_origins, "unit", "error %", "", ""}};
   for (const VerificationRow& row : table.rows) {
     const char* const verdict = row.status == Status::passed   ? "pass"
                                 : row.status == Status::failed ? "FAIL"

@@ -14,7 +14,7 @@
 
 namespace flexneck::pipeline {
 
-/// One figure beside its published counterpart.
+/// One figure beside its reference, published as a rule.
 struct VerificationRow {
   enum class Status { passed, failed, compared };
   std::string quantity;  ///< "bending 1", "weight", …
@@ -29,6 +29,7 @@ struct VerificationRow {
 
 struct VerificationTable {
   std::vector<VerificationRow> rows;
+  std::string reference_origins = "published";
   bool passed() const;
 };
 

@@ -54,6 +54,7 @@ VerificationFile file_of(const nlohmann::ordered_json& json) {
                      std::to_string(kSchemaVersion));
   }
   VerificationFile file;
+  file.table.reference_origins = json.value("reference_origins", file.table.reference_origins);
   for (const auto& row : json.at("rows")) file.table.rows.push_back(row_of(row));
   file.provenance = provenance_of_json(json.at("provenance"));
   return file;
@@ -77,6 +78,7 @@ void write_verification(const std::filesystem::path& path, const VerificationTab
   nlohmann::ordered_json json = {{"format", kFormat},
                                  {"schema_version", kSchemaVersion},
                                  {"passed", table.passed()},
+                                 {"reference_origins", table.reference_origins},
                                  {"rows", nlohmann::ordered_json::array()}};
   for (const VerificationRow& row : table.rows) json["rows"].push_back(json_of(row));
   json["provenance"] = json_of(provenance);

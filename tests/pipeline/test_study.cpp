@@ -60,6 +60,18 @@ TEST_CASE("a neck with a dimension of the user's own no longer counts as fitted"
   CHECK(fits_with_slits("none") == 3);
   CHECK(fits_with_slits("closed") == 3);  // tied shut: the same neck
   CHECK(fits_with_slits("open") == 0);
+
+  // Whatever origin the user gives it.
+  const TemporaryFolder folder;
+  for (const char* const line :
+       {"[geometry]\nplate_thickness = { value = \"0.4 in\", origin = \"published\" }",
+        "[geometry.materials.butyl]\ndensity = { value = \"1100 kg/m^3\", origin = \"inferred\" "
+        "}"}) {
+    std::ofstream(folder / "mine.toml") << "include = [\"" << built_in_study().string() << "\"]\n"
+                                        << line << "\n";
+    INFO(line);
+    CHECK(read_study(folder / "mine.toml", {}).geometry->fitted_to.empty());
+  }
 }
 
 TEST_CASE("a preset gives the divisions that are not given otherwise") {

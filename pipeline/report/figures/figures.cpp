@@ -25,7 +25,7 @@ constexpr const char* kScript = "figures.gp";
 std::vector<Figure> all_figures(const Results& results, const Study& study,
                                 const PaperContext& context) {
   std::vector<Figure> figures = neck_drawings(results, study);
-  for (auto& more : {mesh_figures(results), response_figures(results, context)}) {
+  for (auto& more : {mesh_figures(results), response_figures(results, study, context)}) {
     figures.insert(figures.end(), more.begin(), more.end());
   }
   std::sort(figures.begin(), figures.end(),

@@ -107,7 +107,8 @@ Figure mesh_figure(const Skin& skin) {
   std::size_t elements = 0;
   for (const mesher::ElementBlock& block : skin.mesh.blocks) elements += block.size();
   figure.remark = fmt::format(
-      "{} elements and {} nodes; 'flexneck mesh --preset paper' makes as many as the paper has. "
+      "{} elements and {} nodes; 'flexneck mesh --preset paper' makes about as many as the paper "
+      "has. "
       "Light: {}.",
       elements, skin.mesh.nodes.size(), skin.mesh.materials.front().name);
   figure.csv = csv_of(skin, positions_of(skin.mesh), "material",

@@ -2,6 +2,7 @@
 #include "pipeline/report/figures/neck_drawings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -105,10 +106,26 @@ Figure kinematics(const Results& results, const GeometrySection& geometry) {
   return figure;
 }
 
-Figure section(const GeometrySection& geometry) {
+/// "published 4, inferred 7, …": of the dimensions.
+std::string origins_of_dimensions(const Study& study) {
+  std::array<int, kOriginNames.size()> counts{};
+  for (const geometry::NeckDimension& dimension : geometry::neck_dimensions())
+    for (const Parameter& parameter : study.parameters)
+      if (parameter.key == std::string("geometry.") + dimension.name)
+        ++counts.at(static_cast<std::size_t>(parameter.origin));
+  std::string text;
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (counts.at(k) > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kOriginNames.at(k), counts.at(k));
+  return text;
+}
+
+Figure section(const Study& study) {
+  const GeometrySection& geometry = *study.geometry;
   Figure figure{2, "Hybrid III manikin neck",
-                "Section in the plane of symmetry, front to the right; light: aluminium, dark: "
-                "rubber. Dimensions that the paper does not state are inferred or fitted."};
+                "Section in the plane of symmetry, front to the right; light: plates, dark: rubber "
+                "sections. Its dimensions by origin: " +
+                    origins_of_dimensions(study) + "."};
   Drawing drawing;
   drawing.unit = "in";
   drawing.height = 620;
@@ -137,13 +154,26 @@ Figure section(const GeometrySection& geometry) {
   return figure;
 }
 
-Figure static_tester(const Results& results, const GeometrySection& geometry) {
+/// Whether a static test is loaded as figure 5 draws it.
+bool pushes_forward_at_top(const Study& study, const std::string& name) {
+  const auto test = std::find_if(study.cases.begin(), study.cases.end(), [&](const auto& each) {
+    return each.name == name && each.kind == CaseSection::Kind::static_test;
+  });
+  if (test == study.cases.end()) return false;
+  return std::all_of(study.forces.begin(), study.forces.end(), [&](const ForceSection& force) {
+    const bool is_used = std::count(test->forces.begin(), test->forces.end(), force.name) > 0;
+    return !is_used || (force.marker == "neck.top" && force.direction.isApprox(Vector3d::UnitX()));
+  });
+}
+
+Figure static_tester(const Results& results, const Study& study) {
+  const GeometrySection& geometry = *study.geometry;
   Figure figure{5, "Static test neck model",
                 "Clamped at the base, loaded at the occipital condyles; drawn at the end of the "
                 "ramp, dashed without load. The load keeps its direction in space."};
   const Experiment* const run = results.find(Experiment::Kind::static_test, "flexion");
-  if (run == nullptr || !results.modes) {
-    figure.missing = "the static test 'flexion' and the modes";
+  if (run == nullptr || !results.modes || !pushes_forward_at_top(study, run->name)) {
+    figure.missing = "the static test 'flexion', pushed forward at its top, and the modes";
     return figure;
   }
   const multibody::History& history = run->file.history;
@@ -231,8 +261,7 @@ Drawing pendulum_drawing(const fe_modal::ModalBody& body, const GeometrySection&
 Figure pendulum(const Results& results, const Study& study) {
   Figure figure{7, "Head/Neck Pendulum test model",
                 "Neck rotation φ′: of the line from base to occipital condyles against the arm; "
-                "head rotation φ: of the head against the arm. Both joints are fixed, so both come "
-                "from the neck's deformation alone."};
+                "head rotation φ: of the head against the arm."};
   const auto run = std::find_if(
       results.experiments.begin(), results.experiments.end(), [](const Experiment& each) {
         return each.kind == Experiment::Kind::pendulum && each.name.starts_with("flexion") &&
@@ -259,8 +288,8 @@ Figure pendulum(const Results& results, const Study& study) {
 
 std::vector<Figure> neck_drawings(const Results& results, const Study& study) {
   if (!study.geometry) return {};
-  return {kinematics(results, *study.geometry), section(*study.geometry),
-          static_tester(results, *study.geometry), pendulum(results, study)};
+  return {kinematics(results, *study.geometry), section(study), static_tester(results, study),
+          pendulum(results, study)};
 }
 
 }  // namespace flexneck::pipeline

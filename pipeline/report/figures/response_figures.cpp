@@ -16,11 +16,12 @@ namespace {
 
 using Kind = Experiment::Kind;
 
+/// A curve of a figure, named after its case's model unless it has a title.
 struct CurveSpec {
   std::string experiment;
   std::string channel;
-  std::string title;
   bool is_optional = false;  ///< a variant, left out where it was not run
+  std::string title = {};
 };
 
 struct ResponseFigure {
@@ -34,20 +35,19 @@ struct ResponseFigure {
 };
 
 std::vector<CurveSpec> deformable_and_rigid(const std::string& channel) {
-  return {{"flexion-20", channel, "deformable neck"},
-          {"flexion-20-rigid", channel, "rigid bodies on two pivots, sourced", true},
-          {"flexion-20-matched", channel, "the same, matched to the deformable neck", true}};
+  return {{"flexion-20", channel},
+          {"flexion-20-rigid", channel, true},
+          {"flexion-20-matched", channel, true}};
 }
 
 std::vector<CurveSpec> rotations(const std::string& experiment) {
-  return {{experiment, "head rotation", "head rotation φ"},
-          {experiment, "neck rotation", "neck rotation φ′"}};
+  return {{experiment, "head rotation", false, "head rotation φ"},
+          {experiment, "neck rotation", false, "neck rotation φ′"}};
 }
 
 std::vector<CurveSpec> accelerations(const std::string& experiment) {
   const std::string channel = "head acceleration filtered";
-  return {{experiment, channel, "fixed head"},
-          {experiment + "-spring", channel, "with the spring at the head joint", true}};
+  return {{experiment, channel}, {experiment + "-spring", channel, true}};
 }
 
 /// How the text counts the rotations' figures.
@@ -63,8 +63,7 @@ const std::vector<ResponseFigure>& response_list() {
        Kind::static_test,
        "rotation",
        "base moment",
-       {{"flexion", "base moment", "one linear body"},
-        {"flexion-chain", "base moment", "chain of four bodies", true}}},
+       {{"flexion", "base moment"}, {"flexion-chain", "base moment", true}}},
       {8, "Comparison of Hybrid III head rotations in HNP 20° flexion test",
        "Figure 8 in the text, too. The measured curve is not public.", Kind::pendulum, "time",
        "head rotation", deformable_and_rigid("head rotation")},
@@ -96,12 +95,24 @@ const std::vector<ResponseFigure>& response_list() {
        Kind::pendulum,
        "time",
        "moment",
-       {{"flexion-60", "occipital moment", "60° flexion"},
-        {"lateral-65", "occipital moment", "65° lateral"},
-        {"flexion-60-spring", "occipital moment", "60° flexion, spring at the head joint", true},
-        {"lateral-65-spring", "occipital moment", "65° lateral, spring at the head joint", true}}},
+       {{"flexion-60", "occipital moment"},
+        {"lateral-65", "occipital moment"},
+        {"flexion-60-spring", "occipital moment", true},
+        {"lateral-65-spring", "occipital moment", true}}},
   };
   return list;
+}
+
+/// What a run is of, from its history and what the study says of its case.
+std::string model_of(const Experiment& experiment, const Study& study) {
+  const auto found =
+      std::find_if(study.cases.begin(), study.cases.end(),
+                   [&](const CaseSection& each) { return each.name == experiment.name; });
+  const bool is_known = found != study.cases.end();
+  if (is_known && !found->rigid_neck.empty()) return "rigid neck '" + found->rigid_neck + "'";
+  if (is_known && !found->head_spring.empty()) return "head spring '" + found->head_spring + "'";
+  const std::size_t bodies = experiment.file.history.modal.size();
+  return bodies == 1 ? "one deformable body" : fmt::format("{} deformable bodies", bodies);
 }
 
 const multibody::Channel* channel_of(const Experiment* experiment, const std::string& name) {
@@ -133,13 +144,14 @@ std::vector<FigureBand> bands_of(const ResponseFigure& figure, const PaperContex
         });
     if (!applies) continue;
     const double factor = factor_from_si(corridor.unit, shown_unit(corridor.unit, figure.kind));
-    bands.push_back({"Part 572, " + corridor.what, 1e3 * corridor.from_s, 1e3 * corridor.to_s,
-                     corridor.low * factor, corridor.high * factor});
+    bands.push_back({context.corridor_label + ", " + corridor.what, 1e3 * corridor.from_s,
+                     1e3 * corridor.to_s, corridor.low * factor, corridor.high * factor});
   }
   return bands;
 }
 
-Figure drawn(const ResponseFigure& spec, const Results& results, const PaperContext& context) {
+Figure drawn(const ResponseFigure& spec, const Results& results, const Study& study,
+             const PaperContext& context) {
   Figure figure{spec.number, spec.caption, spec.remark};
   CurvePlot plot;
   const bool is_over_time = spec.against == "time";
@@ -150,12 +162,13 @@ Figure drawn(const ResponseFigure& spec, const Results& results, const PaperCont
     if (y == nullptr || (x == nullptr && !is_over_time)) {
       const std::string what = "'" + curve.channel + "' of the case " + curve.experiment;
       if (!curve.is_optional) figure.missing += (figure.missing.empty() ? "" : ", ") + what;
-      if (curve.is_optional) figure.remark += " Not run: " + curve.title + ".";
+      if (curve.is_optional) figure.remark += " Not run: " + curve.experiment + ".";
       continue;
     }
     plot.x_label = is_over_time ? "time [ms]" : label(spec.against, x->unit, spec.kind);
     plot.y_label = label(spec.y_label, y->unit, spec.kind);
-    plot.curves.push_back({curve.title,
+    const std::string model = curve.experiment + ": " + model_of(*experiment, study);
+    plot.curves.push_back({curve.title.empty() ? model : curve.title,
                            is_over_time ? Eigen::VectorXd(1e3 * experiment->file.history.time_s)
                                         : shown_values(*x, spec.kind),
                            shown_values(*y, spec.kind)});
@@ -169,10 +182,11 @@ Figure drawn(const ResponseFigure& spec, const Results& results, const PaperCont
 
 }  // namespace
 
-std::vector<Figure> response_figures(const Results& results, const PaperContext& context) {
+std::vector<Figure> response_figures(const Results& results, const Study& study,
+                                     const PaperContext& context) {
   std::vector<Figure> figures;
   for (const ResponseFigure& spec : response_list()) {
-    figures.push_back(drawn(spec, results, context));
+    figures.push_back(drawn(spec, results, study, context));
   }
   return figures;
 }

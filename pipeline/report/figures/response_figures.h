@@ -11,6 +11,7 @@ namespace flexneck::pipeline {
 
 /// Figures 6 and 8 to 16: what the experiments gave, beside it their variants as far as they were
 /// run.
-std::vector<Figure> response_figures(const Results& results, const PaperContext& context);
+std::vector<Figure> response_figures(const Results& results, const Study& study,
+                                     const PaperContext& context);
 
 }  // namespace flexneck::pipeline

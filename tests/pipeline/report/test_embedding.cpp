@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/report/embedding.h"
 #include "pipeline/report/html_table.h"
@@ -39,7 +40,9 @@ TEST_CASE("a matrix goes into the page as its floats, column by column") {
 TEST_CASE("texts cannot become markup, nor end a script") {
   CHECK(html_text("<b title=\"a\">Tom & 'Jerry'</b>") ==
         "&lt;b title=&quot;a&quot;&gt;Tom &amp; &#39;Jerry&#39;&lt;/b&gt;");
-  CHECK(script_json(R"({"a":"</script><!--"})") == R"({"a":"\u003c/script>\u003c!--"})");
+  CHECK(html_text("a\x1b[2J\xff") == "a\\x1b[2J\\xff");
+  CHECK(script_json({{"a", "</script><!--"}}) == R"({"a":"\u003c/script>\u003c!--"})");
+  CHECK(script_json({{"a", "\xff"}}) == "{\"a\":\"\uFFFD\"}");
   CHECK(script_source("a('</script>', '<!--')") == "a('<\\/script>', '<\\!--')");
   HtmlTable table;
   table.caption = "<i>caption</i>";

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <set>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
+#include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/report/comparison.h"
 #include "pipeline/report/embedding.h"
+#include "pipeline/report/figures/curve_figure.h"
+#include "pipeline/report/paper_context.h"
 #include "pipeline/report/report.h"
 #include "pipeline/report/results.h"
 #include "pipeline/results_folder.h"
@@ -68,20 +73,26 @@ std::string page_of(const fs::path& folder) {
   return text_of_file(folder / "report.html");
 }
 
-/// The search path for a while.
-class SearchPath {
+/// A variable of the environment for a while.
+class Variable {
  public:
-  explicit SearchPath(const std::string& path) {
-    if (const char* const before = getenv("PATH")) before_ = before;
-    setenv("PATH", path.c_str(), 1);
+  Variable(const char* name, const std::string& value) : name_(name) {
+    if (const char* const before = getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
   }
-  ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
-  SearchPath(const SearchPath&) = delete;
-  SearchPath& operator=(const SearchPath&) = delete;
+  ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
 
  private:
-  std::string before_;
+  const char* name_;
+  std::optional<std::string> before_;
 };
+
+PaperContext context_of(const Study& study) {
+  fs::path path = study.verification;
+  return read_context(path.replace_filename("hybrid3_context.toml"), study);
+}
 
 }  // namespace
 
@@ -184,9 +195,106 @@ TEST_CASE("a figure's data are the channel's in the units of its axes") {
 
 TEST_CASE("without gnuplot the package is named") {
   const TemporaryFolder folder;
-  const SearchPath nothing_there(folder.path().string());
+  const Variable nothing_there("PATH", folder.path().string());
   CHECK_THROWS_WITH(page_of(folder.path()), Contains("gnuplot-nox"));
   CHECK_THROWS_AS(page_of(folder.path()), InputError);
+}
+
+TEST_CASE("gnuplot obeys the script alone, and no text in it") {
+  CHECK(gnuplot_text("it's\nsystem(\"touch y\")\x1b") ==
+        "'it''s\\nsystem(\"touch y\")\\x1b' noenhanced");
+  const TemporaryFolder folder;
+  std::ofstream(folder / ".gnuplot")
+      << "system('touch \"" << (folder / "touched").string() << "\"')\n";
+  const Variable home("HOME", folder.path().string());
+  const Variable terminal("GNUTERM", "none such");
+  multibody::write_history(folder / "pendulum-flexion-60.h5", small_run(3));
+  page_of(folder.path());
+  CHECK_FALSE(fs::exists(folder / "touched"));
+}
+
+TEST_CASE("each curve of a figure has a style of its own") {
+  CurvePlot plot;
+  for (int k = 0; k < 12; ++k)
+    plot.curves.push_back({std::to_string(k), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, k)});
+  Figure figure{1};
+  draw_curves(plot, figure);
+  std::set<std::string> styles;
+  const std::string before = "with lines ";
+  for (std::size_t at = figure.script.find(before); at != std::string::npos;
+       at = figure.script.find(before, at + 1)) {
+    const std::size_t begin = at + before.size();
+    styles.insert(figure.script.substr(begin, figure.script.find(" title", begin) - begin));
+  }
+  CHECK(styles.size() == plot.curves.size());
+}
+
+TEST_CASE("what the report says of pulses follows from their origins and from the corridors") {
+  const Study& study = built_in();
+  CHECK(joined(pulse_remarks(study, context_of(study))) ==
+        "The pulse 'flexion' is synthetic by the study and, as given there, inside the flexion "
+        "corridor of 49 CFR 572.33. The table of velocities tells how cases scale it.\n"
+        "The pulse 'extension' is synthetic by the study and, as given there, inside the extension "
+        "corridor of 49 CFR 572.33. The table of velocities tells how cases scale it.\n");
+  CHECK_THAT(joined(peak_table(study, {}).notes),
+             Contains("by the study: 'flexion' synthetic, 'extension' synthetic."));
+
+  const TemporaryFolder folder;
+  std::ofstream(folder / "mine.csv") << "time [ms], deceleration [gn]\n0, 0\n10, 20\n50, 0\n";
+  std::ofstream(folder / "mine.toml")
+      << "include = [\"" << built_in_study().string() << "\"]\n"
+      << "[[pulse]]\nname = \"flexion\"\n"
+         "table = { value = \"mine.csv\", origin = \"published\", note = \"a source\" }\n"
+         "[[pulse]]\nname = \"extension\"\ntable = \"mine.csv\"\n";
+  const Study own = read_study(folder / "mine.toml", {});
+  const std::string remarks = joined(pulse_remarks(own, context_of(own)));
+  CHECK_THAT(remarks,
+             Contains("'flexion' is published by the study and, as given there, outside") &&
+                 !Contains("inside"));
+  CHECK_THAT(joined(peak_table(own, {}).notes), Contains("'flexion' published"));
+  CHECK_THAT(joined(context_of(own).remarks), !Contains("synthetic") && !Contains("inside"));
+}
+
+TEST_CASE("a pulse is inside of a corridor if it keeps to all of it") {
+  const PulseCorridor corridor{"", {0.01, 0.02}, {20, 10}, {30, 20}, 15, 5, 0.03, 0.04};
+  const auto is_in = [&](std::vector<double> times_s, std::vector<double> values) {
+    return is_inside(PulseSection{"", std::move(times_s), std::move(values)}, corridor);
+  };
+  CHECK(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 25, 15, 10, 0}));
+  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 31, 15, 10, 0}));
+  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 25, 9, 10, 0}));
+  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 25, 15, 16, 0}));  // too high after
+  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.025}, {0, 25, 15, 0}));           // falls too early
+  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.05}, {0, 25, 15, 6}));            // too late
+  CHECK_FALSE(is_in({0, 0.005}, {25, 25}));
+}
+
+TEST_CASE("corridors stand behind curves only at the velocity that they are for") {
+  CHECK(context_of(built_in()).corridors.size() == 4);
+  const Study slower = read_study(built_in_study(), {"case.flexion-120.impact_velocity=200 in/s"});
+  CHECK(context_of(slower).corridors.empty());
+}
+
+TEST_CASE("names and notes of a user never become markup") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "<b>.toml")
+      << "include = [\"" << built_in_study().string() << "\"]\n[geometry]\nplate_thickness = "
+      << "{ value = \"0.4 in\", origin = \"published\", note = \"<script>alert(1)</script>\" }\n"
+      << "[[pulse]]\nname = \"<img src=x>\"\n"
+         "times = [\"0 s\", \"1 s\"]\ndeceleration = [\"1 gn\", \"1 gn\"]\n"
+         "[pendulum]\npulse = \"<img src=x>\"\n[[case]]\nname = \"<b>case\"\n"
+         "kind = \"pendulum\"\ndirection = \"flexion\"\nimpact_velocity = \"1 m/s\"\n"
+         "[[variant]]\nname = \"<i>\"\nof = [\"<b>case\"]\n";
+  const Study study = read_study(folder / "<b>.toml", {});
+  multibody::HistoryFile run = small_run(3);
+  run.channels[0].name = "<img src=x onerror=alert(2)>";
+  run.channels[0].filter = "\xff";  // no UTF-8
+  multibody::write_history(folder / "pendulum-<b>case.h5", run);
+  write_report(folder / "report.html", read_results(folder.path(), study), study);
+  const std::string page = text_of_file(folder / "report.html");
+  CHECK_THAT(page, !Contains("<script>alert") && !Contains("<img src=x") && !Contains("<b>case") &&
+                       !Contains("<small><b>"));
+  CHECK_THAT(page, Contains("&lt;script&gt;alert(1)") && Contains("&lt;img src=x&gt;"));
 }
 
 TEST_CASE("studies side by side align by quantity and have their cases as the first one") {
