@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/plausibility.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+
+#include "geometry/foundation/units.h"
 
 namespace flexneck::geometry {
 namespace {
@@ -22,6 +26,61 @@ std::string remark(const char* what, double value, const char* unit, bool is_lar
   return text.data();
 }
 
+/// Densities of solids that are about as stiff.
+struct DensityRange {
+  double modulus_Pa;  ///< the row holds from here on
+  double low_kg_m3, usual_kg_m3, high_kg_m3;
+  const char* solids;
+};
+
+/// Stiffest first. High enough for tungsten, lead and filled rubber, low enough for fibre composites,
+/// wood and foam; g times the usual figure is outside each range but that of foams.
+constexpr std::array<DensityRange, 5> kSolids = {{
+    {100e9, 1400, 7850, 23000, "metals and composites"},
+    {40e9, 1400, 2700, 11000, "light metals, glass and composites"},
+    {12e9, 300, 2000, 12000, "concrete, bone, wood and lead"},
+    {1e9, 60, 1200, 3500, "plastics and wood"},
+    {0, 5, 200, 3000, "foams and soft tissue"},
+}};
+constexpr DensityRange kRubbers = {0, 600, 1000, 3000, "rubbers and gels"};
+/// Foams are compressible.
+constexpr double kRubberPoissonsRatio = 0.45;
+
+const DensityRange& range_of(double youngs_modulus_Pa, double poissons_ratio) {
+  const auto* const row = std::find_if(kSolids.begin(), kSolids.end() - 1, [&](const auto& solid) {
+    return youngs_modulus_Pa >= solid.modulus_Pa;
+  });
+  return row->modulus_Pa == 0 && poissons_ratio > kRubberPoissonsRatio ? kRubbers : *row;
+}
+
+/// A slip makes the figure greater by the factor.
+struct Slip {
+  double factor;
+  const char* what;
+};
+
+/// In a deck whose unit of length is L a weight density counts g / L times too much.
+constexpr std::array<Slip, 6> kSlips = {{
+    {kStandardGravity_m_s2, "a weight density in N/m^3"},
+    {kStandardGravity_m_s2 / 0.0254, "a weight density in lbf/in^3 for lbf s^2/in^4"},
+    {kStandardGravity_m_s2 / 0.3048, "a weight density in lbf/ft^3 for lbf s^2/ft^4"},
+    {kStandardGravity_m_s2 / 0.001, "a weight density in N/mm^3 for t/mm^3"},
+    {1000, "a density in kg/mm^3 for t/mm^3"},
+    {0.001, "a density in g/cm^3 for kg/m^3"},
+}};
+
+/// The slip after which the density would come nearest to the usual; null if none explains it.
+const Slip* slip_of(const DensityRange& range, double density_kg_m3) {
+  const auto distance = [&](const Slip& slip) {
+    return std::abs(std::log(density_kg_m3 / slip.factor / range.usual_kg_m3));
+  };
+  const auto* const nearest =
+      std::min_element(kSlips.begin(), kSlips.end(),
+                       [&](const Slip& a, const Slip& b) { return distance(a) < distance(b); });
+  const double meant = density_kg_m3 / nearest->factor;
+  return meant >= range.low_kg_m3 && meant <= range.high_kg_m3 ? nearest : nullptr;
+}
+
 }  // namespace
 
 std::vector<std::string> implausibilities(double extent_m, double mass_kg) {
@@ -33,6 +92,23 @@ std::vector<std::string> implausibilities(double extent_m, double mass_kg) {
     remarks.push_back(remark("the mass", mass_kg, "kg", mass_kg > kLargestMass_kg));
   }
   return remarks;
+}
+
+std::string implausible_density(double youngs_modulus_Pa, double poissons_ratio,
+                                double density_kg_m3) {
+  const DensityRange& range = range_of(youngs_modulus_Pa, poissons_ratio);
+  if (density_kg_m3 >= range.low_kg_m3 && density_kg_m3 <= range.high_kg_m3) return {};
+  std::array<char, 240> text{};
+  std::snprintf(text.data(), text.size(),
+                "the density is %.4g kg/m^3, where %s with a modulus near %.2g Pa have %g to %g",
+                density_kg_m3, range.solids, youngs_modulus_Pa, range.low_kg_m3, range.high_kg_m3);
+  std::string remark = text.data();
+  if (const Slip* const slip = slip_of(range, density_kg_m3)) {
+    std::snprintf(text.data(), text.size(), "; was it %s? Then it is %.4g kg/m^3", slip->what,
+                  density_kg_m3 / slip->factor);
+    remark += text.data();
+  }
+  return remark;
 }
 
 }  // namespace flexneck::geometry

@@ -71,6 +71,11 @@ void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVo
   for (const std::string& remark : geometry::implausibilities(extent_m, mass_kg)) {
     input.console.warning(remark);
   }
+  for (const mesher::Material& material : file.mesh.materials) {
+    const std::string remark = geometry::implausible_density(
+        material.youngs_modulus_Pa, material.poissons_ratio, material.density_kg_m3);
+    if (!remark.empty()) input.console.warning("material '" + material.name + "': " + remark);
+  }
 }
 
 }  // namespace flexneck::pipeline

@@ -128,4 +128,37 @@ TEST_CASE("sizes and masses out of proportion are remarked upon") {
   CHECK(implausibilities(std::nan(""), 1).size() == 1);
 }
 
+TEST_CASE("usual densities pass, and weight densities are remarked upon with what was meant") {
+  struct Solid {
+    double modulus_Pa, poissons_ratio, density_kg_m3;
+  };
+  // The neck's aluminium and butyl, steel, magnesium, tungsten, lead, polyamide, concrete, carbon
+  // fibre composite, balsa across the grain, silicone, seat foam.
+  const std::vector<Solid> usual = {
+      {68.9e9, 0.33, 2715}, {8.27e6, 0.49, 949}, {210e9, 0.3, 7850}, {45e9, 0.29, 1740},
+      {400e9, 0.28, 19300}, {16e9, 0.44, 11340}, {3e9, 0.39, 1140},  {30e9, 0.2, 2400},
+      {135e9, 0.3, 1550},   {1.2e9, 0.3, 110},   {2e6, 0.495, 1100}, {1e5, 0.1, 40},
+  };
+  for (const Solid& solid : usual) {
+    INFO(solid.density_kg_m3);
+    CHECK(implausible_density(solid.modulus_Pa, solid.poissons_ratio, solid.density_kg_m3).empty());
+  }
+  const auto weighed = [](const Solid& solid, double factor) {
+    return implausible_density(solid.modulus_Pa, solid.poissons_ratio,
+                               factor * solid.density_kg_m3);
+  };
+  constexpr double kGravity = 9.80665;
+  for (const Solid& solid : {usual[0], usual[1], usual[2], usual[3], usual[6], usual[7]}) {
+    INFO(solid.density_kg_m3);
+    CHECK_THAT(weighed(solid, kGravity), Contains("a weight density in N/m^3?"));
+    CHECK_THAT(weighed(solid, kGravity / 0.0254), Contains("a weight density in lbf/in^3"));
+    CHECK_THAT(weighed(solid, 1000), Contains("a density in kg/mm^3"));
+    CHECK_THAT(weighed(solid, 0.001), Contains("a density in g/cm^3"));
+  }
+  CHECK_THAT(weighed(usual[1], kGravity), Contains("the density is 9307 kg/m^3, where rubbers") &&
+                                              Contains("Then it is 949 kg/m^3"));
+  CHECK_THAT(implausible_density(210e9, 0.3, 1e12), !Contains("Then"));
+  CHECK_FALSE(implausible_density(210e9, 0.3, std::nan("")).empty());
+}
+
 }  // namespace flexneck::geometry
