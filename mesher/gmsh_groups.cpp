@@ -61,6 +61,26 @@ EntityElements elements_of_entity(int dimension, int entity) {
   return elements;
 }
 
+std::vector<std::size_t> sorted_once(std::vector<std::size_t> tags) {
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  return tags;
+}
+
+void append_nodes(const EntityElements& elements, std::vector<std::size_t>& tags) {
+  for (const auto& nodes : elements.nodes) tags.insert(tags.end(), nodes.begin(), nodes.end());
+}
+
+/// For gmsh all entities of a dimension, or all dimensions.
+constexpr int kAllEntities = -1;
+
+/// Of the elements of a dimension, ascending.
+std::vector<std::size_t> node_tags_in(int dimension) {
+  std::vector<std::size_t> tags;
+  append_nodes(elements_of_entity(dimension, kAllEntities), tags);
+  return sorted_once(std::move(tags));
+}
+
 /// A group for each entity that has elements.
 std::vector<GmshGroup> groups_by_entity(int dimension) {
   gmsh::vectorpair entities;
@@ -163,13 +183,38 @@ GroupElements elements_of(const GmshGroup& group) {
 std::vector<std::size_t> node_tags_of(const GmshGroup& group) {
   std::vector<std::size_t> tags;
   for (const int entity : group.entities) {
-    for (const auto& nodes : elements_of_entity(group.dimension, entity).nodes) {
-      tags.insert(tags.end(), nodes.begin(), nodes.end());
+    append_nodes(elements_of_entity(group.dimension, entity), tags);
+  }
+  return sorted_once(std::move(tags));
+}
+
+std::map<std::string, std::size_t> gmsh_elements_off_volumes() {
+  const std::vector<std::size_t> of_volumes = node_tags_in(3);
+  const auto is_off = [&](std::size_t node) {
+    return !std::binary_search(of_volumes.begin(), of_volumes.end(), node);
+  };
+  std::map<std::string, std::size_t> off;
+  for (const int dimension : {1, 2}) {
+    const EntityElements all = elements_of_entity(dimension, kAllEntities);
+    for (std::size_t t = 0; t < all.types.size(); ++t) {
+      const std::size_t n = all.nodes[t].size() / all.tags[t].size();
+      for (auto node = all.nodes[t].begin(); node != all.nodes[t].end();) {
+        const auto end = node + static_cast<std::ptrdiff_t>(n);
+        if (std::any_of(node, end, is_off)) {
+          ++off["elements of type '" + name_of_type(all.types[t]) + "' off the solids"];
+        }
+        node = end;
+      }
     }
   }
-  std::sort(tags.begin(), tags.end());
-  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
-  return tags;
+  std::vector<std::size_t> nodes;
+  std::vector<double> coordinates;
+  std::vector<double> parameters;
+  gmsh::model::mesh::getNodes(nodes, coordinates, parameters);
+  const std::size_t loose =
+      sorted_once(std::move(nodes)).size() - node_tags_in(kAllEntities).size();
+  if (loose > 0) off["nodes of no element"] = loose;
+  return off;
 }
 
 }  // namespace flexneck::mesher

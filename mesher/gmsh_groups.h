@@ -44,4 +44,8 @@ GroupElements elements_of(const GmshGroup& group);
 /// Node tags of a group's elements of whatever kind, ascending.
 std::vector<std::size_t> node_tags_of(const GmshGroup& group);
 
+/// What gmsh's model has beside its volumes: elements of curves and surfaces with a node that no
+/// volume element has, by the name of their type, and nodes of no element; with their numbers.
+std::map<std::string, std::size_t> gmsh_elements_off_volumes();
+
 }  // namespace flexneck::mesher

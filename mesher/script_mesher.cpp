@@ -29,6 +29,20 @@ void open_script(GmshSession& session, const std::filesystem::path& script) {
   if (!errors.empty()) throw InputError(script.string() + ": gmsh refuses the script: " + errors);
 }
 
+/// gmsh scales by these when it writes files, not what it hands over.
+void refuse_scaling(const std::filesystem::path& script) {
+  for (const std::string option : {"Mesh.ScalingFactor", "Geometry.ScalingFactor"}) {
+    double factor = 1;
+    gmsh::option::getNumber(option, factor);
+    if (factor == 1) continue;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", factor);
+    throw InputError(script.string() + ": " + option + " = " + text.data() +
+                     " would have no effect here; take it away and say the unit of the script's "
+                     "lengths in geometry.unit");
+  }
+}
+
 /// ONELAB names of the constants that the script declares, by the constant's own name: the part of
 /// the ONELAB name behind the last '/'.
 std::map<std::string, std::string> declared_constants() {
@@ -58,6 +72,7 @@ void run_script(GmshSession& session, const ScriptMeshOptions& options) {
     throw InputError(options.script.string() + ": the geometry script cannot be read");
   }
   open_script(session, options.script);
+  refuse_scaling(options.script);
   if (options.constants.empty()) return;
 
   const auto declared = declared_constants();
@@ -66,6 +81,7 @@ void run_script(GmshSession& session, const ScriptMeshOptions& options) {
   }
   gmsh::clear();
   open_script(session, options.script);
+  refuse_scaling(options.script);
 }
 
 void require_meshable(const ScriptMeshOptions& options) {
@@ -108,7 +124,11 @@ void require_wanted_kind(const Mesh& mesh, const ScriptMeshOptions& options) {
 
 Mesh take_over(const ScriptMeshOptions& options) {
   try {
-    return take_over_gmsh_mesh(options.materials, options.material_of_part);
+    Mesh mesh = take_over_gmsh_mesh(options.materials, options.material_of_part);
+    for (auto& node : mesh.nodes) {
+      for (double& x : node) x *= options.length_unit_m;
+    }
+    return mesh;
   } catch (const InputError& error) {
     throw InputError(options.script.string() + ": " + error.what());
   }

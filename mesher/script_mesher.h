@@ -28,6 +28,7 @@ struct ScriptMeshOptions {
   /// Override the script's DefineConstant values. A constant needs the attribute Name there; it is
   /// known by what stands behind the last '/' of that name.
   std::map<std::string, double> constants;
+  double length_unit_m = 1;  ///< what the number 1 in the script means, its constants included
   std::vector<Material> materials;
   std::map<std::string, std::string> material_of_part;  ///< part to material name, every part once
   /// What the elements shall be: hex27, hex20, hex8 or tet10. A script without recombination gives
@@ -39,11 +40,11 @@ struct ScriptMeshOptions {
   std::vector<NodePatches> patches;  ///< taken after the cuts: both nodes of a pair are near
 };
 
-/// Runs the script in gmsh, meshes it and takes the mesh over.
+/// Runs the script in gmsh, meshes it and takes the mesh over, with lengths in m.
 /// A script is a program: it may do what gmsh scripts may do. With constants to override it runs
 /// twice, first to tell which it declares.
-/// @throws InputError if the script cannot be read, has an error (gmsh's message), sets a constant
-/// that it does not declare, names a part without material, has elements of a kind that a mesh
+/// @throws InputError if the script cannot be read, has an error (gmsh's message), sets a scaling
+/// factor that gmsh applies to files only, sets a constant that it does not declare, names a part without material, has elements of a kind that a mesh
 /// cannot hold or none of the kind asked for, leaves a set empty, or cannot be slit as asked.
 /// @throws ComputationError if an element is inverted or degenerate.
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress);

@@ -5,39 +5,11 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <optional>
+
+#include "mesher/exchange/text_lines.h"
 
 namespace flexneck::mesher {
 namespace {
-
-/// Hands out lines without their ends.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
-
-  std::optional<std::string_view> next() {
-    if (rest_.empty()) return std::nullopt;
-    ++number_;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-  std::string_view rest() const { return rest_; }
-  std::size_t number() const { return number_; }
-
- private:
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 /// The beginning of a file for a message: printable and short.
 std::string shown(std::string_view text) {
@@ -52,7 +24,7 @@ std::string shown(std::string_view text) {
 bool is_text(std::string_view contents) { return contents.find('\0') == std::string_view::npos; }
 
 /// Sections $Name … $EndName with nothing but blank lines between them.
-std::string msh_section_problem(Lines lines) {
+std::string msh_section_problem(TextLines lines) {
   std::string open;
   bool has_nodes = false;
   bool has_elements = false;
@@ -80,7 +52,8 @@ std::string msh_section_problem(Lines lines) {
 std::string msh_binary_problem(std::string_view contents) {
   constexpr std::string_view kOne("\1\0\0\0", 4);
   if (!contents.starts_with(kOne)) return "its bytes are in another order";
-  if (!trimmed(Lines(contents.substr(kOne.size() + 1)).next().value_or("")).starts_with("$End")) {
+  if (!trimmed(TextLines(contents.substr(kOne.size() + 1)).next().value_or(""))
+           .starts_with("$End")) {
     return "section $MeshFormat has no end";
   }
   for (const std::string_view name : {"$Nodes", "$EndNodes", "$Elements", "$EndElements"}) {
@@ -92,7 +65,7 @@ std::string msh_binary_problem(std::string_view contents) {
 }
 
 std::string msh_problem(std::string_view contents) {
-  Lines lines(contents);
+  TextLines lines(contents);
   const std::string_view first = lines.next().value_or("");
   if (first != "$MeshFormat") {
     return "expected $MeshFormat in the first line, found " + shown(first);
@@ -110,12 +83,12 @@ std::string msh_problem(std::string_view contents) {
     return "expected a file type of 0 or 1 and a data size of 8, found " + shown(header);
   }
   if (!is_text(contents)) return "it says that it is text, and is not";
-  return msh_section_problem(Lines(contents));
+  return msh_section_problem(TextLines(contents));
 }
 
 /// Data sets between lines of -1, the first line among them.
 std::string unv_problem(std::string_view contents) {
-  Lines lines(contents);
+  TextLines lines(contents);
   const std::string_view first = lines.next().value_or("");
   if (!is_text(contents) || trimmed(first) != "-1") {
     return "expected a line -1 first, found " + shown(first);
@@ -134,7 +107,7 @@ std::string bdf_problem(std::string_view contents) {
   if (!is_text(contents)) return "it is no text";
   bool has_grid = false;
   bool has_element = false;
-  Lines lines(contents);
+  TextLines lines(contents);
   while (const auto line = lines.next()) {
     has_grid = has_grid || line->starts_with("GRID");
     for (const std::string_view card : {"CTETRA", "CHEXA", "CPENTA", "CPYRAM"}) {
@@ -152,7 +125,7 @@ std::string step_problem(std::string_view contents) {
 }
 
 std::string brep_problem(std::string_view contents) {
-  Lines lines(contents);
+  TextLines lines(contents);
   std::string_view first = lines.next().value_or("");
   if (first == "DBRep_DrawableShape") {
     first = lines.next().value_or("");
@@ -162,10 +135,10 @@ std::string brep_problem(std::string_view contents) {
   return "expected 'CASCADE Topology V…' in the first lines, found " + shown(first);
 }
 
-/// Lines of keywords and data; the first that is no comment is a keyword.
+/// TextLines of keywords and data; the first that is no comment is a keyword.
 std::string inp_problem(std::string_view contents) {
   if (!is_text(contents)) return "it is no text";
-  Lines lines(contents);
+  TextLines lines(contents);
   while (const auto line = lines.next()) {
     const std::string_view text = trimmed(*line);
     if (text.empty() || text.starts_with("**")) continue;

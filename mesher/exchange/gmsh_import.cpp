@@ -8,6 +8,7 @@
 #include <gmsh.h>
 
 #include "geometry/foundation/error.h"
+#include "mesher/gmsh_groups.h"
 #include "mesher/gmsh_session.h"
 #include "mesher/gmsh_take_over.h"
 
@@ -86,7 +87,7 @@ void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double si
 
 }  // namespace
 
-Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options) {
+Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, LeftOut& left_out) {
   GmshSession session;
   const bool is_step = copy.format() == OutsideFormat::step;
   const bool is_shape = is_step || copy.format() == OutsideFormat::brep;
@@ -105,6 +106,10 @@ Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options) {
                                   is_shape ? GmshSource::script : GmshSource::outside_file);
   for (auto& node : mesh.nodes) {
     for (double& x : node) x *= scale;
+  }
+  if (is_shape) return mesh;
+  if (copy.format() != OutsideFormat::bdf) {  // whose cards are counted
+    for (const auto& [kind, count] : gmsh_elements_off_volumes()) left_out.add(kind, count);
   }
   return mesh;
 }

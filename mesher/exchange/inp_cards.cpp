@@ -9,25 +9,19 @@
 #include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "mesher/exchange/text_lines.h"
 
 namespace flexneck::mesher {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
-}
-
 /// Fields between commas; nothing counts behind a trailing one.
 std::vector<std::string> fields_of(std::string_view line) {
   std::vector<std::string> fields;
   while (true) {
     const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
+    fields.emplace_back(trimmed(line.substr(0, comma)));
     if (comma == std::string_view::npos) break;
     line.remove_prefix(comma + 1);
   }
@@ -43,9 +37,9 @@ std::string keyword_of(const std::string& field) {
   return upper_case(keyword);
 }
 
-std::string unquoted(const std::string& text) {
+std::string unquoted(std::string_view text) {
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-  return quoted ? text.substr(1, text.size() - 2) : text;
+  return std::string(quoted ? text.substr(1, text.size() - 2) : text);
 }
 
 InpCard card_of(const InpPlace& place, const std::string& line) {
@@ -81,7 +75,7 @@ class Reader {
     InpPlace open_place;
     for (std::string raw; std::getline(lines, raw);) {
       ++place.line;
-      const std::string line = trimmed(raw);
+      const std::string line(trimmed(raw));
       if (line.empty() || line.starts_with("**")) continue;
       if (!open_keyword.empty() || line.front() == '*') {
         if (open_keyword.empty()) open_place = place;

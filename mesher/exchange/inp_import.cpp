@@ -263,12 +263,33 @@ void add_surfaces(const InpModel& model, const std::map<std::int64_t, std::int32
   }
 }
 
-Mesh mesh_of(const InpModel& model, const ImportOptions& options) {
+/// The types whose stiffness differs from ours whatever the formulation, or but for one.
+void add_integration(const InpModel& model, const ImportOptions& options, LeftOut& left_out) {
+  for (const auto& [type, count] : model.types) {
+    const bool is_ours = type == "C3D20R" ? options.is_reduced : type != "C3D8I" && type != "C3D8R";
+    if (!is_ours) left_out.add("integrations of " + type + " (modes.formulation decides)", count);
+  }
+}
+
+void add_loose_nodes(const InpModel& model, const std::map<std::int64_t, std::int32_t>& index_of,
+                     LeftOut& left_out) {
+  left_out.add("nodes of no solid element", model.nodes.size() - index_of.size());
+  for (const auto& [key, set] : model.nsets) {
+    const auto loose =
+        std::count_if(set.members.begin(), set.members.end(), [&](std::int64_t node) {
+          return model.nodes.count(node) > 0 && index_of.count(node) == 0;
+        });
+    left_out.add("of them in NSET '" + set.name + "'", static_cast<std::size_t>(loose));
+  }
+}
+
+Mesh mesh_of(const InpModel& model, const ImportOptions& options, LeftOut& left_out) {
   Assignment all;
   assign_parts_of_study(model, options, all);
   assign_parts_of_file(model, all);
   require_all_assigned(model, all);
   const auto index_of = number_nodes(model);
+  add_loose_nodes(model, index_of, left_out);
 
   Mesh mesh;
   for (const auto& [number, index] : index_of) {
@@ -285,14 +306,16 @@ Mesh mesh_of(const InpModel& model, const ImportOptions& options) {
 
 }  // namespace
 
-Mesh import_inp(const ImportOptions& options, const Progress& progress) {
+Mesh import_inp(const ImportOptions& options, const Progress& progress, LeftOut& left_out) {
   const InpModel model = read_inp(options.file, checked_contents(options.file));
   if (progress && !model.ignored.empty()) {
     std::string keywords;
     for (const std::string& keyword : model.ignored) keywords += " *" + keyword;
     progress("passed over in " + options.file.filename().string() + ":" + keywords);
   }
-  return mesh_of(model, options);
+  left_out = model.left_out;
+  add_integration(model, options, left_out);
+  return mesh_of(model, options, left_out);
 }
 
 }  // namespace flexneck::mesher

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "mesher/exchange/left_out.h"
 #include "mesher/exchange/mesh_import.h"
 
 namespace flexneck::mesher {
@@ -16,8 +17,10 @@ namespace flexneck::mesher {
 ///    nodes all belong to it, if there are any; each SURFACE is a face set, and a node set if no
 ///    NSET has its name. Nodes that *BOUNDARY holds are the node set "boundary".
 ///  - Names keep the case in which they are first written; to the file both cases are one.
-/// Nodes without elements are left out.
+/// Nodes without elements are left out, and so are loads and the like: `left_out` gets their
+/// number, that of elements whose integration is none of ours (C3D8I, C3D8R; C3D20R unless the
+/// options are for reduced integration) too.
 /// @throws InputError as import_mesh, with the line where there is one.
-Mesh import_inp(const ImportOptions& options, const Progress& progress);
+Mesh import_inp(const ImportOptions& options, const Progress& progress, LeftOut& left_out);
 
 }  // namespace flexneck::mesher

@@ -9,6 +9,7 @@
 #include "geometry/foundation/names.h"
 #include "mesher/exchange/abaqus_elements.h"
 #include "mesher/exchange/edge_order.h"
+#include "mesher/exchange/inp_keywords.h"
 #include "mesher/exchange/inp_sets.h"
 
 namespace flexneck::mesher {
@@ -20,8 +21,11 @@ class ModelReader {
     const auto found = handlers().find(card.keyword);
     if (found != handlers().end()) {
       (this->*found->second)(card);
-    } else if (is_passed_over(card.keyword)) {
+    } else if (is_left_out_keyword(card.keyword)) {
+      model_.left_out.add("*" + card.keyword);
+    } else if (is_silent_keyword(card.keyword)) {
       if (ignored_.insert(card.keyword).second) model_.ignored.push_back(card.keyword);
+      notice_preload(card);
     } else {
       refuse_keyword(card);
     }
@@ -29,6 +33,8 @@ class ModelReader {
 
   InpModel finish(const std::filesystem::path& file) {
     refuse_other_types(file);
+    check_members(model_.nsets, "NSET", "node", model_.nodes);
+    check_members(model_.elsets, "ELSET", "element", element_numbers_);
     if (model_.elements.empty()) throw InputError(file.string() + ": it has no *ELEMENT");
     std::sort(model_.elements.begin(), model_.elements.end(),
               [](const InpElement& a, const InpElement& b) { return a.number < b.number; });
@@ -39,7 +45,6 @@ class ModelReader {
  private:
   using Handler = void (ModelReader::*)(const InpCard&);
   static const std::map<std::string, Handler>& handlers();
-  static bool is_passed_over(const std::string& keyword);
   [[noreturn]] static void refuse_keyword(const InpCard& card);
 
   void nodes(const InpCard& card);
@@ -68,7 +73,11 @@ class ModelReader {
     }
     return card.data.front();
   }
+  void notice_preload(const InpCard& card);
   void refuse_other_types(const std::filesystem::path& file) const;
+  template <class Known>
+  void check_members(const InpSets& sets, const std::string& kind, const std::string& member,
+                     const Known& known);
   void collect_held(const std::filesystem::path& file);
 
   struct OtherType {
@@ -78,9 +87,11 @@ class ModelReader {
 
   InpModel model_;
   std::set<std::string> ignored_;
+  std::string preload_;  ///< place of the last *STATIC
   std::set<std::int64_t> element_numbers_;
   std::map<std::string, OtherType> other_types_;
   std::map<std::int64_t, unsigned> held_directions_;  ///< bits 1, 2, 4
+  std::vector<std::int64_t> held_by_number_;
 };
 
 const std::map<std::string, ModelReader::Handler>& ModelReader::handlers() {
@@ -98,52 +109,17 @@ const std::map<std::string, ModelReader::Handler>& ModelReader::handlers() {
   return kHandlers;
 }
 
-/// Steps, loads, output and further properties of materials: they change neither mesh nor modes.
-bool ModelReader::is_passed_over(const std::string& keyword) {
-  static const std::set<std::string> kPassedOver = {"AMPLITUDE",
-                                                    "BUCKLE",
-                                                    "CFLUX",
-                                                    "CLOAD",
-                                                    "CONDUCTIVITY",
-                                                    "CONTACT FILE",
-                                                    "CONTACT PRINT",
-                                                    "CONTROLS",
-                                                    "DAMPING",
-                                                    "DFLUX",
-                                                    "DLOAD",
-                                                    "DSLOAD",
-                                                    "DYNAMIC",
-                                                    "EL FILE",
-                                                    "EL PRINT",
-                                                    "ELEMENT OUTPUT",
-                                                    "END STEP",
-                                                    "EXPANSION",
-                                                    "FREQUENCY",
-                                                    "HEADING",
-                                                    "INITIAL CONDITIONS",
-                                                    "MODAL DAMPING",
-                                                    "MODAL DYNAMIC",
-                                                    "NODE FILE",
-                                                    "NODE OUTPUT",
-                                                    "NODE PRINT",
-                                                    "OUTPUT",
-                                                    "PHYSICAL CONSTANTS",
-                                                    "PREPRINT",
-                                                    "RESTART",
-                                                    "SOLVER",
-                                                    "SPECIFIC HEAT",
-                                                    "STATIC",
-                                                    "STEADY STATE DYNAMICS",
-                                                    "STEP",
-                                                    "TEMPERATURE",
-                                                    "TIME POINTS"};
-  return kPassedOver.count(keyword) > 0;
+/// Modes that follow a static step are those of the loaded structure.
+void ModelReader::notice_preload(const InpCard& card) {
+  if (card.keyword == "STATIC") preload_ = "line " + std::to_string(card.place.line);
+  if (card.keyword != "FREQUENCY" || preload_.empty()) return;
+  model_.left_out.remark("the preload of *STATIC in " + preload_ +
+                         ": modes are those of the unloaded structure");
+  preload_.clear();
 }
 
 void ModelReader::refuse_keyword(const InpCard& card) {
-  static const std::set<std::string> kAssembly = {"PART",         "END PART", "ASSEMBLY",
-                                                  "END ASSEMBLY", "INSTANCE", "END INSTANCE"};
-  if (kAssembly.count(card.keyword) > 0) {
+  if (is_assembly_keyword(card.keyword)) {
     card.refuse(
         "parts and instances are not supported; write a flat input, in Abaqus/CAE with "
         "mdb.models['…'].setValues(noPartsInputFile=ON)");
@@ -207,6 +183,7 @@ void ModelReader::elements(const InpCard& card) {
     if (!element_numbers_.insert(element.number).second) {
       throw InputError(place.text() + "element " + std::to_string(element.number) + " comes twice");
     }
+    ++model_.types[type];
     numbers.push_back(element.number);
     model_.elements.push_back(std::move(element));
   }
@@ -252,6 +229,9 @@ void ModelReader::boundary(const InpCard& card) {
   if (card.has("TYPE") && upper_case(card.parameter("TYPE")) != "DISPLACEMENT") {
     card.refuse("only displacements are supported");
   }
+  if (card.has("OP") && upper_case(card.parameter("OP")) == "NEW" && !held_directions_.empty()) {
+    card.refuse("OP=NEW lets go what was held before; give one *BOUNDARY for the modes");
+  }
   for (const InpData& line : card.data) {
     unsigned directions = 0;
     const std::string second = line.fields.size() > 1 ? upper_case(line.fields[1]) : "";
@@ -268,7 +248,9 @@ void ModelReader::boundary(const InpCard& card) {
     if (line.fields.size() > 3 && !line.fields[3].empty() && inp_number(line, 3) != 0) {
       throw InputError(line.place.text() + "*BOUNDARY: expected displacements of zero");
     }
-    for (const std::int64_t node : inp_members_of(line, 0, model_.nsets, "NSET")) {
+    const std::vector<std::int64_t> nodes = inp_members_of(line, 0, model_.nsets, "NSET");
+    if (!is_inp_set(line, 0, model_.nsets)) held_by_number_.push_back(nodes.front());
+    for (const std::int64_t node : nodes) {
       held_directions_[node] |= directions;
     }
   }
@@ -285,12 +267,42 @@ void ModelReader::refuse_other_types(const std::filesystem::path& file) const {
                    "; supported are " + known_abaqus_types());
 }
 
+/// A number in a range may stand for none; one that is written out is a slip of the pen.
+/// @param kind NSET or ELSET
+/// @param member node or element
+template <class Known>
+void ModelReader::check_members(const InpSets& sets, const std::string& kind,
+                                const std::string& member, const Known& known) {
+  const auto is_unknown = [&](std::int64_t number) { return known.count(number) == 0; };
+  const std::string keyword = ", which *" + upper_case(member) + " does not give";
+  for (const auto& [key, set] : sets) {
+    const auto wrong = std::find_if(set.written.begin(), set.written.end(), is_unknown);
+    if (wrong != set.written.end()) {
+      throw InputError("*" + kind + " '" + set.name + "' has " + member + " " +
+                       std::to_string(*wrong) + keyword);
+    }
+    const auto missing = std::count_if(set.members.begin(), set.members.end(), is_unknown);
+    model_.left_out.add(member + "s in the ranges of *" + kind + " '" + set.name + "'" + keyword,
+                        static_cast<std::size_t>(missing));
+  }
+}
+
 void ModelReader::collect_held(const std::filesystem::path& file) {
+  for (const std::int64_t node : held_by_number_) {
+    if (model_.nodes.count(node) > 0) continue;
+    throw InputError("*BOUNDARY holds node " + std::to_string(node) +
+                     ", which *NODE does not give");
+  }
   for (const auto& [node, directions] : held_directions_) {
     if (directions == 7) model_.held.push_back(node);
     if (directions == 7 || directions == 0) continue;
     throw InputError(file.string() + ": *BOUNDARY holds node " + std::to_string(node) +
                      " in some directions only; a node is held in all three or in none");
+  }
+  const auto named = model_.nsets.find("BOUNDARY");
+  if (named != model_.nsets.end() && !model_.held.empty() && named->second.members != model_.held) {
+    throw InputError("the NSET '" + named->second.name +
+                     "' has other nodes than *BOUNDARY, which gives a set of that name; rename it");
   }
 }
 

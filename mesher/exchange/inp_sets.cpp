@@ -27,10 +27,14 @@ std::vector<std::int64_t> range_of(const InpData& line) {
 
 void add_to_inp_set(InpSets& sets, const std::string& name,
                     const std::vector<std::int64_t>& members) {
-  InpSet& set = sets.try_emplace(upper_case(name), InpSet{name, {}}).first->second;
+  InpSet& set = sets.try_emplace(upper_case(name), InpSet{name, {}, {}}).first->second;
   set.members.insert(set.members.end(), members.begin(), members.end());
   std::sort(set.members.begin(), set.members.end());
   set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
+}
+
+bool is_inp_set(const InpData& line, std::size_t field, const InpSets& sets) {
+  return field < line.fields.size() && sets.count(upper_case(line.fields[field])) > 0;
 }
 
 std::vector<std::int64_t> inp_members_of(const InpData& line, std::size_t field,
@@ -39,8 +43,7 @@ std::vector<std::int64_t> inp_members_of(const InpData& line, std::size_t field,
     throw InputError(line.place.text() + "expected a number or an " + kind);
   }
   const std::string& text = line.fields[field];
-  const auto set = sets.find(upper_case(text));
-  if (set != sets.end()) return set->second.members;
+  if (is_inp_set(line, field, sets)) return sets.at(upper_case(text)).members;
   if (std::isdigit(static_cast<unsigned char>(text.front())) != 0)
     return {inp_integer(line, field)};
   std::vector<std::string> names;
@@ -55,6 +58,7 @@ void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& se
     card.refuse("INSTANCE= and ELSET= are not supported; list the numbers");
   }
   std::vector<std::int64_t> members;
+  std::vector<std::int64_t> written;
   for (const InpData& line : card.data) {
     if (card.has("GENERATE")) {
       const std::vector<std::int64_t> range = range_of(line);
@@ -63,10 +67,13 @@ void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& se
     }
     for (std::size_t f = 0; f < line.fields.size(); ++f) {
       const std::vector<std::int64_t> more = inp_members_of(line, f, sets, parameter);
+      if (!is_inp_set(line, f, sets)) written.push_back(more.front());
       members.insert(members.end(), more.begin(), more.end());
     }
   }
   add_to_inp_set(sets, name, members);
+  std::vector<std::int64_t>& all = sets.at(upper_case(name)).written;
+  all.insert(all.end(), written.begin(), written.end());
 }
 
 }  // namespace flexneck::mesher

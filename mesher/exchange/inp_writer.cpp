@@ -64,11 +64,14 @@ void write_nodes(OutputFile& out, const Mesh& mesh) {
   }
 }
 
-void write_elements(OutputFile& out, const Mesh& mesh, bool is_reduced) {
+std::string type_of(const Mesh& mesh, const ElementBlock& block, const InpOptions& options) {
+  return abaqus_type_of(block.kind, options.reduced.count(mesh.materials[block.material].name) > 0);
+}
+
+void write_elements(OutputFile& out, const Mesh& mesh, const InpOptions& options) {
   std::int64_t next = 0;
   for (const ElementBlock& block : mesh.blocks) {
-    out.write("*ELEMENT,TYPE=" + abaqus_type_of(block.kind, is_reduced) + ",ELSET=" + block.part +
-              "\n");
+    out.write("*ELEMENT,TYPE=" + type_of(mesh, block, options) + ",ELSET=" + block.part + "\n");
     const std::vector<std::size_t> order = edge_order(block.kind);
     for (std::size_t first = 0; first < block.nodes.size(); first += order.size()) {
       std::vector<std::int64_t> row = {++next};
@@ -193,14 +196,14 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   check_inp_names(names_of(mesh.face_sets), "face set");
   check_inp_names(names_of(mesh.materials), "material");
   for (const ElementBlock& block : mesh.blocks) {
-    static_cast<void>(abaqus_type_of(block.kind, options.is_reduced));
+    static_cast<void>(type_of(mesh, block, options));
   }
   const HeldNodes held = held_nodes(mesh, options);
 
   OutputFile out(file);
   out.write("*HEADING\nflexneck: lengths in m, forces in N, stresses in Pa, densities in kg/m^3\n");
   write_nodes(out, mesh);
-  write_elements(out, mesh, options.is_reduced);
+  write_elements(out, mesh, options);
   write_node_sets(out, mesh);
   write_surfaces(out, mesh);
   write_materials(out, mesh);

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 namespace flexneck::mesher {
 
 struct InpOptions {
-  bool is_reduced = false;        ///< C3D20R, C3D8R instead of C3D20, C3D8
+  std::set<std::string> reduced;  ///< materials of C3D20R instead of C3D20
   std::vector<std::string> held;  ///< node sets for *BOUNDARY
   std::map<std::string, std::array<bool, 3>> held_directions = {};  ///< others, in x, y, z
   int mode_count = 10;                                              ///< of *FREQUENCY

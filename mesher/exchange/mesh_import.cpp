@@ -5,6 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/exchange/file_survey.h"
 #include "mesher/exchange/gmsh_import.h"
 #include "mesher/exchange/import_check.h"
 #include "mesher/exchange/inp_import.h"
@@ -36,10 +37,24 @@ void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
   }
 }
 
-Mesh read(const ImportOptions& options, const Progress& progress) {
-  if (outside_format_of(options.file) == OutsideFormat::inp) return import_inp(options, progress);
+/// gmsh reads the copy; a .bdf or .unv is read by us as well, for what gmsh passes over.
+Mesh read_with_gmsh(const ImportOptions& options, LeftOut& left_out) {
   const CheckedCopy copy(options.file);
-  return import_with_gmsh(copy, options);
+  FileSurvey survey;
+  if (copy.format() == OutsideFormat::bdf) {
+    survey = survey_nastran(checked_contents(copy.path()), left_out);
+  } else if (copy.format() == OutsideFormat::unv) {
+    survey = survey_unv(checked_contents(copy.path()), options.length_unit_m, left_out);
+  }
+  Mesh mesh = import_with_gmsh(copy, options, left_out);
+  compare_with(mesh, survey, left_out);
+  return mesh;
+}
+
+Mesh read(const ImportOptions& options, const Progress& progress, LeftOut& left_out) {
+  return outside_format_of(options.file) == OutsideFormat::inp
+             ? import_inp(options, progress, left_out)
+             : read_with_gmsh(options, left_out);
 }
 
 /// The message begins with the file, unless it does already, with a line.
@@ -51,13 +66,15 @@ Mesh read(const ImportOptions& options, const Progress& progress) {
 
 }  // namespace
 
-Mesh import_mesh(const ImportOptions& options, const Progress& progress) {
+Mesh import_mesh(const ImportOptions& options, const Progress& progress, const Progress& warn) {
   if (progress) progress("reading " + options.file.filename().string());
   try {
-    Mesh mesh = read(options, progress);
+    LeftOut left_out;
+    Mesh mesh = read(options, progress, left_out);
     add_box_sets(options.box_sets, mesh);
     check(mesh);
     check_import(mesh, options.keeps_doubles);
+    if (warn && !left_out.empty()) warn(options.file.string() + ": " + left_out.text());
     return mesh;
   } catch (const InputError& error) {
     rethrow(options.file, error);

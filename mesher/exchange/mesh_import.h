@@ -30,6 +30,7 @@ struct ImportOptions {
   /// file each part needs a material here.
   std::map<std::string, std::string> material_of_part;
   double element_size_m = 0;   ///< of STEP and BREP shapes; 0: gmsh's choice
+  bool is_reduced = false;     ///< modes will be of reduced integration, as C3D20R of an .inp are
   bool keeps_doubles = false;  ///< nodes in the same place are meant, as at a crack
   std::vector<BoxSet> box_sets;
   /// Called once a shape is read, before it is meshed; may be empty.
@@ -45,7 +46,10 @@ struct ImportOptions {
 /// of a shape as "surface_<tag>".
 /// @throws InputError if the file is not what its ending says, has elements that a mesh cannot hold
 /// (which, how many), inverted, doubled or unconnected ones (import_check.h), parts without
-/// material, or a material or box set without anything to apply to.
-Mesh import_mesh(const ImportOptions& options, const Progress& progress);
+/// material, or a material or box set without anything to apply to; a .bdf as survey_nastran, and a
+/// .bdf or .unv of which gmsh misses elements.
+/// @param warn gets one line if the file has more than a mesh can hold, such as masses, springs,
+/// supports and loads: all of it by kind and number
+Mesh import_mesh(const ImportOptions& options, const Progress& progress, const Progress& warn = {});
 
 }  // namespace flexneck::mesher

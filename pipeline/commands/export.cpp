@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include "fe_modal/body/modal_body_file.h"
 #include "fe_modal/exchange/atb_modal_file.h"
 #include "geometry/foundation/error.h"
@@ -7,6 +9,7 @@
 #include "mesher/mesh/mesh_file.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/matrices.h"
+#include "pipeline/commands/structure_options.h"
 
 namespace flexneck::pipeline {
 
@@ -16,6 +19,38 @@ namespace {
 std::vector<std::string> held_sets(const Study& study) {
   if (study.modes.held.empty() && study.geometry) return {"bolts"};
   return study.modes.held;
+}
+
+/// A line about materials whose elements have pressures of their own, which a deck cannot say;
+/// empty if there are none.
+std::string mixed_materials(const mesher::Mesh& mesh, const fe_modal::FormulationChoice& choice) {
+  std::string materials;
+  for (const mesher::Material& material : mesh.materials) {
+    if (choice.of(material) != fe_modal::Formulation::mixed_pressure) continue;
+    materials += fmt::format("{}{} (Poisson's ratio {:g})", materials.empty() ? "" : ", ",
+                             material.name, material.poissons_ratio);
+  }
+  if (materials.empty()) return {};
+  return "formulation mixed_pressure is not carried over: the deck's elements are of displacements "
+         "alone, and may be stiffer, in " +
+         materials;
+}
+
+void export_deck(const CommandInput& input, const mesher::Mesh& mesh) {
+  const Study& study = input.study;
+  const fe_modal::FormulationChoice choice = formulation_of(study);
+  mesher::InpOptions options{.reduced = {},
+                             .held = held_sets(study),
+                             .held_directions = study.modes.held_directions,
+                             .mode_count = study.modes.count};
+  for (const mesher::Material& material : mesh.materials) {
+    if (choice.of(material) == fe_modal::Formulation::reduced) {
+      options.reduced.insert(material.name);
+    }
+  }
+  mesher::write_inp(input.target, mesh, options);
+  const std::string line = mixed_materials(mesh, choice);
+  if (!line.empty()) input.console.warning(input.target.string() + ": " + line);
 }
 
 /// The modes of this mesh for the ATB.
@@ -44,10 +79,7 @@ bool export_command(const CommandInput& input) {
       mesher::write_msh(target, mesh.mesh,
                         input.is_binary ? mesher::MshEncoding::binary : mesher::MshEncoding::text);
     } else if (target.extension() == ".inp") {
-      const bool is_reduced = input.study.modes.formulation == fe_modal::Formulation::reduced;
-      mesher::write_inp(target, mesh.mesh,
-                        {is_reduced, held_sets(input.study), input.study.modes.held_directions,
-                         input.study.modes.count});
+      export_deck(input, mesh.mesh);
     } else if (is_matrix_file(target)) {
       export_matrices(input, mesh.mesh);
     } else if (target.extension() == ".dat") {

@@ -44,9 +44,9 @@ mesher::ScriptMeshOptions neck_options(const GeometrySection& geometry) {
 }
 
 /// @param when_read  called once a shape is read, before it is meshed
-mesher::Mesh structure_mesh(const StructureSection& structure, const ChildLines& lines,
-                            void (*when_read)()) {
-  if (const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&structure.source)) {
+mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines, void (*when_read)()) {
+  const auto& source = study.structure->source;
+  if (const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&source)) {
     mesher::Mesh mesh = mesher::mesh_script(*script, lines.detail);
     try {  // a script may leave bodies apart, or lay them over one another
       mesher::check_import(mesh, !script->slits.empty());
@@ -55,13 +55,14 @@ mesher::Mesh structure_mesh(const StructureSection& structure, const ChildLines&
     }
     return mesh;
   }
-  auto options = std::get<mesher::ImportOptions>(structure.source);
+  auto options = std::get<mesher::ImportOptions>(source);
+  options.is_reduced = study.modes.formulation == fe_modal::Formulation::reduced;
   if (when_read != nullptr) options.when_read = when_read;
-  return mesher::import_mesh(options, lines.detail);
+  return mesher::import_mesh(options, lines.detail, lines.warning);
 }
 
 mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, void (*when_read)()) {
-  return study.structure ? structure_mesh(*study.structure, lines, when_read)
+  return study.structure ? structure_mesh(study, lines, when_read)
                          : mesher::mesh_script(neck_options(*study.geometry), lines.detail);
 }
 

@@ -146,6 +146,10 @@ bool modes_command(const CommandInput& input) {
   }
   fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
   share_work(input, mesh, options);
+  if (input.study.structure) {
+    const std::string line = free_boundary(input.study, mesh.mesh);
+    if (!line.empty()) input.console.warning(line);
+  }
   for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, options.formulation)) {
     input.console.warning(line);
   }

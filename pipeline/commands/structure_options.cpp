@@ -2,9 +2,12 @@
 #include "pipeline/commands/structure_options.h"
 
 #include <algorithm>
+#include <set>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/exchange/inp_cards.h"
+#include "mesher/exchange/outside_file.h"
 #include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::pipeline {
@@ -87,6 +90,30 @@ fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh)
     throw InputError(study.file.string() + ": " + error.what());
   }
   return options;
+}
+
+std::string free_boundary(const Study& study, const mesher::Mesh& mesh) {
+  const auto* const file = std::get_if<mesher::ImportOptions>(&study.structure->source);
+  if (file == nullptr || mesher::outside_format_of(file->file) != mesher::OutsideFormat::inp) {
+    return {};
+  }
+  std::set<std::int32_t> held;
+  const auto add = [&](const std::string& name) {
+    const std::vector<std::int32_t>& nodes = mesh.node_set(name).nodes;
+    held.insert(nodes.begin(), nodes.end());
+  };
+  for (const std::string& name : study.modes.held) add(name);
+  for (const auto& [name, directions] : study.modes.held_directions) add(name);
+  for (const mesher::NodeSet& set : mesh.node_sets) {
+    if (mesher::upper_case(set.name) != "BOUNDARY") continue;
+    const auto free = std::count_if(set.nodes.begin(), set.nodes.end(),
+                                    [&](std::int32_t node) { return held.count(node) == 0; });
+    if (free == 0) return {};
+    return file->file.string() + ": *BOUNDARY holds " + std::to_string(set.nodes.size()) +
+           " nodes, of which the study leaves " + std::to_string(free) + " free; modes.held = [\"" +
+           set.name + "\"] holds them";
+  }
+  return {};
 }
 
 }  // namespace flexneck::pipeline

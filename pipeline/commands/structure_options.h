@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "fe_modal/modal_analysis.h"
 #include "pipeline/study/study.h"
 
@@ -12,6 +14,10 @@ namespace flexneck::pipeline {
 /// @pre study.structure
 /// @throws InputError naming study and key, with the nearest set where one is unknown.
 fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh);
+
+/// A line about nodes that *BOUNDARY of the study's .inp holds, but neither modes.held nor
+/// modes.held_directions; empty if there are none.
+std::string free_boundary(const Study& study, const mesher::Mesh& mesh);
 
 /// The formulation of each material: its own, or that of [modes].
 fe_modal::FormulationChoice formulation_of(const Study& study);

@@ -19,11 +19,12 @@ const std::filesystem::path& StructureSection::file() const {
 
 namespace {
 
-/// A constant of a script: a pure number, or a length.
-std::map<std::string, double> read_constants(const StudyTable& table) {
+/// A constant of a script: a pure number, or a length, which the script gets in its own unit.
+std::map<std::string, double> read_constants(const StudyTable& table, double length_unit_m) {
   std::map<std::string, double> constants;
   for (const std::string& key : table.keys()) {
-    constants[key] = table.is_text(key) ? table.quantity(key, "m") : table.number(key);
+    constants[key] =
+        table.is_text(key) ? table.quantity(key, "m") / length_unit_m : table.number(key);
   }
   table.finish();
   return constants;
@@ -60,7 +61,8 @@ std::vector<mesher::BoxSet> read_box_sets(const StudyTable& geometry) {
 mesher::ScriptMeshOptions read_script(const StudyTable& geometry) {
   mesher::ScriptMeshOptions options;
   options.script = geometry.folder_of("script") / geometry.text("script");
-  options.constants = read_constants(geometry.table("constants"));
+  options.length_unit_m = unit_or(geometry, "unit", "m");
+  options.constants = read_constants(geometry.table("constants"), options.length_unit_m);
   return options;
 }
 

@@ -53,6 +53,24 @@ TEST_CASE("a script's block becomes second-order hexahedra without loose nodes")
   CHECK(measure(mesh, mesh.blocks[0]).smallest_scaled_jacobian == Approx(1).epsilon(kRounding));
 }
 
+TEST_CASE(
+    "a script's lengths are in the unit given, and a scaling that gmsh keeps to files is refused") {
+  const Mesh metres = ScriptFixture(kBrick).mesh();
+  ScriptFixture inches(kBrick);
+  inches.options.length_unit_m = 0.0254;
+  const Mesh mesh = inches.mesh();
+  REQUIRE(mesh.nodes.size() == metres.nodes.size());
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    for (std::size_t d = 0; d < 3; ++d) CHECK(mesh.nodes[n][d] == 0.0254 * metres.nodes[n][d]);
+  }
+  for (const std::string option : {"Mesh.ScalingFactor", "Geometry.ScalingFactor"}) {
+    CHECK_THROWS_WITH(
+        ScriptFixture(kBrick + (option + " = 0.001;\n")).mesh(),
+        Contains(option + " = 0.001 would have no effect") && Contains("geometry.unit"));
+    CHECK_NOTHROW(ScriptFixture(kBrick + (option + " = 1;\n")).mesh());
+  }
+}
+
 TEST_CASE("constants override the script's values by the last part of their name") {
   ScriptFixture script(kBrick);
   script.options.constants = {{"width", 2.5}, {"cells", 3}};

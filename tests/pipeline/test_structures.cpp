@@ -197,6 +197,50 @@ TEST_CASE("hexahedra, prisms and tetrahedra in one mesh: CalculiX agrees") {
                       testing::calculix_frequencies(folder / "mixed.inp")) < 1e-3);
 }
 
+TEST_CASE("a script in millimetres or inches gives the bar of the script in metres") {
+  const TemporaryFolder folder;
+  for (const std::string unit : {"mm", "in"}) {
+    const CommandOutcome outcome =
+        run_flexneck("mesh --set geometry.unit=" + unit +
+                     " --set 'geometry.constants={length=\"0.5 m\", width=\"30 mm\", "
+                     "height=\"20 mm\"}' " +
+                     kExamples + "cantilever.toml -o " + folder.path().string());
+    INFO(outcome.text);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.text, !Contains("Warning"));
+    CHECK(summary_of(folder.path()).mass_kg == Approx(0.81).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("weight densities, free supports and decks without pressures are warned about") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + folder.path().string();
+  const std::string study = kExamples + "cantilever_inp.toml" + out;
+  CHECK_THAT(run_flexneck("run " + study).text, !Contains("Warning"));
+  CHECK_THAT(run_flexneck("modes --set 'modes.held=[]' " + study).text,
+             Contains("Warning: ") && Contains("cantilever.inp: *BOUNDARY holds 8 nodes, of which "
+                                               "the study leaves 8 free"));
+  CHECK_THAT(run_flexneck("export " + study + " --to " + (folder / "bar.inp").string()).text,
+             Contains("Warning: ") &&
+                 Contains("bar.inp: formulation mixed_pressure is not carried "
+                          "over") &&
+                 Contains("Aluminium (Poisson's ratio 0.33)"));
+  CHECK_THAT(run_flexneck("export --set modes.formulation=displacement " + study + " --to " +
+                          (folder / "bar.inp").string())
+                 .text,
+             !Contains("Warning"));
+  // Aluminium by its weight in lbf/in^3, in a deck of inches and pounds-force.
+  const CommandOutcome weighed =
+      run_flexneck("mesh --set geometry.materials.aluminium.density='1.048e6 kg/m^3' " + kExamples +
+                   "cantilever.toml" + out);
+  CHECK(weighed.exit_code == 0);
+  CHECK_THAT(weighed.text, Contains("Warning: material 'aluminium': the density is 1.048e+06") &&
+                               Contains("a weight density in lbf/in^3"));
+  check_refused(run_flexneck("mesh --set geometry.materials.aluminium.density='0.0975 lbf/in^3' " +
+                             kExamples + "cantilever.toml" + out),
+                "geometry.materials.aluminium.density");
+}
+
 TEST_CASE("a wrong unit is noticed, and wrong names are refused with near ones") {
   const TemporaryFolder folder;
   const std::string out = " -o " + (folder / "out").string();

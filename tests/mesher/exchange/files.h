@@ -34,6 +34,13 @@ inline std::string refusal(const mesher::ImportOptions& options) {
   return "accepted";
 }
 
+/// The lines that an import warns with.
+inline std::string warnings_of(const mesher::ImportOptions& options) {
+  std::string lines;
+  mesher::import_mesh(options, {}, [&](const std::string& line) { lines += line + "\n"; });
+  return lines;
+}
+
 /// All parts named of one material, "stuff".
 inline mesher::ImportOptions import_options(const std::filesystem::path& file,
                                             const std::vector<std::string>& parts) {

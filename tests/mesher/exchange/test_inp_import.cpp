@@ -11,6 +11,7 @@ namespace flexneck::mesher {
 namespace {
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 using testing::Files;
 using testing::import_options;
 
@@ -154,6 +155,14 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text.replace(text.find(from), from.size(), to);
 }
 
+std::string warning_of(const std::string& deck, bool is_reduced = false) {
+  const Files files;
+  ImportOptions options;
+  options.file = files.write("deck.inp", deck);
+  options.is_reduced = is_reduced;
+  return testing::warnings_of(options);
+}
+
 std::string refusal_of(const std::string& deck, const std::vector<std::string>& parts = {}) {
   const Files files;
   ImportOptions options = import_options(files.write("deck.inp", deck), parts);
@@ -278,6 +287,48 @@ TEST_CASE("what would change the structure is refused with its line; so is what 
   CHECK_THAT(refusal_of(plus("*Boundary\nFoot, 1, 3, 0.1\n")), Contains("displacements of zero"));
   CHECK_THAT(refusal_of(plus("*Boundary\nFot, 1, 3\n")),
              Contains("deck.inp:44: there is no NSET 'Fot' (did you mean 'Foot'?)"));
+}
+
+TEST_CASE("loads, preload, damping, loose nodes and other integrations are told in one line") {
+  const auto plus = [](const std::string& cards) { return with(kDeck, "*Step", cards + "*Step"); };
+  const std::string loads =
+      "*Step\n*Static\n*Cload\nRing, 3, 1.\n*Cload\nFoot, 3, 1.\n*Dload\nBoth, P2, 1.\n*End Step\n";
+  CHECK_THAT(
+      warning_of(plus(loads)),
+      EndsWith("deck.inp: not carried over: 2 *CLOAD, 1 *DLOAD, 1 integrations of C3D8I "
+               "(modes.formulation decides), 1 nodes of no solid element, 1 of them in NSET 'All', "
+               "1 of them in NSET 'Reference'; the preload of *STATIC in line 44: modes are those "
+               "of the unloaded structure\n"));
+  CHECK_THAT(warning_of(plus("*Initial Conditions, type=stress\nBoth, 1.\n*Damping, alpha=1\n")),
+             Contains("1 *DAMPING, 1 *INITIAL CONDITIONS") && !Contains("preload"));
+  CHECK_THAT(warning_of(with(kDeck, "type=C3D8,", "type=C3D8R,")),
+             Contains("1 integrations of C3D8R"));
+}
+
+TEST_CASE("a C3D20R is taken as it is where the modes are of reduced integration") {
+  const std::string deck = inp_of(manual()[1]) +
+                           "*Material, name=m\n*Elastic\n1., .3\n*Density\n1.\n"
+                           "*Solid section, elset=only, material=m\n";
+  CHECK_THAT(warning_of(deck), Contains("1 integrations of C3D20R"));
+  CHECK(warning_of(deck, true).empty());
+}
+
+TEST_CASE("sets and supports of nodes that there are not are refused, but gaps in ranges counted") {
+  CHECK_THAT(refusal_of(with(kDeck, "Foot, 9, 10,", "Foot, 9, 77,")),
+             Contains("*NSET 'Ring' has node 77, which *NODE does not give"));
+  CHECK_THAT(refusal_of(with(kDeck, "LOWER, upper", "LOWER, upper, 7")),
+             Contains("*ELSET 'Both' has element 7, which *ELEMENT does not give"));
+  CHECK_THAT(refusal_of(with(kDeck, "foot, 3", "foot, 3\n77, 1, 3")),
+             Contains("*BOUNDARY holds node 77, which *NODE does not give"));
+  CHECK_THAT(warning_of(with(kDeck, "99\n*Surface",
+                             "20, 99\n*Nset, nset=Gap, generate\n90, 99\n"
+                             "*Node\n20, 6, 6, 6\n*Surface")),
+             Contains("9 nodes in the ranges of *NSET 'Gap', which *NODE does not give") &&
+                 Contains("2 of them in NSET 'Reference'"));
+  CHECK_THAT(refusal_of(with(kDeck, "*Step", "*Step\n*Boundary, op=new\nRing, 1, 3")),
+             Contains("*BOUNDARY: OP=NEW lets go"));
+  CHECK_THAT(refusal_of(with(kDeck, "nset=Reference\n99", "nset=Boundary\n9")),
+             Contains("the NSET 'Boundary' has other nodes than *BOUNDARY"));
 }
 
 TEST_CASE("broken numbers and references are refused with their line") {

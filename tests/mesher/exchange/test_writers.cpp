@@ -100,7 +100,7 @@ TEST_CASE("an .inp gives the mesh back with its materials, positions to 13 digit
   const Mesh mesh = hex20_mesh();
   ImportOptions options;
   options.file = files / "mesh.inp";
-  write_inp(options.file, mesh, {.is_reduced = true, .held = {"floor"}, .mode_count = 3});
+  write_inp(options.file, mesh, {.reduced = {"hard"}, .held = {"floor"}, .mode_count = 3});
   Mesh read = import_mesh(options, {});
   for (std::size_t m = 0; m < 2; ++m) {
     CHECK(read.materials[m].youngs_modulus_Pa == mesh.materials[m].youngs_modulus_Pa);
@@ -116,7 +116,9 @@ TEST_CASE("an .inp gives the mesh back with its materials, positions to 13 digit
   std::erase_if(read.node_sets, [](const NodeSet& set) { return set.name == "boundary"; });
   std::erase_if(read.face_sets, [](const FaceSet& set) { return set.name == "boundary"; });
   check_same(read, mesh);
-  CHECK_THAT(text_of(options.file), Contains("TYPE=C3D20R") && Contains("floor,1,3\n*STEP"));
+  CHECK_THAT(text_of(options.file), Contains("TYPE=C3D20R,ELSET=lower") &&
+                                        Contains("TYPE=C3D20,ELSET=upper") &&
+                                        Contains("floor,1,3\n*STEP"));
 }
 
 TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held") {
@@ -131,10 +133,10 @@ TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held"
   CHECK_THAT(text_of(files / "tied.inp"),
              Contains("*EQUATION\n2\n" + upper + ",3,1.," + lower + ",3,-1.\n"));
   mesh.node_sets.push_back({"top", {a - 1, a}});
-  write_inp(files / "held.inp", mesh, {.is_reduced = false, .held = {"top"}, .mode_count = 1});
+  write_inp(files / "held.inp", mesh, {.reduced = {}, .held = {"top"}, .mode_count = 1});
   CHECK_THAT(text_of(files / "held.inp"), !Contains("*EQUATION"));
   write_inp(files / "rollers.inp", mesh,
-            {.is_reduced = false, .held = {}, .held_directions = {{"top", {true, false, true}}}});
+            {.reduced = {}, .held = {}, .held_directions = {{"top", {true, false, true}}}});
   const std::string rollers = text_of(files / "rollers.inp");
   CHECK_THAT(rollers, Contains("*EQUATION\n2\n" + upper + ",2,1.," + lower + ",2,-1.\n") &&
                           !Contains(upper + ",3,1.") && Contains("*BOUNDARY\ntop,1\ntop,3\n*STEP"));

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "mesher/mesh/mesh_measures.h"
+#include "tests/mesher/exchange/files.h"
+
+namespace flexneck::mesher {
+namespace {
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using testing::Files;
+using testing::import_options;
+
+/// Two unit cubes on one another, in fixed fields.
+const char* const kBulk = R"(GRID           1              0.      0.      0.
+GRID           2              1.      0.      0.
+GRID           3              1.      1.      0.
+GRID           4              0.      1.      0.
+GRID           5              0.      0.      1.
+GRID           6              1.      0.      1.
+GRID           7              1.      1.      1.
+GRID           8              0.      1.      1.
+GRID           9              0.      0.      2.
+GRID          10              1.      0.      2.
+GRID          11              1.      1.      2.
+GRID          12              0.      1.      2.
+CHEXA          1       1       1       2       3       4       5       6+
++              7       8
+CHEXA          2       1       5       6       7       8       9      10+
++             11      12
+)";
+
+std::string deck(const std::string& more) {
+  return "SOL 103\nCEND\nSPC = 1\nBEGIN BULK\n" + std::string(kBulk) + more + "ENDDATA\nFORCE,1\n";
+}
+
+ImportOptions options_of(const Files& files, const std::string& name, const std::string& text) {
+  return import_options(files.write(name, text), {"volume_1"});
+}
+
+std::string warning_of(const std::string& bdf) {
+  const Files files;
+  return testing::warnings_of(options_of(files, "deck.bdf", bdf));
+}
+
+std::string refusal_of(const std::string& bdf) {
+  const Files files;
+  return testing::refusal(options_of(files, "deck.bdf", bdf));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "cards of a .bdf that a mesh cannot hold are counted in one line, in every field format") {
+  CHECK(warning_of(deck("MAT1,1,2.+11,,.3,7850.\nPSOLID,1,1\nEIGRL,1,,,6\n$ CONM2,1\n")).empty());
+  CHECK_THAT(warning_of(deck(R"(CONM2         21       9               5.0
+CONM2,22,10,,5.
+SPC1,1,123,1,2,3,4
+RBE2          23       9  123456      10      11      12       1       2+
++              3       4
+CELAS2*               24          1000.0               9               3
+*                     10               3
+cquad4,25,2,1,2,3,4
+PSHELL,2,1,.01
+RBE3,26,,9,123,1.,123,10,11,
+,12
+MPC,1,9,1,1.,10,1,-1.
+FORCE,1,9,,1.,0.,0.,1. $ a comment
+PLOAD4,1,2,1.
+GRID,30,,3.,3.,3.,,3
+PARAM,WTMASS,.00259
+PARAM,POST,-1
+)")),
+             EndsWith("deck.bdf: not carried over: 1 CELAS2, 2 CONM2, 1 CQUAD4, 1 FORCE, 1 GRID "
+                      "with supports (PS), 1 MPC, 1 PLOAD4, 1 RBE2, 1 RBE3, 1 SPC1, 1 nodes of no "
+                      "solid element; PARAM,WTMASS .00259: the deck's densities are weights, the "
+                      "study needs masses\n"));
+}
+
+TEST_CASE("a .bdf that gmsh would read as another structure is refused with its line") {
+  CHECK_THAT(refusal_of(deck("GRID,30,2,0.,0.,0.\n")),
+             Contains("deck.bdf: line 21: GRID: coordinates in system 2 are not supported"));
+  CHECK_THAT(refusal_of(deck("GRDSET,,2\n")), Contains("GRDSET: coordinates in system 2"));
+  CHECK_THAT(refusal_of(deck("INCLUDE 'more.bdf'\n")), Contains("other files are not followed"));
+  CHECK_THAT(refusal_of(deck("GRID,30,,0.,0.,3.\n=,*(1),=,*(1.),==\n=3\n")),
+             Contains("line 22: =: replicated cards"));
+  CHECK_THAT(refusal_of(deck("GRID\t30\t\t0.\t0.\t3.\n")), Contains("GRID: tabs between fixed"));
+  CHECK_THAT(refusal_of(deck("CHEXA,3,1,1,2,3,4,5,6\n,7,8,9\n")),
+             Contains("CHEXA: expected 8 or 20 nodes, found 9"));
+  const std::string lower = deck("CHEXA,3,1,1,2,3,4,9,10\n,11,12\n");
+  CHECK_THAT(refusal_of(std::string(lower).replace(lower.find("CHEXA,3"), 7, "chexa,3")),
+             Contains("3 solid elements of 8 nodes, but gmsh reads 2 of them"));
+}
+
+namespace {
+
+std::string data_set(int number, const std::string& lines) {
+  return "    -1\n" + std::to_string(number) + "\n" + lines + "    -1\n";
+}
+
+/// A unit cube, with more elements if wanted.
+std::string unv(const std::string& more_elements = "") {
+  std::string nodes;
+  const std::array<const char*, 8> places = {"0. 0. 0.", "1. 0. 0.", "1. 1. 0.", "0. 1. 0.",
+                                             "0. 0. 1.", "1. 0. 1.", "1. 1. 1.", "0. 1. 1."};
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    nodes += "         " + std::to_string(n + 1) + " 1 1 11\n " + places[n] + "\n";
+  }
+  return data_set(2411, nodes) +
+         data_set(2412,
+                  "         1       115         1         1         7         8\n"
+                  "         1         2         3         4         5         6         7"
+                  "         8\n" +
+                      more_elements);
+}
+
+std::string unv_warning_of(const std::string& text) {
+  const Files files;
+  return testing::warnings_of(options_of(files, "cube.unv", text));
+}
+
+}  // namespace
+
+TEST_CASE("restraints, springs and shells of a .unv are counted, and its unit is compared") {
+  const std::string spring =
+      "         2       136         2         1         7         2\n"
+      "         1         7\n";
+  const std::string shell =
+      "         3        94         2         1         7         4\n"
+      "         1         2         3         4\n";
+  CHECK(unv_warning_of(unv()).empty());
+  CHECK(unv_warning_of(unv(shell) + data_set(164, " 1 SI 2\n 1.0D+00 1.0D+00 1.0D+00\n")).empty());
+  CHECK_THAT(unv_warning_of(unv(spring + shell) + data_set(755, " 1\n") + data_set(755, " 2\n") +
+                            data_set(2437, " 2 1\n") +
+                            data_set(164, " 5 mm 2\n 1.0D+03 1.0D+03 1.0D+00\n")),
+             EndsWith("cube.unv: not carried over: 2 data set 755, 1 elements of descriptor 136, 1 "
+                      "shells; data set 164 says that lengths count 1000 to the metre, the "
+                      "study's unit 1\n"));
+}
+
+TEST_CASE("what a .msh has beside its solids is counted: curves and surfaces, nodes of nothing") {
+  const Files files;
+  std::string mesh = testing::kTetrahedronMsh;
+  CHECK(testing::warnings_of(import_options(files.write("sound.msh", mesh), {"corner"})).empty());
+  mesh.replace(mesh.find("$Nodes\n10\n"), 10, "$Nodes\n12\n");
+  mesh.replace(mesh.find("$EndNodes"), 0, "11 2 0 0\n12 2 2 0\n");
+  const std::string nodes = mesh.substr(0, mesh.find("1\n1 11 2"));
+  const std::string solid = "11 2 7 1 1 2 3 4 5 6 7 8 9 10\n";
+  const auto text_of = [&](const std::string& last) {
+    return nodes + "5\n1 " + solid + "2 1 2 0 2 1 2\n3 1 2 0 2 2 11\n4 2 2 0 3 2 11 12\n5 " + last +
+           "$EndElements\n";
+  };
+  const auto options_of_msh = [&](const std::string& text) {
+    return import_options(files.write("more.msh", text), {"corner"});
+  };
+  CHECK_THAT(testing::warnings_of(options_of_msh(text_of("9 2 8 4 1 3 2 7 6 5\n"))),
+             EndsWith("more.msh: not carried over: 1 elements of type 'Line 2' off the solids, 1 "
+                      "elements of type 'Triangle 3' off the solids\n"));
+  CHECK_THAT(testing::refusal(options_of_msh(text_of("11 2 0 2 1 2 3 4 5 6 7 8 9 10\n"))),
+             Contains("volume 2 belongs to 0 physical volumes, expected one"));
+  CHECK_THAT(testing::warnings_of(options_of_msh(R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+3 7 "corner"
+$EndPhysicalNames
+$Entities
+0 0 0 1
+1 0 0 0 1 1 1 1 7 0
+$EndEntities
+$Nodes
+1 11 1 11
+3 1 0 11
+1
+2
+3
+4
+5
+6
+7
+8
+9
+10
+11
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+0.5 0 0
+0.5 0.5 0
+0 0.5 0
+0 0 0.5
+0 0.5 0.5
+0.5 0 0.5
+5 5 5
+$EndNodes
+$Elements
+1 1 1 1
+3 1 11 1
+1 1 2 3 4 5 6 7 8 9 10
+$EndElements
+)")),
+             EndsWith("more.msh: not carried over: 1 nodes of no element\n"));
+}
+
+}  // namespace flexneck::mesher
