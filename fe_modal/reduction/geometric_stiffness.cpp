@@ -2,11 +2,10 @@
 #include "fe_modal/reduction/geometric_stiffness.h"
 
 #include <array>
-#include <span>
 
 #include <Eigen/Geometry>
 
-#include "fe_modal/element_kernel.h"
+#include "fe_modal/element_fields.h"
 #include "fe_modal/matrix_product.h"
 #include "fe_modal/reduction/static_response.h"
 
@@ -87,20 +86,6 @@ class StressIntegral {
   Eigen::MatrixXd stresses_;  ///< workspace: (stresses, 6 points)
 };
 
-/// Values of all fields at an element's nodes, (3 n, fields).
-void gather(std::span<const std::int32_t> nodes, const std::vector<Eigen::Matrix3Xd>& fields,
-            Eigen::Index first, Eigen::MatrixXd& values) {
-  const auto n = static_cast<Eigen::Index>(nodes.size());
-  for (std::size_t f = 0; f < fields.size(); ++f) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (Eigen::Index a = 0; a < 3; ++a) {
-        values(a * n + i, first + static_cast<Eigen::Index>(f)) =
-            fields[f](a, nodes[static_cast<std::size_t>(i)]);
-      }
-    }
-  }
-}
-
 Eigen::Matrix3Xd positions_of(const mesher::Mesh& mesh) {
   Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(mesh.nodes.size()));
   for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
@@ -141,26 +126,13 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
   const auto m = static_cast<Eigen::Index>(modes.size());
   const auto k = static_cast<Eigen::Index>(displacements.size());
   StressIntegral integral(m, k);
-  PointFields fields;
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    const mesher::Material& material = mesh.materials.at(block.material);
-    const double shear_modulus = material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio));
-    ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
-    const std::size_t width = mesher::nodes_per_element(block.kind);
-    Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
-    Eigen::MatrixXd values(coordinates.size(), m + k);
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      const auto nodes = std::span(block.nodes).subspan(width * e, width);
-      for (std::size_t i = 0; i < width; ++i) {
-        coordinates.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::Vector3d>(
-            mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
-      }
-      gather(nodes, modes, 0, values);
-      gather(nodes, displacements, m, values);
-      kernel.evaluate(coordinates, material, values, fields);
-      integral.add(fields, shear_modulus);
-    }
-  }
+  Displacements fields;
+  for (const Eigen::Matrix3Xd& mode : modes) fields.push_back(&mode);
+  for (const Eigen::Matrix3Xd& displacement : displacements) fields.push_back(&displacement);
+  for_each_element(mesh, formulation, fields,
+                   [&](const PointFields& at_points, double shear_modulus) {
+                     integral.add(at_points, shear_modulus);
+                   });
   return integral.matrices();
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <optional>
 
 #include <fmt/core.h>
@@ -7,6 +8,7 @@
 #include "fe_modal/distributed/ranks.h"
 #include "fe_modal/exchange/modes_xdmf.h"
 #include "fe_modal/modal_analysis.h"
+#include "fe_modal/rounding.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/step_times.h"
@@ -101,12 +103,33 @@ Provenance provenance_of_modes(const CommandInput& input) {
   return provenance;
 }
 
+/// Warns where rounding costs more digits than frequencies are given with, and refuses where the
+/// result is wrong.
+void check_rounding(const CommandInput& input, const mesher::Mesh& mesh,
+                    const fe_modal::ModalOptions& options, const fe_modal::ModalBody& body) {
+  constexpr double kWorthTelling = 1e-6;
+  constexpr double kWrong = 1e-3;
+  const double error = fe_modal::rounding_error(mesh, options.formulation, body);
+  if (error <= kWorthTelling) return;
+  const auto nearest = std::max_element(mesh.materials.begin(), mesh.materials.end(),
+                                        [](const mesher::Material& a, const mesher::Material& b) {
+                                          return a.poissons_ratio < b.poissons_ratio;
+                                        });
+  const std::string line = fmt::format(
+      "rounding moves the first frequency by {:.1e} of it: Poisson's ratio of '{}' is {:.15g}, too "
+      "near 1/2 for so slender a body; each nine less makes a tenth of the error",
+      error, nearest->name, nearest->poissons_ratio);
+  if (!(error < kWrong)) throw ComputationError(line);
+  input.console.warning(line);
+}
+
 /// Solves and writes the file, and what ParaView opens.
 fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
                           const fe_modal::ModalOptions& options, const std::filesystem::path& path,
                           StepTimes& times) {
   fe_modal::ModalBodyFile file;
   file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times);
+  check_rounding(input, mesh, options, file.body);
   times.start("write");
   file.provenance = provenance_of_modes(input);
   fe_modal::write_modal_body(path, file);

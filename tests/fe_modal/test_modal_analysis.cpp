@@ -9,6 +9,7 @@
 #include "fe_modal/cholesky_factor.h"
 #include "fe_modal/eigensolver.h"
 #include "fe_modal/modal_analysis.h"
+#include "fe_modal/rounding.h"
 #include "tests/support/block_mesh.h"
 
 namespace flexneck::fe_modal {
@@ -172,6 +173,24 @@ TEST_CASE("the held interface does not move, and shapes are zero where nodes are
   CHECK(body.boundary == "fixed: bottom");
   CHECK(body.certificate == "not certified");
   CHECK(body.nodes_m.cols() == static_cast<Eigen::Index>(mesh.nodes.size()));
+}
+
+TEST_CASE("what rounding takes from a frequency near Poisson's ratio 1/2 is known to a per cent") {
+  const auto bar = [](double poissons_ratio) {
+    return testing::box({1, 1, 6}, {0.02, 0.03, 0.5}, {"rubber", 7e10, poissons_ratio, 2700})
+        .make();
+  };
+  const auto solved = [&](double poissons_ratio) {
+    return analyse_modes(bar(poissons_ratio), held_at_bottom(1, 0.5), {});
+  };
+  // The frequency is analytic in 1 - 2 nu: from these two the limit follows to 1e-8.
+  const ModalBody soft = solved(0.499);
+  CHECK(rounding_error(bar(0.499), {}, soft) < 1e-6);
+  const double limit = (10 * solved(0.4999).frequencies_Hz[0] - soft.frequencies_Hz[0]) / 9;
+  const ModalBody stiff = solved(0.499999999);
+  const double lost = std::abs(stiff.frequencies_Hz[0] - limit) / limit;
+  CHECK(lost > 1e-5);
+  CHECK(rounding_error(bar(0.499999999), {}, stiff) == Approx(lost).epsilon(0.05));
 }
 
 }  // namespace flexneck::fe_modal

@@ -212,6 +212,24 @@ TEST_CASE("a script in millimetres or inches gives the bar of the script in metr
   }
 }
 
+TEST_CASE("masses and supports of a Nastran deck are told, exit 0") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "deck.bdf") << "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\n"
+                                        "GRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\n"
+                                        "GRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
+                                        "CHEXA,1,1,1,2,3,4,5,6,+\n+,7,8\n"
+                                        "CONM2,2,7,,5.\nSPC1,1,123,1,2,3,4\nENDDATA\n";
+  std::ofstream(folder / "deck.toml") << "[geometry]\nfile = \"deck.bdf\"\n"
+                                         "[geometry.materials.steel]\n"
+                                         "youngs_modulus = \"210 GPa\"\npoissons_ratio = 0.3\n"
+                                         "density = \"7850 kg/m^3\"\nparts = [\"volume_1\"]\n";
+  const CommandOutcome outcome = run_flexneck("mesh -q " + (folder / "deck.toml").string() +
+                                              " -o " + (folder / "out").string());
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text,
+             Contains("Warning: ") && Contains("deck.bdf: not carried over: 1 CONM2, 1 SPC1\n"));
+}
+
 TEST_CASE("weight densities, free supports and decks without pressures are warned about") {
   const TemporaryFolder folder;
   const std::string out = " -o " + folder.path().string();
@@ -239,6 +257,23 @@ TEST_CASE("weight densities, free supports and decks without pressures are warne
   check_refused(run_flexneck("mesh --set geometry.materials.aluminium.density='0.0975 lbf/in^3' " +
                              kExamples + "cantilever.toml" + out),
                 "geometry.materials.aluminium.density");
+}
+
+TEST_CASE(
+    "a Poisson's ratio at which rounding spoils the frequencies is warned about, then refused") {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& poissons_ratio) {
+    return run_flexneck("run " + kExamples + "cantilever.toml -o " + folder.path().string() +
+                        " --set geometry.materials.aluminium.poissons_ratio=" + poissons_ratio);
+  };
+  CHECK_THAT(run("0.499").text, !Contains("rounding"));
+  const CommandOutcome warned = run("0.499999");
+  CHECK(warned.exit_code == 0);
+  CHECK_THAT(warned.text, Contains("Warning: rounding moves the first frequency by"));
+  const CommandOutcome refused = run("0.4999999999");
+  INFO(refused.text);
+  CHECK(refused.exit_code == 3);
+  CHECK_THAT(refused.text, Contains("Poisson's ratio of 'aluminium' is 0.4999999999"));
 }
 
 TEST_CASE("a wrong unit is noticed, and wrong names are refused with near ones") {
