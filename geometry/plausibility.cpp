@@ -33,8 +33,8 @@ struct DensityRange {
   const char* solids;
 };
 
-/// Stiffest first. High enough for tungsten, lead and filled rubber, low enough for fibre composites,
-/// wood and foam; g times the usual figure is outside each range but that of foams.
+/// Stiffest first. High enough for tungsten, lead and filled rubber, low enough for fibre
+/// composites, wood and foam; g times the usual figure is outside each range but that of foams.
 constexpr std::array<DensityRange, 5> kSolids = {{
     {100e9, 1400, 7850, 23000, "metals and composites"},
     {40e9, 1400, 2700, 11000, "light metals, glass and composites"},

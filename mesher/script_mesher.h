@@ -44,8 +44,9 @@ struct ScriptMeshOptions {
 /// A script is a program: it may do what gmsh scripts may do. With constants to override it runs
 /// twice, first to tell which it declares.
 /// @throws InputError if the script cannot be read, has an error (gmsh's message), sets a scaling
-/// factor that gmsh applies to files only, sets a constant that it does not declare, names a part without material, has elements of a kind that a mesh
-/// cannot hold or none of the kind asked for, leaves a set empty, or cannot be slit as asked.
+/// factor that gmsh applies to files only, sets a constant that it does not declare, names a part
+/// without material, has elements of a kind that a mesh cannot hold or none of the kind asked for,
+/// leaves a set empty, or cannot be slit as asked.
 /// @throws ComputationError if an element is inverted or degenerate.
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress);
 
