@@ -15,10 +15,9 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// The neck stands on its bolts unless the study says otherwise.
+/// The neck stands on its bolts.
 std::vector<std::string> held_sets(const Study& study) {
-  if (study.modes.held.empty() && study.geometry) return {"bolts"};
-  return study.modes.held;
+  return study.geometry ? std::vector<std::string>{"bolts"} : study.modes.held;
 }
 
 /// A line about materials whose elements have pressures of their own, which a deck cannot say;

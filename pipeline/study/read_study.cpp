@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -149,6 +150,22 @@ void check_geometry(const Study& study) {
   }
 }
 
+/// The neck stands on its bolts and has interfaces of its own.
+void refuse_what_the_neck_ignores(const Study& study) {
+  if (!study.geometry) return;
+  const std::array<std::pair<const char*, bool>, 4> keys = {
+      {{"modes.held", !study.modes.held.empty()},
+       {"modes.rigid_parts", !study.modes.rigid_parts.empty()},
+       {"modes.attached_to", !study.modes.attached_to.empty()},
+       {"[[interface]]", !study.interfaces.empty()}}};
+  for (const auto& [key, is_given] : keys) {
+    if (!is_given) continue;
+    throw InputError(study.file.string() + ": " + key +
+                     " has no effect on the neck, which is held at its bolts and has the "
+                     "interfaces base and top; leave it out");
+  }
+}
+
 /// Names that one part of the study uses and another must define.
 void check_references(const Study& study) {
   const auto require = [&](const std::string& who, const std::vector<std::string>& names,
@@ -234,6 +251,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   read_output(root.table("output"), study);
   root.finish();
   check_geometry(study);
+  refuse_what_the_neck_ignores(study);
   check_references(study);
   study.files = document.files();
   study.parameters = document.parameters();

@@ -188,6 +188,22 @@ TEST_CASE("what cannot be is refused before anything is computed") {
   CHECK_THROWS_WITH(built_in({"solver.relative_tolerance=0"}), Contains("positive"));
 }
 
+TEST_CASE("keys that the neck does not obey are refused, and not written down as if it did") {
+  for (const char* const setting :
+       {"modes.held=[\"base\"]", "modes.rigid_parts=[\"plate_1\"]", "modes.attached_to=top"}) {
+    const std::string key = std::string(setting).substr(0, std::string(setting).find('='));
+    CHECK_THROWS_WITH(built_in({setting}), Contains(key + " has no effect on the neck"));
+  }
+  const TemporaryFolder folder;
+  std::ofstream(folder / "neck.toml") << "include = [\"" << built_in_study().string() << R"("]
+[[interface]]
+name = "middle"
+position = ["0 m", "0 m", "0.07 m"]
+)";
+  CHECK_THROWS_WITH(read_study(folder / "neck.toml", {}),
+                    Contains("neck.toml: [[interface]] has no effect on the neck"));
+}
+
 TEST_CASE("the basis is chosen by its name") {
   CHECK(built_in().modes.basis == fe_modal::BasisKind::normal);
   const Study study =
