@@ -19,7 +19,7 @@ struct ModalBodyFile {
 
 void write_modal_body(const std::filesystem::path& path, const ModalBodyFile& file);
 /// @throws InputError if the file is missing, truncated, foreign, inconsistent in its shapes, or
-/// its modes are not mass-normalised (|Maa - I| > 1e-6).
+/// breaks an identity that holds in every modal body (modal_body_check.h).
 ModalBodyFile read_modal_body(const std::filesystem::path& path);
 
 }  // namespace flexneck::fe_modal

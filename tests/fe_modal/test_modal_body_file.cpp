@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <numbers>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "fe_modal/body/modal_body_file.h"
@@ -40,6 +47,61 @@ void check_same(const InertiaInvariants& found, const InertiaInvariants& expecte
   CHECK(found.N0 == expected.N0);
   CHECK(found.N == expected.N);
   CHECK(found.Maa == expected.Maa);
+}
+
+/// A static response that has what the modes have of it, and a little more.
+void add_response(const ModalBody& body, Interface& interface) {
+  StaticResponse response{0.01 * Eigen::Matrix<double, 6, 6>::Identity(),
+                          0.01 * Eigen::Matrix<double, 6, 6>::Identity()};
+  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    Eigen::Matrix<double, 6, 1> motion;
+    motion << interface.translation.col(k), interface.rotation.col(k);
+    const double omega = 2 * std::numbers::pi * body.frequencies_Hz[k];
+    response.compliance += motion * motion.transpose() / (omega * omega);
+    response.mass += motion * motion.transpose() / std::pow(omega, 4);
+  }
+  interface.response = response;
+}
+
+/// Point masses that nothing holds: six rigid motions, mass-orthonormal.
+ModalBodyFile free_sample() {
+  constexpr Eigen::Index kMotions = 6;
+  ModalBodyFile file;
+  const testing::PointMassBody points = testing::make_point_mass_body(12, 1);
+  ModalBody& body = file.body;
+  body.nodes_m = points.body.nodes_m;
+  const auto motions_at = [](const Eigen::Vector3d& p) {
+    Eigen::Matrix<double, 3, kMotions> motions;
+    motions << Eigen::Matrix3d::Identity(), Eigen::Vector3d::UnitX().cross(p),
+        Eigen::Vector3d::UnitY().cross(p), Eigen::Vector3d::UnitZ().cross(p);
+    return motions;
+  };
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(kMotions, kMotions);
+  for (Eigen::Index n = 0; n < points.point_count(); ++n) {
+    const auto motions = motions_at(body.nodes_m.col(n));
+    mass += points.masses_kg[n] * motions.transpose() * motions;
+  }
+  // M = U^T U: the columns of U^-1 are mass-orthonormal.
+  const Eigen::MatrixXd orthonormal =
+      mass.llt().matrixU().solve(Eigen::MatrixXd::Identity(kMotions, kMotions));
+  const Eigen::Vector3d tip(0.1, -0.2, 0.3);
+  body.interfaces = {
+      {"root", Eigen::Vector3d::Zero(), orthonormal.topRows<3>(), orthonormal.bottomRows<3>()},
+      {"tip", tip, motions_at(tip) * orthonormal, orthonormal.bottomRows<3>()}};
+  for (Eigen::Index k = 0; k < kMotions; ++k) {
+    Eigen::Matrix3Xd shape(3, points.point_count());
+    for (Eigen::Index n = 0; n < points.point_count(); ++n) {
+      shape.col(n) = motions_at(body.nodes_m.col(n)) * orthonormal.col(k);
+    }
+    body.shapes.push_back(shape);
+    body.modes.push_back({"rigid " + std::to_string(k + 1), "rigid", {}, 0});
+  }
+  body.frequencies_Hz = Eigen::VectorXd::Zero(kMotions);
+  body.boundary = "free";
+  body.certificate = "not certified";
+  body.invariants = testing::invariants_of_points(points.masses_kg, body.nodes_m, body.shapes);
+  file.provenance.program = "flexneck test";
+  return file;
 }
 
 std::string bytes_of(const std::filesystem::path& path) {
@@ -108,6 +170,113 @@ TEST_CASE("modes that are not mass-normalised are refused") {
   CHECK_THROWS_AS(read_modal_body(folder / "modes.h5"), InputError);
   CHECK_THROWS_WITH(read_modal_body(folder / "modes.h5"),
                     Catch::Contains("modes.h5") && Catch::Contains("not mass-normalised"));
+}
+
+TEST_CASE("what breaks an identity of every modal body is refused by its dataset and entry") {
+  struct Case {
+    const char* dataset;
+    std::function<void(ModalBody&)> damage;
+  };
+  const std::vector<Case> cases = {
+      {"/mode_names", [](ModalBody& b) { b.modes[1].name = b.modes[0].name; }},
+      {"/basis/kind: [1]", [](ModalBody& b) { b.modes[1].kind = "Normal"; }},
+      {"/frequencies: [0]", [](ModalBody& b) { b.frequencies_Hz[0] = 0; }},
+      {"/frequencies: [1]", [](ModalBody& b) { b.frequencies_Hz[1] = -3; }},
+      {"/frequencies: [2]", [](ModalBody& b) { b.frequencies_Hz[2] = 1e200; }},
+      {"/frequencies: [1]",
+       [](ModalBody& b) { std::swap(b.frequencies_Hz[0], b.frequencies_Hz[1]); }},
+      {"/invariants/mass", [](ModalBody& b) { b.invariants.mass *= -1; }},
+      {"/invariants/Maa", [](ModalBody& b) { b.invariants.Maa(2, 2) += 2e-6; }},
+      {"/invariants/J0: expected that [1, 0]",
+       [](ModalBody& b) { b.invariants.J0(0, 1) += 1e-11 * b.invariants.J0(0, 0); }},
+      {"/invariants/J0", [](ModalBody& b) { b.invariants.J0 *= -1; }},
+      // A plate has no more than the sum of the other two about its normal.
+      {"/invariants/J0", [](ModalBody& b) { b.invariants.J0(2, 2) += b.invariants.J0.trace(); }},
+      {"/invariants/J0", [](ModalBody& b) { b.invariants.S1 *= 4; }},
+      {"/invariants/G: expected that half the trace of [0, 0]",
+       [](ModalBody& b) {
+         for (Eigen::Matrix3d& g : b.invariants.G) g *= 2;
+       }},
+      {"/invariants/G: expected that [0, 1] is the transpose of [1, 0]",
+       [](ModalBody& b) { b.invariants.G[1](0, 2) += 1e-11; }},
+      {"/invariants/N: expected that [0, 2] is minus [2, 0]",
+       [](ModalBody& b) { b.invariants.N[2].y() += 1e-11; }},
+      {"/invariants/N: expected that [0, 1] has the antisymmetric part",
+       [](ModalBody& b) {
+         b.invariants.N[1] *= -1;
+         b.invariants.N[3] *= -1;
+       }},
+      {"/invariants/N: expected that [1, 1]", [](ModalBody& b) { b.invariants.N[4].x() = 1; }},
+      {"/invariants/N0: expected that column 1",
+       [](ModalBody& b) { b.invariants.N0.col(1) *= -1; }},
+      {"/invariants/N0: expected that column 2",
+       [](ModalBody& b) { b.invariants.G0[2].transposeInPlace(); }},
+      {"/invariants/S2", [](ModalBody& b) { b.invariants.S2 *= 10; }},
+      {"/invariants/G0",
+       [](ModalBody& b) {
+         for (Eigen::Matrix3d& g : b.invariants.G0) g *= 10;
+         b.invariants.N0 *= 10;
+       }},
+      {"/interfaces/tip/compliance: expected that [4, 0]",
+       [](ModalBody& b) { b.interfaces[1].response->compliance(0, 4) *= 1.1; }},
+      {"/interfaces/tip/compliance: expected that [0, 0] is positive",
+       [](ModalBody& b) { b.interfaces[1].response->compliance *= -1; }},
+      {"/interfaces/tip/response_mass: expected that the mass is positive",
+       [](ModalBody& b) {
+         b.interfaces[1].response->mass(1, 2) += 1;
+         b.interfaces[1].response->mass(2, 1) += 1;
+       }},
+      {"/interfaces/tip/compliance: expected that the compliance less what the modes have",
+       [](ModalBody& b) { b.interfaces[1].translation *= 2; }},
+      {"/interfaces/tip/response_mass: expected that [2, 1]",
+       [](ModalBody& b) { b.interfaces[1].response->mass(1, 2) += 0.01; }},
+      {"/attached/head", [](ModalBody& b) { b.attached[0].interface = "tpi"; }},
+      {"/attached/head/frequencies", [](ModalBody& b) { b.attached[0].frequencies_Hz[2] = 1; }},
+      {"/geometric_stiffness/acceleration: matrix 1",
+       [](ModalBody& b) { b.geometric_stiffness->acceleration[1](0, 2) += 1; }},
+      {"/geometric_stiffness/interfaces/side/moment: matrix 2",
+       [](ModalBody& b) { b.geometric_stiffness->interfaces[1].moment[2](2, 1) *= 2; }},
+  };
+  const TemporaryFolder folder;
+  ModalBodyFile whole = sample();
+  add_response(whole.body, whole.body.interfaces[1]);
+  write_modal_body(folder / "modes.h5", whole);
+  CHECK_NOTHROW(read_modal_body(folder / "modes.h5"));
+  for (const Case& each : cases) {
+    INFO(each.dataset);
+    ModalBodyFile file = whole;
+    each.damage(file.body);
+    write_modal_body(folder / "modes.h5", file);
+    CHECK_THROWS_AS(read_modal_body(folder / "modes.h5"), InputError);
+    CHECK_THROWS_WITH(read_modal_body(folder / "modes.h5"),
+                      Catch::Contains("modes.h5: ") && Catch::Contains(each.dataset));
+  }
+}
+
+TEST_CASE("modes of kind rigid have the frequency zero and move as a rigid body") {
+  const TemporaryFolder folder;
+  const ModalBodyFile whole = free_sample();
+  write_modal_body(folder / "modes.h5", whole);
+  CHECK_NOTHROW(read_modal_body(folder / "modes.h5"));
+  const std::vector<std::pair<const char*, std::function<void(ModalBody&)>>> cases = {
+      {"/frequencies: [5]", [](ModalBody& b) { b.frequencies_Hz[5] = 1e-3; }},
+      {"/shapes: expected that rigid mode 3", [](ModalBody& b) { b.shapes[3](1, 4) += 1e-4; }},
+      {"/interfaces/tip/translation: expected that rigid mode 4",
+       [](ModalBody& b) { b.interfaces[1].translation(2, 4) += 1e-4; }},
+      {"/interfaces/tip/rotation: expected that rigid mode 5",
+       [](ModalBody& b) { b.interfaces[1].rotation(0, 5) += 1e-2; }},
+      {"/invariants/S2: expected that rigid mode 0",
+       [](ModalBody& b) { b.invariants.mass *= 1.01; }},
+      // Nothing else tells of a held body that its moments of inertia are too large.
+      {"/invariants/N0: expected that rigid mode", [](ModalBody& b) { b.invariants.J0 *= 1.01; }},
+  };
+  for (const auto& [dataset, damage] : cases) {
+    INFO(dataset);
+    ModalBodyFile file = whole;
+    damage(file.body);
+    write_modal_body(folder / "modes.h5", file);
+    CHECK_THROWS_WITH(read_modal_body(folder / "modes.h5"), Catch::Contains(dataset));
+  }
 }
 
 TEST_CASE("missing, truncated and foreign files are refused with one line") {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/body/identity.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+}  // namespace
+
+std::string entry_text(Eigen::Index row, Eigen::Index column) {
+  return "[" + std::to_string(row) + ", " + std::to_string(column) + "]";
+}
+
+void require_identity(const std::string& dataset, const std::string& identity, double difference,
+                      double allowed) {
+  if (std::abs(difference) <= allowed) return;
+  throw InputError(dataset + ": expected that " + identity + ", but it is off by " +
+                   number_text(std::abs(difference)) + ", more than rounding's " +
+                   number_text(allowed));
+}
+
+void require_symmetric(const std::string& dataset, const Eigen::Ref<const Eigen::MatrixXd>& matrix,
+                       double allowed) {
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      require_identity(dataset, entry_text(i, j) + " equals " + entry_text(j, i),
+                       matrix(i, j) - matrix(j, i), allowed);
+    }
+  }
+}
+
+void require_positive(const std::string& dataset, const std::string& what,
+                      const Eigen::MatrixXd& matrix, double allowed) {
+  const auto identity = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
+  const Eigen::LLT<Eigen::MatrixXd> factor(matrix + allowed * identity);
+  if (factor.info() == Eigen::Success) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(matrix, Eigen::EigenvaluesOnly);
+  throw InputError(dataset + ": expected that " + what +
+                   " is positive, but its lowest eigenvalue, of a diagonal of 1, is " +
+                   number_text(spectrum.eigenvalues()[0]) + ", below rounding's " +
+                   number_text(-allowed));
+}
+
+Eigen::VectorXd unit_scales(const std::string& dataset, const Eigen::MatrixXd& matrix) {
+  Eigen::VectorXd scales = Eigen::VectorXd::Zero(matrix.rows());
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (matrix.row(i).isZero(0)) continue;
+    if (!(matrix(i, i) > 0)) {
+      throw InputError(dataset + ": expected that " + entry_text(i, i) + " is positive, found " +
+                       number_text(matrix(i, i)));
+    }
+    scales[i] = 1 / std::sqrt(matrix(i, i));
+  }
+  return scales;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/body/modal_body_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+
+#include "fe_modal/body/basis_kind.h"
+#include "fe_modal/body/identity.h"
+#include "fe_modal/body/invariants_check.h"
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Iterations solve for static shapes to 1e-8, and for rigid motions as well.
+constexpr double kSolved = 1e-6;
+/// Equal frequencies may have come in any order.
+constexpr double kEqual = 1e-9;
+/// The fastest sound in any solid, 36 km/s, over twice a distance of atoms, 0.1 nm.
+constexpr double kHighestHz = 2e14;
+
+void check_modes(const ModalBody& body) {
+  constexpr std::array kKinds = {kNormalMode, kRigidMode, kResidualMode,
+                                 kReliefMode, kRitzMode,  kConstraintMode};
+  try {
+    check_names(names_of(body.modes), "mode");
+  } catch (const InputError& error) {
+    throw InputError(std::string("/mode_names: ") + error.what());
+  }
+  double before = 0;
+  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    const std::string& kind = body.modes[static_cast<std::size_t>(k)].kind;
+    const double hertz = body.frequencies_Hz[k];
+    const auto refuse = [&](const std::string& expected) {
+      throw InputError("/frequencies: [" + std::to_string(k) + "] is " + std::to_string(hertz) +
+                       " Hz, expected " + expected);
+    };
+    if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
+      throw InputError("/basis/kind: [" + std::to_string(k) + "] is '" + kind +
+                       "', expected normal, rigid, residual, inertia relief, ritz or constraint");
+    }
+    if (!(hertz >= 0 && hertz <= kHighestHz)) refuse("a frequency that a solid can have");
+    if (kind == kRigidMode && hertz != 0) refuse("0, for its kind is rigid");
+    if (kind != kRigidMode && hertz == 0) refuse("more than 0, for its kind is not rigid");
+    if (hertz < before * (1 - kEqual))
+      refuse("no less than the one before, " + std::to_string(before));
+    before = hertz;
+  }
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+/// The rigid motions nearest to fields on nodes.
+class RigidFit {
+ public:
+  explicit RigidFit(const Eigen::Matrix3Xd& nodes_m)
+      : center_(nodes_m.rowwise().mean()), relative_(nodes_m.colwise() - center_) {
+    length_ = std::sqrt(relative_.squaredNorm() / static_cast<double>(relative_.cols()));
+    if (length_ == 0) length_ = 1;
+    Matrix6d gram = Matrix6d::Zero();
+    for (const auto& node : relative_.colwise()) {
+      const auto rows = motion_of(node);
+      gram += rows.transpose() * rows;
+    }
+    factor_.compute(gram);
+  }
+
+  /// Turns are unique unless all nodes lie on a line.
+  bool is_unique() const { return factor_.rank() == 6; }
+
+  /// Translation of the nodes' centre, then rotation times a length.
+  Vector6d of(const Eigen::Matrix3Xd& field) const {
+    Vector6d loads = Vector6d::Zero();
+    for (Eigen::Index k = 0; k < relative_.cols(); ++k) {
+      loads += motion_of(relative_.col(k)).transpose() * field.col(k);
+    }
+    return factor_.solve(loads);
+  }
+  Eigen::Vector3d rotation(const Vector6d& motion) const { return motion.tail<3>() / length_; }
+  Eigen::Vector3d translation(const Vector6d& motion, const Eigen::Vector3d& of_point) const {
+    return motion_of(of_point - center_) * motion;
+  }
+  double length() const { return length_; }
+
+ private:
+  Eigen::Matrix<double, 3, 6> motion_of(const Eigen::Vector3d& from_center) const {
+    Eigen::Matrix<double, 3, 6> rows;
+    rows << Eigen::Matrix3d::Identity(), -cross_matrix(from_center) / length_;
+    return rows;
+  }
+
+  Eigen::Vector3d center_;
+  Eigen::Matrix3Xd relative_;
+  double length_ = 1;
+  Eigen::CompleteOrthogonalDecomposition<Matrix6d> factor_;
+};
+
+void check_rigid_mode(const ModalBody& body, const RigidFit& fit, Eigen::Index k) {
+  const Eigen::Matrix3Xd& shape = body.shapes[static_cast<std::size_t>(k)];
+  const Vector6d motion = fit.of(shape);
+  const double size = motion.norm();
+  const std::string mode = "rigid mode " + std::to_string(k);
+  double off = 0;
+  for (Eigen::Index n = 0; n < shape.cols(); ++n) {
+    off = std::max(off, (shape.col(n) - fit.translation(motion, body.nodes_m.col(n))).norm());
+  }
+  require_identity("/shapes", mode + " moves all nodes as one rigid body", off, kSolved * size);
+  for (const Interface& interface : body.interfaces) {
+    const std::string group = "/interfaces/" + interface.name;
+    const Eigen::Vector3d translation = fit.translation(motion, interface.position_m);
+    const double arm = 1 + translation.norm() / size;
+    require_identity(group + "/translation", mode + " moves it with the nodes",
+                     (interface.translation.col(k) - translation).norm(), kSolved * size * arm);
+    if (!fit.is_unique()) continue;
+    require_identity(group + "/rotation", mode + " turns it with the nodes",
+                     (interface.rotation.col(k) - fit.rotation(motion)).norm(),
+                     kSolved * size / fit.length());
+  }
+  if (!fit.is_unique()) return;
+  const InertiaInvariants& inertia = body.invariants;
+  const Eigen::Vector3d turn = fit.rotation(motion);
+  const Eigen::Vector3d at_origin = fit.translation(motion, Eigen::Vector3d::Zero());
+  require_identity("/invariants/S2", mode + " moves mass and S1 as one rigid body",
+                   (inertia.S2.col(k) - inertia.mass * at_origin - turn.cross(inertia.S1)).norm(),
+                   kSolved * std::sqrt(inertia.mass));
+  require_identity("/invariants/N0", mode + " turns S1 and J0 as one rigid body",
+                   (inertia.N0.col(k) - inertia.S1.cross(at_origin) - inertia.J0 * turn).norm(),
+                   kSolved * std::sqrt(inertia.J0.trace() / 2));
+}
+
+void check_rigid_modes(const ModalBody& body) {
+  const auto rigid = static_cast<Eigen::Index>((body.frequencies_Hz.array() == 0).count());
+  if (rigid == 0) return;
+  const RigidFit fit(body.nodes_m);
+  for (Eigen::Index k = 0; k < rigid; ++k) check_rigid_mode(body, fit, k);
+}
+
+/// Symmetric and positive, whatever the units of its rows.
+void check_positive(const std::string& dataset, const std::string& what, const Matrix6d& matrix) {
+  const Eigen::VectorXd scales = unit_scales(dataset, matrix);
+  const Eigen::MatrixXd scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
+  require_symmetric(dataset, scaled, kSolved);
+  require_positive(dataset, what, scaled, 6 * kSolved);
+}
+
+void check_response(const ModalBody& body, const Interface& interface) {
+  const std::string group = "/interfaces/" + interface.name;
+  const Matrix6d& compliance = interface.response->compliance;
+  check_positive(group + "/compliance", "the compliance", compliance);
+  check_positive(group + "/response_mass", "the mass", interface.response->mass);
+  Matrix6d rest = compliance;
+  for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
+    if (body.frequencies_Hz[k] == 0) continue;
+    Vector6d motion;
+    motion << interface.translation.col(k), interface.rotation.col(k);
+    motion /= 2 * std::numbers::pi * body.frequencies_Hz[k];
+    rest -= motion * motion.transpose();
+  }
+  const Eigen::VectorXd scales = unit_scales(group + "/compliance", compliance);
+  require_positive(group + "/compliance", "the compliance less what the modes have of it",
+                   scales.asDiagonal() * rest * scales.asDiagonal(), 6 * kSolved);
+}
+
+void check_attached(const ModalBody& body, const AttachedFrequencies& attached) {
+  const std::string group = "/attached/" + attached.body;
+  try {
+    static_cast<void>(body.interface(attached.interface));
+  } catch (const InputError& error) {
+    throw InputError(group + ": " + error.what());
+  }
+  const Eigen::VectorXd& hertz = attached.frequencies_Hz;
+  if (!(hertz.array() > 0).all() || !std::is_sorted(hertz.begin(), hertz.end())) {
+    throw InputError(group + "/frequencies: expected positive numbers that ascend");
+  }
+  if (attached.mass_matrix) {
+    check_positive(group + "/mass_matrix", "the mass of a rigid body", *attached.mass_matrix);
+  }
+}
+
+void check_geometric(const std::string& dataset, const std::vector<Eigen::MatrixXd>& matrices) {
+  for (std::size_t k = 0; k < matrices.size(); ++k) {
+    const double largest = matrices[k].size() == 0 ? 0 : matrices[k].cwiseAbs().maxCoeff();
+    require_symmetric("/geometric_stiffness/" + dataset + ": matrix " + std::to_string(k),
+                      matrices[k], kSolved * largest);
+  }
+}
+
+void check_geometric_stiffness(const ModalBody& body) {
+  if (!body.geometric_stiffness) return;
+  const GeometricStiffness& stiffness = *body.geometric_stiffness;
+  check_geometric("acceleration", stiffness.acceleration);
+  check_geometric("angular_acceleration", stiffness.angular_acceleration);
+  check_geometric("velocity_products", stiffness.velocity_products);
+  check_geometric("modal_acceleration", stiffness.modal_acceleration);
+  for (const GeometricStiffness::OfInterface& loads : stiffness.interfaces) {
+    check_geometric("interfaces/" + loads.name + "/force", loads.force);
+    check_geometric("interfaces/" + loads.name + "/moment", loads.moment);
+  }
+}
+
+}  // namespace
+
+void check_modal_body(const ModalBody& body) {
+  check_modes(body);
+  check_invariants(body.invariants, rounding_of_sums(body.nodes_m.cols()));
+  check_rigid_modes(body);
+  for (const Interface& interface : body.interfaces) {
+    if (interface.response) check_response(body, interface);
+  }
+  for (const AttachedFrequencies& attached : body.attached) check_attached(body, attached);
+  check_geometric_stiffness(body);
+}
+
+}  // namespace flexneck::fe_modal
