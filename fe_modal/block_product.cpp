@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fe_modal/operator_matrix.h"
+
 namespace flexneck::fe_modal {
 namespace {
 
@@ -111,18 +113,6 @@ Eigen::MatrixXd product(const Matrix& matrix, const Eigen::MatrixXd& columns) {
                                result.leftCols(columns.cols() - alone));
   multiply_by_lanes<1>(matrix, columns.rightCols(alone), result.rightCols(alone));
   return result;
-}
-
-/// What is behind a matrix that OperatorMatrix has made; null for others.
-const BlockOperator* operator_behind(Mat matrix) {
-  PetscBool is_shell = PETSC_FALSE;
-  const BlockOperator* apply = nullptr;
-  require(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSHELL, &is_shell),
-          kMultiplying);
-  if (is_shell == PETSC_TRUE) {
-    require(MatShellGetContext(matrix, static_cast<void*>(&apply)), kMultiplying);
-  }
-  return apply;
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 
 #include "fe_modal/block_lanczos.h"
 #include "fe_modal/block_product.h"
+#include "fe_modal/kept_exception.h"
+#include "fe_modal/operator_matrix.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -34,20 +36,22 @@ struct Problem {
   const ShiftInverse* inverse;
 };
 
+/// What SLEPc gets for (K - shift M)^-1.
+struct InverseContext {
+  const ShiftInverse* inverse;
+  KeptException failure;
+};
+
 /// What SLEPc calls for y = (K - shift M)^-1 x.
 PetscErrorCode apply_inverse(PC preconditioner, Vec x, Vec y) {
-  const ShiftInverse* inverse = nullptr;
-  const PetscErrorCode code = PCShellGetContext(preconditioner, static_cast<void*>(&inverse));
+  InverseContext* context = nullptr;
+  const PetscErrorCode code = PCShellGetContext(preconditioner, static_cast<void*>(&context));
   if (code != 0) return code;
-  try {
-    inverse->solve(x, y);
-  } catch (const ComputationError&) {
-    return PETSC_ERR_LIB;  // no exception may cross SLEPc
-  }
-  return 0;
+  return context->failure.keep([&] { context->inverse->solve(x, y); });
 }
 
-EpsHandle make_solver(const Problem& problem) {
+/// @param context lives as long as the solver
+EpsHandle make_solver(const Problem& problem, InverseContext& context) {
   EpsHandle handle;
   require(EPSCreate(PETSC_COMM_SELF, handle.out()), kSolving);
   EPS eps = handle.get();
@@ -67,25 +71,21 @@ EpsHandle make_solver(const Problem& problem) {
   PC inverse = nullptr;
   require(KSPGetPC(solver, &inverse), kSolving);
   require(PCSetType(inverse, PCSHELL), kSolving);
-  // PETSc hands the context back as it is; the operator is not changed through it.
-  require(PCShellSetContext(inverse, const_cast<ShiftInverse*>(problem.inverse)), kSolving);
+  require(PCShellSetContext(inverse, &context), kSolving);
   require(PCShellSetApply(inverse, apply_inverse), kSolving);
   return handle;
 }
 
 EigenPairs take_over(EPS eps, const Problem& problem, Eigen::Index count, Eigen::Index size) {
   EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(size, count)};
-  VecHandle momentum;
-  require(MatCreateVecs(problem.mass, nullptr, momentum.out()), kSolving);
   for (Eigen::Index k = 0; k < count; ++k) {
     const VecHandle vector = column_vector(pairs.vectors, k);
     require(EPSGetEigenpair(eps, static_cast<PetscInt>(k), &pairs.values[k], nullptr, vector.get(),
                             nullptr),
             kSolving);
-    double modal_mass = 0;
-    require(MatMult(problem.mass, vector.get(), momentum.get()), kSolving);
-    require(VecDot(vector.get(), momentum.get(), &modal_mass), kSolving);
-    pairs.vectors.col(k) /= std::sqrt(modal_mass);
+  }
+  for (auto vector : pairs.vectors.colwise()) {
+    vector /= std::sqrt(vector.dot(block_product(problem.mass, vector).col(0)));
   }
   return pairs;
 }
@@ -103,7 +103,8 @@ Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns, std::uint6
 
 /// The lowest pairs, but of a multiple eigenvalue perhaps only one.
 EigenPairs search(const Problem& problem, Eigen::Index count, const Eigen::MatrixXd& start) {
-  const EpsHandle handle = make_solver(problem);
+  InverseContext inverse{problem.inverse, {}};
+  const EpsHandle handle = make_solver(problem, inverse);
   EPS eps = handle.get();
   const VecHandle start_handle = column_vector(start, 0);
   Vec start_space = start_handle.get();
@@ -114,7 +115,11 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Eigen::Matri
           kSolving);
   require(EPSSetTolerances(eps, kResidual, 200), kSolving);
   require(EPSSetPurify(eps, PETSC_FALSE), kSolving);  // done below, all at once
-  require(EPSSolve(eps), kSolving);
+  const PetscErrorCode code = EPSSolve(eps);
+  inverse.failure.rethrow();
+  rethrow_from(problem.stiffness);
+  rethrow_from(problem.mass);
+  require(code, kSolving);
   PetscInt converged = 0;
   require(EPSGetConverged(eps, &converged), kSolving);
   if (converged < wanted) {

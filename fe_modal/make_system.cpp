@@ -58,7 +58,7 @@ std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNod
   const mesher::ElementPartition partition =
       options.element_ranks.empty() ? mesher::partition_elements(mesh, count)
                                     : mesher::ElementPartition{count, options.element_ranks};
-  return std::make_unique<DistributedSystem>(MPI_COMM_WORLD, mesh, free_nodes, options.formulation,
+  return std::make_unique<DistributedSystem>(*options.ranks, mesh, free_nodes, options.formulation,
                                              partition, std::move(order));
 }
 

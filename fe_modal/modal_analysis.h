@@ -29,6 +29,10 @@ class PetscSession {
   ~PetscSession();
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;
+
+ private:
+  struct Start {};
+  explicit PetscSession(Start start);
 };
 
 class Ranks;

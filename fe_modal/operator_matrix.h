@@ -13,13 +13,25 @@ namespace flexneck::fe_modal {
 /// them and applies it to all columns at once.
 class OperatorMatrix {
  public:
+  struct Context;
+
   OperatorMatrix(Eigen::Index size, BlockOperator apply);
+  ~OperatorMatrix();
+  OperatorMatrix(OperatorMatrix&& other) noexcept;
+  OperatorMatrix& operator=(OperatorMatrix&& other) noexcept;
 
   Mat get() const { return shell_.get(); }
 
  private:
-  std::unique_ptr<const BlockOperator> apply_;  ///< at a fixed address: the shell points to it
+  std::unique_ptr<Context> context_;  ///< at a fixed address: the shell points to it
   MatHandle shell_;
 };
+
+/// What is behind a matrix that OperatorMatrix has made; null for others.
+const BlockOperator* operator_behind(Mat matrix);
+
+/// After PETSc or SLEPc failed with this matrix: throws what the map behind it has thrown, if that
+/// was the cause.
+void rethrow_from(Mat matrix);
 
 }  // namespace flexneck::fe_modal

@@ -36,7 +36,7 @@ void give_memory_back() {
 
 }  // namespace
 
-PetscSession::PetscSession() {
+PetscSession::PetscSession(Start /*start*/) {
   stay_alone();
   give_memory_back();
   int finalized = 0;
@@ -54,7 +54,17 @@ PetscSession::PetscSession() {
   char* arguments[] = {name, no_signals, no_petscrc, nullptr};
   char** argument_list = arguments;
   int argument_count = 3;
-  require(SlepcInitialize(&argument_count, &argument_list, nullptr, nullptr), "initialising PETSc");
+  const PetscErrorCode code = SlepcInitialize(&argument_count, &argument_list, nullptr, nullptr);
+  if (code != 0) {  // how far they came they do not say, but MPI does
+    int has_begun = 0;
+    MPI_Initialized(&has_begun);
+    if (has_begun != 0) MPI_Finalize();
+  }
+  require(code, "initialising PETSc");
+}
+
+// A constructor that delegates ends like any object if what comes after throws: finalised.
+PetscSession::PetscSession() : PetscSession(Start()) {
   // Errors come back as codes, without a trace on the terminal.
   require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
   require(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"), "silencing CHOLMOD");

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 #include "fe_modal/distributed/ranks.h"
 #include "geometry/foundation/error.h"
@@ -150,7 +151,9 @@ int main(int argc, char** argv) {
     const std::span<char*> words(argv, static_cast<std::size_t>(argc));
     if (is_child(words)) child_main(words, child_tasks());
     std::optional<Ranks> ranks;
-    if (Ranks::are_many()) ranks.emplace();
+    if (Ranks::are_many()) {
+      ranks.emplace([](const std::string& line) { fmt::print(stderr, "flexneck: {}\n", line); });
+    }
     if (ranks && !ranks->is_leader()) {
       ranks->serve();
       return 0;

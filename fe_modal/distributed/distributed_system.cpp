@@ -41,13 +41,17 @@ class DistributedSystem::Inverse : public ShiftInverse {
 
   Inverse(const DistributedSystem& system, double shift)
       : ShiftInverse(shift), system_(system), number_(++system.last_factor_) {
-    system_.order_all({.task = Task::factorise, .number = number_, .value = shift});
-    factor_ = system_.own_->factorise(system_.ranks_, MumpsFactor::Kind::definite, shift,
-                                      system_.node_order_);
+    system_.team_.in_step([&] {
+      system_.order_all({.task = Task::factorise, .number = number_, .value = shift});
+      factor_ = system_.own_->factorise(system_.ranks_, MumpsFactor::Kind::definite, shift,
+                                        system_.node_order_);
+    });
   }
   ~Inverse() override {
-    system_.order_all({.task = Task::drop, .number = number_});
-    factor_.reset();
+    system_.team_.in_step([&] {
+      system_.order_all({.task = Task::drop, .number = number_});
+      factor_.reset();
+    });
   }
 
   void solve(Vec right_hand_side, Vec solution) const override {
@@ -71,8 +75,10 @@ class DistributedSystem::Inverse : public ShiftInverse {
 
  private:
   void solve(double* values, int columns) const {
-    system_.order_all({.task = Task::solve, .number = number_, .columns = columns});
-    factor_->solve(values, columns);
+    system_.team_.in_step([&] {
+      system_.order_all({.task = Task::solve, .number = number_, .columns = columns});
+      factor_->solve(values, columns);
+    });
   }
 
   const DistributedSystem& system_;
@@ -80,18 +86,20 @@ class DistributedSystem::Inverse : public ShiftInverse {
   std::unique_ptr<MumpsFactor> factor_;
 };
 
-DistributedSystem::DistributedSystem(MPI_Comm ranks, const mesher::Mesh& mesh,
+DistributedSystem::DistributedSystem(const Ranks& team, const mesher::Mesh& mesh,
                                      const FreeNodes& free_nodes,
                                      const FormulationChoice& formulation,
                                      const mesher::ElementPartition& partition,
                                      std::vector<std::int32_t> node_order)
-    : ranks_(ranks),
+    : team_(team),
       node_order_(std::move(node_order)),
       stiffness_(free_nodes.dof_count(), [this](const Eigen::MatrixXd& columns) {
         Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
-        for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-          add_forces(columns.col(k).data(), forces.col(k).data());
-        }
+        team_.in_step([&] {
+          for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+            add_forces(columns.col(k).data(), forces.col(k).data());
+          }
+        });
         return forces;
       }) {
   std::vector<Share> shares = share_out(mesh, free_nodes, partition);
@@ -99,8 +107,15 @@ DistributedSystem::DistributedSystem(MPI_Comm ranks, const mesher::Mesh& mesh,
     share.formulation = formulation;
     nodes_of_.push_back(share.free_global);
   }
-  assemble_shares(shares);
-  gather_mass(mesh, free_nodes, shares);
+  team_.in_step([&] {
+    assemble_shares(shares);
+    gather_mass(mesh, shares);
+  });
+  const NodeGraph graph(mesh, free_nodes);
+  mass_ = std::make_unique<MassMatrix>(nodal_mass_, graph, free_nodes);
+  if (node_order_.empty()) {
+    node_order_ = mesher::nested_dissection(graph.offsets(), graph.columns());
+  }
 }
 
 void DistributedSystem::order_all(const Order& order) const {
@@ -118,8 +133,7 @@ void DistributedSystem::assemble_shares(std::vector<Share>& shares) {
   together(ranks_, [&] { own_ = std::make_unique<PartialSystem>(shares[0]); });
 }
 
-void DistributedSystem::gather_mass(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
-                                    const std::vector<Share>& shares) {
+void DistributedSystem::gather_mass(const mesher::Mesh& mesh, const std::vector<Share>& shares) {
   nodal_mass_ = zero_nodal_mass(NodeGraph(mesh));
   const NodalMass& own = own_->nodal_mass();
   add_mass(shares[0].nodes, own.outerIndexPtr(), own.innerIndexPtr(), own.valuePtr());
@@ -131,11 +145,6 @@ void DistributedSystem::gather_mass(const mesher::Mesh& mesh, const FreeNodes& f
     const auto columns = message.list<std::int32_t>();
     const auto values = message.list<double>();
     add_mass(shares[worker].nodes, offsets.data(), columns.data(), values.data());
-  }
-  const NodeGraph graph(mesh, free_nodes);
-  mass_ = std::make_unique<MassMatrix>(nodal_mass_, graph, free_nodes);
-  if (node_order_.empty()) {
-    node_order_ = mesher::nested_dissection(graph.offsets(), graph.columns());
   }
 }
 
@@ -176,9 +185,13 @@ std::unique_ptr<ShiftInverse> DistributedSystem::shift_inverse(double shift) con
 }
 
 Eigen::Index DistributedSystem::eigenvalues_below(double sigma) const {
-  order_all({.task = Task::count_below, .value = sigma});
-  return own_->factorise(ranks_, MumpsFactor::Kind::indefinite, sigma, node_order_)
-      ->negative_pivots();
+  Eigen::Index count = 0;
+  team_.in_step([&] {
+    order_all({.task = Task::count_below, .value = sigma});
+    count = own_->factorise(ranks_, MumpsFactor::Kind::indefinite, sigma, node_order_)
+                ->negative_pivots();
+  });
+  return count;
 }
 
 }  // namespace flexneck::fe_modal

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fe_modal/distributed/partial_system.h"
+#include "fe_modal/distributed/ranks.h"
 #include "fe_modal/distributed/worker.h"
 #include "fe_modal/modal_system.h"
 
@@ -17,7 +18,7 @@ class DistributedSystem : public ModalSystem {
   /// @param partition one process for each rank
   /// @param node_order of all free nodes, or empty: by nested dissection
   /// @throws what assemble() throws on any rank.
-  DistributedSystem(MPI_Comm ranks, const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+  DistributedSystem(const Ranks& team, const mesher::Mesh& mesh, const FreeNodes& free_nodes,
                     const FormulationChoice& formulation, const mesher::ElementPartition& partition,
                     std::vector<std::int32_t> node_order);
 
@@ -32,14 +33,14 @@ class DistributedSystem : public ModalSystem {
 
   void order_all(const Order& order) const;
   void assemble_shares(std::vector<Share>& shares);
-  void gather_mass(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
-                   const std::vector<Share>& shares);
+  void gather_mass(const mesher::Mesh& mesh, const std::vector<Share>& shares);
   void add_mass(const std::vector<std::int32_t>& nodes, const std::int32_t* offsets,
                 const std::int32_t* columns, const double* values);
   /// y += K x
   void add_forces(const double* x, double* y) const;
 
-  MPI_Comm ranks_;
+  const Ranks& team_;
+  MPI_Comm ranks_ = MPI_COMM_WORLD;
   std::vector<std::int32_t> node_order_;
   std::vector<std::vector<std::int32_t>> nodes_of_;  ///< of each rank, as PartialSystem::nodes
   std::unique_ptr<PartialSystem> own_;

@@ -22,18 +22,28 @@ std::string failure_of(const std::function<void()>& work) {
   try {
     work();
     return {};
-  } catch (const std::bad_alloc&) {
-    return "out of memory";
-  } catch (const std::exception& error) {
-    return error.what();
+  } catch (...) {
+    return current_failure();
   }
 }
 
 }  // namespace
 
+std::string current_failure() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "an unknown failure";
+  }
+}
+
 void send(MPI_Comm ranks, int to, const Bytes& bytes) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    throw ComputationError("a rank's share is larger than a message; start more ranks");
+    throw InputError("a rank's share is larger than a message; start more ranks");
   }
   MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, kTag, ranks);
 }

@@ -82,10 +82,13 @@ class MessageReader {
   std::size_t next_ = 0;
 };
 
-/// @throws ComputationError if there are more bytes than MPI counts.
+/// @throws InputError if there are more bytes than MPI counts.
 void send(MPI_Comm ranks, int to, const Bytes& bytes);
 /// Waits without keeping the processor busy for long: the sender may have much else to do.
 Bytes receive(MPI_Comm ranks, int from);
+
+/// In a handler: what was thrown, in words.
+std::string current_failure();
 
 /// Runs `work` on every rank that calls this, and then all or none of them go on: what one of them
 /// throws becomes a ComputationError of the same text on all. Collective.

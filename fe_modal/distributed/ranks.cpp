@@ -3,8 +3,12 @@
 
 #include <cstdlib>
 #include <exception>
+#include <string>
+#include <utility>
 
+#include "fe_modal/distributed/messages.h"
 #include "fe_modal/distributed/worker.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -22,23 +26,46 @@ bool Ranks::are_many() {
   return false;
 }
 
-Ranks::Ranks() {
+Ranks::Ranks(Progress last_words) : last_words_(std::move(last_words)) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
 }
 
 Ranks::~Ranks() {
   if (!is_leader()) return;
-  for (int worker = 1; worker < count_; ++worker) send_order(MPI_COMM_WORLD, worker, {});
+  try {
+    for (int worker = 1; worker < count_; ++worker) send_order(MPI_COMM_WORLD, worker, {});
+  } catch (...) {
+    end_all();
+  }
 }
 
 void Ranks::serve() const {
   try {
     Worker(MPI_COMM_WORLD).run();
-  } catch (const std::exception&) {
-    // Rank 0 may be waiting for an answer that will not come.
-    MPI_Abort(MPI_COMM_WORLD, kFailed);
+  } catch (...) {
+    end_all();
   }
+}
+
+void Ranks::in_step(const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const ComputationError&) {
+    throw;
+  } catch (...) {
+    end_all();
+  }
+}
+
+void Ranks::end_all() const noexcept {
+  try {
+    if (last_words_) last_words_("rank " + std::to_string(rank_) + ": " + current_failure());
+  } catch (...) {
+    // Nothing is left to say it with, and the others must not wait.
+  }
+  MPI_Abort(MPI_COMM_WORLD, kFailed);
+  std::abort();  // MPI_Abort does not return
 }
 
 }  // namespace flexneck::fe_modal

@@ -9,6 +9,9 @@ namespace {
 
 constexpr int kLeader = 0;
 
+/// Whether all ranks learn of a failure, or rank 0 would wait for an answer.
+bool fails_on_all_ranks(Task task) { return task != Task::send_mass && task != Task::multiply; }
+
 }  // namespace
 
 void send_order(MPI_Comm ranks, int to, const Order& order) {
@@ -24,6 +27,7 @@ void Worker::run() {
     try {
       carry_out(order);
     } catch (const ComputationError&) {
+      if (!fails_on_all_ranks(order.task)) throw;
       // Rank 0 has the same error and says so; it will not build on what failed.
     }
   }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <functional>
+#include <new>
+#include <utility>
 
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
@@ -7,6 +10,7 @@
 #include "fe_modal/assembly.h"
 #include "fe_modal/cholesky_factor.h"
 #include "fe_modal/eigensolver.h"
+#include "fe_modal/operator_matrix.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
@@ -68,6 +72,33 @@ TEST_CASE("a free body has six eigenvalues of zero and the elastic ones of a den
   CHECK(((pairs.values.tail(3) - expected.segment<3>(6)).array() / expected.segment<3>(6).array())
             .abs()
             .maxCoeff() < 1e-9);
+}
+
+TEST_CASE("whatever an operator throws comes out of SLEPc as it was, and the next run works") {
+  class Failing : public ShiftInverse {
+   public:
+    explicit Failing(std::function<void()> fail) : ShiftInverse(0), fail_(std::move(fail)) {}
+    void solve(Vec, Vec) const override { fail_(); }
+    Eigen::MatrixXd solve(const Eigen::MatrixXd& sides) const override { return sides; }
+    std::string describe() const override { return "failing"; }
+
+   private:
+    std::function<void()> fail_;
+  };
+  const MatHandle unit = diagonal_matrix(Eigen::VectorXd::Ones(20));
+  const auto solve_with = [&](std::function<void()> fail) {
+    lowest_eigenpairs(unit.get(), unit.get(), Failing(std::move(fail)), 2);
+  };
+  CHECK_THROWS_AS(solve_with([] { throw std::bad_alloc(); }), std::bad_alloc);
+  CHECK_THROWS_WITH(solve_with([] { throw ComputationError("no convergence"); }), "no convergence");
+  CHECK_THROWS_AS(solve_with([] { throw 1; }), int);
+
+  // Of the mass, which is an operator too.
+  const OperatorMatrix mass(
+      20, [](const Eigen::MatrixXd&) -> Eigen::MatrixXd { throw std::bad_alloc(); });
+  const CholeskyFactor factor(unit.get(), 0);
+  CHECK_THROWS_AS(lowest_eigenpairs(unit.get(), mass.get(), factor, 2), std::bad_alloc);
+  CHECK(lowest_eigenpairs(unit.get(), unit.get(), factor, 2).values[1] == Approx(1));
 }
 
 TEST_CASE("all copies of manifold eigenvalues are found") {

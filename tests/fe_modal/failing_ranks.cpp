@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fails as a library or a rank may fail, for tests of what is left behind:
+//   failing_ranks start   PETSc starts, and what comes after that in the session fails
+//   failing_ranks rank    under mpirun: rank 0 runs out of memory while the others wait for it
+#include <cstdio>
+#include <new>
+#include <string_view>
+
+#include <slepceps.h>
+
+#include "fe_modal/distributed/ranks.h"
+#include "geometry/foundation/error.h"
+
+namespace {
+
+bool session_fails = false;
+
+int fail_at_start() {
+  session_fails = true;
+  try {
+    const flexneck::fe_modal::PetscSession session;
+  } catch (const flexneck::ComputationError&) {
+    int is_finalised = 0;
+    MPI_Finalized(&is_finalised);
+    std::puts(is_finalised != 0 ? "finalised" : "left running");
+    return 0;
+  }
+  std::puts("started");
+  return 0;
+}
+
+int fail_on_a_rank() {
+  const flexneck::fe_modal::Ranks ranks(
+      [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
+  if (!ranks.is_leader()) {
+    ranks.serve();
+    return 0;
+  }
+  ranks.in_step([] { throw std::bad_alloc(); });
+  return 0;
+}
+
+}  // namespace
+
+// In place of PETSc's: what the session calls next when SLEPc has started.
+extern "C" PetscErrorCode PetscPushErrorHandler(
+    PetscErrorCode (* /*handler*/)(MPI_Comm, int, const char*, const char*, PetscErrorCode,
+                                   PetscErrorType, const char*, void*),
+    void* /*context*/) {
+  return session_fails ? PETSC_ERR_LIB : 0;
+}
+
+int main(int argc, char** argv) {
+  return argc > 1 && std::string_view(argv[1]) == "start" ? fail_at_start() : fail_on_a_rank();
+}
