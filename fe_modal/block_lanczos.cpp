@@ -172,7 +172,7 @@ EigenPairs purified(Mat mass, const ShiftInverse& inverse, const EigenPairs& pai
   const Eigen::MatrixXd inertia = vectors.transpose() * momenta;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
       (stiffness + stiffness.transpose()) / 2, inertia);
-  return {ritz.eigenvalues().array() + inverse.shift(), vectors * ritz.eigenvectors()};
+  return {ritz.eigenvalues().array() + inverse.shift(), vectors * ritz.eigenvectors(), pairs.next};
 }
 
 }  // namespace flexneck::fe_modal

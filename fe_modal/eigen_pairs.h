@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Core>
 
 namespace flexneck::fe_modal {
@@ -9,6 +11,8 @@ namespace flexneck::fe_modal {
 struct EigenPairs {
   Eigen::VectorXd values;   ///< (m), ascending, 1/s^2
   Eigen::MatrixXd vectors;  ///< (dofs, m), x^T M x = 1
+  /// The eigenvalue above the last, less exactly; infinite if there is none or it is not known.
+  double next = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace flexneck::fe_modal

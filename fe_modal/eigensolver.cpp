@@ -143,7 +143,9 @@ EigenPairs completed(const Problem& problem, const EigenPairs& pairs) {
   const EigenPairs all =
       block_lanczos(problem.mass, *problem.inverse, pairs,
                     random_block(size, columns, kSeedOfOthers), count + 1, settled);
-  return {all.values.head(count), all.vectors.leftCols(count)};
+  EigenPairs found{all.values.head(count), all.vectors.leftCols(count)};
+  if (all.values.size() > count) found.next = all.values[count];
+  return found;
 }
 
 }  // namespace

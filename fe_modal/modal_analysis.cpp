@@ -26,7 +26,6 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr Eigen::Index kAttachedCount = 6;
-constexpr const char* kNotCertified = "not certified";
 
 [[noreturn]] void refuse_mechanism(const std::string& motions) {
   throw InputError("the body is a mechanism: " + motions + "; hold it or bond it to its neighbour");
@@ -120,35 +119,28 @@ std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FreeNode
   return loads;
 }
 
-/// The modes, none missing if that is asked for, and the certificate.
-CertifiedModes normal_modes(const ModalSystem& system, const ShiftInverse& inverse,
-                            const ModalOptions& options) {
-  CertifiedModes modes = options.certify
-                             ? certified_modes(system, inverse, options.mode_count)
-                             : CertifiedModes{lowest_eigenpairs(system.stiffness(), system.mass(),
-                                                                inverse, options.mode_count),
-                                              kNotCertified};
-  for (double& value : modes.pairs.values) {
-    if (value < kStrainless * -inverse.shift()) value = 0;
-  }
-  return modes;
-}
-
 /// The basis asked for and its certificate.
 std::pair<Reduction, std::string> reduced_basis(
     const mesher::Mesh& mesh, const FreeNodes& free_nodes, const ModalSystem& system,
     const ShiftInverse& inverse, const ModalOptions& options,
-    const std::vector<InterfaceLoads>& loads, const Progress& progress) {
+    const std::vector<InterfaceLoads>& loads, const Progress& progress, const Progress& warn) {
   const BodyOperators operators = operators_of(system, inverse);
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
-      return lowest_eigenpairs(system.stiffness(), mass, inverse, count);
+      EigenPairs pairs = lowest_eigenpairs(system.stiffness(), mass, inverse, count);
+      warn_of_cut(pairs, inverse.shift(), warn);
+      return pairs;
     };
     return {craig_bampton(operators, system.mass(), solve, options.mode_count, loads, progress),
             kNotCertified};
   }
-  const auto [pairs, certificate] = normal_modes(system, inverse, options);
+  auto [pairs, certificate] =
+      lowest_modes(system, inverse, options.mode_count, options.certify, warn);
   check_no_mechanism(mesh, free_nodes, system, pairs.values, options.is_held());
+  check_eigenvalues(pairs.values, inverse.shift());
+  for (double& value : pairs.values) {
+    if (value < kStrainless * -inverse.shift()) value = 0;
+  }
   return {complete_modes(operators, pairs, loads, options.basis, progress), certificate};
 }
 
@@ -215,7 +207,7 @@ FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
 }
 
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
-                        const Progress& progress, StepTimes* step_times) {
+                        const Progress& progress, StepTimes* step_times, const Progress& warn) {
   StepTimes unseen;
   StepTimes& times = step_times != nullptr ? *step_times : unseen;
   const auto report = [&](const std::string& line) {
@@ -245,7 +237,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   const std::vector<InterfaceLoads> loads = loads_of(options, free_nodes, averages);
   auto [basis, certificate] =
-      reduced_basis(mesh, free_nodes, system, *inverse, options, loads, progress);
+      reduced_basis(mesh, free_nodes, system, *inverse, options, loads, progress, warn);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
     apply_conventions(pairs);

@@ -92,11 +92,14 @@ FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options);
 
 /// Normal modes by shift-invert, completed to the basis asked for, reduced to a modal body.
 /// @param times takes the time of each step if it is not null
+/// @param warn takes a line if the number of modes cuts a cluster of equal frequencies; may be
+/// empty
 /// @throws InputError for unknown sets, parts or interfaces, elements that have no such
 /// formulation, more modes than degrees of freedom, a basis that the boundary does not allow, or a
 /// body that is a mechanism: the message names the parts that move without strain, and how.
 /// @throws ComputationError if the factorisation or the eigensolver fails, or if a mode is missing.
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
-                        const Progress& progress, StepTimes* times = nullptr);
+                        const Progress& progress, StepTimes* times = nullptr,
+                        const Progress& warn = {});
 
 }  // namespace flexneck::fe_modal

@@ -62,4 +62,8 @@ Progress Console::detail() const {
   return [](const std::string& line) { spdlog::debug("  {}", one_line(line)); };
 }
 
+Progress Console::warnings(const std::string& of) const {
+  return [console = *this, of](const std::string& line) { console.warning(of + ": " + line); };
+}
+
 }  // namespace flexneck::pipeline

@@ -22,6 +22,8 @@ class Console {
   void warning(const std::string& line) const;  ///< always: a result may not be what it seems
   void error(const std::string& line) const;    ///< always
   Progress detail() const;                      ///< for the stages: shown when verbose
+  /// For the stages: warnings that begin with what they are of.
+  Progress warnings(const std::string& of) const;
 
  private:
   Verbosity verbosity_;

@@ -130,7 +130,7 @@ void check(const ImportedBody& body) {
 }
 
 ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certify,
-                           const Progress& progress) {
+                           const Progress& progress, const Progress& warn) {
   check(input);
   if (mode_count < 1 || mode_count > input.stiffness.rows()) {
     throw InputError("the number of modes must lie between 1 and the " +
@@ -140,11 +140,8 @@ ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certi
   if (progress) progress("factorising the stiffness that was given");
   const ImportedSystem system(input);
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(0);
-  auto [pairs, certificate] =
-      certify ? certified_modes(system, *inverse, mode_count)
-              : CertifiedModes{
-                    lowest_eigenpairs(system.stiffness(), system.mass(), *inverse, mode_count),
-                    "not certified"};
+  auto [pairs, certificate] = lowest_modes(system, *inverse, mode_count, certify, warn);
+  check_eigenvalues(pairs.values, 0);
   apply_conventions(pairs);
 
   ModalBody body;

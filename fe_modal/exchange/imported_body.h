@@ -24,9 +24,11 @@ UpperMatrix expand_mass(const NodalMass& nodal);
 void check(const ImportedBody& body);
 
 /// Normal modes of a body that is held, with its invariants; it has no interfaces.
+/// @param warn takes a line if the number of modes cuts a cluster of equal frequencies; may be
+/// empty
 /// @throws InputError as check(), or for more modes than degrees of freedom.
 /// @throws ComputationError if the stiffness is not positive definite, or the eigensolver fails.
 ModalBody analyse_matrices(const ImportedBody& body, int mode_count, bool certify,
-                           const Progress& progress);
+                           const Progress& progress, const Progress& warn = {});
 
 }  // namespace flexneck::fe_modal

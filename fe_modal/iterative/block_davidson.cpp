@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -141,7 +142,9 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
     const Eigen::VectorXd errors =
         block.cwiseProduct(residuals).colwise().sum().transpose().cwiseQuotient(values);
     if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
-      return {{values.head(count), pairs.vectors.leftCols(count)}, iteration};
+      EigenPairs lowest{values.head(count), pairs.vectors.leftCols(count)};
+      if (values.size() > count) lowest.next = values[count];
+      return {std::move(lowest), iteration};
     }
     if (basis.count() + width > basis.capacity()) {
       const Eigen::MatrixXd combination = restart_combination(best, before);

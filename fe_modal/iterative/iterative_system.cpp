@@ -57,6 +57,7 @@ class IterativeSystem::Inverse : public ShiftInverse {
         [&](const Eigen::MatrixXd& r) { return preconditioner_.apply(r); }, matrix_.size(), count);
     davidson_iterations_ += result.iterations;
     result.pairs.values.array() += shift();
+    result.pairs.next += shift();
     return std::move(result.pairs);
   }
 

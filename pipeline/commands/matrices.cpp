@@ -29,8 +29,9 @@ bool modes_of_matrices(const CommandInput& input) {
                                         fe_modal::read_matrix(files.mass),
                                         fe_modal::read_positions(files.nodes)};
   fe_modal::ModalBodyFile file;
-  file.body = fe_modal::analyse_matrices(matrices, input.study.modes.count,
-                                         input.study.modes.certify, input.console.detail());
+  file.body =
+      fe_modal::analyse_matrices(matrices, input.study.modes.count, input.study.modes.certify,
+                                 input.console.detail(), input.console.warnings("modes.h5"));
   file.provenance = provenance_of(input.study, {"matrices.", "modes."});
   for (const std::filesystem::path& path : {files.stiffness, files.mass, files.nodes}) {
     file.provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});

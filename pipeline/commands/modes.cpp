@@ -128,7 +128,8 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
                           const fe_modal::ModalOptions& options, const std::filesystem::path& path,
                           StepTimes& times) {
   fe_modal::ModalBodyFile file;
-  file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times);
+  file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times,
+                                      input.console.warnings(path.filename().string()));
   check_rounding(input, mesh, options, file.body);
   times.start("write");
   file.provenance = provenance_of_modes(input);

@@ -145,7 +145,8 @@ void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
     input.console.step("Reducing substructure " + piece.name);
     const std::filesystem::path path = input.folder.substructure(piece.name);
     fe_modal::ModalBodyFile file;
-    file.body = fe_modal::analyse_modes(piece.mesh, piece.options, input.console.detail());
+    file.body = fe_modal::analyse_modes(piece.mesh, piece.options, input.console.detail(), nullptr,
+                                        input.console.warnings(path.filename().string()));
     file.provenance = provenance;
     fe_modal::write_modal_body(path, file);
     const Eigen::VectorXd& frequencies = file.body.frequencies_Hz;

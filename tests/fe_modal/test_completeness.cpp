@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
@@ -48,22 +53,88 @@ TEST_CASE("a mode withheld is missed, wherever it stood") {
   }
 }
 
-TEST_CASE("a certified body says so and up to which frequency") {
+TEST_CASE("a certificate is true of the modes that the body has, whatever the count cuts") {
   const mesher::Mesh mesh =
-      testing::box({2, 2, 4}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
+      testing::box({1, 1, 3}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
+  ModalOptions options;
+  options.certify = true;
+  for (const bool held : {true, false}) {
+    options.held_set = held ? "bottom" : "";
+    const FreeNodes free_nodes = free_nodes_of(mesh, options);
+    const SystemMatrices system = assemble(mesh, free_nodes);
+    const Eigen::VectorXd truth_Hz =
+        testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get()))
+            .values.cwiseMax(0)
+            .cwiseSqrt() /
+        (2 * std::numbers::pi);
+    for (int count = 1; count <= 9; ++count) {
+      options.mode_count = count;
+      std::vector<std::string> warnings;
+      const auto warn = [&](const std::string& line) { warnings.push_back(line); };
+      const ModalBody body = analyse_modes(mesh, options, {}, nullptr, warn);
+      INFO("held " << held << ", " << count << " modes: " << body.certificate);
+      REQUIRE(body.frequencies_Hz.size() == count);
+      const std::string claim = "no mode is missing below ";
+      const std::size_t at = body.certificate.find(claim);
+      if (at != std::string::npos) {
+        const double below_Hz = std::stod(body.certificate.substr(at + claim.size()));
+        CHECK((body.frequencies_Hz.array() < below_Hz).count() ==
+              (truth_Hz.array() < below_Hz).count());
+      }
+      const bool cuts = held ? truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6)
+                             : count < 6 || truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6);
+      CHECK(cuts == (body.certificate.find("the count cuts the ") != std::string::npos));
+      CHECK(warnings.size() == (cuts ? 1 : 0));
+      CHECK(body.certificate.starts_with(at == std::string::npos ? "not certified" : "certified"));
+      // The first pair, and rigid-body motions, have no complete modes below them.
+      CHECK((at == std::string::npos) == (held ? count == 1 : count < 6));
+    }
+  }
+}
+
+TEST_CASE("without a certificate, too, a count that cuts a cluster is warned about") {
+  const mesher::Mesh mesh =
+      testing::box({1, 1, 3}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
+  const auto warnings_of = [&](int count, const std::string& held, Solver solver) {
+    ModalOptions options;
+    options.mode_count = count;
+    options.held_set = held;
+    options.solver = solver;
+    std::string lines;
+    const ModalBody body =
+        analyse_modes(mesh, options, {}, nullptr, [&](const std::string& line) { lines += line; });
+    CHECK(body.certificate == "not certified");
+    return lines;
+  };
+  for (const Solver solver : {Solver::direct, Solver::iterative}) {
+    CHECK_THAT(warnings_of(1, "bottom", solver),
+               Catch::Contains("the number of modes, 1, cuts a cluster of equal frequencies at "));
+    CHECK(warnings_of(2, "bottom", solver).empty());
+    CHECK_THAT(warnings_of(3, "", solver), Catch::Contains("ask for at least 6"));
+    CHECK(warnings_of(6, "", solver).empty());
+    CHECK_THAT(warnings_of(7, "", solver), Catch::Contains("or for 6"));
+  }
+}
+
+TEST_CASE("all modes that a body has are found and certified as all") {
+  const mesher::Mesh mesh =
+      testing::box({1, 1, 1}, {0.05, 0.06, 0.07}, {"steel", 2.1e11, 0.3, 7850}).make();
   ModalOptions options;
   options.held_set = "bottom";
   options.certify = true;
-  // One of a bending pair is asked for only: there is no gap above it, so one more is looked at.
-  for (const int count : {1, 2, 5}) {
-    options.mode_count = count;
-    const ModalBody body = analyse_modes(mesh, options, {});
-    CHECK(body.frequencies_Hz.size() == count);
-    CHECK_THAT(body.certificate, Catch::StartsWith("certified: no mode is missing below "));
-  }
-  options.held_set.clear();
-  options.mode_count = 8;
-  CHECK_THAT(analyse_modes(mesh, options, {}).certificate, Catch::StartsWith("certified"));
+  options.mode_count = 54;
+  CHECK(analyse_modes(mesh, options, {}).certificate == "certified: all modes that there are");
+}
+
+TEST_CASE("eigenvalues that are no numbers, or negative beyond rounding, are refused") {
+  const double nan = std::nan("");
+  CHECK_NOTHROW(check_eigenvalues(Eigen::Vector3d(-1e-7, 0, 1), 0));
+  CHECK_NOTHROW(check_eigenvalues(Eigen::Vector3d(-1, 0, 1), -2e6));
+  CHECK_THROWS_WITH(check_eigenvalues(Eigen::Vector3d(-1e-3, 0, 1), 0),
+                    Catch::Contains("eigenvalue 1 is -0.001 1/s^2"));
+  CHECK_THROWS_WITH(check_eigenvalues(Eigen::Vector3d(-1e-3, nan, 1), -1e6),
+                    Catch::Contains("eigenvalue 2 is"));
+  CHECK_THROWS_AS(check_eigenvalues(Eigen::Vector3d(1, 2, HUGE_VAL), 0), ComputationError);
 }
 
 }  // namespace flexneck::fe_modal
