@@ -5,12 +5,16 @@
 #include <cstdio>
 #include <vector>
 
+#include "fe_modal/memory_needs.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kFactorising = "factorising the stiffness matrix";
+constexpr const char* kOtherwise =
+    "take a coarser mesh, --solver iterative, or more ranks with mpirun";
 
 /// The order of nodes as one of degrees of freedom.
 IsHandle expand_order(std::span<const std::int32_t> node_order) {
@@ -25,6 +29,12 @@ IsHandle expand_order(std::span<const std::int32_t> node_order) {
           kFactorising);
   require(ISSetPermutation(order.get()), kFactorising);
   return order;
+}
+
+std::string millions_text(double entries) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "%.4g million entries", entries / 1e6);
+  return text.data();
 }
 
 }  // namespace
@@ -42,6 +52,11 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
   require(MatFactorInfoInitialize(&settings), kFactorising);
   require(MatCholeskyFactorSymbolic(factor_.get(), shifted_stiffness, order.get(), &settings),
           kFactorising);
+  MatInfo info;
+  require(MatGetInfo(factor_.get(), MAT_LOCAL, &info), kFactorising);
+  nonzeros_ = info.nz_used;
+  require_memory("the factor of " + millions_text(nonzeros_), kBytesPerFactorEntry * nonzeros_,
+                 kOtherwise);
   const PetscErrorCode code = MatCholeskyFactorNumeric(factor_.get(), shifted_stiffness, &settings);
   if (code != PETSC_ERR_MAT_CH_ZRPVT) require(code, kFactorising);
   MatFactorError error = MAT_FACTOR_NOERROR;
@@ -49,9 +64,6 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
   if (code != 0 || error != MAT_FACTOR_NOERROR) {
     throw ComputationError(kNotDefinite);
   }
-  MatInfo info;
-  require(MatGetInfo(factor_.get(), MAT_LOCAL, &info), kFactorising);
-  nonzeros_ = info.nz_used;
 }
 
 void CholeskyFactor::solve(Vec right_hand_side, Vec solution) const {
@@ -75,9 +87,7 @@ Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) c
 }
 
 std::string CholeskyFactor::describe() const {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "the factor has %.4g million entries", nonzeros_ / 1e6);
-  return text.data();
+  return "the factor has " + millions_text(nonzeros_);
 }
 
 }  // namespace flexneck::fe_modal

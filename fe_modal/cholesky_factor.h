@@ -25,6 +25,7 @@ class CholeskyFactor : public ShiftInverse {
   /// @param node_order order of elimination: entry k is the node, three degrees of freedom each,
   /// that comes k-th; a permutation of 0 … N/3 - 1. Empty: CHOLMOD tries AMD, and METIS on all
   /// degrees of freedom where AMD fills much, and keeps the better one.
+  /// @throws InputError if memory does not hold the factor, before it is made.
   /// @throws ComputationError if the matrix is not positive definite or memory runs out.
   CholeskyFactor(Mat shifted_stiffness, double shift,
                  std::span<const std::int32_t> node_order = {});

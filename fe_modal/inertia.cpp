@@ -2,6 +2,7 @@
 #include "fe_modal/inertia.h"
 
 #include "fe_modal/petsc_handles.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -24,6 +25,11 @@ Eigen::Index negative_eigenvalues(Mat shifted) {
   MatFactorInfo settings;
   require(MatFactorInfoInitialize(&settings), kCounting);
   require(MatCholeskyFactorSymbolic(factor.get(), shifted, nullptr, &settings), kCounting);
+  constexpr PetscInt kMegabytes = 17;
+  PetscInt megabytes = 0;
+  require(MatMumpsGetInfog(factor.get(), kMegabytes, &megabytes), kCounting);
+  require_memory("counting modes by inertia", 1e6 * megabytes,
+                 "take a coarser mesh, or leave out modes.certify");
   require(MatCholeskyFactorNumeric(factor.get(), shifted, &settings), kCounting);
   PetscInt negative = 0;
   PetscInt zero = 0;

@@ -14,6 +14,7 @@
 #include "fe_modal/invariants.h"
 #include "fe_modal/make_system.h"
 #include "fe_modal/mechanism.h"
+#include "fe_modal/memory_needs.h"
 #include "fe_modal/modal_options_check.h"
 #include "fe_modal/mode_conventions.h"
 #include "fe_modal/mode_naming.h"
@@ -214,6 +215,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     if (progress) progress(line);
   };
   check_options(mesh, options);
+  check_memory(mesh, options);
   const bool held = options.is_held();
   const FreeNodes free_nodes = free_nodes_of(mesh, options);
   report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +

@@ -2,7 +2,10 @@
 #include "fe_modal/node_graph.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
+
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -65,6 +68,11 @@ void connect(const Rows& elements, std::size_t node_count, std::vector<std::int3
           columns.push_back(other);
         }
       }
+    }
+    if (columns.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+      throw InputError(
+          "the mesh has more pairs of neighbouring nodes than 32-bit integers count; "
+          "take a coarser one");
     }
     std::sort(columns.begin() + row, columns.end());
     offsets.push_back(static_cast<std::int32_t>(columns.size()));

@@ -19,8 +19,8 @@ SymmetricMatrix::Arrays SymmetricMatrix::sparsity_of(const NodeGraph& graph) {
   const std::size_t entries =
       9 * (graph.columns().size() / 2 + 1) + 3 * static_cast<std::size_t>(graph.node_count());
   if (entries > static_cast<std::size_t>(std::numeric_limits<PetscInt>::max())) {
-    throw ComputationError("the stiffness has " + std::to_string(entries) +
-                           " entries, more than PETSc's integers count; take a coarser mesh");
+    throw InputError("the stiffness has " + std::to_string(entries) +
+                     " entries, more than PETSc's integers count; take a coarser mesh");
   }
   Arrays arrays;
   arrays.columns.reserve(entries);

@@ -34,12 +34,12 @@ NeckDivisions divisions_preset(const std::string& name) {
   return presets[find_name(names, name, "preset of mesh divisions")].second;
 }
 
-long hexahedra(const NeckDivisions& divisions) {
-  const long round = 4L * divisions.quadrant;
-  const long in_plates = (2L * divisions.end_plate_layers + 3L * divisions.plate_layers) *
-                         (divisions.inner_ring + divisions.outer_ring);
-  const long in_rubber = 4L * divisions.rubber_layers * divisions.inner_ring;
-  const long cuts = divisions.refine + 1;
+double hexahedra(const NeckDivisions& divisions) {
+  const double round = 4.0 * divisions.quadrant;
+  const double in_plates = (2.0 * divisions.end_plate_layers + 3.0 * divisions.plate_layers) *
+                           (1.0 * divisions.inner_ring + divisions.outer_ring);
+  const double in_rubber = 4.0 * divisions.rubber_layers * divisions.inner_ring;
+  const double cuts = divisions.refine + 1.0;
   return round * (in_plates + in_rubber) * cuts * cuts * cuts;
 }
 

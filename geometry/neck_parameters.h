@@ -60,8 +60,8 @@ struct NeckDivisions {
 /// these give 2400 and, with 8-node hexahedra, 3408), evenly divided.
 /// @throws InputError for another name.
 NeckDivisions divisions_preset(const std::string& name);
-/// Hexahedra that the divisions give.
-long hexahedra(const NeckDivisions& divisions);
+/// Hexahedra that the divisions give; a whole number, that no integer need hold.
+double hexahedra(const NeckDivisions& divisions);
 
 /// Height of one rubber section: (length - plates) / 4.
 double rubber_height(const NeckParameters& neck);

@@ -7,6 +7,7 @@
 
 #include "fe_modal/cholesky_factor.h"
 #include "fe_modal/distributed/messages.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -64,6 +65,15 @@ std::vector<MUMPS_INT> places(std::span<const std::int32_t> node_order) {
     for (std::size_t a = 0; a < 3; ++a) result[3 * static_cast<std::size_t>(node) + a] = ++place;
   }
   return result;
+}
+
+int ranks_on_this_machine(MPI_Comm ranks) {
+  MPI_Comm beside = MPI_COMM_NULL;
+  MPI_Comm_split_type(ranks, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &beside);
+  int count = 1;
+  MPI_Comm_size(beside, &count);
+  MPI_Comm_free(&beside);
+  return count;
 }
 
 }  // namespace
@@ -153,6 +163,12 @@ MumpsFactor::MumpsFactor(MPI_Comm ranks, Kind kind, SymmetricMatrix& part,
   data.jcn_loc = coordinates.columns.data();
   data.a_loc = part.values().data();
   instance_->run(kAnalyse, "analysing the matrix");
+  together(ranks, [&] {
+    constexpr std::size_t kMegabytes = 14;  // of this rank
+    const int beside = ranks_on_this_machine(ranks);
+    require_memory("the factor on the " + std::to_string(beside) + " ranks of this machine",
+                   1e6 * beside * data.info[kMegabytes], "take a coarser mesh or more machines");
+  });
   instance_->factorise();
 }
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
+#include <fmt/core.h>
+
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "geometry/neck_measures.h"
 #include "pipeline/commands/commands.h"
@@ -26,6 +32,45 @@ ExactVolumes exact_volumes(const GeometrySection& geometry) {
   return volumes;
 }
 
+/// Within a twentieth of what the mesher makes: the nodes of one element alone, and those that its
+/// neighbours do not share on the surface.
+double estimated_nodes(const GeometrySection& geometry) {
+  const double elements = geometry::hexahedra(geometry.divisions);
+  const double surface = std::pow(elements, 2.0 / 3);
+  switch (geometry.element) {
+    case mesher::ElementKind::hex8:
+      return elements + 4.4 * surface;
+    case mesher::ElementKind::hex20:
+      return 4 * elements + 13.1 * surface;
+    case mesher::ElementKind::tet10:
+      return 24 * elements;
+    default:
+      return 8 * elements + 17.4 * surface;
+  }
+}
+
+double estimated_bytes(double nodes) {
+  constexpr double kProgram = 0.1e9;
+  constexpr double kBytesPerNode = 400;  // measured from 9 000 to 200 000 nodes
+  return kProgram + kBytesPerNode * nodes;
+}
+
+/// "about 8.8e+03 nodes, 0.104 GB"
+std::string needs_text(const GeometrySection& geometry) {
+  const double nodes = estimated_nodes(geometry);
+  return fmt::format("about {:.3g} nodes, {}", nodes, memory_text(estimated_bytes(nodes)));
+}
+
+void require_meshable(const GeometrySection& geometry) {
+  const double nodes = estimated_nodes(geometry);
+  const std::string what = fmt::format("a mesh of about {:.3g} nodes", nodes);
+  const std::string advice = "lower mesh.refine or the other divisions";
+  if (3 * nodes > std::numeric_limits<std::int32_t>::max()) {
+    throw InputError(what + " has more degrees of freedom than 32-bit integers count: " + advice);
+  }
+  require_memory(what, estimated_bytes(nodes), advice);
+}
+
 }  // namespace
 
 bool mesh_command(const CommandInput& input) {
@@ -33,10 +78,12 @@ bool mesh_command(const CommandInput& input) {
   if (!study.geometry && !study.structure) {
     throw InputError(study.file.string() + ": there is no [geometry], so nothing to mesh");
   }
+  if (study.geometry) require_meshable(*study.geometry);
   input.folder.make();
   const std::filesystem::path& source =
       study.structure ? study.structure->file() : study.geometry->script;
-  input.console.step("Meshing " + source.filename().string());
+  input.console.step("Meshing " + source.filename().string() +
+                     (study.geometry ? ": " + needs_text(*study.geometry) : ""));
   mesher::MeshFile file;
   file.mesh = make_mesh(study, input.console);
   file.provenance = mesh_provenance(study);

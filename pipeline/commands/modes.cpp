@@ -7,8 +7,10 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "fe_modal/distributed/ranks.h"
 #include "fe_modal/exchange/modes_xdmf.h"
+#include "fe_modal/memory_needs.h"
 #include "fe_modal/modal_analysis.h"
 #include "fe_modal/rounding.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/step_times.h"
@@ -177,7 +179,11 @@ bool modes_command(const CommandInput& input) {
   for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, options.formulation)) {
     input.console.warning(line);
   }
-  input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
+  const double dofs = 3.0 * static_cast<double>(mesh.mesh.nodes.size());
+  const fe_modal::MemoryNeeds needs =
+      fe_modal::memory_needs(dofs, options.solver, options.mode_count);
+  input.console.step(fmt::format("Solving for {} modes of {:.0f} degrees of freedom: about {}",
+                                 options.mode_count, dofs, memory_text(needs.peak)));
   times.start("start PETSc");
   std::optional<fe_modal::PetscSession> session;
   if (input.ranks == nullptr) session.emplace();

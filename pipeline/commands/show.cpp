@@ -89,7 +89,7 @@ std::string division_line(const GeometrySection& geometry) {
       d.plate_layers, d.end_plate_layers);
   if (d.refine > 0) line += fmt::format("; every element cut in {0} x {0} x {0}", d.refine + 1);
   if (geometry.element != mesher::ElementKind::tet10) {
-    line += fmt::format(": {} elements", geometry::hexahedra(d));
+    line += fmt::format(": {:.0f} elements", geometry::hexahedra(d));
   }
   return line;
 }

@@ -3,9 +3,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "fe_modal/memory_needs.h"
 #include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "tests/support/block_mesh.h"
@@ -132,6 +135,23 @@ TEST_CASE("a held set that lets the body turn is refused") {
   options.held_set = "edge";
   CHECK_THROWS_AS(analyse_modes(mesh, options, {}), InputError);
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Catch::Contains("on one line"));
+}
+
+TEST_CASE("what an analysis takes is estimated within a fifth of what was measured") {
+  // Degrees of freedom and GB of necks of 27-node hexahedra, tests/benchmarks/README.md.
+  const std::vector<std::pair<double, double>> direct = {
+      {11868, 0.18}, {26388, 0.32}, {64344, 0.76}, {191388, 2.76}, {174720, 3.06}};
+  const std::vector<std::pair<double, double>> iterative = {
+      {11868, 0.15}, {26388, 0.24}, {64344, 0.48}, {191388, 1.36}, {1000782, 7.25}};
+  for (const auto& [dofs, measured] : direct) {
+    CHECK(memory_needs(dofs, Solver::direct, 10).peak == Approx(1e9 * measured).epsilon(0.2));
+  }
+  for (const auto& [dofs, measured] : iterative) {
+    CHECK(memory_needs(dofs, Solver::iterative, 10).peak == Approx(1e9 * measured).epsilon(0.2));
+  }
+  // Modes take memory, too.
+  CHECK(memory_needs(1e5, Solver::direct, 1000).assembling >
+        memory_needs(1e5, Solver::direct, 10).assembling + 8e5 * 1000);
 }
 
 }  // namespace flexneck::fe_modal

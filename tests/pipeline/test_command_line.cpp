@@ -343,6 +343,27 @@ TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no 
   CHECK(run_flexneck("--version").exit_code == 0);
 }
 
+TEST_CASE("giants are refused before they start, with what they take and what there is") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  const auto run_within_4_GB = [&](const std::string& arguments) {
+    return testing::run_shell("ulimit -v 4000000; " + std::string(FLEXNECK_BINARY_DIR) +
+                              "/flexneck " + arguments + out);
+  };
+  check_refused(run_within_4_GB("mesh --refine 30"), "a mesh of about 2.15e+08 nodes takes about");
+  check_refused(run_within_4_GB("mesh --refine 2000000000"), "more degrees of freedom than");
+  CHECK_FALSE(fs::exists(folder / "out"));
+
+  const std::string coarse =
+      " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
+      " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in' -q";
+  REQUIRE(run_within_4_GB("mesh" + coarse).exit_code == 0);
+  check_refused(run_within_4_GB("modes --set modes.count=4000" + coarse),
+                "take a coarser mesh or fewer modes");
+  check_refused(run_within_4_GB("modes --set modes.count=100000" + coarse), "found 100000");
+  CHECK_FALSE(fs::exists(folder / "out/modes.h5"));
+}
+
 TEST_CASE("mesh --show tells dimensions, mass and section of the neck and makes nothing") {
   const TemporaryFolder folder;
   const std::string out = " -o " + (folder / "out").string();

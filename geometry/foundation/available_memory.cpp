@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/available_memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+/// The number behind a word, "MemAvailable: 123 kB"; if there is none, `otherwise`.
+double number_behind(const fs::path& file, const std::string& word, double otherwise) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with(word)) continue;
+    const std::size_t digits = line.find_first_of("0123456789", word.size());
+    if (digits != std::string::npos) return std::stod(line.substr(digits));
+  }
+  return otherwise;
+}
+
+/// A file of one number; "max" and what is missing are `otherwise`.
+double number_in(const fs::path& file, double otherwise) {
+  std::ifstream stream(file);
+  double number = 0;
+  return stream >> number ? number : otherwise;
+}
+
+/// What a folder of control groups leaves, of either version. Files in the cache make room.
+double left_in_group(const fs::path& group) {
+  const double limit = number_in(group / "memory.max", kUnknown);
+  const double old_limit = number_in(group / "memory.limit_in_bytes", kUnknown);
+  const double used =
+      number_in(group / "memory.current", number_in(group / "memory.usage_in_bytes", 0));
+  const double cached = number_behind(group / "memory.stat", "total_inactive_file",
+                                      number_behind(group / "memory.stat", "inactive_file", 0));
+  return std::min(limit, old_limit) - std::max(used - cached, 0.0);
+}
+
+/// "4:memory:/a/b" or "0::/a/b": the group's folder and all above it count.
+double left_in_groups(const fs::path& root) {
+  const fs::path all = root / "sys/fs/cgroup";
+  double left = std::min(left_in_group(all), left_in_group(all / "memory"));
+  std::ifstream stream(root / "proc/self/cgroup");
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    if (!controllers.empty() && controllers.find("memory") == std::string::npos) continue;
+    const fs::path top = controllers.empty() ? all : all / "memory";
+    for (fs::path group = fs::path(line.substr(second + 1)).relative_path(); !group.empty();
+         group = group.parent_path()) {
+      left = std::min(left, left_in_group(top / group));
+    }
+  }
+  return left;
+}
+
+double left_of_addresses(const fs::path& root) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnknown;
+  const double pages = number_in(root / "proc/self/statm", 0);
+  return static_cast<double>(limit.rlim_cur) - pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+double available_memory(const fs::path& root) {
+  constexpr double kKilobyte = 1024;  // which the kernel calls kB
+  const double of_machine =
+      kKilobyte * number_behind(root / "proc/meminfo", "MemAvailable:", kUnknown);
+  return std::max(std::min({of_machine, left_in_groups(root), left_of_addresses(root)}), 0.0);
+}
+
+std::string memory_text(double bytes) {
+  constexpr double kGigabyte = 1e9;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g GB", bytes / kGigabyte);
+  return text.data();
+}
+
+void require_memory(const std::string& what, double bytes, const std::string& advice) {
+  const double available = available_memory();
+  if (bytes <= available) return;
+  throw InputError(what + " takes about " + memory_text(bytes) + " of memory, " +
+                   memory_text(available) + " are free: " + advice);
+}
+
+}  // namespace flexneck
