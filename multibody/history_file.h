@@ -16,7 +16,7 @@
 namespace flexneck::multibody {
 
 /// The layout is described in multibody/README.md.
-inline constexpr FileFormat kHistoryFormat{"flexneck history", 1, "flexneck pendulum"};
+inline constexpr FileFormat kHistoryFormat{"flexneck history", 2, "flexneck pendulum"};
 
 /// Curves that were derived from a history, at its times.
 struct Channel {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/console.h"
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <iostream>
 
-#include <fmt/core.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
 
 namespace flexneck::pipeline {
@@ -33,6 +37,20 @@ std::string one_line(const std::string& text) { return shortened(printable(text)
 
 }  // namespace
 
+void keep_standard_streams() {
+  for (int stream = 0; stream <= 2; ++stream) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest number that is free
+  }
+}
+
+void require_written_output() {
+  std::cout.flush();
+  if (std::cout && std::ferror(stdout) == 0 && std::fflush(stdout) == 0) return;
+  throw ComputationError(std::string("standard output: cannot be written (") +
+                         std::strerror(errno) + ")");
+}
+
 Console::Console(Verbosity verbosity) : verbosity_(verbosity) {
   auto logger = spdlog::stderr_color_mt("flexneck");
   logger->set_pattern(verbosity == Verbosity::verbose ? "%^[%T.%e]%$ %v" : "%v");
@@ -44,8 +62,8 @@ Console::Console(Verbosity verbosity) : verbosity_(verbosity) {
 
 void Console::result(const std::string& text) const {
   if (verbosity_ == Verbosity::quiet) return;
-  fmt::print("{}\n", printable(text, "\n"));
-  std::fflush(stdout);
+  std::cout << printable(text, "\n") << '\n';
+  require_written_output();
 }
 
 void Console::step(const std::string& line) const { spdlog::info(one_line(line)); }

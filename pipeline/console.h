@@ -10,6 +10,13 @@ namespace flexneck::pipeline {
 /// How much the command says.
 enum class Verbosity { quiet, normal, verbose };
 
+/// Before any file is opened: a standard stream that is closed would give its number to one, and
+/// what is printed would go into a result. What is printed to it fails then.
+void keep_standard_streams();
+
+/// @throws ComputationError if what was printed to standard output has not all been written.
+void require_written_output();
+
 /// Progress and errors go to standard error, results to standard output. What a terminal would obey
 /// is spelt out (geometry/foundation/printable.h), since names come from foreign files. All but
 /// results are one line each.
@@ -17,7 +24,8 @@ class Console {
  public:
   explicit Console(Verbosity verbosity);
 
-  void result(const std::string& text) const;   ///< tables; silent when quiet
+  /// Tables; silent when quiet. @throws ComputationError if standard output cannot be written.
+  void result(const std::string& text) const;
   void step(const std::string& line) const;     ///< what is done now; silent when quiet
   void warning(const std::string& line) const;  ///< always: a result may not be what it seems
   void error(const std::string& line) const;    ///< always

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <new>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -12,6 +15,7 @@
 #include "geometry/foundation/names.h"
 #include "pipeline/child_tasks.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/folder_lock.h"
 #include "pipeline/version.h"
 
 namespace {
@@ -24,6 +28,7 @@ constexpr int kUnusableInput = 2;
 constexpr int kComputationFailed = 3;
 
 struct Arguments {
+  std::string line = "flexneck";  ///< as the user gave it
   std::string command = "run";
   std::vector<std::string> files;
   std::string folder = "out";
@@ -97,7 +102,14 @@ bool execute(const Arguments& arguments, const Console& console, const Ranks* ra
                                arguments.command + "'");
   }
   const ResultsFolder folder(arguments.folder);
+  std::optional<FolderLock> lock;
+  const auto take_lock = [&] {
+    if (!list[which].writes_results || arguments.show) return;
+    lock.emplace(folder.path(), arguments.line,
+                 [&](const std::string& line) { console.warning(line); });
+  };
   if (list[which].run_on_files != nullptr) {
+    take_lock();
     return list[which].run_on_files(
         {{arguments.files.begin(), arguments.files.end()}, arguments.settings, folder, console});
   }
@@ -108,6 +120,7 @@ bool execute(const Arguments& arguments, const Console& console, const Ranks* ra
   const Study study = read_study(
       arguments.files.empty() ? built_in_study() : std::filesystem::path(arguments.files.front()),
       arguments.settings);
+  take_lock();
   if (ranks != nullptr && arguments.command != "modes" && arguments.command != "run") {
     console.step("Only modes are computed on many ranks: '" + arguments.command +
                  "' runs on the first");
@@ -116,16 +129,34 @@ bool execute(const Arguments& arguments, const Console& console, const Ranks* ra
       {study, folder, console, arguments.target, arguments.is_binary, ranks, arguments.force});
 }
 
+struct Failure {
+  int exit_code;
+  std::string text;
+};
+
+/// Of the exception that is being handled.
+Failure failure() {
+  try {
+    throw;
+  } catch (const flexneck::InputError& error) {
+    return {kUnusableInput, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {kComputationFailed, "the memory that is free does not suffice for this"};
+  } catch (const std::exception& error) {
+    return {kComputationFailed, error.what()};
+  } catch (...) {
+    return {kComputationFailed, "failed for an unknown reason"};
+  }
+}
+
 int exit_code_of(const Arguments& arguments, const Ranks* ranks) {
   const Console console(arguments.verbosity());
   try {
     return execute(arguments, console, ranks) ? 0 : kVerificationFailed;
-  } catch (const flexneck::InputError& error) {
-    console.error(error.what());
-    return kUnusableInput;
-  } catch (const std::exception& error) {
-    console.error(error.what());
-    return kComputationFailed;
+  } catch (...) {
+    const Failure found = failure();
+    console.error(found.text);
+    return found.exit_code;
   }
 }
 
@@ -144,30 +175,46 @@ int exit_code_of(const CLI::App& app, const CLI::ParseError& error) {
   return 0;
 }
 
+int run(int argc, char** argv) {
+  std::optional<Ranks> ranks;
+  if (Ranks::are_many()) {
+    ranks.emplace([](const std::string& line) { fmt::print(stderr, "flexneck: {}\n", line); });
+  }
+  if (ranks && !ranks->is_leader()) {
+    ranks->serve();
+    return 0;
+  }
+  CLI::App app("From the geometry of a manikin's neck to its motion.", "flexneck");
+  Arguments arguments;
+  for (int k = 1; k < argc; ++k) arguments.line += std::string(" ") + argv[k];
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return exit_code_of(app, error);
+  }
+  return exit_code_of(arguments, ranks ? &*ranks : nullptr);
+}
+
+/// Of the exception that is being handled.
+int told_without_console() {
+  const Failure found = failure();
+  std::fprintf(stderr, "flexneck: %s\n", found.text.c_str());
+  return found.exit_code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams();
+  const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+  if (is_child(words)) child_main(words, child_tasks());
+  // Of what is thrown where a library or a thread lets nothing through.
+  std::set_terminate(
+      [] { std::_Exit(std::current_exception() ? told_without_console() : kComputationFailed); });
   try {
-    const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-    if (is_child(words)) child_main(words, child_tasks());
-    std::optional<Ranks> ranks;
-    if (Ranks::are_many()) {
-      ranks.emplace([](const std::string& line) { fmt::print(stderr, "flexneck: {}\n", line); });
-    }
-    if (ranks && !ranks->is_leader()) {
-      ranks->serve();
-      return 0;
-    }
-    CLI::App app("From the geometry of a manikin's neck to its motion.", "flexneck");
-    Arguments arguments;
-    describe(app, arguments);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      return exit_code_of(app, error);
-    }
-    return exit_code_of(arguments, ranks ? &*ranks : nullptr);
+    return run(argc, argv);
   } catch (...) {
-    return kComputationFailed;
+    return told_without_console();
   }
 }

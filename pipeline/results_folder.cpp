@@ -35,6 +35,29 @@ std::vector<std::string> used_by(const CaseSection& experiment) {
   return prefixes;
 }
 
+/// Whether a value changes a result: not how it is computed, nor what is stored beside it.
+bool matters(const std::string& key) {
+  constexpr std::array<const char*, 4> kOfNoResult = {"modes.certify", "modes.solver",
+                                                      "mesh.partitions", "mesh.node_order"};
+  return std::find(kOfNoResult.begin(), kOfNoResult.end(), key) == kOfNoResult.end();
+}
+
+const Parameter* find(const std::vector<Parameter>& parameters, const std::string& key) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const Parameter& parameter) { return parameter.key == key; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+/// Empty if there is none: then no later stage could have used the file.
+Provenance provenance_in(const fs::path& file, const FileFormat& format) {
+  if (!fs::exists(file)) return {};
+  try {
+    return read_provenance(Hdf5Reader(file, format));
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 template <typename Prefixes>
 bool begins_with_one_of(const std::string& key, const Prefixes& prefixes) {
   return std::any_of(prefixes.begin(), prefixes.end(),
@@ -88,13 +111,18 @@ Provenance provenance_of(const Study& study, const std::vector<std::string>& pre
   return provenance;
 }
 
-Provenance mesh_provenance(const Study& study) {
-  Provenance provenance = provenance_of(study, {"geometry.", "mesh."});
-  std::erase_if(provenance.parameters, [](const Parameter& parameter) {
+std::vector<Parameter> mesh_values(const Study& study) {
+  std::vector<Parameter> values = provenance_of(study, {"geometry.", "mesh."}).parameters;
+  std::erase_if(values, [](const Parameter& parameter) {
     return parameter.key.starts_with("geometry.materials.") &&
            (parameter.key.ends_with(".formulation") ||
             parameter.key.ends_with(".static_modulus_ratio"));
   });
+  return values;
+}
+
+Provenance mesh_provenance(const Study& study) {
+  Provenance provenance = provenance_of(study.files, mesh_values(study));
   const fs::path& source = study.structure ? study.structure->file() : study.geometry->script;
   provenance.inputs.push_back({source.filename().string(), hash_of_file(source.string())});
   return provenance;
@@ -120,15 +148,46 @@ Provenance case_provenance(const Study& study, const CaseSection& experiment) {
 }
 
 void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,
-                         const std::string& made_by) {
+                         const std::vector<Parameter>& expected, const std::string& made_by) {
+  if (made_from.program.empty() || study.parameters.empty()) return;
+  const auto refuse = [&](const std::string& difference) {
+    throw InputError(file.string() + ": was made " + difference + "; make it again with '" +
+                     made_by + "'");
+  };
   for (const Parameter& then : made_from.parameters) {
-    const auto now =
-        std::find_if(study.parameters.begin(), study.parameters.end(),
-                     [&](const Parameter& parameter) { return parameter.key == then.key; });
-    if (now == study.parameters.end() || now->value == then.value) continue;
-    throw InputError(file.string() + ": was made with " + then.key + " = " + then.value +
-                     ", the study has " + now->value + "; make it again with '" + made_by + "'");
+    if (!matters(then.key)) continue;
+    const std::string with = "with " + then.key + " = " + then.value + ", the study has ";
+    const Parameter* now = find(study.parameters, then.key);
+    if (now == nullptr) now = find(study.defaults, then.key);
+    if (now == nullptr) refuse(with + "none");
+    if (now->value != then.value) refuse(with + now->value);
   }
+  for (const Parameter& now : expected) {
+    if (find(made_from.parameters, now.key) == nullptr && matters(now.key))
+      refuse("without " + now.key + ", the study has " + now.value);
+  }
+}
+
+std::string replaced_values(const fs::path& file, const FileFormat& format, const Provenance& now) {
+  const Provenance then = provenance_in(file, format);
+  if (then.program.empty()) return {};
+  const auto text = [](const Parameter* parameter) {
+    return parameter == nullptr ? "none" : parameter->value;
+  };
+  const auto difference = [&](const std::string& key) -> std::string {
+    const Parameter* const before = find(then.parameters, key);
+    const Parameter* const after = find(now.parameters, key);
+    if (!matters(key) || text(before) == text(after)) return {};
+    return file.string() + ": was made with " + key + " = " + text(before) + ", now with " +
+           text(after) + ": other results in the folder are of the former; 'flexneck run' makes " +
+           "all of them of one study";
+  };
+  for (const auto* const parameters : {&then.parameters, &now.parameters}) {
+    for (const Parameter& parameter : *parameters) {
+      if (std::string found = difference(parameter.key); !found.empty()) return found;
+    }
+  }
+  return {};
 }
 
 }  // namespace flexneck::pipeline

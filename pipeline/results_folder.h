@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/provenance.h"
 #include "pipeline/study/study.h"
 
@@ -48,8 +49,9 @@ Provenance provenance_of(const std::vector<InputFile>& files,
 /// values whose key begins with one of the prefixes, such as "geometry." (all if there is none).
 Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes = {});
 
-/// The same for a mesh: the script or file it is made of, and what the study says of [geometry] and
-/// [mesh], save what only the solver asks of its materials.
+/// What the study says of [geometry] and [mesh], save what only the solver asks of its materials.
+std::vector<Parameter> mesh_values(const Study& study);
+/// What a mesh is made from: these values, and the script or file.
 /// @throws InputError if that file cannot be read.
 Provenance mesh_provenance(const Study& study);
 /// The same for the modes of a mesh.
@@ -59,9 +61,16 @@ Provenance experiment_provenance(const Study& study, CaseSection::Kind kind);
 /// The same for one case: of sections with a name, only what it uses.
 Provenance case_provenance(const Study& study, const CaseSection& experiment);
 
-/// Refuses a file that was made with other values than the study has now.
+/// Refuses a file that was made with other values than the study has now, given or by default. One
+/// that another program has made is taken as it is.
+/// @param expected the values that it would be made from now; empty if they are not known
 /// @throws InputError naming the first value that differs, and the command that makes the file.
 void require_same_inputs(const std::filesystem::path& file, const Provenance& made_from,
-                         const Study& study, const std::string& made_by);
+                         const Study& study, const std::vector<Parameter>& expected,
+                         const std::string& made_by);
+
+/// A warning if a file is about to be replaced by one that is made from other values; else empty.
+std::string replaced_values(const std::filesystem::path& file, const FileFormat& format,
+                            const Provenance& now);
 
 }  // namespace flexneck::pipeline

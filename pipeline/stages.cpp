@@ -2,11 +2,11 @@
 #include "pipeline/stages.h"
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 
 namespace flexneck::pipeline {
@@ -92,8 +92,8 @@ bool Stages::is_there(const Record& record) const {
 }
 
 void Stages::read() {
-  std::ifstream file(folder_ / kFile);
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  if (!fs::exists(folder_ / kFile)) return;
+  const nlohmann::json json = nlohmann::json::parse(text_of_file(folder_ / kFile), nullptr, false);
   try {
     if (json.at("format") != kFormat || json.at("program") != program_) return;
     std::map<std::string, Record> records;

@@ -10,7 +10,7 @@
 namespace flexneck::fe_modal {
 
 /// The layout is described in fe_modal/body/README.md.
-inline constexpr FileFormat kModalBodyFormat{"flexneck modal body", 1, "flexneck modes"};
+inline constexpr FileFormat kModalBodyFormat{"flexneck modal body", 2, "flexneck modes"};
 
 struct ModalBodyFile {
   ModalBody body;

@@ -10,7 +10,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr FileFormat kViewFormat{"flexneck modes view", 1, "flexneck modes"};
+constexpr FileFormat kViewFormat{"flexneck modes view", 2, "flexneck modes"};
 
 /// A dataset for each mode: of the three readers of XDMF that ParaView has, two find nothing in a
 /// part of a larger dataset.

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/foundation/content_hash.h"
+
 namespace flexneck {
 
 /// Extents of a dataset, slowest index first. In an expected shape kAnyExtent matches everything.
@@ -24,11 +26,13 @@ struct FileFormat {
 };
 
 /// What a file says that it is; empty if it is no HDF5 file that can be read or says nothing.
+/// @throws InputError as trust_of() does.
 std::string format_of(const std::filesystem::path& path);
 
-/// Writes an HDF5 file under a temporary name beside its own and renames it on commit(); without
-/// commit() nothing is left. Object names are absolute paths; missing groups are made on the way.
-/// The same writes give the same bytes. All members throw ComputationError when writing fails.
+/// Writes an HDF5 file that takes its place on commit(), with the hash of its content in front
+/// (content_hash.h); without commit() nothing is left. Object names are absolute paths; missing
+/// groups are made on the way. Strings have the length of the longest of their dataset. The same
+/// writes give the same bytes. All members throw ComputationError when writing fails.
 class Hdf5Writer {
  public:
   /// @throws InputError if the folder cannot be written.
@@ -44,6 +48,13 @@ class Hdf5Writer {
   void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape);
   void write(const std::string& dataset, const std::vector<std::string>& values);
 
+  /// Adds rows to a dataset of shape (rows, row…), which is written block by block: for more values
+  /// than memory holds. It is complete after commit(), and has no attribute but `units`.
+  /// @param rows row-major, any number of whole rows, even none
+  /// @param row extents of one row, none of them 0; empty for a dataset of shape (rows)
+  void append(const std::string& dataset, std::span<const double> rows, const Shape& row,
+              std::string_view unit);
+
   void write_attribute(const std::string& object, const std::string& name, std::string_view value);
   void write_attribute(const std::string& object, const std::string& name, double value);
   void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
@@ -55,8 +66,11 @@ class Hdf5Writer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads an HDF5 file of ours. Every member throws InputError with one line: the file, the dataset
-/// or attribute, what was expected, what was found, what to do.
+/// Reads an HDF5 file of a format of ours. Before HDF5 sees it, the hash that our files carry is
+/// checked; a file without one is foreign, whoever wrote it: it may have numbers of any width that
+/// fit and strings of either kind, but neither links to elsewhere nor data outside of it.
+/// Every member throws InputError with one line: the file, the dataset or attribute, what was
+/// expected, what was found, what to do; and ComputationError if a verified file cannot be read.
 class Hdf5Reader {
  public:
   /// Checks that the file is HDF5, of this format and of a schema version no newer than known.
@@ -66,6 +80,7 @@ class Hdf5Reader {
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
   const std::filesystem::path& path() const;
+  Trust trust() const;
 
   /// True if the group or dataset exists.
   bool has(const std::string& object) const;

@@ -13,42 +13,39 @@ class Hdf5Handle {
   using Closer = herr_t (*)(hid_t);
 
   Hdf5Handle() = default;
-  Hdf5Handle(hid_t id, Closer close) : id_(id), close_(close) {}
+  Hdf5Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
   ~Hdf5Handle() { reset(); }
   Hdf5Handle(const Hdf5Handle&) = delete;
   Hdf5Handle& operator=(const Hdf5Handle&) = delete;
   Hdf5Handle(Hdf5Handle&& other) noexcept
-      : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+      : id_(std::exchange(other.id_, H5I_INVALID_HID)), closer_(other.closer_) {}
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
     if (this != &other) {
       reset();
       id_ = std::exchange(other.id_, H5I_INVALID_HID);
-      close_ = other.close_;
+      closer_ = other.closer_;
     }
     return *this;
   }
 
-  void reset() {
-    if (id_ >= 0) close_(id_);
-    id_ = H5I_INVALID_HID;
-  }
+  void reset() { close(); }
+  /// @return false if HDF5 could not close it; it is gone either way
+  bool close() { return id_ < 0 || closer_(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
   explicit operator bool() const { return id_ >= 0; }
   hid_t get() const { return id_; }
 
  private:
   hid_t id_ = H5I_INVALID_HID;
-  Closer close_ = nullptr;
+  Closer closer_ = nullptr;
 };
 
-/// HDF5 prints a stack of errors of its own by default; ours are exceptions.
-inline void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
-/// A UTF-8 string type of variable length, as h5py writes it.
-inline Hdf5Handle hdf5_string_type() {
-  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), H5T_VARIABLE);
-  H5Tset_cset(type.get(), H5T_CSET_UTF8);
-  return type;
+/// To be called before anything else of HDF5. Its errors are exceptions of ours instead of texts on
+/// the console, no plug-in is loaded, and nothing is done at the end of the process, where HDF5
+/// crashes if a file could not be closed.
+inline void start_hdf5() {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5PLset_loading_state(0);
 }
 
 }  // namespace flexneck

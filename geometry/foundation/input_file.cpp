@@ -5,9 +5,9 @@
 #include <array>
 #include <cstring>
 #include <fcntl.h>
-#include <sys/stat.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/regular_file.h"
 
 namespace flexneck {
 
@@ -22,7 +22,8 @@ bool is_users_fault(int reason) {
 }  // namespace
 
 FileDescriptor open_to_read(const std::filesystem::path& path) {
-  // Without O_NONBLOCK a pipe would have to be opened by a writer first.
+  size_of_file(path);  // refuses what is no file
+  // Without O_NONBLOCK a pipe that has taken its place would have to be opened by a writer first.
   FileDescriptor file(
       uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
   if (!file) {
@@ -30,10 +31,6 @@ FileDescriptor open_to_read(const std::filesystem::path& path) {
     const std::string text = path.string() + ": cannot be read (" + std::strerror(reason) + ")";
     if (is_users_fault(reason)) throw InputError(text);
     throw ComputationError(text);
-  }
-  struct stat status {};
-  if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
-    throw InputError(path.string() + ": cannot be read (expected a regular file)");
   }
   return file;
 }

@@ -4,30 +4,19 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <utility>
-
-#include "geometry/foundation/error.h"
 
 namespace flexneck {
 
-OutputFile::OutputFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      temporary_(path_.string() + ".part"),
-      stream_(temporary_, std::ios::binary) {
-  if (!stream_) throw InputError(path_.string() + ": cannot be written");
-}
-
-OutputFile::~OutputFile() {
-  stream_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+void OutputFile::write_waiting() {
+  file_.write_at(written_, waiting_);
+  file_.require_written();
+  written_ += waiting_.size();
+  waiting_.clear();
 }
 
 void OutputFile::commit() {
-  stream_.close();
-  std::error_code error;
-  if (stream_) std::filesystem::rename(temporary_, path_, error);
-  if (!stream_ || error) throw ComputationError(path_.string() + ": writing failed");
+  write_waiting();
+  file_.commit();
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {

@@ -1,33 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
+#include "geometry/foundation/atomic_file.h"
+
 namespace flexneck {
 
-/// A file that is written under a temporary name beside its own and renamed by commit(); without
+/// A file that is written from its beginning to its end and takes its place by commit(); without
 /// commit() nothing is left.
 class OutputFile {
  public:
   /// @throws InputError if the folder cannot be written.
-  explicit OutputFile(std::filesystem::path path);
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
+  explicit OutputFile(std::filesystem::path path) : file_(std::move(path)) {}
 
+  /// @throws ComputationError if writing has failed.
   void write(std::string_view text) {
-    stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+    waiting_.append(text);
+    if (waiting_.size() >= kBlock) write_waiting();
   }
   /// @throws ComputationError if writing has failed.
   void commit();
 
  private:
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;
-  std::ofstream stream_;
+  static constexpr std::size_t kBlock = std::size_t{1} << 18U;
+
+  void write_waiting();
+
+  AtomicFile file_;
+  std::string waiting_;
+  std::uint64_t written_ = 0;
 };
 
 /// A whole file at once. @throws as OutputFile does.

@@ -2,48 +2,11 @@
 #include "geometry/foundation/provenance.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <fstream>
 #include <vector>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
-#include "geometry/foundation/error.h"
 #include "geometry/foundation/hdf5_file.h"
 
 namespace flexneck {
-
-namespace {
-
-std::string digits_of(const XXH128_hash_t& hash) {
-  std::array<char, 33> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx%016llx",
-                static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return digits.data();
-}
-
-}  // namespace
-
-std::string hash_of_text(const std::string& text) {
-  return digits_of(XXH3_128bits(text.data(), text.size()));
-}
-
-std::string hash_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path + ": cannot be read");
-  XXH3_state_t state;
-  XXH3_128bits_reset(&state);
-  std::vector<char> block(1 << 18);
-  while (file) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    XXH3_128bits_update(&state, block.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (file.bad()) throw InputError(path + ": cannot be read");
-  return digits_of(XXH3_128bits_digest(&state));
-}
 
 namespace {
 
@@ -87,6 +50,7 @@ void write_provenance(Hdf5Writer& file, const Provenance& provenance) {
 Provenance read_provenance(const Hdf5Reader& file) {
   const std::string group = "/provenance";
   Provenance provenance;
+  if (!file.has(group)) return provenance;
   provenance.program = file.string_attribute(group, "program");
   provenance.git_hash = file.string_attribute(group, "git_hash");
   for (const std::string& name : file.attributes(group + "/libraries")) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/origin.h"
 
 namespace flexneck {
@@ -26,7 +27,7 @@ struct InputFile {
   std::string hash;  ///< 128-bit XXH3 of the contents, 32 hexadecimal digits
 };
 
-/// How a result came about; stored in the group /provenance of every file.
+/// How a result came about; stored in the group /provenance of every file of ours.
 struct Provenance {
   std::string program;   ///< e.g. "flexneck 0.1.0"
   std::string git_hash;  ///< of the sources the program was built from, or "unknown"
@@ -35,12 +36,8 @@ struct Provenance {
   std::map<std::string, std::string> libraries;  ///< name to version
 };
 
-/// 128-bit XXH3 hash, 32 hexadecimal digits.
-std::string hash_of_text(const std::string& text);
-/// @throws InputError if the file cannot be read.
-std::string hash_of_file(const std::string& path);
-
 void write_provenance(Hdf5Writer& file, const Provenance& provenance);
+/// Empty if the file has none: other programs write none.
 Provenance read_provenance(const Hdf5Reader& file);
 
 }  // namespace flexneck

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cairo.h>
+#include <exception>
 #include <memory>
+#include <string>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/drawing/colours.h"
 
 namespace flexneck::mesher {
@@ -102,6 +105,16 @@ void draw_sheet(cairo_t* canvas, const PictureSheet& sheet, int width, int heigh
   draw_legend(canvas, sheet.legend, width - kPadding, baseline);
 }
 
+/// Cairo is C: nothing is thrown across it.
+cairo_status_t append(void* png, const unsigned char* bytes, unsigned int size) noexcept {
+  try {
+    static_cast<std::string*>(png)->append(reinterpret_cast<const char*>(bytes), size);
+    return CAIRO_STATUS_SUCCESS;
+  } catch (const std::exception&) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
+}
+
 void require_success(cairo_status_t status, const std::filesystem::path& path) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   throw ComputationError(path.string() +
@@ -121,11 +134,9 @@ void write_png(const std::filesystem::path& path, const PictureSheet& sheet) {
   draw_sheet(canvas.get(), sheet, width, height);
   require_success(cairo_status(canvas.get()), path);
 
-  const std::filesystem::path temporary = path.string() + ".part";
-  const cairo_status_t status = cairo_surface_write_to_png(surface.get(), temporary.c_str());
-  if (status != CAIRO_STATUS_SUCCESS) std::filesystem::remove(temporary);
-  require_success(status, path);
-  std::filesystem::rename(temporary, path);
+  std::string png;
+  require_success(cairo_surface_write_to_png_stream(surface.get(), append, &png), path);
+  write_text(path, png);
 }
 
 }  // namespace flexneck::mesher

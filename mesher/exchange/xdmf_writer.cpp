@@ -8,7 +8,7 @@
 namespace flexneck::mesher {
 namespace {
 
-constexpr FileFormat kViewFormat{"flexneck mesh view", 1, "flexneck mesh"};
+constexpr FileFormat kViewFormat{"flexneck mesh view", 2, "flexneck mesh"};
 
 class XdmfWriter {
  public:

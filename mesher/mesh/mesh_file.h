@@ -12,7 +12,7 @@
 namespace flexneck::mesher {
 
 /// The layout is described in mesher/mesh/README.md.
-inline constexpr FileFormat kMeshFormat{"flexneck mesh", 2, "flexneck mesh"};
+inline constexpr FileFormat kMeshFormat{"flexneck mesh", 3, "flexneck mesh"};
 
 struct MeshFile {
   Mesh mesh;

@@ -24,6 +24,7 @@ struct CommandInput {
   bool is_binary = false;                  ///< likewise
   const fe_modal::Ranks* ranks = nullptr;  ///< that mpirun has started; null: this process alone
   bool redo = false;                       ///< of run: even what has not changed
+  bool is_run = false;                     ///< all that follows is made anew, too
 };
 
 /// A command returns true unless a verification failed; everything else is an exception.
@@ -32,10 +33,15 @@ struct Command {
   std::string help;
   bool (*run)(const CommandInput&);                  ///< null if it works on files
   bool (*run_on_files)(const FileInput&) = nullptr;  ///< null if it works on a study
+  bool writes_results = true;                        ///< into the folder of results
 };
 
 /// All commands, in the order of --help.
 const std::vector<Command>& commands();
+
+/// Of a stage by itself, before it replaces a file by one that is made from other values.
+void warn_of_replaced(const CommandInput& input, const std::filesystem::path& file,
+                      const FileFormat& format, const Provenance& now);
 
 bool run_command(const CommandInput& input);
 bool mesh_command(const CommandInput& input);

@@ -55,7 +55,8 @@ void export_deck(const CommandInput& input, const mesher::Mesh& mesh) {
 /// The modes of this mesh for the ATB.
 void export_modes(const CommandInput& input, const mesher::Mesh& mesh) {
   const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(input.folder.modes());
-  require_same_inputs(input.folder.modes(), modes.provenance, input.study, "flexneck modes");
+  require_same_inputs(input.folder.modes(), modes.provenance, input.study,
+                      modes_provenance(input.study).parameters, "flexneck modes");
   if (modes.body.nodes_m.cols() != static_cast<Eigen::Index>(mesh.nodes.size())) {
     throw InputError(input.folder.modes().string() + ": belongs to another mesh than " +
                      input.folder.mesh().string() + "; make it again with 'flexneck modes'");
@@ -71,7 +72,8 @@ bool export_command(const CommandInput& input) {
     throw InputError("export: name the file to write, --to FILE.msh, .inp, .mtx, .petsc or .dat");
   }
   mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
-  require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, "flexneck mesh");
+  require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),
+                      "flexneck mesh");
   input.console.step("Writing " + target.string());
   try {
     if (target.extension() == ".msh") {

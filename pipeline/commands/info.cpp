@@ -25,6 +25,7 @@ namespace {
 
 /// What a file is made from: program, files, libraries and values.
 std::string provenance_text(const Provenance& provenance) {
+  if (provenance.program.empty()) return "\nMade by another program, which it does not name";
   std::string text =
       fmt::format("\nMade by {}, sources {}, from", provenance.program, provenance.git_hash);
   for (const InputFile& input : provenance.inputs) text += "\n  " + input.name + "  " + input.hash;
@@ -91,6 +92,14 @@ std::string describe_verification(const fs::path& path) {
   return printed(file.table) + "\n" + provenance_text(file.provenance);
 }
 
+/// Of an HDF5 file, with whether its bytes are as flexneck wrote them.
+std::string described_format(const fs::path& path, const std::string& format) {
+  if (format.empty()) return {};
+  return format + (trust_of(path) == Trust::verified
+                       ? ", verified: it is as it was written"
+                       : ", not verified: it has no hash to tell whether it is as it was written");
+}
+
 struct Kind {
   std::string_view format;
   std::string (*describe)(const fs::path&);
@@ -111,14 +120,15 @@ bool info_command(const FileInput& input) {
     for (const Kind& kind : kKinds) {
       if (format == kind.format) text = kind.describe(path);
     }
-    if (text.empty() && holds_tables(path)) text = describe_tables(path);
-    if (text.empty() && path.extension() == ".json") text = describe_verification(path);
+    const bool is_json = path.extension() == ".json";
+    if (text.empty() && is_json && holds_tables(path)) text = describe_tables(path);
+    if (text.empty() && is_json) text = describe_verification(path);
     if (text.empty()) {
       throw InputError(path.string() +
                        ": expected a mesh, modes, a history, tables or a verification of flexneck, "
                        "found another kind of file");
     }
-    input.console.result(path.string() + ": " + (format.empty() ? "" : format) + "\n" + text);
+    input.console.result(path.string() + ": " + described_format(path, format) + "\n" + text);
   }
   return true;
 }

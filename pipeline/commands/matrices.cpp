@@ -37,6 +37,7 @@ bool modes_of_matrices(const CommandInput& input) {
     file.provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
   }
   file.provenance.libraries = fe_modal::library_versions();
+  warn_of_replaced(input, input.folder.modes(), fe_modal::kModalBodyFormat, file.provenance);
   fe_modal::write_modal_body(input.folder.modes(), file);
   input.console.result(fmt::format("\nModes: {}, {}; moving mass {:.4g} kg  ({})\nSolver: {}\n{}",
                                    file.body.boundary, file.body.certificate,

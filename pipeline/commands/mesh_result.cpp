@@ -61,6 +61,7 @@ std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact) {
 void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVolumes& exact) {
   file.provenance.libraries["gmsh"] = mesher::gmsh_version();
   const std::string partition_lines = add_orders(input.study.mesh_orders, file);
+  warn_of_replaced(input, input.folder.mesh(), mesher::kMeshFormat, file.provenance);
   mesher::write_mesh(input.folder.mesh(), file);
   mesher::write_xdmf(input.folder.mesh(), file);
 

@@ -135,6 +135,7 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
   check_rounding(input, mesh, options, file.body);
   times.start("write");
   file.provenance = provenance_of_modes(input);
+  warn_of_replaced(input, path, fe_modal::kModalBodyFormat, file.provenance);
   fe_modal::write_modal_body(path, file);
   fe_modal::write_modes_xdmf(path, input.folder.mesh(), mesh, file.body);
   times.stop();
@@ -165,7 +166,8 @@ bool modes_command(const CommandInput& input) {
   StepTimes times;
   times.start("read");
   mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
-  require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, "flexneck mesh");
+  require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),
+                      "flexneck mesh");
   if (!input.study.geometry && !input.study.structure) {
     throw InputError(input.study.file.string() +
                      ": there is no [geometry] that names the interfaces");

@@ -19,7 +19,8 @@ PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
   const Study& study = input.study;
   const std::filesystem::path path = input.folder.history(experiment);
   const multibody::HistoryFile file = multibody::read_history(path);
-  require_same_inputs(path, file.provenance, study, "flexneck pendulum");
+  require_same_inputs(path, file.provenance, study, case_provenance(study, experiment).parameters,
+                      "flexneck pendulum");
   PendulumEntry entry;
   entry.experiment = experiment;
   entry.pulse = case_pulse(study, experiment);

@@ -23,7 +23,8 @@ std::vector<const CaseSection*> pendulum_cases(const Study& study) {
 NeckModes read_neck_modes(const CommandInput& input) {
   const std::filesystem::path path = input.folder.modes();
   fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(path);
-  require_same_inputs(path, modes.provenance, input.study, "flexneck modes");
+  require_same_inputs(path, modes.provenance, input.study, modes_provenance(input.study).parameters,
+                      "flexneck modes");
   return {std::move(modes.body), {path.filename().string(), hash_of_file(path.string())}};
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include "geometry/foundation/file_seconds.h"
+#include "geometry/foundation/step_times.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
 #include "pipeline/output/result_table.h"
@@ -129,22 +131,41 @@ void make_cases(const CommandInput& input, Stages& records) {
     records.make(stage_of(*experiment), from(*experiment), {"modes"}, [&] { cases.write_next(); });
 }
 
-}  // namespace
-
-bool run_command(const CommandInput& input) {
+bool run_stages(const CommandInput& input, StepTimes& times) {
   const Study& study = input.study;
-  input.folder.make();
   if (study.geometry) {
     input.console.result("Inputs by origin: " + origin_counts(study) +
                          "; 'flexneck study' lists them with their sources.\n" +
                          origin_table(study));
   }
   Stages records(input.folder.path(), input.redo);
-  for (const Stage& stage : stages_before_cases(study)) make(input, records, stage);
+  const auto make_all = [&](const std::vector<Stage>& stages) {
+    for (const Stage& stage : stages) {
+      times.start(stage.name);
+      make(input, records, stage);
+    }
+  };
+  make_all(stages_before_cases(study));
   if (!study.geometry) return true;
+  times.start("pendulum cases");
   make_cases(input, records);
-  for (const Stage& stage : stages_after_cases(study)) make(input, records, stage);
+  make_all(stages_after_cases(study));
   return read_verification(input.folder.verification()).table.passed();
+}
+
+}  // namespace
+
+bool run_command(const CommandInput& alone) {
+  CommandInput input = alone;
+  input.is_run = true;
+  input.folder.make();
+  StepTimes times;
+  const bool passed = run_stages(input, times);
+  times.stop();
+  const FileSeconds files = file_seconds();
+  input.console.detail()(fmt::format("seconds: {}; of these hash of files {:.3f}, sync {:.3f}",
+                                     times.summary(), files.hash, files.sync));
+  return passed;
 }
 
 }  // namespace flexneck::pipeline

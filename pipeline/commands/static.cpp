@@ -24,7 +24,8 @@ std::vector<ChainLink> read_links(const CommandInput& input, Provenance& provena
   for (const PieceSection& piece : input.study.substructures.pieces) {
     const fs::path path = input.folder.substructure(piece.name);
     const fe_modal::ModalBodyFile file = fe_modal::read_modal_body(path);
-    require_same_inputs(path, file.provenance, input.study, "flexneck modes");
+    require_same_inputs(path, file.provenance, input.study,
+                        modes_provenance(input.study).parameters, "flexneck modes");
     provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
     links.push_back({piece.name, file.body});
   }
@@ -73,7 +74,8 @@ bool static_command(const CommandInput& input) {
   const bool has_own_moduli = input.study.has_static_moduli();
   const fs::path path = has_own_moduli ? input.folder.static_modes() : input.folder.modes();
   const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(path);
-  require_same_inputs(path, modes.provenance, input.study, "flexneck modes");
+  require_same_inputs(path, modes.provenance, input.study, modes_provenance(input.study).parameters,
+                      "flexneck modes");
   Provenance provenance = experiment_provenance(input.study, CaseSection::Kind::static_test);
   provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
   const std::vector<ChainLink> links = read_links(input, provenance);

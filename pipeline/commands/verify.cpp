@@ -21,7 +21,8 @@ PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& exper
   const std::filesystem::path path = input.folder.history(experiment);
   if (!std::filesystem::exists(path)) return evidence;
   const multibody::HistoryFile file = multibody::read_history(path);
-  require_same_inputs(path, file.provenance, input.study, "flexneck pendulum");
+  require_same_inputs(path, file.provenance, input.study,
+                      case_provenance(input.study, experiment).parameters, "flexneck pendulum");
   evidence.run = pendulum_result(input.study, experiment, file.history.time_s, file.channels);
   return evidence;
 }
@@ -35,7 +36,8 @@ bool verify_command(const CommandInput& input) {
   }
   const Reference reference = read_reference(input.study.verification);
   const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(input.folder.modes());
-  require_same_inputs(input.folder.modes(), modes.provenance, input.study, "flexneck modes");
+  require_same_inputs(input.folder.modes(), modes.provenance, input.study,
+                      modes_provenance(input.study).parameters, "flexneck modes");
   std::vector<PendulumEvidence> pendulum;
   for (const CaseSection& experiment : input.study.cases) {
     if (experiment.kind != CaseSection::Kind::pendulum || !experiment.variant_of.empty()) continue;

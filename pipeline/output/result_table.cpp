@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/output/result_table.h"
 
-#include <fstream>
+#include <new>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "pipeline/output/provenance_json.h"
 #include "pipeline/text_table.h"
@@ -73,16 +74,16 @@ std::string printed(const ResultTable& table) {
 }
 
 bool holds_tables(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const auto json = nlohmann::ordered_json::parse(file, nullptr, false);
+  const auto json = nlohmann::ordered_json::parse(text_of_file(path), nullptr, false);
   return json.is_object() && json.value("format", nlohmann::ordered_json()) == kFormat;
 }
 
 TableFile read_tables(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + ": cannot be read");
+  const std::string text = text_of_file(path);
   try {
-    return file_of(nlohmann::ordered_json::parse(file));
+    return file_of(nlohmann::ordered_json::parse(text));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {  // of the parser, of a missing member, or ours
     throw InputError(path.string() + ": " + error.what() + "; make it again with 'flexneck run'");
   }

@@ -2,8 +2,6 @@
 #include "pipeline/report/embedding.h"
 
 #include <bit>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -12,8 +10,6 @@
 #include "geometry/foundation/printable.h"
 
 namespace flexneck::pipeline {
-
-namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little, "typed arrays are written as they lie");
 
@@ -95,13 +91,6 @@ std::string base64_floats(const Eigen::Ref<const Eigen::MatrixXd>& values) {
     }
   }
   return base64_of(floats);
-}
-
-std::string text_of_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw InputError(path.string() + ": cannot be read");
-  return text;
 }
 
 std::string filled(std::string_view page, const std::map<std::string, std::string>& texts) {

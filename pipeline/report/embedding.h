@@ -35,9 +35,6 @@ std::string base64_of(const std::vector<Number>& numbers) {
 /// A matrix as 32-bit floats, column by column.
 std::string base64_floats(const Eigen::Ref<const Eigen::MatrixXd>& values);
 
-/// @throws InputError if the file cannot be read.
-std::string text_of_file(const std::filesystem::path& path);
-
 /// A template with each {{name}} replaced once; what is put in is not searched again.
 /// @throws std::logic_error for a name without a text: the template and the program differ.
 std::string filled(std::string_view page, const std::map<std::string, std::string>& texts);

@@ -29,8 +29,8 @@ std::size_t end_of_number(const std::string& text, std::size_t place) {
 /// The files of a folder by name.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
+  if (!fs::exists(folder)) return names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
     names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end(), comes_before);
@@ -143,7 +143,7 @@ class Reader {
     try {
       const Provenance provenance = read_file(path);
       results_.files.push_back({name, hash_of_file(path.string()), provenance});
-      require_same_inputs(name, provenance, study_, command);
+      require_same_inputs(name, provenance, study_, {}, command);
     } catch (const InputError& error) {
       results_.warnings.emplace_back(error.what());
     }

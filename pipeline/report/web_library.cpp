@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
 #include "pipeline/report/embedding.h"
 
 namespace flexneck::pipeline {

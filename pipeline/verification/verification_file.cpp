@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <new>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "pipeline/output/provenance_json.h"
 #include "pipeline/verification/verification.h"
@@ -63,10 +64,11 @@ VerificationFile file_of(const nlohmann::ordered_json& json) {
 }  // namespace
 
 VerificationFile read_verification(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path.string() + ": cannot be read; make it with 'flexneck verify'");
+  const std::string text = text_of_file(path);
   try {
-    return file_of(nlohmann::ordered_json::parse(file));
+    return file_of(nlohmann::ordered_json::parse(text));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {  // of the parser, of a missing member, or ours
     throw InputError(path.string() + ": " + error.what() +
                      "; make it again with 'flexneck verify'");

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include <catch2/catch.hpp>
 
@@ -52,6 +53,59 @@ TEST_CASE("what was written comes back, and the same writes give the same bytes"
   CHECK(file.members("/group") == std::vector<std::string>{"values"});
   CHECK(file.members("/nowhere").empty());
   CHECK_FALSE(file.has("/group/values/deeper"));
+}
+
+TEST_CASE("one flipped bit anywhere in a file of ours is found before HDF5 reads it") {
+  const TemporaryFolder folder;
+  write_example(folder / "a.h5");
+  const std::string sound = bytes_of(folder / "a.h5");
+  CHECK(trust_of(folder / "a.h5") == Trust::verified);
+  CHECK(Hdf5Reader(folder / "a.h5", kFormat).trust() == Trust::verified);
+  // The hash is that of all that follows the block, as its text says.
+  CHECK(sound.substr(0, 75) ==
+        "flexneck, XXH3-128 of all after 512 bytes: " + hash_of_text(sound.substr(kHashBlockSize)));
+  // Without the mark at its beginning it is anybody's file, with the same content.
+  std::size_t accepted = 0;
+  for (std::size_t k = 0; k < sound.size(); k += k < kHashBlockSize ? 1 : 7) {
+    std::string flipped = sound;
+    flipped[k] = static_cast<char>(flipped[k] ^ (1 << (k % 8)));
+    std::ofstream(folder / "b.h5", std::ios::binary) << flipped;
+    try {
+      const Hdf5Reader file(folder / "b.h5", kFormat);
+      CHECK(file.trust() == Trust::foreign);
+      CHECK(file.read_integers("/indices", {2}) == std::vector<std::int32_t>{7, 8});
+      ++accepted;
+    } catch (const InputError& error) {
+      CHECK_THAT(error.what(), Contains("b.h5: the HDF5 file is truncated or damaged"));
+    }
+  }
+  CHECK(accepted == std::string("flexneck").size());
+}
+
+TEST_CASE("rows that are appended one by one are those of one write") {
+  const TemporaryFolder folder;
+  const std::size_t rows = 10001;
+  std::vector<double> values(6 * rows);
+  std::iota(values.begin(), values.end(), 0.5);
+  const auto write = [&](const std::string& name, std::size_t at_once) {
+    Hdf5Writer file(folder / name, kFormat);
+    const std::span<const double> all = values;
+    for (std::size_t k = 0; k < rows; k += at_once) {
+      const std::size_t count = std::min(at_once, rows - k);
+      file.append("/long", all.subspan(6 * k, 6 * count), {2, 3}, "m");
+      if (k < 100) file.append("/short", all.subspan(k, count), {}, "s");
+    }
+    file.append("/empty", {}, {3}, "kg");
+    file.commit();
+  };
+  write("a.h5", 1);
+  write("b.h5", 5000);
+  const Hdf5Reader one(folder / "a.h5", kFormat);
+  CHECK(one.read_doubles("/long", {rows, 2, 3}, "m") == values);
+  CHECK(one.read_doubles("/short", {100}, "s") ==
+        std::vector<double>(values.begin(), values.begin() + 100));
+  CHECK(one.read_doubles("/empty", {0, 3}, "kg").empty());
+  CHECK(Hdf5Reader(folder / "b.h5", kFormat).read_doubles("/long", {rows, 2, 3}, "m") == values);
 }
 
 TEST_CASE("a file that is not committed leaves nothing behind") {

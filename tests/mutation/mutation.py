@@ -156,7 +156,7 @@ class Campaign:
         needed = [*self.targets, *(["flexneck"] if "pipeline" in self.options.rooms else [])]
         done = run(["cmake", "--build", self.build, "--target", *needed])
         if done.returncode != 0:
-            sys.exit(done.stdout[-4000:] + "the mutants were not built; the same command goes on")
+            sys.exit(done.stdout[-4000:] + "the mutants compile one by one, but not together")
 
     def tests(self):
         """Commands of each room's tests, quickest first, with their times."""

@@ -66,18 +66,12 @@ class File:
         for k in range(1, len(self.tokens) - 1):
             token = self.tokens[k]
             spaced = self.source[token.begin - 1] == " " and self.source[token.end] in " \n"
-            if self.joins_texts(k):
-                continue
             if token.text in SWAPS and token.kind == "operator" and spaced and self.ends_operand(k - 1):
                 yield from ((k, other) for other in SWAPS[token.text])
             elif token.text == "-" and not self.ends_operand(k - 1):
                 yield k, ""
             elif self.is_index(k):
                 yield k, str(int(token.text) + 1 if token.text == "0" else int(token.text) - 1)
-
-    def joins_texts(self, k):
-        group = self.group(k) if self.tokens[k].text in ("+", "+=") else None
-        return group is not None and any(token.kind == "text" for token in self.tokens[group[0]:group[1] + 1])
 
     def is_index(self, k):
         before, after = self.tokens[k - 1].text, self.tokens[k + 1].text

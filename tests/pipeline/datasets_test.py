@@ -80,6 +80,11 @@ quantity = "{quantity}"
 """ for of, quantities in QUANTITIES.items() for quantity in quantities)
 
 
+def text(attribute):
+    """h5py reads texts of fixed length as bytes."""
+    return attribute.decode() if isinstance(attribute, bytes) else attribute
+
+
 def datasets(file):
     found = {}
     file.visititems(lambda name, item: found.__setitem__(name, item)

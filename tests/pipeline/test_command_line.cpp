@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sys/file.h>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "multibody/history_file.h"
@@ -192,7 +195,7 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
     const std::string script =
         "import h5py; f = h5py.File('" + out +
         "/modes.h5'); "
-        "assert f['frequencies'].shape == (10,) and f['frequencies'].attrs['units'] == 'Hz'; "
+        "assert f['frequencies'].shape == (10,) and f['frequencies'].attrs['units'] == b'Hz'; "
         "assert f['mode_names'].asstr()[0].endswith('bending 1'); "
         "assert f['shapes'].shape == (10, f['nodes'].shape[0], 3); "
         "assert f['interfaces/top/rotation'].shape == (3, 10); "
@@ -230,6 +233,34 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
                               Contains("Interface top") && Contains("mesh.h5"));
     check_refused(run_flexneck("info " + out + "/mesh.xdmf"), "another kind of file");
     check_refused(run_flexneck("info " + out + "/none.h5"), "no such file");
+  }
+  SECTION("a stage tells what it replaces by something else, and what it was made with counts") {
+    const CommandOutcome fewer = run_flexneck("modes -q -o " + out + kCoarse +
+                                              " --set modes.count=6 --set modes.basis=residual");
+    CHECK(fewer.exit_code == 0);
+    CHECK_THAT(fewer.text, Contains("Warning: " + out +
+                                    "/modes.h5: was made with modes.count = 10, "
+                                    "now with 6") &&
+                               Contains("modes.h5"));
+    // A key that the study does not give, of which its default holds.
+    check_refused(run_flexneck("static -o " + out + kCoarse + " --set modes.count=6"),
+                  "modes.h5: was made with modes.basis = residual, the study has normal");
+    CHECK(run_flexneck("modes -q -o " + out + kCoarse).text.find("Warning") != std::string::npos);
+    CHECK(run_flexneck("modes -q -o " + out + kCoarse).text.empty());
+    check_refused(run_flexneck("static -o " + out + kCoarse + " --set modes.basis=residual"),
+                  "modes.h5: was made without modes.basis, the study has residual");
+  }
+  SECTION("one flipped bit of a frequency is refused") {
+    std::string bytes = bytes_of(folder / "modes.h5");
+    const double first = modes.body.frequencies_Hz[0];
+    const std::size_t place = bytes.find(std::string(reinterpret_cast<const char*>(&first), 8));
+    REQUIRE(place != std::string::npos);
+    bytes[place + 6] = static_cast<char>(bytes[place + 6] ^ 1);
+    std::ofstream(folder / "modes.h5", std::ios::binary) << bytes;
+    for (const std::string& command :
+         {"verify -o " + out, "static -o " + out, "info " + out + "/modes.h5"})
+      check_refused(run_flexneck(command + kCoarse),
+                    "modes.h5: the HDF5 file is truncated or damaged");
   }
   SECTION("a truncated file is refused") {
     fs::resize_file(folder / "modes.h5", fs::file_size(folder / "modes.h5") / 2);
@@ -393,7 +424,45 @@ TEST_CASE("a folder that cannot be made or written is refused") {
                 "cannot be made a folder for results");
   // Not even root makes a file there.
   check_refused(run_flexneck("mesh -q -o /proc/self" + std::string(kCoarse)),
-                "/proc/self/mesh.h5: cannot be written");
+                "/proc/self: cannot be written");
+}
+
+TEST_CASE("one command at a time writes into a folder, and the second is told which") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + folder.path().string();
+  const fs::path path = folder / ".flexneck.lock";
+  {
+    std::ofstream(path) << "'flexneck run', process 7 on host";
+    const FileDescriptor lock(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    REQUIRE(::flock(lock.get(), LOCK_EX | LOCK_NB) == 0);
+    for (const char* const command : {"run", "mesh", "verify", "report", "simulate none.toml"})
+      check_refused(run_flexneck(command + out),
+                    folder.path().string() + ": is in use by 'flexneck run', process 7 on host");
+    // Who only reads is not kept out.
+    CHECK(run_flexneck("study" + out).exit_code == 0);
+    CHECK(run_flexneck("mesh --show" + out).exit_code == 0);
+    CHECK(names_in(folder.path()).size() == 1);
+  }
+  // The lock of a process that is gone holds nobody up.
+  check_refused(run_flexneck("verify" + out), "modes.h5: no such file");
+  CHECK(names_in(folder.path()).empty());
+  // No folder is left of a command that makes nothing.
+  check_refused(run_flexneck("verify" + out + "/new"), "modes.h5: no such file");
+  CHECK(names_in(folder.path()).empty());
+}
+
+TEST_CASE("what cannot be printed is a failure") {
+  const auto check = [](const std::string& arguments, const std::string& reason) {
+    const CommandOutcome outcome =
+        testing::run_shell("(" + std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments + ")");
+    INFO(arguments);
+    CHECK(outcome.exit_code == 3);
+    CHECK(outcome.text == "flexneck: standard output: cannot be written (" + reason + ")\n");
+  };
+  for (const std::string command : {"study", "--help", "--version"}) {
+    check(command + " > /dev/full", "No space left on device");
+    check(command + " >&-", "Bad file descriptor");
+  }
 }
 
 TEST_CASE("a geometry script with an error is told in gmsh's words, without a file") {

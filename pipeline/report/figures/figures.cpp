@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/report/embedding.h"
@@ -37,6 +38,17 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder.string() + ": cannot be made (" + error.message() + ")");
+}
+
+/// gnuplot does not tell when its last bytes found no room.
+std::string whole_svg(const fs::path& path) {
+  std::string text = text_of_file(path);
+  if (text.find("</svg>") == std::string::npos) {
+    throw ComputationError(path.string() +
+                           ": gnuplot has left the figure incomplete; is the disk "
+                           "full?");
+  }
+  return text;
 }
 
 std::string html_of(const DrawnFigure& drawn) {
@@ -76,7 +88,7 @@ std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study
   for (DrawnFigure& each : drawn) {
     const std::string stem = stem_of(each.figure);
     if (each.figure.missing.empty()) {
-      each.svg = text_of_file(workshop / (stem + ".svg"));
+      each.svg = whole_svg(workshop / (stem + ".svg"));
       write_text(folder / (stem + ".svg"), each.svg);
       write_text(folder / (stem + ".csv"), each.figure.csv);
     } else {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "pipeline/report/embedding.h"
+#include "geometry/foundation/input_file.h"
 
 namespace flexneck::pipeline {
 

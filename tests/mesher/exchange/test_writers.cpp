@@ -222,7 +222,7 @@ TEST_CASE("the XDMF names datasets that are there, of the extents it says") {
   write_mesh(files / "mesh.h5", file);
   write_xdmf(files / "mesh.h5", file);
   const std::string xdmf = text_of(files / "mesh.xdmf");
-  const Hdf5Reader view(files / "mesh_view.h5", {"flexneck mesh view", 1, "flexneck mesh"});
+  const Hdf5Reader view(files / "mesh_view.h5", {"flexneck mesh view", 2, "flexneck mesh"});
   const Hdf5Reader mesh(files / "mesh.h5", kMeshFormat);
 
   std::size_t items = 0;

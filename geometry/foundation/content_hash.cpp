@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/content_hash.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/file_seconds.h"
+#include "geometry/foundation/input_file.h"
+
+namespace flexneck {
+
+namespace {
+
+constexpr std::string_view kOurs = "flexneck, XXH3-128 of all after 512 bytes: ";
+/// What no foreign file begins with. A damaged rest is then damage, not another kind of file.
+constexpr std::string_view kMark = kOurs.substr(0, 8);
+
+std::string digits_of(const XXH128_hash_t& hash) {
+  std::array<char, 33> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx%016llx",
+                static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return digits.data();
+}
+
+std::string hash_from(const FileDescriptor& file, std::uint64_t place,
+                      const std::filesystem::path& path) {
+  const FileClock clock(FileClock::Work::hash);
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  std::vector<char> block(std::size_t{1} << 18U);
+  for (;;) {
+    const std::size_t count = read_at(file, place, block, path);
+    XXH3_128bits_update(&state, block.data(), count);
+    if (count < block.size()) return digits_of(XXH3_128bits_digest(&state));
+    place += count;
+  }
+}
+
+}  // namespace
+
+std::string hash_of_text(const std::string& text) {
+  return digits_of(XXH3_128bits(text.data(), text.size()));
+}
+
+std::string hash_of_file(const std::string& path) { return hash_from(open_to_read(path), 0, path); }
+
+HashBlock hash_block_of(const FileDescriptor& file, const std::filesystem::path& path) {
+  const std::string text = std::string(kOurs) + hash_from(file, kHashBlockSize, path) + "\n";
+  HashBlock block{};
+  std::copy(text.begin(), text.end(), block.begin());
+  return block;
+}
+
+Trust trust_of(const std::filesystem::path& path) {
+  const FileDescriptor file = open_to_read(path);
+  HashBlock found{};
+  read_at(file, 0, found, path);
+  if (!std::string_view(found.data(), found.size()).starts_with(kMark)) return Trust::foreign;
+  if (found != hash_block_of(file, path)) {
+    throw InputError(path.string() +
+                     ": the HDF5 file is truncated or damaged: its content is not the one whose "
+                     "hash it holds; make it again");
+  }
+  return Trust::verified;
+}
+
+}  // namespace flexneck

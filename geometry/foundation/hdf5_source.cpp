@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/hdf5_source.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/hdf5_extent.h"
+#include "geometry/foundation/input_file.h"
+
+namespace flexneck {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of a text that HDF5 has filled up to a fixed length.
+std::string without_padding(std::string text, H5T_str_t padding) {
+  if (padding == H5T_STR_SPACEPAD) {
+    text.erase(text.find_last_not_of(' ') + 1);
+  } else {
+    text.erase(std::min(text.find('\0'), text.size()));
+  }
+  return text;
+}
+
+/// @param read fills a buffer in memory with values of a type
+template <typename Read>
+std::vector<std::string> fixed_strings(const Hdf5Handle& type, std::size_t count,
+                                       const Read& read) {
+  const std::size_t length = H5Tget_size(type.get());
+  std::string texts(length * count, '\0');
+  if (count > 0 && read(type.get(), texts.data()) < 0) return {};
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < count; ++k) {
+    values.push_back(without_padding(texts.substr(k * length, length), H5Tget_strpad(type.get())));
+  }
+  return values;
+}
+
+/// What HDF5 has allocated for strings of variable length.
+class VariableStrings {
+ public:
+  explicit VariableStrings(std::size_t count) : texts_(count, nullptr) {}
+  ~VariableStrings() {
+    for (char* const text : texts_) H5free_memory(text);
+  }
+  VariableStrings(const VariableStrings&) = delete;
+  VariableStrings& operator=(const VariableStrings&) = delete;
+
+  char** data() { return texts_.data(); }
+  /// h5py writes no text for an empty one.
+  std::vector<std::string> values() const {
+    std::vector<std::string> values;
+    for (const char* const text : texts_) values.emplace_back(text == nullptr ? "" : text);
+    return values;
+  }
+
+ private:
+  std::vector<char*> texts_;
+};
+
+/// As many as asked for, or none if they cannot be read.
+template <typename Read>
+std::vector<std::string> strings(const Hdf5Handle& type, std::size_t count, const Read& read) {
+  if (H5Tis_variable_str(type.get()) <= 0) return fixed_strings(type, count, read);
+  VariableStrings texts(count);
+  if (count > 0 && read(type.get(), texts.data()) < 0) return {};
+  return texts.values();
+}
+
+}  // namespace
+
+/// Whether HDF5's signature stands where it may: at 0, or behind 512 bytes or their doubles.
+bool is_hdf5(const fs::path& path) {
+  constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return false;
+  const FileDescriptor file = open_to_read(path);
+  std::array<char, kSignature.size()> found{};
+  for (std::uint64_t place = 0;; place = std::max<std::uint64_t>(512, 2 * place)) {
+    if (read_at(file, place, found, path) < found.size()) return false;
+    if (std::string_view(found.data(), found.size()) == kSignature) return true;
+  }
+}
+
+Hdf5Source::Hdf5Source(fs::path path, std::string made_by)
+    : path_(std::move(path)), made_by_(std::move(made_by)) {
+  start_hdf5();
+  const std::string name = path_.string();
+  std::error_code ignored;
+  if (!fs::exists(path_, ignored)) {
+    throw InputError(name + ": no such file; make it with '" + made_by_ + "'");
+  }
+  if (fs::is_regular_file(path_, ignored)) trust_ = trust_of(path_);
+  if (!is_hdf5(path_)) {
+    throw InputError(name + ": expected an HDF5 file, found another kind; make it again with '" +
+                     made_by_ + "'");
+  }
+  size_ = fs::file_size(path_);
+  file_ = Hdf5Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file_ && trust_ == Trust::verified) fail("/");
+  if (!file_) {
+    throw InputError(name + ": the HDF5 file is truncated or damaged; make it again with '" +
+                     made_by_ + "'");
+  }
+}
+
+void Hdf5Source::refuse(const std::string& object, const std::string& problem) const {
+  throw InputError(path_.string() + ": " + object + ": " + problem + "; make it again with '" +
+                   made_by_ + "'");
+}
+
+void Hdf5Source::fail(const std::string& object) const {
+  if (trust_ == Trust::foreign) refuse(object, "cannot be read, the file is damaged");
+  throw ComputationError(
+      path_.string() + ": " + object +
+      ": HDF5 cannot read it, although the file is sound; is there memory left?");
+}
+
+Hdf5Handle Hdf5Source::opened(hid_t id, Hdf5Handle::Closer closer,
+                              const std::string& object) const {
+  Hdf5Handle handle(id, closer);
+  if (!handle) fail(object);
+  return handle;
+}
+
+H5O_type_t Hdf5Source::type_of(const std::string& object) const {
+  H5O_info_t info;
+  if (H5Oget_info_by_name2(file_.get(), object.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0) {
+    fail(object);
+  }
+  return info.type;
+}
+
+bool Hdf5Source::exists(const std::string& object) const {
+  if (object == "/") return true;
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+    const std::string step = object.substr(0, end);
+    const htri_t found = H5Lexists(file_.get(), step.c_str(), H5P_DEFAULT);
+    if (found < 0) fail(step);
+    if (found == 0) return false;
+    H5L_info_t link;
+    if (H5Lget_info(file_.get(), step.c_str(), &link, H5P_DEFAULT) < 0) fail(step);
+    if (link.type != H5L_TYPE_HARD) {
+      refuse(step, "expected an object of this file, found a link to another place");
+    }
+    if (end == std::string::npos) return true;
+    if (type_of(step) != H5O_TYPE_GROUP) return false;
+  }
+}
+
+template <typename NameAt>
+std::vector<std::string> Hdf5Source::names(const std::string& object, hsize_t count,
+                                           const NameAt& name_at) const {
+  std::vector<std::string> names;
+  for (hsize_t k = 0; k < count; ++k) {
+    const ssize_t length = name_at(k, nullptr, 0);
+    if (length < 0) fail(object);
+    std::string name(static_cast<std::size_t>(length), '\0');
+    if (name_at(k, name.data(), name.size() + 1) < 0) fail(object);
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::vector<std::string> Hdf5Source::members(const std::string& group) const {
+  if (!exists(group)) return {};
+  if (type_of(group) != H5O_TYPE_GROUP) refuse(group, "expected a group, found something else");
+  const Hdf5Handle handle =
+      opened(H5Gopen2(file_.get(), group.c_str(), H5P_DEFAULT), H5Gclose, group);
+  H5G_info_t info;
+  if (H5Gget_info(handle.get(), &info) < 0) fail(group);
+  return names(group, info.nlinks, [&](hsize_t k, char* name, std::size_t size) {
+    return H5Lget_name_by_idx(handle.get(), ".", H5_INDEX_NAME, H5_ITER_INC, k, name, size,
+                              H5P_DEFAULT);
+  });
+}
+
+std::vector<std::string> Hdf5Source::attributes(const std::string& object) const {
+  if (!exists(object)) return {};
+  H5O_info_t info;
+  if (H5Oget_info_by_name2(file_.get(), object.c_str(), &info, H5O_INFO_NUM_ATTRS, H5P_DEFAULT) <
+      0) {
+    fail(object);
+  }
+  return names(object, info.num_attrs, [&](hsize_t k, char* name, std::size_t size) {
+    return H5Aget_name_by_idx(file_.get(), object.c_str(), H5_INDEX_NAME, H5_ITER_INC, k, name,
+                              size, H5P_DEFAULT);
+  });
+}
+
+Hdf5Handle Hdf5Source::open_dataset(const std::string& name) const {
+  if (!exists(name)) refuse(name, "expected a dataset, found none");
+  if (type_of(name) != H5O_TYPE_DATASET) refuse(name, "expected a dataset, found something else");
+  Hdf5Handle dataset = opened(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose, name);
+  const std::optional<std::string> problem = extent_problem(dataset, size_);
+  if (!problem) fail(name);
+  if (!problem->empty()) refuse(name, *problem);
+  return dataset;
+}
+
+bool Hdf5Source::has_attribute(const std::string& object, const std::string& name) const {
+  const htri_t found = H5Aexists_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT);
+  if (found < 0) fail(object);
+  return found > 0;
+}
+
+Hdf5Handle Hdf5Source::open_attribute(const std::string& object, const std::string& name) const {
+  const std::string what = "attribute '" + name + "'";
+  if (!exists(object)) refuse(object, "expected it with the " + what + ", found nothing");
+  if (!has_attribute(object, name)) refuse(object, "expected the " + what + ", found none");
+  Hdf5Handle attribute =
+      opened(H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+             H5Aclose, object);
+  const Hdf5Handle space = opened(H5Aget_space(attribute.get()), H5Sclose, object);
+  if (H5Sget_simple_extent_npoints(space.get()) != 1 ||
+      H5Aget_storage_size(attribute.get()) > size_) {
+    refuse(object, "expected the " + what + " to have one value");
+  }
+  return attribute;
+}
+
+Shape Hdf5Source::shape_of(const Hdf5Handle& dataset, const std::string& name) const {
+  const Hdf5Handle space = opened(H5Dget_space(dataset.get()), H5Sclose, name);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank < 0) fail(name);
+  std::vector<hsize_t> extents(static_cast<std::size_t>(rank));
+  if (H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr) < 0) fail(name);
+  return {extents.begin(), extents.end()};
+}
+
+std::vector<std::string> Hdf5Source::read_strings(const std::string& name) const {
+  const Hdf5Handle dataset = open_dataset(name);
+  const Hdf5Handle type = opened(H5Dget_type(dataset.get()), H5Tclose, name);
+  if (H5Tget_class(type.get()) != H5T_STRING) refuse(name, "expected strings, found another type");
+  const Shape shape = shape_of(dataset, name);
+  if (shape.size() != 1) refuse(name, "expected a list of strings, found another shape");
+  if (H5Tis_variable_str(type.get()) > 0) {
+    const Hdf5Handle space = opened(H5Dget_space(dataset.get()), H5Sclose, name);
+    hsize_t bytes = 0;
+    if (H5Dvlen_get_buf_size(dataset.get(), type.get(), space.get(), &bytes) < 0) fail(name);
+    if (bytes > size_) refuse(name, "its strings are longer than the file");
+  }
+  std::vector<std::string> values = strings(type, shape[0], [&](hid_t memory_type, void* texts) {
+    return H5Dread(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts);
+  });
+  if (values.size() != shape[0]) fail(name);
+  return values;
+}
+
+std::string Hdf5Source::string_attribute(const std::string& object, const std::string& name) const {
+  const Hdf5Handle attribute = open_attribute(object, name);
+  const Hdf5Handle type = opened(H5Aget_type(attribute.get()), H5Tclose, object);
+  if (H5Tget_class(type.get()) != H5T_STRING) {
+    refuse(object, "expected the attribute '" + name + "' to be one string");
+  }
+  const std::vector<std::string> values = strings(type, 1, [&](hid_t memory_type, void* text) {
+    return H5Aread(attribute.get(), memory_type, text);
+  });
+  if (values.size() != 1) fail(object + ", attribute " + name);
+  return values[0];
+}
+
+}  // namespace flexneck
