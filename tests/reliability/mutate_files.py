@@ -22,6 +22,8 @@ import sound_files
 MEMORY = 1 << 30  # and twice the file
 SECONDS = 20  # of the processor; on the clock CLOCK times as much, for a machine with other work
 CLOCK = 10
+# How the death of a child is told.
+CONTAINED = re.compile(r"crashes on it|is not done with it|wants more than|gives up on it|was killed")
 
 
 def limit():
@@ -85,7 +87,7 @@ def kind_of(text):
 
 
 def try_one(task):
-    program, sound, each, seed = task
+    program, sound, each, seed, stacks = task
     generator = random.Random(f"{seed}")
     with tempfile.TemporaryDirectory(prefix="mutate-") as folder:
         work = os.path.join(folder, "work")
@@ -105,17 +107,33 @@ def try_one(task):
             if result["fault"] or status != 0:
                 break
         result["contents"] = damaged
+        if stacks and "crashes on it" in result["text"]:
+            result["stack"] = stack_of(program, sound, each, result, damaged)
     return result
 
 
 def keep(folder, result):
     """Keeps the damaged file beside a record of what it does."""
     contents = result.pop("contents")
-    if not result["fault"] and "crashed" not in result["message"]:
+    if not result["fault"] and not CONTAINED.search(result["text"]):
         return
     name = f"{result['format'].replace('/', '-')}-{result['seed'].replace(':', '-')}"
     with open(os.path.join(folder, name), "wb") as file:
         file.write(contents)
+
+
+def stack_of(program, sound, each, result, contents):
+    """Functions on the stack of a child that crashes, innermost first, as gdb tells them."""
+    with tempfile.TemporaryDirectory(prefix="stack-") as folder:
+        work = os.path.join(folder, "work")
+        shutil.copytree(sound, work)
+        with open(os.path.join(work, each.file), "wb") as file:
+            file.write(contents)
+        gdb = ["gdb", "-batch", "-ex", "set follow-fork-mode child", "-ex", "run", "-ex", "bt 6",
+               "--args", program, *result["command"], "-q"]
+        text = subprocess.run(gdb, cwd=work, capture_output=True, check=False).stdout
+    frames = re.findall(rb"^#\d+ +(?:0x[0-9a-f]+ in )?([^ (]+)", text, re.MULTILINE)
+    return " < ".join(frame.decode() for frame in frames)
 
 
 def table(counts):
@@ -130,14 +148,23 @@ def table(counts):
     return "\n".join(lines)
 
 
+def write_counts(path, counts):
+    with open(path, "w", encoding="utf-8") as file:
+        for key, number in counts.most_common():
+            file.write(f"{number}\t" + "\t".join(map(str, key)) + "\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program", help="the flexneck to be tried")
     parser.add_argument("--runs", type=int, default=20000)
     parser.add_argument("--seed", default="1")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--formats", default="", help="only those whose names begin with one of these, comma between")
+    parser.add_argument("--formats", default="", 
+                        help="only those whose names begin with one of these, comma between")
     parser.add_argument("--out", default="mutated", help="folder for what fails")
+    parser.add_argument("--stacks", action="store_true",
+                        help="run what crashes a child again under gdb: stacks.txt")
     options = parser.parse_args()
     program = os.path.abspath(options.program)
     shutil.rmtree(options.out, ignore_errors=True)
@@ -151,10 +178,11 @@ def main():
         if any("results".startswith(name.split("/")[0]) for name in wanted):
             formats += [(results, each) for each in sound_files.make_results(program, results)]
         formats = [pair for pair in formats if pair[1].name.startswith(wanted)]
-        tasks = [(program, *formats[i % len(formats)], f"{options.seed}:{i}")
+        tasks = [(program, *formats[i % len(formats)], f"{options.seed}:{i}", options.stacks)
                  for i in range(options.runs)]
         counts = {each.name: collections.Counter() for _, each in formats}
         messages = collections.Counter()
+        stacks = collections.Counter()
         with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool, \
                 open(os.path.join(options.out, "runs.jsonl"), "w", encoding="utf-8") as log:
             for result in pool.map(try_one, tasks):
@@ -163,8 +191,8 @@ def main():
                 count["runs"] += 1
                 count[f"exit {result['status']}"] += 1
                 count["faults"] += bool(result["fault"])
-                if "isolated" in result["message"] or "crashed" in result["message"]:
-                    count["contained"] += 1
+                count["contained"] += bool(CONTAINED.search(result["text"]))
+                stacks[(result["format"], result.get("stack", ""))] += "stack" in result
                 messages[(result["format"], result["status"], result["message"])] += 1
                 log.write(json.dumps(result) + "\n")
                 log.flush()
@@ -173,9 +201,8 @@ def main():
                           result["text"][-200:].strip(), flush=True)
     print(table(counts))
     print(f"seed {options.seed}, {time.monotonic() - start:.0f} s")
-    with open(os.path.join(options.out, "messages.txt"), "w", encoding="utf-8") as file:
-        for key, number in messages.most_common():
-            file.write(f"{number}\t" + "\t".join(map(str, key)) + "\n")
+    write_counts(os.path.join(options.out, "messages.txt"), messages)
+    write_counts(os.path.join(options.out, "stacks.txt"), +stacks)
     sys.exit(any(count["faults"] for count in counts.values()))
 
 

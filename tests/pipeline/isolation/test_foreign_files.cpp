@@ -198,3 +198,34 @@ TEST_CASE("what is no regular file is refused at once, under whatever ending") {
   refused("file = \"folder.step\"", "folder.step: expected a file, found a folder");
   refused("file = \"none.unv\"", "none.unv: no such file");
 }
+
+TEST_CASE("an HDF5 file without a hash that crashes HDF5 is refused in one line") {
+  const TemporaryFolder folder;
+  const fs::path files = fs::path(FLEXNECK_SOURCE_DIR) / "tests/golden/files/schema_1";
+  // The length of the first text in the file, a byte of it raised.
+  const auto damaged = [&](const std::string& name) {
+    std::string bytes = contents_of(files / name);
+    const std::size_t heap = bytes.find("GCOL");
+    REQUIRE(heap != std::string::npos);
+    bytes.at(heap + 16 + 8 + 3) = 1;
+    return bytes;
+  };
+  for (const char* const name : {"mesh.h5", "modes.h5", "swing.h5"}) {
+    write(folder / name, damaged(name));
+    check_refused(folder.path(), std::string("info ") + name,
+                  std::string(name) + ": HDF5 crashes on it (Segmentation fault)");
+  }
+  write(folder / "model.toml", R"(
+[solver]
+end_time = "1 ms"
+[[body]]
+name = "ground"
+kind = "ground"
+[[body]]
+name = "bar"
+kind = "deformable"
+modes_file = "modes.h5"
+damping_ratio = 0.1
+)");
+  check_refused(folder.path(), "simulate model.toml", "modes.h5: HDF5 crashes on it");
+}
