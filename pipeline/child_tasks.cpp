@@ -2,11 +2,12 @@
 #include "pipeline/child_tasks.h"
 
 #include "pipeline/commands/make_mesh.h"
+#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 
 const std::vector<ChildTask>& child_tasks() {
-  static const std::vector<ChildTask> list = {{"mesh", mesh_task}};
+  static const std::vector<ChildTask> list = {{"mesh", mesh_task}, {"copy", copy_task}};
   return list;
 }
 

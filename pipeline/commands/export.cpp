@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/core.h>
 
-#include "fe_modal/body/modal_body_file.h"
 #include "fe_modal/exchange/atb_modal_file.h"
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/inp_writer.h"
 #include "mesher/exchange/msh_writer.h"
-#include "mesher/mesh/mesh_file.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/structure_options.h"
+#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 
@@ -54,7 +53,7 @@ void export_deck(const CommandInput& input, const mesher::Mesh& mesh) {
 
 /// The modes of this mesh for the ATB.
 void export_modes(const CommandInput& input, const mesher::Mesh& mesh) {
-  const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(input.folder.modes());
+  const fe_modal::ModalBodyFile modes = read_modal_body(input.folder.modes());
   require_same_inputs(input.folder.modes(), modes.provenance, input.study,
                       modes_provenance(input.study).parameters, "flexneck modes");
   if (modes.body.nodes_m.cols() != static_cast<Eigen::Index>(mesh.nodes.size())) {
@@ -71,7 +70,7 @@ bool export_command(const CommandInput& input) {
   if (target.empty()) {
     throw InputError("export: name the file to write, --to FILE.msh, .inp, .mtx, .petsc or .dat");
   }
-  mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
+  mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),
                       "flexneck mesh");
   input.console.step("Writing " + target.string());

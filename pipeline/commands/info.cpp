@@ -3,17 +3,15 @@
 
 #include <fmt/core.h>
 
-#include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/bounding_box.h"
-#include "mesher/mesh/mesh_file.h"
-#include "multibody/history_file.h"
 #include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/file_commands.h"
 #include "pipeline/commands/mesh_result.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/output/result_table.h"
 #include "pipeline/output/summary.h"
+#include "pipeline/result_files.h"
 #include "pipeline/text_table.h"
 #include "pipeline/verification/verification.h"
 
@@ -115,12 +113,16 @@ bool info_command(const FileInput& input) {
   if (input.files.empty()) throw InputError("info: name a file, 'flexneck info out/modes.h5'");
   for (const fs::path& path : input.files) {
     if (!fs::is_regular_file(path)) throw InputError(path.string() + ": no such file");
-    const std::string format = format_of(path);
-    std::string text;
-    for (const Kind& kind : kKinds) {
-      if (format == kind.format) text = kind.describe(path);
-    }
     const bool is_json = path.extension() == ".json";
+    std::string format;
+    std::string text;
+    if (!is_json) {
+      const ReadableFile file(path);
+      format = format_of(file.path());
+      for (const Kind& kind : kKinds) {
+        if (format == kind.format) text = kind.describe(file.path());
+      }
+    }
     if (text.empty() && is_json && holds_tables(path)) text = describe_tables(path);
     if (text.empty() && is_json) text = describe_verification(path);
     if (text.empty()) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/make_mesh.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <unistd.h>
 
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/regular_file.h"
 #include "geometry/foundation/temporary_folder.h"
@@ -71,17 +72,12 @@ bool is_shipped(const fs::path& script) {
   return fs::equivalent(script, fs::path(FLEXNECK_DATA_DIR) / "geometry/neck.geo", none);
 }
 
-std::uint64_t memory_of_machine() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
 /// What a child meshes, and may take for it; none for what this process may mesh itself.
 std::optional<IsolatedTask> task_of(const Study& study) {
   IsolatedTask task;
   task.name = "mesh";
   task.library = "gmsh";
-  task.limits.memory_bytes = memory_of_machine();
+  task.limits.memory_bytes = static_cast<std::uint64_t>(std::min(available_memory(), 1e18));
   task.advice = "correct the script";
   task.file = study.structure ? study.structure->file() : study.geometry->script;
   const std::uint64_t size = size_of_file(task.file);

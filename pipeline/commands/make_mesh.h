@@ -17,7 +17,7 @@ namespace flexneck::pipeline {
 ///  - A finished mesh may take 0.75 GB and 16 times its size, 10 s of the processor and 1 s/MB.
 ///  - A shape may take 10 s and 10 s/MB until it is read; then it and a script may take any time,
 ///    since how fine a mesh becomes is the study's choice.
-///  - Shapes and scripts may take the machine's memory.
+///  - Shapes and scripts may take the memory that is free.
 /// What OpenCASCADE complains of, though it makes a shape of it, is a warning.
 /// @pre study.geometry or study.structure
 /// @throws InputError or ComputationError as the mesher does; InputError if the child dies.

@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include "fe_modal/body/modal_body_file.h"
 #include "fe_modal/distributed/ranks.h"
 #include "fe_modal/exchange/modes_xdmf.h"
 #include "fe_modal/memory_needs.h"
@@ -15,13 +14,13 @@
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/step_times.h"
 #include "geometry/foundation/units.h"
-#include "mesher/mesh/mesh_file.h"
 #include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/structure_options.h"
 #include "pipeline/commands/substructures.h"
+#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 
@@ -165,7 +164,7 @@ bool modes_command(const CommandInput& input) {
   if (input.study.matrices) return modes_of_matrices(input);
   StepTimes times;
   times.start("read");
-  mesher::MeshFile mesh = mesher::read_mesh(input.folder.mesh());
+  mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),
                       "flexneck mesh");
   if (!input.study.geometry && !input.study.structure) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/experiments/pendulum.h"
 
-#include "multibody/history_file.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
 #include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/experiments/pulse_tables.h"
 #include "pipeline/experiments/variant_tables.h"
 #include "pipeline/output/csv_output.h"
+#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 
@@ -18,7 +18,7 @@ PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
                        const fe_modal::ModalBody& body) {
   const Study& study = input.study;
   const std::filesystem::path path = input.folder.history(experiment);
-  const multibody::HistoryFile file = multibody::read_history(path);
+  const multibody::HistoryFile file = read_history(path);
   require_same_inputs(path, file.provenance, study, case_provenance(study, experiment).parameters,
                       "flexneck pendulum");
   PendulumEntry entry;

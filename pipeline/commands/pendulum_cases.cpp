@@ -7,9 +7,9 @@
 #include <thread>
 #include <utility>
 
-#include "multibody/history_file.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/customary_units.h"
+#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 
@@ -22,7 +22,7 @@ std::vector<const CaseSection*> pendulum_cases(const Study& study) {
 
 NeckModes read_neck_modes(const CommandInput& input) {
   const std::filesystem::path path = input.folder.modes();
-  fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(path);
+  fe_modal::ModalBodyFile modes = read_modal_body(path);
   require_same_inputs(path, modes.provenance, input.study, modes_provenance(input.study).parameters,
                       "flexneck modes");
   return {std::move(modes.body), {path.filename().string(), hash_of_file(path.string())}};

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/core.h>
 
-#include "fe_modal/body/modal_body_file.h"
 #include "mesher/drawing/body_picture.h"
 #include "mesher/drawing/colours.h"
 #include "mesher/drawing/picture_sheet.h"
 #include "mesher/mesh/bounding_box.h"
-#include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 
@@ -69,8 +68,8 @@ mesher::PictureSheet modes_sheet(const mesher::Mesh& mesh, const mesher::Surface
 
 bool pictures_command(const CommandInput& input) {
   input.console.step("Drawing mesh and modes");
-  const mesher::Mesh mesh = mesher::read_mesh(input.folder.mesh()).mesh;
-  const fe_modal::ModalBody body = fe_modal::read_modal_body(input.folder.modes()).body;
+  const mesher::Mesh mesh = read_mesh(input.folder.mesh()).mesh;
+  const fe_modal::ModalBody body = read_modal_body(input.folder.modes()).body;
   const mesher::Surface surface = mesher::surface_of(mesh);
   mesher::write_png(input.folder.mesh_picture(), mesh_sheet(mesh, surface));
   mesher::write_png(input.folder.modes_picture(), modes_sheet(mesh, surface, body));

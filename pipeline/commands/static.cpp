@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
 
-#include "fe_modal/body/modal_body_file.h"
-#include "multibody/history_file.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/experiments/static_chain.h"
 #include "pipeline/experiments/static_tables.h"
 #include "pipeline/experiments/static_test.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/customary_units.h"
+#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 
@@ -23,7 +22,7 @@ std::vector<ChainLink> read_links(const CommandInput& input, Provenance& provena
   if (input.study.has_static_moduli()) return links;
   for (const PieceSection& piece : input.study.substructures.pieces) {
     const fs::path path = input.folder.substructure(piece.name);
-    const fe_modal::ModalBodyFile file = fe_modal::read_modal_body(path);
+    const fe_modal::ModalBodyFile file = read_modal_body(path);
     require_same_inputs(path, file.provenance, input.study,
                         modes_provenance(input.study).parameters, "flexneck modes");
     provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
@@ -73,7 +72,7 @@ StaticEntry run_case(const CommandInput& input, const CaseSection& experiment,
 bool static_command(const CommandInput& input) {
   const bool has_own_moduli = input.study.has_static_moduli();
   const fs::path path = has_own_moduli ? input.folder.static_modes() : input.folder.modes();
-  const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(path);
+  const fe_modal::ModalBodyFile modes = read_modal_body(path);
   require_same_inputs(path, modes.provenance, input.study, modes_provenance(input.study).parameters,
                       "flexneck modes");
   Provenance provenance = experiment_provenance(input.study, CaseSection::Kind::static_test);

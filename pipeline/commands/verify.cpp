@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
-#include "multibody/history_file.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/result_files.h"
 #include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {
@@ -20,7 +19,7 @@ PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& exper
   evidence.without_gravity = first_system_mode(input.study, experiment, body, false);
   const std::filesystem::path path = input.folder.history(experiment);
   if (!std::filesystem::exists(path)) return evidence;
-  const multibody::HistoryFile file = multibody::read_history(path);
+  const multibody::HistoryFile file = read_history(path);
   require_same_inputs(path, file.provenance, input.study,
                       case_provenance(input.study, experiment).parameters, "flexneck pendulum");
   evidence.run = pendulum_result(input.study, experiment, file.history.time_s, file.channels);
@@ -35,7 +34,7 @@ bool verify_command(const CommandInput& input) {
                      ": output.verification names no table of published figures");
   }
   const Reference reference = read_reference(input.study.verification);
-  const fe_modal::ModalBodyFile modes = fe_modal::read_modal_body(input.folder.modes());
+  const fe_modal::ModalBodyFile modes = read_modal_body(input.folder.modes());
   require_same_inputs(input.folder.modes(), modes.provenance, input.study,
                       modes_provenance(input.study).parameters, "flexneck modes");
   std::vector<PendulumEvidence> pendulum;

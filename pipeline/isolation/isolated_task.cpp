@@ -18,13 +18,13 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Without control characters and the sequences by which a terminal colours.
-std::string printable(const std::string& line) {
+/// Without the sequences by which a terminal colours.
+std::string colourless(const std::string& line) {
   std::string text;
   for (std::size_t k = 0; k < line.size(); ++k) {
     if (line.compare(k, 2, "\x1b[") == 0) {
       k = std::min(line.find_first_not_of("0123456789;", k + 2), line.size());
-    } else if (static_cast<unsigned char>(line[k]) >= ' ' && line[k] != '\x7f') {
+    } else {
       text += line[k];
     }
   }
@@ -53,7 +53,7 @@ struct LastWords {
   void receive(const std::string& line, const ChildLines& lines) {
     const std::optional<ChildReport> report = report_in(line);
     if (!report) {
-      const std::string text = printable(line);
+      const std::string text = colourless(line);
       if (text.empty()) return;
       chatter = text;
       if (lines.chatter) lines.chatter(text);

@@ -14,7 +14,7 @@ namespace flexneck::pipeline {
 struct ChildLines {
   Progress detail;   ///< what it does
   Progress warning;  ///< for the user
-  Progress chatter;  ///< what libraries print, without control characters
+  Progress chatter;  ///< what libraries print, without its colours
 };
 
 /// A task that a process of its own does, since a library of others may crash, hang or take all

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <numbers>
 
-#include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/result_files.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
@@ -40,7 +40,7 @@ Eigen::VectorXd damping_ratios(const StudyTable& table, const Eigen::VectorXd& f
 
 DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
   const std::filesystem::path path = table.folder_of("modes_file") / table.text("modes_file");
-  fe_modal::ModalBody all = fe_modal::read_modal_body(path).body;
+  fe_modal::ModalBody all = read_modal_body(path).body;
   assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
   DeformableBody body;
   body.modes = table.has("modes")

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "pipeline/result_files.h"
 #include "pipeline/results_folder.h"
 
 namespace flexneck::pipeline {
@@ -56,7 +57,7 @@ class Reader {
 
   void mesh() {
     require("mesh.h5", "the mesh", "flexneck mesh", [&](const fs::path& path) {
-      mesher::MeshFile file = mesher::read_mesh(path);
+      mesher::MeshFile file = read_mesh(path);
       results_.mesh = std::move(file.mesh);
       return file.provenance;
     });
@@ -64,7 +65,7 @@ class Reader {
 
   void modes() {
     require("modes.h5", "the modes", "flexneck modes", [&](const fs::path& path) {
-      fe_modal::ModalBodyFile file = fe_modal::read_modal_body(path);
+      fe_modal::ModalBodyFile file = read_modal_body(path);
       results_.modes = std::move(file.body);
       return file.provenance;
     });
@@ -83,7 +84,7 @@ class Reader {
     for (const std::string& name : names_in(folder_)) {
       if (!name.starts_with(prefix) || !name.ends_with(".h5")) continue;
       read(name, command, [&](const fs::path& path) {
-        multibody::HistoryFile file = multibody::read_history(path);
+        multibody::HistoryFile file = read_history(path);
         Provenance provenance = file.provenance;
         warn_if_incomplete(name, file);
         results_.experiments.push_back(

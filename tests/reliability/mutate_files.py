@@ -160,7 +160,7 @@ def main():
     parser.add_argument("--runs", type=int, default=20000)
     parser.add_argument("--seed", default="1")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--formats", default="", 
+    parser.add_argument("--formats", default="",
                         help="only those whose names begin with one of these, comma between")
     parser.add_argument("--out", default="mutated", help="folder for what fails")
     parser.add_argument("--stacks", action="store_true",
