@@ -10,6 +10,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/initial_state.h"
 #include "multibody/linearisation.h"
+#include "multibody/massless_rotation.h"
 #include "multibody/steady_rotation.h"
 
 namespace flexneck::multibody {
@@ -105,6 +106,7 @@ ModesAtRate continued(const ModesAtRate& before, const ModesAtRate& after) {
 
 CampbellDiagram campbell_diagram(const Model& model, const std::vector<double>& rates_rad_s) {
   check(model);
+  check_massless_rotations(model);
   const std::optional<TurningFrame> own = steady_rotation(model);
   if (!own)
     throw InputError(

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/LU>
-
 #include "multibody/equations.h"
 #include "multibody/equations_of_motion.h"
 #include "multibody/equilibrium.h"
+#include "multibody/independent_rows.h"
 #include "multibody/initial_state.h"
 #include "multibody/projection.h"
 #include "multibody/reduced_dynamics.h"
@@ -52,7 +51,8 @@ class DescriptorEquations final : public Equations {
         system_(model),
         equations_(system_, drive),
         projection_(equations_),
-        error_(system_, solver.relative_tolerance, solver.absolute_tolerance) {}
+        error_(system_, solver.relative_tolerance, solver.absolute_tolerance),
+        guard_(model, {solver.relative_tolerance, solver.absolute_tolerance}, system_.size_m) {}
 
   Vector given_state() override {
     Vector state = multibody::given_state(model_, system_);
@@ -146,11 +146,7 @@ class DescriptorEquations final : public Equations {
     projection_.apply(time_s, state, false);
     equations_.solve();
     equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
-    for (std::size_t k = 0; k < system_.joints.size(); ++k) {
-      const JointRows& joint = equations_.joint(k);
-      recorder.residuals(column, violation(joint, joint.position_residual),
-                         violation(joint, joint.velocity_residual));
-    }
+    record_residuals(time_s, recorder, column);
     for (std::size_t k = 0; k < system_.markers.size(); ++k)
       recorder.marker(column, k, marker_state(equations_, k));
     for (std::size_t k = 0; k < system_.joints.size(); ++k)
@@ -165,23 +161,37 @@ class DescriptorEquations final : public Equations {
   }
 
  private:
+  void record_residuals(double time_s, Recorder& recorder, Index column) {
+    for (const Joint& joint : system_.joints)
+      for (const std::size_t marker : {joint.marker_i, joint.marker_j}) {
+        const NodeKinematics& motion = equations_.marker(marker);
+        guard_.see(motion.p, motion.pd, motion.Om);
+      }
+    const bool left_out = !equations_.solver().redundant_rows().empty();
+    for (std::size_t k = 0; k < system_.joints.size(); ++k) {
+      const JointRows& joint = equations_.joint(k);
+      const Violation position = violation(joint, joint.position_residual);
+      const Violation velocity = violation(joint, joint.velocity_residual);
+      recorder.residuals(column, position, velocity);
+      guard_.check(time_s, k, position, velocity, left_out);
+    }
+  }
+
   /// A reaction's component is left open if some multipliers that move nothing, B^T lambda = 0,
   /// have it.
   void record_undetermined(Recorder& recorder) const {
-    Eigen::FullPivLU<Eigen::MatrixXd> factors;
-    factors.setThreshold(1e-9);
-    Eigen::MatrixXd rows_transposed;
-    assemble_rows_transposed(equations_, rows_transposed);
-    factors.compute(rows_transposed);
-    const Eigen::MatrixXd free = factors.kernel();
+    const KktSolver& solver = equations_.solver();
+    std::vector<bool> left_out(static_cast<std::size_t>(system_.constraint_count), false);
+    for (const KktSolver::RedundantRow& each : solver.redundant_rows())
+      left_out[static_cast<std::size_t>(solver.joint_offset(each.joint) + each.row)] = true;
+    const Eigen::MatrixXd free = free_multipliers(solver.rows_in_metres(), left_out);
     for (std::size_t k = 0; k < system_.joints.size(); ++k) {
       const JointRows& joint = equations_.joint(k);
       const Eigen::Matrix3d& R_i = equations_.marker(system_.joints[k].marker_i).R;
       Eigen::Array<bool, 6, 1> open = Eigen::Array<bool, 6, 1>::Constant(false);
       for (Index c = 0; c < free.cols(); ++c) {
         RowVector multipliers = RowVector::Zero();
-        multipliers.head(joint.rows) =
-            free.col(c).segment(equations_.solver().joint_offset(k), joint.rows);
+        multipliers.head(joint.rows) = free.col(c).segment(solver.joint_offset(k), joint.rows);
         const Reaction found = reaction(joint, multipliers);
         Eigen::Matrix<double, 6, 1> components;
         components << R_i.transpose() * found.force_N, R_i.transpose() * found.moment_Nm;
@@ -196,6 +206,7 @@ class DescriptorEquations final : public Equations {
   EquationsOfMotion equations_;
   Projection projection_;
   StateError error_;
+  JointGuard guard_;
 };
 
 }  // namespace

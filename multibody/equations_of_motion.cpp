@@ -31,7 +31,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, Drive drive)
       interval_end_s_(kInfinity),
       driven_(system.driven.size()),
       forces_(system.model),
-      solver_(system.body_sizes(), system.places),
+      solver_(system.body_sizes(), system.places, system.velocity_lengths_m()),
       right_hand_side_(VectorXd::Zero(system.velocity_count)),
       gamma_(VectorXd::Zero(system.constraint_count)),
       position_residual_(VectorXd::Zero(system.constraint_count)),

@@ -70,6 +70,7 @@ struct StepStatistics {
 
 /// What a run leaves, at fixed times.
 struct History {
+  Eigen::Index handed_on = 0;  ///< outputs before these, which OutputOptions::sink took
   Eigen::VectorXd time_s;
   std::vector<MarkerHistory> markers;
   std::vector<JointHistory> joints;
@@ -80,6 +81,8 @@ struct History {
   /// Constraints left out at the start because others hold the same, such as "joint 'a', row 4".
   std::vector<std::string> redundant_constraints;
   std::string incomplete;  ///< why the run ended early; empty as a rule
+  /// Sentences: what of the results is not to be trusted. Empty as a rule.
+  std::vector<std::string> warnings = {};
 
   /// @throws InputError if there is none of that name.
   const MarkerHistory& marker(const std::string& name) const;

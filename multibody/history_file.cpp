@@ -25,6 +25,7 @@ constexpr const char* kIndex = "index";
 constexpr const char* kUndetermined = "undetermined";
 constexpr const char* kIncomplete = "incomplete";
 constexpr const char* kRedundant = "/statistics/redundant_constraints";
+constexpr const char* kWarnings = "/statistics/warnings";
 constexpr const char* kLimits = "/statistics/step_limits";
 constexpr const char* kLimitedSteps = "/statistics/limited_steps";
 constexpr const char* kModalUnit = "kg^(1/2) m";
@@ -357,6 +358,7 @@ void write_history(const std::filesystem::path& path, const HistoryFile& file) {
   write_statistics(writer, history.statistics);
   if (!history.redundant_constraints.empty())
     writer.write(kRedundant, history.redundant_constraints);
+  if (!history.warnings.empty()) writer.write(kWarnings, history.warnings);
   if (!history.incomplete.empty())
     writer.write_attribute(kStatistics, kIncomplete, std::string_view(history.incomplete));
   if (file.linearisation) write_linearisation(writer, *file.linearisation);
@@ -393,6 +395,7 @@ HistoryFile read_history(const std::filesystem::path& path) {
                       });
   history.statistics = read_statistics(reader);
   if (reader.has(kRedundant)) history.redundant_constraints = reader.read_strings(kRedundant);
+  if (reader.has(kWarnings)) history.warnings = reader.read_strings(kWarnings);
   if (has_attribute(reader, kStatistics, kIncomplete))
     history.incomplete = reader.string_attribute(kStatistics, kIncomplete);
   if (reader.has(kLinearisation)) file.linearisation = read_linearisation(reader);

@@ -151,24 +151,30 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
         i.W.transpose().lazyProduct(joint.L.topRows<2>().transpose());
 }
 
-void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
   const Index n = joint.translation_rows;
-  const Vector3d parting = i.pd - j.pd;
-  joint.velocity_residual.head(n) = joint.D.topRows(n) * parting;
+  joint.velocity_residual.head(n) = joint.D.topRows(n) * (i.pd - j.pd);
+  if (slides(joint))
+    for (Index r = 0; r < n; ++r) joint.velocity_residual[r] += joint.L.row(r).dot(i.Om);
+  if (joint.law->angular_rows > 0) joint.velocity_residual.segment<3>(n) = joint.T * (i.Om - j.Om);
+}
+
+void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  update_velocity_residual(i, j, joint);
+  const Index n = joint.translation_rows;
   joint.gamma.head(n) = joint.D.topRows(n) * (j.gp - i.gp);
   if (slides(joint)) {
     // With d' = Om_i x d: (d . gap)'' has 2 d' . gap' and d'' . gap besides.
+    const Vector3d parting = i.pd - j.pd;
     const Vector3d gap = i.p - j.p;
     for (Index r = 0; r < n; ++r) {
       const Vector3d turning = i.Om.cross(Vector3d(joint.D.row(r)));
-      joint.velocity_residual[r] += joint.L.row(r).dot(i.Om);
       joint.gamma[r] -=
           joint.L.row(r).dot(i.gr) + 2 * turning.dot(parting) + i.Om.cross(turning).dot(gap);
     }
   }
-  if (joint.law->angular_rows == 0) return;
-  joint.velocity_residual.segment<3>(n) = joint.T * (i.Om - j.Om);
-  joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.law->bias(i, j, joint);
+  if (joint.law->angular_rows > 0)
+    joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.law->bias(i, j, joint);
 }
 
 Violation violation(const JointRows& joint, const RowVector& residual) {

@@ -48,6 +48,8 @@ struct JointRows {
 
 /// D, L, T, B and Phi.
 void update_configuration(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
+/// The velocity residual alone.
+void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
 /// The velocity residual and gamma.
 void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
 

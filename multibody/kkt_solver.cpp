@@ -3,21 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "multibody/cholesky.h"
+#include "multibody/independent_rows.h"
 
 namespace flexneck::multibody {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A row whose pivot falls below this share of its diagonal depends on those before.
-constexpr double kRedundant = 1e-11;
+/// Shares of their diagonals to which pivots of S fall: a row that is left out has become
+/// independent above the first (the square of what dependent_rows() allows); below the second a
+/// kept row has lost half of its digits.
+constexpr double kIndependent = 1e-11;
+constexpr double kLost = 1e-8;
 
 }  // namespace
 
-KktSolver::KktSolver(const std::vector<Index>& body_sizes, const std::vector<JointPlace>& joints) {
+KktSolver::KktSolver(const std::vector<Index>& body_sizes, const std::vector<JointPlace>& joints,
+                     VectorXd lengths_m)
+    : lengths_m_(std::move(lengths_m)) {
   for (const Index size : body_sizes) {
     bodies_.push_back({velocity_count_, Eigen::MatrixXd(size, size)});
     velocity_count_ += size;
@@ -87,8 +95,10 @@ void KktSolver::factorise() {
     if (joint.place.body_j != JointPlace::kNoBody)
       solve_lower(bodies_[joint.place.body_j].factor, joint.Y_j);
   }
-  assemble_schur_complement();
-  factorise_schur_complement();
+  Pivots pivots = factorise_schur_complement();
+  if ((pivots.lost || pivots.appeared) && choose_rows()) pivots = factorise_schur_complement();
+  weighted_ = pivots.lost;
+  if (weighted_) factorise_weighted();
 }
 
 void KktSolver::assemble_schur_complement() {
@@ -109,7 +119,9 @@ void KktSolver::assemble_schur_complement() {
   }
 }
 
-void KktSolver::factorise_schur_complement() {
+KktSolver::Pivots KktSolver::factorise_schur_complement() {
+  assemble_schur_complement();
+  Pivots pivots;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     Block& diagonal = block(i, i);
     const RowVector before = diagonal.diagonal();
@@ -126,24 +138,79 @@ void KktSolver::factorise_schur_complement() {
       }
       diagonal.noalias() -= L_ij.lazyProduct(L_ij.transpose());
     }
-    factorise_diagonal(joints_[i], before, diagonal);
+    factorise_diagonal(joints_[i], before, diagonal, pivots);
   }
+  return pivots;
 }
 
-/// As factorise_cholesky, but a row whose pivot is rounding of what it was before is left out: with
-/// a zero in place of the pivot's inverse and of its column, solving gives it a zero.
-void KktSolver::factorise_diagonal(JointBlock& joint, const RowVector& before, Block& diagonal) {
+/// As factorise_cholesky, but for rows that are left out: with a zero in place of the pivot's
+/// inverse and of its column, solving gives them a zero.
+void KktSolver::factorise_diagonal(const JointBlock& joint, const RowVector& before,
+                                   Block& diagonal, Pivots& pivots) {
   // Padding: rows that the joint lacks are zero.
   for (Index r = joint.place.rows; r < kMaxRows; ++r) diagonal(r, r) = 1;
   for (Index k = 0; k < kMaxRows; ++k) {
-    const bool left_out = k < joint.place.rows && diagonal(k, k) <= kRedundant * before[k];
-    joint.left_out[static_cast<std::size_t>(k)] = left_out;
+    const bool left_out = joint.left_out[static_cast<std::size_t>(k)];
+    if (left_out)
+      pivots.appeared |= diagonal(k, k) > kIndependent * before[k];
+    else if (k < joint.place.rows)
+      pivots.lost |= !(diagonal(k, k) > kLost * before[k]);
     const double scale = left_out ? 0 : 1 / std::sqrt(diagonal(k, k));
     diagonal(k, k) = scale;
     for (Index i = k + 1; i < kMaxRows; ++i) diagonal(i, k) *= scale;
     for (Index j = k + 1; j < kMaxRows; ++j)
       for (Index i = j; i < kMaxRows; ++i) diagonal(i, j) -= diagonal(j, k) * diagonal(i, k);
   }
+}
+
+bool KktSolver::choose_rows() {
+  const std::vector<bool> dependent = dependent_rows(rows_in_metres());
+  bool changed = false;
+  for (JointBlock& joint : joints_)
+    for (Index r = 0; r < joint.place.rows; ++r) {
+      bool& left_out = joint.left_out[static_cast<std::size_t>(r)];
+      const bool now = dependent[static_cast<std::size_t>(joint.offset + r)];
+      changed |= left_out != now;
+      left_out = now;
+    }
+  return changed;
+}
+
+void KktSolver::factorise_weighted() {
+  MatrixXd Y = MatrixXd::Zero(velocity_count_, constraint_count_);
+  kept_.clear();
+  for (const JointBlock& joint : joints_) {
+    for (Index r = 0; r < joint.place.rows; ++r)
+      if (!joint.left_out[static_cast<std::size_t>(r)]) kept_.push_back(joint.offset + r);
+    const auto add = [&](std::size_t body, const TransposedRows& of_body) {
+      if (body == JointPlace::kNoBody) return;
+      Y.block(bodies_[body].offset, joint.offset, of_body.rows(), joint.place.rows) =
+          of_body.leftCols(joint.place.rows);
+    };
+    add(joint.place.body_i, joint.Y_i);
+    add(joint.place.body_j, joint.Y_j);
+  }
+  weighted_elimination_.factorise(Y(Eigen::all, kept_));
+}
+
+/// B^T = L Y.
+MatrixXd KktSolver::rows_in_metres() const {
+  MatrixXd rows = MatrixXd::Zero(velocity_count_, constraint_count_);
+  for (const JointBlock& joint : joints_) {
+    const auto add = [&](std::size_t body, const TransposedRows& Y) {
+      if (body == JointPlace::kNoBody) return;
+      const BodyBlock& of = bodies_[body];
+      for (Index r = 0; r < Y.rows(); ++r) {
+        RowVector row = Y.row(r).transpose() / of.factor(r, r);
+        for (Index k = 0; k < r; ++k) row += of.factor(r, k) * Y.row(k).transpose();
+        rows.row(of.offset + r).segment(joint.offset, joint.place.rows) =
+            row.head(joint.place.rows).transpose() / lengths_m_[of.offset + r];
+      }
+    };
+    add(joint.place.body_i, joint.Y_i);
+    add(joint.place.body_j, joint.Y_j);
+  }
+  return rows;
 }
 
 void KktSolver::solve_schur_complement() {
@@ -162,12 +229,29 @@ void KktSolver::solve_schur_complement() {
 }
 
 void KktSolver::solve(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) {
+  // With z = L^-1 r and y = L^T x: [I Y; Y^T 0] [y; lambda] = [z; s].
+  for (const BodyBlock& body : bodies_)
+    solve_lower(body.factor, r.segment(body.offset, body.factor.rows()));
+  if (weighted_)
+    solve_weighted(r, s);
+  else
+    solve_by_schur_complement(r, s);
+  for (const BodyBlock& body : bodies_)
+    solve_upper(body.factor, r.segment(body.offset, body.factor.rows()));
+}
+
+void KktSolver::solve_weighted(Eigen::Ref<VectorXd> z, Eigen::Ref<VectorXd> s) {
+  VectorXd lambda = s(kept_);
+  weighted_elimination_.solve(z, lambda);
+  s.setZero();
+  s(kept_) = lambda;
+}
+
+/// S lambda = Y^T z - s, y = z - Y lambda.
+void KktSolver::solve_by_schur_complement(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) {
   const auto segment = [&](std::size_t body) {
     return r.segment(bodies_[body].offset, bodies_[body].factor.rows());
   };
-  for (std::size_t b = 0; b < bodies_.size(); ++b) solve_lower(bodies_[b].factor, segment(b));
-
-  // S lambda = B M^-1 r - s.
   for (JointBlock& joint : joints_) {
     joint.lambda.setZero();
     joint.lambda.head(joint.place.rows) = -s.segment(joint.offset, joint.place.rows);
@@ -180,8 +264,6 @@ void KktSolver::solve(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) {
     add(joint.place.body_j, joint.Y_j);
   }
   solve_schur_complement();
-
-  // x = L^-T (z - Y lambda).
   for (const JointBlock& joint : joints_) {
     s.segment(joint.offset, joint.place.rows) = joint.lambda.head(joint.place.rows);
     const auto subtract = [&](std::size_t body, const TransposedRows& Y) {
@@ -192,7 +274,6 @@ void KktSolver::solve(Eigen::Ref<VectorXd> r, Eigen::Ref<VectorXd> s) {
     subtract(joint.place.body_i, joint.Y_i);
     subtract(joint.place.body_j, joint.Y_j);
   }
-  for (std::size_t b = 0; b < bodies_.size(); ++b) solve_upper(bodies_[b].factor, segment(b));
 }
 
 std::vector<KktSolver::RedundantRow> KktSolver::redundant_rows() const {

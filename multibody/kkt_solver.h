@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "multibody/joints.h"
+#include "multibody/weighted_elimination.h"
 
 namespace flexneck::multibody {
 
@@ -22,11 +23,15 @@ struct JointPlace {
 /// a body and rows of one or two blocks a joint. Elimination in the order bodies, then joints: with
 /// M = L L^T the joints are left with S = Y^T Y, Y = L^-1 B^T, which is factorised inside its
 /// envelope in blocks of a joint by a joint, padded to full size. This is LDL^T without pivoting,
-/// safe because the matrix is quasi-definite. A row that depends on those before it is left out:
-/// its multiplier is zero.
+/// safe because the matrix is quasi-definite. A row that depends on those before it
+/// (independent_rows.h) is left out: its multiplier is zero. Pivots of S only tell when that has to
+/// be looked at again, and when masses differ so much that S has too few digits left: then
+/// WeightedElimination solves.
 class KktSolver {
  public:
-  KktSolver(const std::vector<Eigen::Index>& body_sizes, const std::vector<JointPlace>& joints);
+  /// @param lengths_m  (velocities) by which a unit of each moves its body: measures rows
+  KktSolver(const std::vector<Eigen::Index>& body_sizes, const std::vector<JointPlace>& joints,
+            Eigen::VectorXd lengths_m);
 
   Eigen::Index velocity_count() const { return velocity_count_; }
   Eigen::Index constraint_count() const { return constraint_count_; }
@@ -51,6 +56,10 @@ class KktSolver {
   bool is_left_out(std::size_t joint, Eigen::Index row) const {
     return joints_[joint].left_out[static_cast<std::size_t>(row)];
   }
+  /// B^T of the last factorisation with velocities in m/s, (velocity_count, constraint_count).
+  Eigen::MatrixXd rows_in_metres() const;
+  /// Whether S of the last factorisation had enough digits.
+  bool is_well_scaled() const { return !weighted_; }
 
  private:
   using Block = Eigen::Matrix<double, kMaxRows, kMaxRows>;
@@ -74,11 +83,23 @@ class KktSolver {
     bool row_is_i, column_is_i;
   };
 
+  /// What the pivots of S say about the rows.
+  struct Pivots {
+    bool lost = false;      ///< of a row that is kept too small a share is left
+    bool appeared = false;  ///< one that is left out has become independent
+  };
+
   void add_meetings(std::size_t row_joint);
   Block& block(std::size_t row_joint, std::size_t column_joint);
   void assemble_schur_complement();
-  void factorise_schur_complement();
-  static void factorise_diagonal(JointBlock& joint, const RowVector& before, Block& diagonal);
+  Pivots factorise_schur_complement();
+  static void factorise_diagonal(const JointBlock& joint, const RowVector& before, Block& diagonal,
+                                 Pivots& pivots);
+  /// @return whether other rows are left out than before.
+  bool choose_rows();
+  void factorise_weighted();
+  void solve_weighted(Eigen::Ref<Eigen::VectorXd> z, Eigen::Ref<Eigen::VectorXd> s);
+  void solve_by_schur_complement(Eigen::Ref<Eigen::VectorXd> z, Eigen::Ref<Eigen::VectorXd> s);
   void solve_schur_complement();
 
   std::vector<BodyBlock> bodies_;
@@ -87,6 +108,10 @@ class KktSolver {
   Eigen::Index velocity_count_ = 0;
   Eigen::Index constraint_count_ = 0;
   std::vector<Block> schur_;  ///< row by row of the lower triangle; its factor after factorise()
+  Eigen::VectorXd lengths_m_;
+  WeightedElimination weighted_elimination_;
+  bool weighted_ = false;           ///< it has the factors
+  std::vector<Eigen::Index> kept_;  ///< its constraints
 };
 
 }  // namespace flexneck::multibody

@@ -9,6 +9,7 @@
 #include "multibody/equilibrium.h"
 #include "multibody/initial_state.h"
 #include "multibody/linearisation.h"
+#include "multibody/massless_rotation.h"
 #include "multibody/reduced_dynamics.h"
 #include "multibody/rotation.h"
 #include "multibody/steady_rotation.h"
@@ -124,7 +125,7 @@ class TreeLinearisation {
     rate_at(component, step);
     std::vector<MarkerState> markers;
     for (std::size_t k = 0; k < tree_.markers.size(); ++k)
-      markers.push_back(dynamics_.marker_state(k));
+      dynamics_.marker_state(k, markers.emplace_back());
     return markers;
   }
 
@@ -170,6 +171,7 @@ bool is_still(const Model& model) {
 
 std::vector<ModeShape> linearise(const Model& model, LinearisedAt at) {
   check(model);
+  check_massless_rotations(model);
   if (at == LinearisedAt::given && tree::is_tree(model)) return TreeLinearisation(model).modes();
   if (at == LinearisedAt::given && !is_still(model))
     throw InputError(

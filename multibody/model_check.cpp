@@ -56,7 +56,8 @@ void check_mass(const std::string& who, double mass_kg) {
   }
 }
 
-/// About the centre of mass. Equality in the triangle inequality is a flat body and allowed.
+/// About the centre of mass. Equality in the triangle inequality is a flat body and allowed, and so
+/// are moments of zero (massless_rotation.h).
 void check_inertia(const std::string& who, const Matrix3d& inertia) {
   check_finite(who, "inertia", inertia);
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() >
@@ -66,9 +67,9 @@ void check_inertia(const std::string& who, const Matrix3d& inertia) {
   const Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   const std::string listed = text(moments[0]) + ", " + text(moments[1]) + ", " + text(moments[2]);
-  if (!(moments[0] > 0)) {
-    refuse(who, "inertia must be positive definite, but its principal moments are " + listed +
-                    " kg m^2");
+  if (!(moments[0] >= -kSlack * moments[2])) {
+    refuse(who,
+           "no principal moment of inertia may be negative, but they are " + listed + " kg m^2");
   }
   if (moments[2] * (1 - kSlack) > moments[0] + moments[1]) {
     refuse(who, "no body has the principal moments of inertia " + listed +

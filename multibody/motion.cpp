@@ -84,7 +84,7 @@ class Run {
       const OutputOptions& output)
       : equations_(equations),
         most_steps_(solver.most_steps),
-        recorder_(model, output_times(output)),
+        recorder_(model, output),
         integrator_(time_integrator(equations, state, solver)),
         output_state_(state) {}
 
@@ -128,6 +128,7 @@ class Run {
     while (next_ < recorder_.columns() && recorder_.time_s(next_) <= time_s) {
       const double at = recorder_.time_s(next_);
       integrator_->interpolate(at, output_state_);
+      recorder_.begin(next_);
       equations_.record(at, output_state_, recorder_, next_);
       if (next_ == 0) recorder_.redundant(equations_.redundant_constraints());
       ++next_;

@@ -6,18 +6,9 @@
 #include "multibody/recorder.h"
 
 namespace flexneck::multibody {
-namespace {
-
-/// What forces and driven bodies have done where nothing is lost: what the energies have gained.
-void set_work(EnergyHistory& energy) {
-  energy.work_J = energy.kinetic_J + energy.gravitational_J + energy.strain_J;
-  if (energy.work_J.size() > 0) energy.work_J.array() -= double(energy.work_J[0]);
-}
-
-}  // namespace
 
 History settle_along(const Model& model, Equations& equations, const OutputOptions& output) {
-  Recorder recorder(model, output_times(output));
+  Recorder recorder(model, output);
   const auto count = [&] { recorder.statistics().evaluations = equations.evaluations(); };
   Eigen::Index column = 0;
   try {
@@ -26,21 +17,19 @@ History settle_along(const Model& model, Equations& equations, const OutputOptio
       const double time_s = recorder.time_s(column);
       equations.settle(time_s, state);
       Eigen::VectorXd recorded = state;
+      recorder.begin(column);
       equations.record(time_s, recorded, recorder, column);
+      recorder.conserve_energy(column);
       if (column == 0) recorder.redundant(equations.redundant_constraints());
     }
   } catch (const ComputationError& error) {
     count();
     const std::string why =
         std::string(error.what()) + ", at " + std::to_string(recorder.time_s(column)) + " s";
-    History history = recorder.take_incomplete(column, why);
-    set_work(history.energy);
-    throw IncompleteRun(why, history);
+    throw IncompleteRun(why, recorder.take_incomplete(column, why));
   }
   count();
-  History history = recorder.take();
-  set_work(history.energy);
-  return history;
+  return recorder.take();
 }
 
 }  // namespace flexneck::multibody

@@ -15,56 +15,106 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::array<VectorXd*, 4> parts_of(ConstraintHistory& constraints) {
-  return {&constraints.position_m, &constraints.orientation_rad, &constraints.velocity_m_s,
-          &constraints.angular_velocity_rad_s};
+/// Calls visit(array) for each array of a history that has a column, or an entry, per time.
+template <class Visit>
+void visit_arrays(History& history, const Visit& visit) {
+  visit(history.time_s);
+  for (MarkerHistory& marker : history.markers) {
+    for (Eigen::Matrix3Xd* each :
+         {&marker.position_m, &marker.velocity_m_s, &marker.acceleration_m_s2,
+          &marker.angular_velocity_rad_s, &marker.angular_acceleration_rad_s2})
+      visit(*each);
+    visit(marker.rotation);
+  }
+  for (JointHistory& joint : history.joints) {
+    visit(joint.force_N);
+    visit(joint.moment_Nm);
+  }
+  for (ModalHistory& modal : history.modal) visit(modal.coordinates);
+  EnergyHistory& energy = history.energy;
+  ConstraintHistory& constraints = history.constraints;
+  for (VectorXd* part :
+       {&energy.kinetic_J, &energy.gravitational_J, &energy.strain_J, &energy.dissipated_J,
+        &energy.work_J, &constraints.position_m, &constraints.orientation_rad,
+        &constraints.velocity_m_s, &constraints.angular_velocity_rad_s})
+    visit(*part);
+}
+
+/// Keeps the first columns, or entries, of an array.
+template <class Array>
+void resize(Array& values, Index columns) {
+  if constexpr (Array::ColsAtCompileTime == 1)
+    values.conservativeResize(columns);
+  else
+    values.conservativeResize(Eigen::NoChange, columns);
 }
 
 }  // namespace
 
-VectorXd output_times(const OutputOptions& output) {
+OutputTimes::OutputTimes(const OutputOptions& output)
+    : interval_s_(output.interval_s), end_s_(output.end_time_s) {
   constexpr double kSlack = 1e-9;  // of an interval: the end may be a multiple but for rounding
-  const auto whole = static_cast<Index>(output.end_time_s / output.interval_s + kSlack);
-  const bool end_is_multiple = output.end_time_s - static_cast<double>(whole) * output.interval_s <=
-                               kSlack * output.interval_s;
-  VectorXd times(whole + (end_is_multiple ? 1 : 2));
-  for (Index k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) * output.interval_s;
-  times[times.size() - 1] = output.end_time_s;
-  return times;
+  const auto whole = static_cast<Index>(end_s_ / interval_s_ + kSlack);
+  const bool end_is_multiple =
+      end_s_ - static_cast<double>(whole) * interval_s_ <= kSlack * interval_s_;
+  count_ = whole + (end_is_multiple ? 1 : 2);
 }
 
-Recorder::Recorder(const Model& model, const VectorXd& times_s)
-    : modal_of_body_(model.bodies.size(), 0),
+Index numbers_per_output(const Model& model) {
+  OutputOptions one;
+  one.end_time_s = one.interval_s;
+  History history = Recorder(model, one).take();
+  Index numbers = 0;
+  visit_arrays(history, [&](const auto& values) { numbers += values.size(); });
+  return numbers / 2;
+}
+
+Recorder::Recorder(const Model& model, const OutputOptions& output)
+    : times_(output),
+      block_(output.sink ? std::max<Index>(output.block, 1) : times_.count()),
+      sink_(output.sink),
+      deformation_(model),
+      modal_of_body_(model.bodies.size(), 0),
+      last_rotations_(model.markers.size(), Eigen::Vector4d::Zero()),
       undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {
-  const Index n = times_s.size();
-  history_.time_s = times_s;
-  for (const Marker& marker : model.markers) {
-    history_.markers.push_back({marker.name, Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n),
-                                Eigen::Matrix3Xd(3, n), Eigen::Matrix4Xd(4, n),
-                                Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)});
-  }
-  for (const Joint& joint : model.joints)
-    history_.joints.push_back({joint.name, Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)});
+  for (const Marker& marker : model.markers) history_.markers.emplace_back().name = marker.name;
+  for (const Joint& joint : model.joints) history_.joints.emplace_back().name = joint.name;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto* deformable = std::get_if<DeformableBody>(&model.bodies[b].kind);
     if (deformable == nullptr) continue;
-    ModalHistory modal{
-        model.bodies[b].name, {}, Eigen::MatrixXd(deformable->modes.mode_count(), n)};
+    ModalHistory modal{model.bodies[b].name, {}, {}};
+    modal.coordinates.resize(deformable->modes.mode_count(), 0);
     for (const fe_modal::ModeRecord& mode : deformable->modes.modes)
       modal.modes.push_back(mode.name);
     modal_of_body_[b] = history_.modal.size();
     history_.modal.push_back(std::move(modal));
   }
-  EnergyHistory& energy = history_.energy;
-  for (VectorXd* part : {&energy.kinetic_J, &energy.gravitational_J, &energy.strain_J,
-                         &energy.dissipated_J, &energy.work_J}) {
-    part->setZero(n);
-  }
-  for (VectorXd* part : parts_of(history_.constraints)) part->setZero(n);
+  make_room();
+}
+
+void Recorder::make_room() {
+  const Index size = std::min(block_, columns() - history_.handed_on);
+  visit_arrays(history_, [&](auto& values) { resize(values, size); });
+  // The largest residual of the joints is kept.
+  ConstraintHistory& constraints = history_.constraints;
+  for (VectorXd* part : {&constraints.position_m, &constraints.orientation_rad,
+                         &constraints.velocity_m_s, &constraints.angular_velocity_rad_s})
+    part->setZero();
+  for (Index k = 0; k < size; ++k) history_.time_s[k] = time_s(history_.handed_on + k);
+}
+
+void Recorder::begin(Index column) {
+  if (place(column) < history_.time_s.size()) return;
+  sink_(history_);
+  for (std::size_t k = 0; k < last_rotations_.size(); ++k)
+    last_rotations_[k] = history_.markers[k].rotation.rightCols<1>();
+  history_.handed_on = column;
+  make_room();
 }
 
 void Recorder::marker(Index column, std::size_t index, const MarkerState& motion) {
   MarkerHistory& marker = history_.markers[index];
+  column = place(column);
   marker.position_m.col(column) = motion.position_m;
   marker.velocity_m_s.col(column) = motion.velocity_m_s;
   marker.angular_velocity_rad_s.col(column) = motion.angular_velocity_rad_s;
@@ -73,23 +123,29 @@ void Recorder::marker(Index column, std::size_t index, const MarkerState& motion
   // Of the two quaternions of a rotation, the one near the last.
   const Eigen::Quaterniond q(motion.rotation);
   Eigen::Vector4d rotation(q.w(), q.x(), q.y(), q.z());
-  if (column > 0 && rotation.dot(marker.rotation.col(column - 1)) < 0) rotation = -rotation;
+  const double* const last =
+      column > 0 ? &marker.rotation(0, column - 1) : last_rotations_[index].data();
+  if (rotation.dot(Eigen::Map<const Eigen::Vector4d>(last)) < 0) rotation = -rotation;
   marker.rotation.col(column) = rotation;
 }
 
 void Recorder::joint(Index column, std::size_t index, const Reaction& world,
                      const Eigen::Matrix3d& R_i) {
   JointHistory& joint = history_.joints[index];
+  column = place(column);
   joint.force_N.col(column) = R_i.transpose() * world.force_N;
   joint.moment_Nm.col(column) = R_i.transpose() * world.moment_Nm;
 }
 
 void Recorder::modal(Index column, std::size_t body, const VectorXd& a) {
-  if (a.size() > 0) history_.modal[modal_of_body_[body]].coordinates.col(column) = a;
+  if (a.size() == 0) return;
+  deformation_.check(time_s(column), body, a);
+  history_.modal[modal_of_body_[body]].coordinates.col(place(column)) = a;
 }
 
 void Recorder::energy(Index column, const Energies& stored, double dissipated_J, double work_J) {
   EnergyHistory& energy = history_.energy;
+  column = place(column);
   energy.kinetic_J[column] = stored.kinetic_J;
   energy.gravitational_J[column] = stored.gravitational_J;
   energy.strain_J[column] = stored.strain_J;
@@ -97,9 +153,18 @@ void Recorder::energy(Index column, const Energies& stored, double dissipated_J,
   energy.work_J[column] = work_J;
 }
 
+void Recorder::conserve_energy(Index column) {
+  EnergyHistory& energy = history_.energy;
+  const Index k = place(column);
+  const double stored_J = energy.kinetic_J[k] + energy.gravitational_J[k] + energy.strain_J[k];
+  if (column == 0) first_energy_J_ = stored_J;
+  energy.work_J[k] = stored_J - first_energy_J_;
+}
+
 void Recorder::residuals(Index column, const Violation& position, const Violation& velocity) {
   const auto keep = [](double& largest, double value) { largest = std::max(largest, value); };
   ConstraintHistory& constraints = history_.constraints;
+  column = place(column);
   keep(constraints.position_m[column], position.translation);
   keep(constraints.orientation_rad[column], position.rotation);
   keep(constraints.velocity_m_s[column], velocity.translation);
@@ -126,30 +191,13 @@ History Recorder::take() {
       std::string& text = history_.joints[k].undetermined;
       text += (text.empty() ? "" : ", ") + std::string(kNames[c]);
     }
+  history_.warnings = deformation_.warnings();
   return std::move(history_);
 }
 
-History Recorder::take_incomplete(Index columns, const std::string& why) {
-  const auto cut = [columns](auto& values) { values.conservativeResize(Eigen::NoChange, columns); };
+History Recorder::take_incomplete(Index column, const std::string& why) {
   history_.incomplete = why;
-  history_.time_s.conservativeResize(columns);
-  for (MarkerHistory& marker : history_.markers) {
-    for (Eigen::Matrix3Xd* each :
-         {&marker.position_m, &marker.velocity_m_s, &marker.acceleration_m_s2,
-          &marker.angular_velocity_rad_s, &marker.angular_acceleration_rad_s2})
-      cut(*each);
-    cut(marker.rotation);
-  }
-  for (JointHistory& joint : history_.joints) {
-    cut(joint.force_N);
-    cut(joint.moment_Nm);
-  }
-  for (ModalHistory& modal : history_.modal) cut(modal.coordinates);
-  EnergyHistory& energy = history_.energy;
-  for (VectorXd* part : {&energy.kinetic_J, &energy.gravitational_J, &energy.strain_J,
-                         &energy.dissipated_J, &energy.work_J})
-    part->conservativeResize(columns);
-  for (VectorXd* part : parts_of(history_.constraints)) part->conservativeResize(columns);
+  visit_arrays(history_, [&](auto& values) { resize(values, place(column)); });
   return take();
 }
 

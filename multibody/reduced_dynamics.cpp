@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -22,8 +23,16 @@ using Eigen::VectorXd;
 /// Extent of the displacements that differences are taken over: their error, of second order in it,
 /// and rounding are then both about 1e-11 of the result.
 constexpr double kDifference = 1e-5;
-/// Rows that depend on others leave pivots below this share of the largest.
-constexpr double kRank = 1e-9;
+
+/// Constraints that do not depend on others.
+std::vector<Index> independent(const EquationsOfMotion& equations) {
+  const KktSolver& solver = equations.solver();
+  std::vector<Index> rows;
+  for (std::size_t k = 0; k < equations.system().joints.size(); ++k)
+    for (Index r = 0; r < equations.joint(k).rows; ++r)
+      if (!solver.is_left_out(k, r)) rows.push_back(solver.joint_offset(k) + r);
+  return rows;
+}
 
 }  // namespace
 
@@ -61,17 +70,18 @@ ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& p
       time_s_(time_s),
       frame_(std::move(frame)) {
   equations_.set_positions(time_s_, origin_);
+  if (origin_.size() == 0) return;
   // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
   MatrixXd M;
-  MatrixXd rows;
+  MatrixXd all_rows;
   assemble_mass(equations_, M);
-  assemble_rows_transposed(equations_, rows);
+  assemble_rows_transposed(equations_, all_rows);
+  MatrixXd rows = all_rows(Eigen::all, independent(equations_));
   const Eigen::LLT<MatrixXd> cholesky(M);
   cholesky.matrixL().solveInPlace(rows);
   Eigen::ColPivHouseholderQR<MatrixXd> factors;
-  factors.setThreshold(kRank);
   if (rows.cols() > 0) factors.compute(rows);
-  const Index free = M.rows() - (rows.cols() > 0 ? factors.rank() : 0);
+  const Index free = M.rows() - rows.cols();
   MatrixXd rest = MatrixXd::Zero(M.rows(), free);
   rest.bottomRows(free).setIdentity();
   if (rows.cols() > 0) rest.applyOnTheLeft(factors.householderQ());

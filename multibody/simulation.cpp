@@ -5,10 +5,13 @@
 #include <memory>
 #include <string>
 
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "multibody/driven_path.h"
 #include "multibody/equations.h"
+#include "multibody/massless_rotation.h"
 #include "multibody/motion.h"
+#include "multibody/recorder.h"
 #include "multibody/tree/tree.h"
 
 namespace flexneck::multibody {
@@ -36,6 +39,23 @@ void check_options(const SolverOptions& solver, const OutputOptions& output) {
     throw InputError("the output interval gives over 1e8 output times; make it longer");
 }
 
+/// A history as a whole, and what is derived from it. Few outputs always fit.
+void check_memory(const Model& model, const OutputOptions& output) {
+  constexpr Eigen::Index kFew = 100'000;
+  constexpr double kCopies = 2.5;
+  const Eigen::Index count = OutputTimes(output).count();
+  if (output.sink || count <= kFew) return;
+  require_memory("the history of " + std::to_string(count) + " outputs",
+                 kCopies * sizeof(double) * static_cast<double>(count) *
+                     static_cast<double>(numbers_per_output(model)),
+                 "make the output interval longer");
+}
+
+void check_start(const Model& model) {
+  check(model);
+  check_massless_rotations(model);
+}
+
 std::unique_ptr<Equations> equations_of(const Model& model, const SolverOptions& solver,
                                         Drive drive = Drive::prescribed) {
   const bool recursive = solver.formulation == Formulation::recursive ||
@@ -60,24 +80,27 @@ void check_nothing_turns(const Model& model) {
 }  // namespace
 
 History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output) {
-  check(model);
+  check_start(model);
   check_options(solver, output);
+  check_memory(model, output);
   const std::unique_ptr<Equations> equations = equations_of(model, solver);
   return integrate(model, *equations, equations->given_state(), solver, output);
 }
 
 History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
                                   const OutputOptions& output) {
-  check(model);
+  check_start(model);
   check_options(solver, output);
+  check_memory(model, output);
   check_nothing_turns(model);
   const std::unique_ptr<Equations> equations = equations_of(model, solver);
   return integrate(model, *equations, equations->equilibrium_state(), solver, output);
 }
 
 History settle(const Model& model, const SolverOptions& solver, const OutputOptions& output) {
-  check(model);
+  check_start(model);
   check_options(solver, output);
+  check_memory(model, output);
   const std::unique_ptr<Equations> equations = equations_of(model, solver, Drive::held);
   return settle_along(model, *equations, output);
 }

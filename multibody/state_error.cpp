@@ -63,6 +63,7 @@ ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
 }
 
 std::string StateError::name_of(std::size_t component) const {
+  if (system_.bodies.empty()) return "work, as no body is free";
   const std::string& body = system_.bodies[component / kComponents].name;
   return std::string(kNames[component % kComponents]) + " of body '" + body + "'";
 }

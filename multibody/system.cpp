@@ -2,7 +2,9 @@
 #include "multibody/system.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "multibody/massless_rotation.h"
 #include "multibody/rotation.h"
 
 namespace flexneck::multibody {
@@ -56,12 +58,29 @@ System::System(const Model& of) : model(of), joints(of.joints), gravity_m_s2(of.
                       JointRows(joint, 0, 0).rows});
     constraint_count += places.back().rows;
   }
+  if (size_m == 0) size_m = 1;
+  for (FreeBody& body : bodies)
+    if (const auto* rigid = std::get_if<RigidBody>(&model.bodies[body.index].kind)) {
+      RigidBody raised = *rigid;
+      raised.inertia_kg_m2 = raised_inertia(model, body.index, size_m);
+      body.constants = BodyConstants(raised);
+    }
 }
 
 std::vector<Index> System::body_sizes() const {
   std::vector<Index> sizes;
   for (const FreeBody& body : bodies) sizes.push_back(body.constants.velocity_count());
   return sizes;
+}
+
+VectorXd System::velocity_lengths_m() const {
+  VectorXd lengths = VectorXd::Ones(velocity_count);
+  for (const FreeBody& body : bodies) {
+    lengths.segment<3>(body.velocity + 3).setConstant(size_m);
+    lengths.segment(body.velocity + 6, body.constants.mode_count())
+        .setConstant(1 / std::sqrt(body.constants.mass));
+  }
+  return lengths;
 }
 
 void System::retract(Eigen::Ref<VectorXd> positions,

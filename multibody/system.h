@@ -50,10 +50,14 @@ struct System {
   Eigen::Index position_count = 0;
   Eigen::Index velocity_count = 0;
   Eigen::Index constraint_count = 0;
-  double size_m = 0;  ///< largest distance in a body: from its origin to a joint, or its radius
+  /// Largest distance in a body: from its origin to a joint, or its radius. One for points alone.
+  double size_m = 0;
 
   Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
   std::vector<Eigen::Index> body_sizes() const;
+  /// By how many metres a unit of each velocity moves its body, (velocity_count): a radian the
+  /// system's size, a modal coordinate the root mean square of its mass.
+  Eigen::VectorXd velocity_lengths_m() const;
 
   /// Q (+) dQ, equations.md section 5, with the exact exponential.
   void retract(Eigen::Ref<Eigen::VectorXd> positions,

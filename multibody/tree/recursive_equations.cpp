@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
 #include "multibody/equations.h"
 #include "multibody/joint_check.h"
+#include "multibody/tree/marker_residual.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_error.h"
 #include "multibody/tree/tree_rest.h"
@@ -11,12 +14,18 @@ namespace {
 
 using Eigen::Index;
 
+Violation square_root(const Violation& squares) {
+  return {std::sqrt(squares.translation), std::sqrt(squares.rotation)};
+}
+
 class RecursiveEquations final : public Equations {
  public:
   RecursiveEquations(const Model& model, const SolverOptions& solver, Drive drive)
       : tree_(model),
         dynamics_(tree_, drive),
-        error_(tree_, solver.relative_tolerance, solver.absolute_tolerance) {}
+        error_(tree_, solver.relative_tolerance, solver.absolute_tolerance),
+        guard_(model, {solver.relative_tolerance, solver.absolute_tolerance}, tree_.size_m),
+        markers_(model.markers.size()) {}
 
   Vector given_state() override { return tree::given_state(tree_); }
 
@@ -80,8 +89,11 @@ class RecursiveEquations final : public Equations {
     normalise(state);
     dynamics_.update(time_s, state);
     dynamics_.solve();
-    for (std::size_t k = 0; k < tree_.markers.size(); ++k)
-      recorder.marker(column, k, dynamics_.marker_state(k));
+    for (std::size_t k = 0; k < tree_.markers.size(); ++k) {
+      dynamics_.marker_state(k, markers_[k]);
+      recorder.marker(column, k, markers_[k]);
+    }
+    check_joints(time_s);
     for (std::size_t k = 0; k < tree_.body_of_joint.size(); ++k)
       recorder.joint(column, k, dynamics_.joint_reaction(k), dynamics_.joint_axes(k));
     for (std::size_t b = 0; b < tree_.bodies.size(); ++b)
@@ -91,6 +103,19 @@ class RecursiveEquations final : public Equations {
   }
 
  private:
+  void check_joints(double time_s) {
+    const std::vector<Joint>& joints = tree_.model.joints;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const MarkerState& i = markers_[joints[k].marker_i];
+      const MarkerState& j = markers_[joints[k].marker_j];
+      const tree::SquaredResidual found(joints[k], i, j);
+      if (guard_.is_nothing(found.position, found.velocity)) continue;
+      for (const MarkerState* each : {&i, &j})
+        guard_.see(each->position_m, each->velocity_m_s, each->angular_velocity_rad_s);
+      guard_.check(time_s, k, square_root(found.position), square_root(found.velocity), false);
+    }
+  }
+
   void normalise(Vector& state) const {
     for (const tree::TreeBody& body : tree_.bodies) {
       const Index nq = body.joint.position_count();
@@ -101,6 +126,8 @@ class RecursiveEquations final : public Equations {
   tree::Tree tree_;
   tree::TreeDynamics dynamics_;
   tree::TreeError error_;
+  JointGuard guard_;
+  std::vector<MarkerState> markers_;  ///< of the model, at the last output
   Vector no_multipliers_;
 };
 

@@ -156,6 +156,7 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
     carriers[visit.body].body = bodies.size();
     bodies.push_back(std::move(added));
   }
+  if (size_m == 0) size_m = 1;
   std::vector<bool> carries(bodies.size(), false);
   for (const TreeBody& body : bodies)
     if (body.carrier.body != kNone) carries[body.carrier.body] = true;

@@ -68,7 +68,8 @@ struct Tree {
   std::vector<std::size_t> body_of_joint;  ///< which hangs on the model's joint; kNone if free
   Eigen::Index position_count = 0;
   Eigen::Index velocity_count = 0;
-  double size_m = 0;  ///< largest distance in a body: from its origin to a joint, or its radius
+  /// Largest distance in a body: from its origin to a joint, or its radius. One for points alone.
+  double size_m = 0;
 
   Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
 };

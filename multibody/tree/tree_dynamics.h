@@ -46,7 +46,7 @@ class TreeDynamics {
   const Eigen::VectorXd& accelerations() const { return accelerations_; }
   BodyState body_state(std::size_t body) const;
   /// Accelerations only after solve().
-  MarkerState marker_state(std::size_t marker);
+  void marker_state(std::size_t marker, MarkerState& state);
   /// Of the model's joint, after solve().
   Reaction joint_reaction(std::size_t joint) const;
   /// Marker i's axes to the world.

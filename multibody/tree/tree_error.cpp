@@ -87,6 +87,7 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
 }
 
 std::string TreeError::name_of(std::size_t component) const {
+  if (tree_.bodies.empty()) return "work, as no body is free";
   const TreeBody& body = tree_.bodies[component / kParts];
   const std::size_t part = component % kParts;
   const bool of_joint = part < 2 && body.joint_index != kNone;

@@ -27,11 +27,10 @@ BodyState TreeDynamics::body_state(std::size_t body) const {
   return state;
 }
 
-MarkerState TreeDynamics::marker_state(std::size_t index) {
+void TreeDynamics::marker_state(std::size_t index, MarkerState& state) {
   const TreeMarker& marker = tree_.markers[index];
   NodeMotion& node = marker_nodes_[index];
   const Frame& frame = frame_of(marker.carrier);
-  MarkerState state;
   const bool moves = marker.node.moves;
   if (moves) {
     const Work& work = work_[marker.carrier.body];
@@ -55,7 +54,6 @@ MarkerState TreeDynamics::marker_state(std::size_t index) {
   state.angular_velocity_rad_s = frame.A * (frame.w + node.turn);
   state.acceleration_m_s2 = frame.A * acceleration + gravity_;
   state.angular_acceleration_rad_s2 = frame.A * turning;
-  return state;
 }
 
 Reaction TreeDynamics::joint_reaction(std::size_t joint) const {

@@ -27,6 +27,7 @@ TreeRest::TreeRest(TreeDynamics& dynamics, const VectorXd& state, double time_s)
 void TreeRest::update_basis() {
   // Column i of M^-1 is what a unit force in i adds to the accelerations.
   const Index n = dynamics_.tree().velocity_count;
+  if (n == 0) return;
   MatrixXd inverse(n, n);
   const auto accelerations = [&]() -> const VectorXd& {
     dynamics_.update(time_s_, state_);

@@ -73,7 +73,11 @@ std::string describe_history(const fs::path& path) {
     text += fmt::format("\n{} times from {:.4g} to {:.4g} s", times_s.size(), times_s[0],
                         times_s[times_s.size() - 1]);
   if (file.linearisation) text += "\n" + mode_summary(*file.linearisation);
-  if (!file.channels.empty()) text += "\n" + peak_table(times_s, file.channels);
+  if (!file.channels.empty()) {
+    PeakTable peaks;
+    peaks.append(times_s, file.channels);
+    text += "\n" + peaks.text();
+  }
   return text + provenance_text(file.provenance);
 }
 

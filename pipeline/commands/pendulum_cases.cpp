@@ -59,6 +59,8 @@ void PendulumCases::write(const CaseSection& experiment, PendulumRun&& run) cons
   file.provenance = case_provenance(input_.study, experiment);
   file.provenance.inputs.push_back(modes_.file);
   multibody::write_history(folder.history(experiment), file);
+  for (const std::string& warning : file.history.warnings)
+    input_.console.warning(experiment.name + ": " + warning);
 }
 
 }  // namespace flexneck::pipeline

@@ -87,10 +87,14 @@ void write(const FileInput& input, const multibody::HistoryFile& result) {
   const fs::path table = input.folder.file(name + ".csv");
   multibody::write_history(input.folder.file(name + ".h5"), result);
   write_csv(table, result.history.time_s, result.channels);
+  PeakTable peaks;
+  peaks.append(result.history.time_s, result.channels);
   input.console.result(name + ": " + input.folder.file(name + ".h5").string() + ", " +
                        table.string() + "\n" + run_summary(result.history) + "\n\n" +
                        (result.linearisation ? mode_summary(*result.linearisation) + "\n\n" : "") +
-                       peak_table(result.history.time_s, result.channels));
+                       peaks.text());
+  for (const std::string& warning : result.history.warnings)
+    input.console.warning(name + ": " + warning);
 }
 
 void write(const FileInput& input, const multibody::CampbellDiagram& diagram) {

@@ -42,6 +42,8 @@ StaticTestSignals write(const CommandInput& input, const CaseSection& experiment
   multibody::write_history(input.folder.history(experiment), file);
   write_csv(input.folder.curves(experiment), file.history.time_s,
             in_customary_units(file.channels, "in*lbf"));
+  for (const std::string& warning : file.history.warnings)
+    input.console.warning(experiment.name + ": " + warning);
   return signals;
 }
 

@@ -5,6 +5,7 @@
 #include "geometry/foundation/names.h"
 #include "pipeline/model/model_check.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/start_check.h"
 #include "pipeline/output/channel_section.h"
 #include "pipeline/study/sections.h"
 
@@ -91,6 +92,7 @@ void assemble(Assembly& assembly, ModelFile& file) {
     check_connections(assembly);
     place_bodies(assembly.model, assembly.starts, assembly.posed);
     carry_bodies(assembly.model, assembly.starts, assembly.moving);
+    check_starts(assembly, file.start, file.analysis);
   } catch (const InputError& error) {
     throw InputError(file.file.string() + ": " + error.what());
   }

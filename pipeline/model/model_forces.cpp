@@ -79,13 +79,17 @@ void read_joint(const StudyTable& table, Assembly& assembly) {
     joint.axis = unit_vector(table, "axis");
   if (joint.kind == JointKind::universal) joint.second_axis = unit_vector(table, "second_axis");
   JointStart start;
+  const auto read = [&](const char* key, const char* unit, std::optional<double>& value) {
+    const double found = table.quantity_or(key, unit, 0);
+    if (table.has(key)) value = found;
+  };
   if (turns) {
-    start.angle_rad = table.quantity_or("angle", "rad", 0);
-    start.rate_rad_s = table.quantity_or("rate", "rad/s", 0);
+    read("angle", "rad", start.angle_rad);
+    read("rate", "rad/s", start.rate_rad_s);
   }
   if (slides) {
-    start.distance_m = table.quantity_or("distance", "m", 0);
-    start.speed_m_s = table.quantity_or("speed", "m/s", 0);
+    read("distance", "m", start.distance_m);
+    read("speed", "m/s", start.speed_m_s);
   }
   assembly.model.joints.push_back(std::move(joint));
   assembly.starts.push_back(start);

@@ -18,8 +18,6 @@ using multibody::Marker;
 using multibody::Model;
 using multibody::Pose;
 
-namespace {
-
 Pose operator*(const Pose& a, const Pose& b) {
   return {a.position_m + a.rotation * b.position_m, a.rotation * b.rotation};
 }
@@ -29,7 +27,6 @@ Pose inverse(const Pose& a) {
   return {-(back * a.position_m), back};
 }
 
-/// Frame of a marker in its body's frame at the start.
 Pose marker_pose(const Model& model, const Marker& marker) {
   const auto* const deformable = std::get_if<DeformableBody>(&model.bodies[marker.body].kind);
   if (deformable == nullptr) return {marker.position_m, marker.rotation};
@@ -40,7 +37,6 @@ Pose marker_pose(const Model& model, const Marker& marker) {
           Quaterniond(multibody::rotation_exp(theta)) * marker.rotation};
 }
 
-/// Where a body is at time zero: a driven one's motion need not start from where it is given.
 Pose pose_of(const Body& body) {
   const auto* driven = std::get_if<DrivenBody>(&body.kind);
   if (driven == nullptr) return body.initial_pose;
@@ -48,9 +44,20 @@ Pose pose_of(const Body& body) {
   return {motion.position_m, Quaterniond(motion.rotation)};
 }
 
+BodyMotion motion_of(const Body& body) {
+  if (const auto* driven = std::get_if<DrivenBody>(&body.kind)) {
+    const multibody::DrivenMotion motion = multibody::DrivenPath(body.initial_pose, *driven).at(0);
+    return {motion.velocity_m_s, motion.angular_velocity_rad_s};
+  }
+  return {body.initial_velocity_m_s,
+          body.initial_pose.rotation * body.initial_angular_velocity_rad_s};
+}
+
+namespace {
+
 Pose start_pose(const Joint& joint, const JointStart& start) {
-  return {start.distance_m * joint.axis,
-          Quaterniond(Eigen::AngleAxisd(start.angle_rad, joint.axis))};
+  return {start.distance_m.value_or(0) * joint.axis,
+          Quaterniond(Eigen::AngleAxisd(start.angle_rad.value_or(0), joint.axis))};
 }
 
 /// Calls visit(joint index, from, to) along the joints, from what is done to what is not.
@@ -69,20 +76,6 @@ void walk(const Model& model, std::vector<bool>& done, const Visit& visit) {
       done[to->body] = progress = true;
     }
   }
-}
-
-/// Velocity of a body's origin and angular velocity, world.
-struct Motion {
-  Vector3d v, w;
-};
-
-Motion motion_of(const Body& body) {
-  if (const auto* driven = std::get_if<DrivenBody>(&body.kind)) {
-    const multibody::DrivenMotion motion = multibody::DrivenPath(body.initial_pose, *driven).at(0);
-    return {motion.velocity_m_s, motion.angular_velocity_rad_s};
-  }
-  return {body.initial_velocity_m_s,
-          body.initial_pose.rotation * body.initial_angular_velocity_rad_s};
 }
 
 }  // namespace
@@ -113,13 +106,13 @@ void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
     const bool outwards = &from == &model.markers[joint.marker_i];
     const Body& carrier = model.bodies[from.body];
     Body& body = model.bodies[to.body];
-    const Motion motion = motion_of(carrier);
+    const BodyMotion motion = motion_of(carrier);
     // The axis is the same in both markers' axes.
     const Vector3d axis = (outwards ? 1 : -1) * (frame.rotation * joint.axis);
-    const Vector3d w = motion.w + starts[k].rate_rad_s * axis;
+    const Vector3d w = motion.w + starts[k].rate_rad_s.value_or(0) * axis;
     const Vector3d at = (body.initial_pose * marker_pose(model, to)).position_m;
-    const Vector3d v =
-        motion.v + motion.w.cross(at - pose_of(carrier).position_m) + starts[k].speed_m_s * axis;
+    const Vector3d v = motion.v + motion.w.cross(at - pose_of(carrier).position_m) +
+                       starts[k].speed_m_s.value_or(0) * axis;
     body.initial_velocity_m_s = v + w.cross(body.initial_pose.position_m - at);
     body.initial_angular_velocity_rad_s = body.initial_pose.rotation.conjugate() * w;
   });

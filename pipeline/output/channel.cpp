@@ -194,6 +194,16 @@ MatrixXd energy_values(const multibody::EnergyHistory& energy) {
 
 }  // namespace
 
+void continue_channel(Quantity quantity, const Eigen::VectorXd& last, MatrixXd& values) {
+  if (values.cols() == 0) return;
+  if (quantity == Quantity::angle) {
+    const double step = values(0, 0) - last[0];
+    values.array() += std::remainder(step, 2 * std::numbers::pi) - step;
+  } else if (quantity == Quantity::quaternion && values.col(0).dot(last) < 0) {
+    values *= -1;
+  }
+}
+
 void filter(const Eigen::VectorXd& time_s, ChannelClass cfc, MatrixXd& values) {
   Index count = time_s.size();
   if (count < 2) return;

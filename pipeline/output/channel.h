@@ -53,6 +53,10 @@ struct ChannelSpec {
 multibody::Channel channel_of(const multibody::History& history, const ChannelSpec& spec,
                               const Eigen::Vector3d& gravity_m_s2);
 
+/// Makes values that follow others go on from the last of them where they count on: angles over
+/// full turns, quaternions without a change of sign.
+void continue_channel(Quantity quantity, const Eigen::VectorXd& last, Eigen::MatrixXd& values);
+
 /// Filters rows of samples in place. An end that is no multiple of the interval makes the last one
 /// shorter; that sample stays as it is.
 /// @throws InputError as cfc_filtered().

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/output/csv_output.h"
 
-#include <fmt/core.h>
+#include <utility>
 
-#include "geometry/foundation/output_file.h"
+#include <fmt/core.h>
 
 namespace flexneck::pipeline {
 
@@ -29,17 +29,25 @@ std::string header_of(const std::string& first, const std::vector<multibody::Cha
 
 }  // namespace
 
-void write_csv(const std::filesystem::path& path, const Eigen::VectorXd& time_s,
-               const std::vector<multibody::Channel>& channels, const std::string& first) {
-  OutputFile file(path);
-  file.write(header_of(first, channels) + "\n");
+CsvWriter::CsvWriter(const std::filesystem::path& path, std::string first)
+    : file_(path), first_(std::move(first)) {}
+
+void CsvWriter::append(const Eigen::VectorXd& time_s,
+                       const std::vector<multibody::Channel>& channels) {
+  if (!first_.empty()) file_.write(header_of(std::exchange(first_, {}), channels) + "\n");
   for (Eigen::Index k = 0; k < time_s.size(); ++k) {
     std::string line = fmt::format("{}", time_s[k]);
     for (const multibody::Channel& channel : channels)
       for (const double value : channel.values.col(k)) line += fmt::format(",{}", value);
-    file.write(line + "\n");
+    file_.write(line + "\n");
   }
-  file.commit();
+}
+
+void write_csv(const std::filesystem::path& path, const Eigen::VectorXd& time_s,
+               const std::vector<multibody::Channel>& channels, const std::string& first) {
+  CsvWriter writer(path, first);
+  writer.append(time_s, channels);
+  writer.commit();
 }
 
 }  // namespace flexneck::pipeline

@@ -11,8 +11,9 @@ std::string run_summary(const multibody::History& history) {
   const multibody::StepStatistics& steps = history.statistics;
   std::string text = fmt::format(
       "  {} output times to {:.6g} s; {} steps, {} rejected, {} evaluations of the equations",
-      history.time_s.size(), history.time_s.size() > 0 ? history.time_s.tail<1>()[0] : 0.0,
-      steps.accepted, steps.rejected, steps.evaluations);
+      history.handed_on + history.time_s.size(),
+      history.time_s.size() > 0 ? history.time_s.tail<1>()[0] : 0.0, steps.accepted, steps.rejected,
+      steps.evaluations);
   for (const multibody::StepLimit& limit : steps.limits)
     text += fmt::format("\n  {} of the steps limited by {}", limit.steps, limit.what);
   // Joint coordinates have no constraints.
@@ -57,21 +58,40 @@ std::string mode_summary(const multibody::LinearisationRecord& linearisation) {
   return text_table(rows, {0, 4, 5});
 }
 
-std::string peak_table(const Eigen::VectorXd& time_s,
+void PeakTable::append(const Eigen::VectorXd& time_s,
                        const std::vector<multibody::Channel>& channels) {
-  std::vector<std::vector<std::string>> rows = {
-      {"channel", "", "unit", "smallest", "at s", "largest", "at s", ""}};
+  if (time_s.size() == 0) return;
+  const bool is_first = curves_.empty();
+  std::size_t k = 0;
   for (const multibody::Channel& channel : channels)
-    for (Eigen::Index row = 0; row < channel.values.rows() && time_s.size() > 0; ++row) {
+    for (Eigen::Index row = 0; row < channel.values.rows(); ++row, ++k) {
       Eigen::Index low = 0;
       Eigen::Index high = 0;
       const double smallest = channel.values.row(row).minCoeff(&low);
       const double largest = channel.values.row(row).maxCoeff(&high);
-      rows.push_back({row == 0 ? channel.name : "", channel.columns[static_cast<std::size_t>(row)],
-                      channel.unit, fmt::format("{:.5g}", smallest),
-                      fmt::format("{:.4f}", time_s[low]), fmt::format("{:.5g}", largest),
-                      fmt::format("{:.4f}", time_s[high]), channel.filter});
+      if (is_first)
+        curves_.push_back({row == 0 ? channel.name : "",
+                           channel.columns[static_cast<std::size_t>(row)], channel.unit,
+                           channel.filter, smallest, time_s[low], largest, time_s[high]});
+      Curve& curve = curves_[k];
+      if (smallest < curve.smallest) {
+        curve.smallest = smallest;
+        curve.smallest_s = time_s[low];
+      }
+      if (largest > curve.largest) {
+        curve.largest = largest;
+        curve.largest_s = time_s[high];
+      }
     }
+}
+
+std::string PeakTable::text() const {
+  std::vector<std::vector<std::string>> rows = {
+      {"channel", "", "unit", "smallest", "at s", "largest", "at s", ""}};
+  for (const Curve& curve : curves_)
+    rows.push_back({curve.channel, curve.column, curve.unit, fmt::format("{:.5g}", curve.smallest),
+                    fmt::format("{:.4f}", curve.smallest_s), fmt::format("{:.5g}", curve.largest),
+                    fmt::format("{:.4f}", curve.largest_s), curve.filter});
   return text_table(rows, {0, 1, 2, 7});
 }
 

@@ -86,7 +86,7 @@ class Reader {
       read(name, command, [&](const fs::path& path) {
         multibody::HistoryFile file = read_history(path);
         Provenance provenance = file.provenance;
-        warn_if_incomplete(name, file);
+        add_warnings(name, file.history);
         results_.experiments.push_back(
             {kind, path.stem().string().substr(prefix.size()), std::move(file)});
         return provenance;
@@ -160,9 +160,11 @@ class Reader {
         fmt::format("{}, {}, is not in this folder; '{}' makes it.", name, what, command));
   }
 
-  void warn_if_incomplete(const std::string& name, const multibody::HistoryFile& file) {
-    if (file.history.incomplete.empty()) return;
-    results_.warnings.push_back(name + ": the run ended early: " + file.history.incomplete);
+  void add_warnings(const std::string& name, const multibody::History& history) {
+    for (const std::string& warning : history.warnings)
+      results_.warnings.push_back(name + ": " + warning);
+    if (!history.incomplete.empty())
+      results_.warnings.push_back(name + ": the run ended early: " + history.incomplete);
   }
 
   fs::path folder_;

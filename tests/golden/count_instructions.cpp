@@ -31,7 +31,7 @@ void evaluate(Equations& equations, VectorXd state, int count) {
 
 void record(Equations& equations, const Model& model, const VectorXd& start, int count) {
   const OutputOptions output{count * kStep_s, kStep_s};
-  Recorder recorder(model, output_times(output));
+  Recorder recorder(model, output);
   VectorXd rate = VectorXd::Zero(start.size());
   equations.derivative(0, start, rate);
   VectorXd state = start;

@@ -161,7 +161,8 @@ TEST_CASE("a step of the recursive form allocates nothing") {
   check_no_allocation(integrator, [&](double t, VectorXd& y) {
     dynamics.update(t, y);
     dynamics.solve();
-    for (std::size_t k = 0; k < model.markers.size(); ++k) dynamics.marker_state(k);
+    MarkerState motion;
+    for (std::size_t k = 0; k < model.markers.size(); ++k) dynamics.marker_state(k, motion);
     dynamics.energies();
   });
 }

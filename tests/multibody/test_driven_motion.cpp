@@ -215,3 +215,25 @@ TEST_CASE("a start from equilibrium on a body that turns is refused") {
   CHECK_THROWS_WITH(simulate_from_equilibrium(on_turntable().model, {}, {}),
                     Contains("body 'table' turns at time zero"));
 }
+
+TEST_CASE("a model without a free body runs: its driven bodies move, and nothing else") {
+  ModelBuilder build;
+  build.model.gravity_m_s2 = {0, 0, -kGravity};
+  DrivenBody arm;
+  arm.motion = swing();
+  build.marker("hand", build.body("arm", arm), {0, 0, 1});
+  SolverOptions solver;
+  solver.formulation = either_formulation();
+  solver.integrator = GENERATE(Integrator::dormand_prince, Integrator::generalised_alpha);
+  const OutputOptions output{kEnd_s, 0.05};
+  for (const History& history : {simulate(build.model, solver, output),
+                                 simulate_from_equilibrium(build.model, solver, output),
+                                 settle(build.model, solver, output)}) {
+    REQUIRE(history.time_s.size() == 11);
+    for (Eigen::Index k = 0; k < 11; ++k)
+      CHECK(history.marker("hand").position_m(0, k) ==
+            Approx(kSwing * std::sin(kRate * history.time_s[k])).margin(1e-12));
+    CHECK(history.energy.work_J.isZero(0));
+  }
+  CHECK(system_modes(build.model).empty());
+}

@@ -64,7 +64,7 @@ TEST_CASE("elimination body by body solves the whole system") {
   const std::vector<Index> sizes = {6, 10, 6, 8};
   const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {1, 2, 3},
                                           {3, 0, 6},       {2, 3, 3}, {2, kDriven, 3}};
-  KktSolver solver(sizes, places);
+  KktSolver solver(sizes, places, VectorXd::Ones(30));
   const Dense dense(solver, sizes, places, random);
   solver.factorise();
   CHECK(solver.redundant_rows().empty());
@@ -82,7 +82,7 @@ TEST_CASE("elimination body by body solves the whole system") {
 
 TEST_CASE("rows that repeat others are found and left out") {
   const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {0, 1, 3}};
-  KktSolver solver({6, 6}, places);
+  KktSolver solver({6, 6}, places, VectorXd::Ones(12));
   for (std::size_t b = 0; b < 2; ++b) solver.set_mass(b, MatrixXd::Identity(6, 6));
   Joint fixed;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -109,4 +109,51 @@ TEST_CASE("rows that repeat others are found and left out") {
   CHECK(r.head(3).norm() < 1e-14);
   CHECK((r.head(6) - r.tail(6)).norm() < 1e-14);
   CHECK((s.head(3) + Eigen::Vector3d(1 + 7, 2 + 8, 3 + 9)).norm() < 1e-13);
+}
+
+TEST_CASE(
+    "masses that differ by fourteen orders leave all digits, and rank is decided without them") {
+  // A heavy body on a driven one; a light one ties another heavy one to it.
+  using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  RandomNumbers random(43);
+  const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {1, 2, 6}};
+  KktSolver solver({6, 6, 6}, places, VectorXd::Ones(18));
+  Extended matrix = Extended::Zero(33, 33);
+  for (std::size_t b = 0; b < 3; ++b) {
+    const MatrixXd mass = (b == 1 ? 1e-11 : 1e3) * MatrixXd::Identity(6, 6);
+    solver.set_mass(b, mass);
+    matrix.block(solver.body_offset(b), solver.body_offset(b), 6, 6) = mass.cast<long double>();
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    Joint joint;
+    joint.kind = places[k].rows == 6 ? JointKind::fixed : JointKind::ball;
+    JointRows rows(joint, places[k].body_i == kDriven ? 0 : 6, 6);
+    for (TransposedRows* B : {&rows.B_i, &rows.B_j})
+      for (Index c = 0; c < places[k].rows; ++c)
+        for (Index r = 0; r < B->rows(); ++r) (*B)(r, c) = random.next();
+    solver.set_rows(k, rows);
+    const auto add = [&](std::size_t body, const TransposedRows& B) {
+      if (body == kDriven) return;
+      const Index row = 18 + solver.joint_offset(k);
+      matrix.block(row, solver.body_offset(body), places[k].rows, 6) +=
+          B.leftCols(places[k].rows).transpose().cast<long double>();
+      matrix.block(solver.body_offset(body), row, 6, places[k].rows) +=
+          B.leftCols(places[k].rows).cast<long double>();
+    };
+    add(places[k].body_i, rows.B_i);
+    add(places[k].body_j, rows.B_j);
+  }
+  solver.factorise();
+  CHECK(solver.redundant_rows().empty());
+  CHECK(!solver.is_well_scaled());
+  VectorXd r = random.vector(18);
+  VectorXd s = random.vector(15);
+  Extended right(33, 1);
+  right << r.cast<long double>(), s.cast<long double>();
+  const VectorXd expected = matrix.fullPivLu().solve(right).cast<double>();
+  solver.solve(r, s);
+  for (Index body = 0; body < 3; ++body)
+    CHECK((r - expected.head(18)).segment<6>(6 * body).norm() <
+          1e-11 * expected.segment<6>(6 * body).norm());
+  CHECK((s - expected.tail(15)).norm() < 1e-11 * expected.tail(15).norm());
 }

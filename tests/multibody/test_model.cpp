@@ -69,12 +69,11 @@ TEST_CASE("Masses and inertias that no body has are refused") {
              Contains("body 'head': centre of mass is not finite"));
   CHECK_THAT(complaint([](Model& m) { head_of(m).inertia_kg_m2(0, 1) = 1e-3; }),
              Contains("symmetric"));
-  CHECK_THAT(complaint([](Model& m) { head_of(m).inertia_kg_m2.setZero(); }),
-             Contains("positive definite"));
+  CHECK(complaint([](Model& m) { head_of(m).inertia_kg_m2.setZero(); }) == "no complaint");
   CHECK_THAT(complaint([](Model& m) {
                head_of(m).inertia_kg_m2 = Eigen::Vector3d(1, 1, -1).asDiagonal();
              }),
-             Contains("positive definite"));
+             Contains("principal moment of inertia may be negative"));
 }
 
 TEST_CASE("The triangle inequality of inertias holds to 1e-9; a flat body is allowed") {

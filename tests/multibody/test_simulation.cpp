@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -51,7 +52,7 @@ SolverOptions tolerance(double relative) {
   return options;
 }
 
-constexpr OutputOptions kShort{0.1, 2e-3};
+const OutputOptions kShort{0.1, 2e-3};
 
 }  // namespace
 
@@ -174,6 +175,36 @@ TEST_CASE("poses that fit a joint but for rounded digits are brought onto it") {
   const Vector3d gap =
       history.marker("tip").position_m.col(0) - history.marker("head").position_m.col(0);
   CHECK(gap.norm() < 1e-14);
+}
+
+TEST_CASE("outputs that are handed on in blocks are those of a whole run") {
+  const Model model = sled();
+  const bool moves = GENERATE(true, false);
+  const auto run = [&](const OutputOptions& output) {
+    return moves ? simulate(model, {}, output) : settle(model, {}, output);
+  };
+  const History whole = run(kShort);
+  std::vector<History> blocks;
+  OutputOptions in_blocks = kShort;
+  in_blocks.block = 7;
+  in_blocks.sink = [&](const History& outputs) { blocks.push_back(outputs); };
+  blocks.push_back(run(in_blocks));
+  REQUIRE(blocks.size() == 8);
+  REQUIRE(whole.time_s.size() == 51);
+  Eigen::Index first = 0;
+  for (const History& block : blocks) {
+    const Eigen::Index n = block.time_s.size();
+    REQUIRE(block.handed_on == first);
+    CHECK(n == (first == 49 ? 2 : 7));
+    CHECK(block.time_s == whole.time_s.segment(first, n));
+    CHECK(block.marker("tip").rotation == whole.marker("tip").rotation.middleCols(first, n));
+    CHECK(block.joint("top").force_N == whole.joint("top").force_N.middleCols(first, n));
+    CHECK(block.modal[0].coordinates == whole.modal[0].coordinates.middleCols(first, n));
+    CHECK(block.energy.work_J == whole.energy.work_J.segment(first, n));
+    CHECK(block.constraints.position_m == whole.constraints.position_m.segment(first, n));
+    first += n;
+  }
+  CHECK(blocks.back().statistics.evaluations == whole.statistics.evaluations);
 }
 
 TEST_CASE("joints that repeat each other are named and move nothing") {

@@ -143,7 +143,8 @@ TEST_CASE("a tree's markers and energies are those of the descriptor form") {
   equations.update_idle_markers(velocities);
   for (std::size_t k = 0; k < model.markers.size(); ++k) {
     CAPTURE(model.markers[k].name);
-    const MarkerState found = dynamics.marker_state(k);
+    MarkerState found;
+    dynamics.marker_state(k, found);
     const NodeKinematics& expected = equations.marker(k);
     Eigen::Vector3d acceleration = expected.gp;
     Eigen::Vector3d angular_acceleration = expected.gr;
