@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/output/csv_output.h"
