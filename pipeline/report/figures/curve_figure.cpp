@@ -16,7 +16,8 @@ std::string style_of(std::size_t curve) {
   constexpr std::array<const char*, 4> kStyles = {"lc rgb '#0072b2'", "dt (8,4) lc rgb '#d55e00'",
                                                   "dt (2,4) lc rgb '#009e73'",
                                                   "dt (10,3,2,3) lc rgb '#7f7f7f'"};
-  return fmt::format("lw {:.1f} {}", 2.2 + 2.0 * static_cast<double>(curve / kStyles.size()),
+  const std::size_t round = curve / kStyles.size();
+  return fmt::format("lw {:.1f} {}", 2.2 + 2.0 * static_cast<double>(round),
                      kStyles[curve % kStyles.size()]);
 }
 
