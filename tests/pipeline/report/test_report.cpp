@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "pipeline/experiments/pendulum_tables.h"
