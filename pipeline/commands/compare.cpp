@@ -28,9 +28,10 @@ bool compare_command(const FileInput& input) {
   if (input.files.size() < 2) {
     throw InputError("compare: name at least two folders of results, 'flexneck compare out other'");
   }
+  for (const fs::path& folder : input.files)
+    if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
   std::vector<ComparedStudy> studies;
   for (const fs::path& folder : input.files) {
-    if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
     // Without a study of its own: a folder is what it is, not to be measured by today's values.
     studies.push_back({label_of(folder, input.files), read_results(folder, Study())});
     if (studies.back().results.files.empty()) {

@@ -360,7 +360,7 @@ TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no 
   check_refused(run_flexneck("pendulm" + out),
                 "there is no command 'pendulm' (did you mean 'pendulum'?)");
   check_refused(run_flexneck("run " + (folder / "none.toml").string() + out),
-                "none.toml: cannot be read");
+                "none.toml: no such file");
   check_refused(run_flexneck("run " + (folder / "broken.toml").string() + out),
                 "broken.toml:1:10:");
   check_refused(run_flexneck("run --set geometry.plate_thickness='-0.1 in'" + out),
