@@ -20,6 +20,17 @@ SquaredResidual::SquaredResidual(const Joint& joint, const MarkerState& i, const
   Vector3d gap = i.position_m - j.position_m;
   Vector3d parting = i.velocity_m_s - j.velocity_m_s;
   const Vector3d turning = i.angular_velocity_rad_s - j.angular_velocity_rad_s;
+  const auto hold_orientation = [&] {
+    // Of an angle t between the orientations the difference is sqrt(8) sin(t / 2).
+    position.rotation = 0.5 * (i.rotation - j.rotation).squaredNorm();
+    velocity.rotation = turning.squaredNorm();
+  };
+  if (joint.kind == JointKind::fixed) {
+    position.translation = gap.squaredNorm();
+    velocity.translation = parting.squaredNorm();
+    hold_orientation();
+    return;
+  }
   Vector3d axis_i = Vector3d::Zero();
   Vector3d axis_j = Vector3d::Zero();
   const bool slides = joint.kind == JointKind::slider || joint.kind == JointKind::cylindrical;
@@ -35,11 +46,8 @@ SquaredResidual::SquaredResidual(const Joint& joint, const MarkerState& i, const
   position.translation = gap.squaredNorm();
   velocity.translation = parting.squaredNorm();
   switch (joint.kind) {
-    case JointKind::fixed:
     case JointKind::slider:
-      // Of an angle t between the orientations the difference is sqrt(8) sin(t / 2).
-      position.rotation = 0.5 * (i.rotation - j.rotation).squaredNorm();
-      velocity.rotation = turning.squaredNorm();
+      hold_orientation();
       return;
     case JointKind::pin:
     case JointKind::cylindrical:
