@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/version.h"
@@ -171,23 +170,21 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
 
 namespace {
 
-/// Whether a folder holds results that may have been made from `file`: others than what stands
-/// beside it and than the mesh, which comes before all.
-bool has_results_of(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const std::set<std::string> not_of_it = {stem, stem + "_view", "mesh", "mesh_view"};
+/// Whether the folder of a file holds more than a mesh, with which nothing has to agree.
+bool has_more_than_mesh(const fs::path& file) {
   std::error_code ignored;
   const fs::directory_iterator entries(file.parent_path().empty() ? "." : file.parent_path(),
                                        ignored);
-  return std::any_of(begin(entries), end(entries), [&](const fs::directory_entry& entry) {
-    return entry.path().extension() == ".h5" && !not_of_it.contains(entry.path().stem().string());
+  return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    const std::string stem = entry.path().stem().string();
+    return entry.path().extension() == ".h5" && stem != "mesh" && stem != "mesh_view";
   });
 }
 
 }  // namespace
 
 std::string replaced_values(const fs::path& file, const FileFormat& format, const Provenance& now) {
-  if (!has_results_of(file)) return {};
+  if (!has_more_than_mesh(file)) return {};
   const Provenance then = provenance_in(file, format);
   if (then.program.empty()) return {};
   const auto text = [](const Parameter* parameter) {
