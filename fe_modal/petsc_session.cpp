@@ -24,6 +24,9 @@ void stay_alone() {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", kKeepTheUsers);
   setenv("OMPI_MCA_btl", "self", kKeepTheUsers);
   setenv("OMPI_MCA_pml", "ob1", kKeepTheUsers);
+  // Alone it shares no files. Two processes at once that make and remove the folder for them get in
+  // each other's way.
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", kKeepTheUsers);
 }
 
 /// Arrays from a megabyte on go back to the system as soon as they are freed. By default glibc
@@ -46,8 +49,9 @@ PetscSession::PetscSession(Start /*start*/) {
   if (finalized != 0 || initialized == PETSC_TRUE) {
     throw ComputationError("PETSc can be initialised once in a process only");
   }
-  // The process keeps its signal handlers, and neither a user's .petscrc nor the command line
-  // steers the solvers: PETSc sees these arguments only.
+  // The process keeps its signal handlers, and neither a user's .petscrc nor the environment nor
+  // the command line steers the solvers: PETSc sees these arguments only.
+  unsetenv("PETSC_OPTIONS");
   char name[] = "flexneck";
   char no_signals[] = "-no_signal_handler";
   char no_petscrc[] = "-skip_petscrc";
@@ -65,7 +69,8 @@ PetscSession::PetscSession(Start /*start*/) {
 
 // A constructor that delegates ends like any object if what comes after throws: finalised.
 PetscSession::PetscSession() : PetscSession(Start()) {
-  // Errors come back as codes, without a trace on the terminal.
+  // Errors come back as codes, without a trace on the terminal, nor what CHOLMOD says of them.
+  PetscErrorPrintf = PetscErrorPrintfNone;
   require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
   require(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"), "silencing CHOLMOD");
   const std::string given = "-" + std::string(kGivenOrderPrefix);

@@ -6,6 +6,7 @@
 
 #include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/progress.h"
+#include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck::pipeline {
 
@@ -25,7 +26,9 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  bool take();
+  void open();
+  void take();
+  void release() noexcept;
   std::string holder() const;
   bool is_in_place() const;
   void sign(const std::string& command) const;
@@ -35,6 +38,9 @@ class FolderLock {
   std::filesystem::path path_;
   FileDescriptor file_;
   bool is_made_ = false;  ///< the folder, by this
+  bool is_held_ = false;  ///< the lock, by this
+  SignalCleanup lock_cleanup_;
+  SignalCleanup folder_cleanup_;
 };
 
 }  // namespace flexneck::pipeline

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <new>
 #include <optional>
 #include <span>
@@ -11,8 +13,11 @@
 #include <fmt/core.h>
 
 #include "fe_modal/distributed/ranks.h"
+#include "geometry/foundation/atomic_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/printable.h"
+#include "geometry/foundation/signal_cleanup.h"
 #include "pipeline/child_tasks.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/folder_lock.h"
@@ -23,6 +28,7 @@ namespace {
 using namespace flexneck::pipeline;
 using flexneck::fe_modal::Ranks;
 
+constexpr const char* kNoMemory = "the memory that is free does not suffice for this";
 constexpr int kVerificationFailed = 1;
 constexpr int kUnusableInput = 2;
 constexpr int kComputationFailed = 3;
@@ -93,6 +99,31 @@ void describe(CLI::App& app, Arguments& arguments) {
              "3 a computation failed.");
 }
 
+/// Does the command. @param take_lock is called once its arguments are known to be right
+bool do_command(const Command& command, const Arguments& arguments, const ResultsFolder& folder,
+                const Console& console, const Ranks* ranks,
+                const std::function<void()>& take_lock) {
+  if (command.run_on_files != nullptr) {
+    take_lock();
+    return command.run_on_files(
+        {{arguments.files.begin(), arguments.files.end()}, arguments.settings, folder, console});
+  }
+  if (arguments.files.size() > 1) {
+    throw flexneck::InputError(arguments.command + ": expected one study, found '" +
+                               arguments.files[1] + "' too");
+  }
+  const Study study = read_study(
+      arguments.files.empty() ? built_in_study() : std::filesystem::path(arguments.files.front()),
+      arguments.settings);
+  take_lock();
+  if (ranks != nullptr && arguments.command != "modes" && arguments.command != "run") {
+    console.step("Only modes are computed on many ranks: '" + arguments.command +
+                 "' runs on the first");
+  }
+  return (arguments.show ? show_command : command.run)(
+      {study, folder, console, arguments.target, arguments.is_binary, ranks, arguments.force});
+}
+
 bool execute(const Arguments& arguments, const Console& console, const Ranks* ranks) {
   const std::vector<Command>& list = commands();
   const std::size_t which =
@@ -108,25 +139,9 @@ bool execute(const Arguments& arguments, const Console& console, const Ranks* ra
     lock.emplace(folder.path(), arguments.line,
                  [&](const std::string& line) { console.warning(line); });
   };
-  if (list[which].run_on_files != nullptr) {
-    take_lock();
-    return list[which].run_on_files(
-        {{arguments.files.begin(), arguments.files.end()}, arguments.settings, folder, console});
-  }
-  if (arguments.files.size() > 1) {
-    throw flexneck::InputError(arguments.command + ": expected one study, found '" +
-                               arguments.files[1] + "' too");
-  }
-  const Study study = read_study(
-      arguments.files.empty() ? built_in_study() : std::filesystem::path(arguments.files.front()),
-      arguments.settings);
-  take_lock();
-  if (ranks != nullptr && arguments.command != "modes" && arguments.command != "run") {
-    console.step("Only modes are computed on many ranks: '" + arguments.command +
-                 "' runs on the first");
-  }
-  return (arguments.show ? show_command : list[which].run)(
-      {study, folder, console, arguments.target, arguments.is_binary, ranks, arguments.force});
+  const bool passed = do_command(list[which], arguments, folder, console, ranks, take_lock);
+  if (lock) flexneck::sync_folder(folder.path());
+  return passed;
 }
 
 struct Failure {
@@ -141,7 +156,7 @@ Failure failure() {
   } catch (const flexneck::InputError& error) {
     return {kUnusableInput, error.what()};
   } catch (const std::bad_alloc&) {
-    return {kComputationFailed, "the memory that is free does not suffice for this"};
+    return {kComputationFailed, kNoMemory};
   } catch (const std::exception& error) {
     return {kComputationFailed, error.what()};
   } catch (...) {
@@ -178,7 +193,9 @@ int exit_code_of(const CLI::App& app, const CLI::ParseError& error) {
 int run(int argc, char** argv) {
   std::optional<Ranks> ranks;
   if (Ranks::are_many()) {
-    ranks.emplace([](const std::string& line) { fmt::print(stderr, "flexneck: {}\n", line); });
+    ranks.emplace([](const std::string& line) {
+      fmt::print(stderr, "flexneck: {}\n", flexneck::printable(line));
+    });
   }
   if (ranks && !ranks->is_leader()) {
     ranks->serve();
@@ -196,25 +213,59 @@ int run(int argc, char** argv) {
   return exit_code_of(arguments, ranks ? &*ranks : nullptr);
 }
 
-/// Of the exception that is being handled.
-int told_without_console() {
-  const Failure found = failure();
-  std::fprintf(stderr, "flexneck: %s\n", found.text.c_str());
-  return found.exit_code;
+void tell_without_console(const char* text) noexcept {
+  std::fprintf(stderr, "flexneck: %s\n", text);
+}
+
+/// Of the exception that is being handled. There may be no memory for more than a line.
+int told_without_console() noexcept {
+  try {
+    const Failure found = failure();
+    tell_without_console(flexneck::printable(found.text).c_str());
+    return found.exit_code;
+  } catch (...) {
+    tell_without_console(kNoMemory);
+    return kComputationFailed;
+  }
+}
+
+[[noreturn]] void end_by_library() {
+  flexneck::clean_up_now();
+  tell_without_console("a library has ended the command; is there memory left?");
+  std::_Exit(kComputationFailed);
+}
+
+/// Of what is thrown where a library or a thread lets nothing through.
+[[noreturn]] void terminate() {
+  if (!std::current_exception()) end_by_library();
+  const int code = told_without_console();
+  flexneck::clean_up_now();
+  std::_Exit(code);
+}
+
+bool has_ended = false;
+
+/// MPI ends a process in which it cannot start, with the code of a failed verification.
+void refuse_end_by_library() {
+  if (!has_ended) end_by_library();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   keep_standard_streams();
+  flexneck::clean_up_on_signals();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failure to write, no end
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   if (is_child(words)) child_main(words, child_tasks());
-  // Of what is thrown where a library or a thread lets nothing through.
-  std::set_terminate(
-      [] { std::_Exit(std::current_exception() ? told_without_console() : kComputationFailed); });
+  std::set_terminate(terminate);
+  std::atexit(refuse_end_by_library);
+  int code = kComputationFailed;
   try {
-    return run(argc, argv);
+    code = run(argc, argv);
   } catch (...) {
-    return told_without_console();
+    code = told_without_console();
   }
+  has_ended = true;
+  return code;
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "geometry/foundation/content_hash.h"
+#include "geometry/foundation/error.h"
 #include "geometry/foundation/hdf5_file.h"
 
 namespace flexneck::pipeline {
@@ -30,10 +31,11 @@ constexpr std::array<Kind, 3> kKinds = {
         multibody::write_history(to, multibody::read_history(from));
       }}}};
 
-/// Whether HDF5 may read it here; what is no file at all, the readers refuse themselves.
+/// Whether the readers may have it here: they refuse what is no file, and what is not what the hash
+/// that it carries says, before HDF5 sees it.
 bool is_safe(const fs::path& path) {
   std::error_code none;
-  return !fs::is_regular_file(path, none) || trust_of(path) == Trust::verified;
+  return !fs::is_regular_file(path, none) || carried_hash(path).has_value();
 }
 
 }  // namespace
@@ -73,6 +75,12 @@ fe_modal::ModalBodyFile read_modal_body(const fs::path& path) {
 
 multibody::HistoryFile read_history(const fs::path& path) {
   return multibody::read_history(ReadableFile(path, multibody::kHistoryFormat.name).path());
+}
+
+void require_whole_run(const fs::path& path, const multibody::History& history) {
+  if (history.incomplete.empty()) return;
+  throw ComputationError(
+      path.string() + ": the run ended early, what there is of it is kept: " + history.incomplete);
 }
 
 }  // namespace flexneck::pipeline

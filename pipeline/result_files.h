@@ -24,6 +24,10 @@ mesher::MeshFile read_mesh(const std::filesystem::path& path);
 fe_modal::ModalBodyFile read_modal_body(const std::filesystem::path& path);
 multibody::HistoryFile read_history(const std::filesystem::path& path);
 
+/// Refuses a run that has ended early, of which the file holds the first part only.
+/// @throws ComputationError with the reason that the history gives.
+void require_whole_run(const std::filesystem::path& path, const multibody::History& history);
+
 /// A file of any of these formats, of ours or as a child has copied it.
 class ReadableFile {
  public:

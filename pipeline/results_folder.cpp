@@ -5,6 +5,7 @@
 #include <array>
 
 #include "geometry/foundation/error.h"
+#include "pipeline/result_files.h"
 #include "pipeline/version.h"
 
 namespace flexneck::pipeline {
@@ -52,7 +53,8 @@ const Parameter* find(const std::vector<Parameter>& parameters, const std::strin
 Provenance provenance_in(const fs::path& file, const FileFormat& format) {
   if (!fs::exists(file)) return {};
   try {
-    return read_provenance(Hdf5Reader(file, format));
+    const ReadableFile readable(file, format.name);
+    return read_provenance(Hdf5Reader(readable.path(), format));
   } catch (const InputError&) {
     return {};
   }

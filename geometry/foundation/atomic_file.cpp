@@ -22,8 +22,8 @@ constexpr mode_t kPermissions = 0666;  ///< less the user's mask
 template <typename Take>
 fs::path take_fresh_name(const fs::path& folder, const Take& take) {
   for (int number = 0;; ++number) {
-    const fs::path name = folder / (".flexneck-" + std::to_string(::getpid()) + "-" +
-                                    std::to_string(number) + ".part");
+    fs::path name = folder / (".flexneck-" + std::to_string(::getpid()) + "-" +
+                              std::to_string(number) + ".part");
     if (take(name)) return name;
     if (errno != EEXIST) return {};
   }
@@ -34,14 +34,15 @@ bool sync(int descriptor) {
   return uninterrupted([&] { return ::fsync(descriptor); }) == 0;
 }
 
-/// Some file systems have nothing to sync in a folder and say so by EINVAL.
-bool sync_folder(const fs::path& folder) {
+}  // namespace
+
+void sync_folder(const fs::path& folder) {
   const FileDescriptor entries(
       uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
-  return entries && (sync(entries.get()) || errno == EINVAL);
+  // Some file systems have nothing to sync in a folder and say so by EINVAL.
+  if (entries && (sync(entries.get()) || errno == EINVAL)) return;
+  throw ComputationError(folder.string() + ": cannot be written (" + std::strerror(errno) + ")");
 }
-
-}  // namespace
 
 AtomicFile::AtomicFile(fs::path path)
     : path_(std::move(path)),
@@ -65,6 +66,7 @@ void AtomicFile::create() {
         FileDescriptor(uninterrupted([&] { return ::open(name.c_str(), kFlags, kPermissions); }));
     return static_cast<bool>(file_);
   });
+  cleanup_ = SignalCleanup(SignalCleanup::Action::remove_file, temporary_);
 }
 
 void AtomicFile::name() {
@@ -74,11 +76,13 @@ void AtomicFile::name() {
     return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   });
   if (temporary_.empty()) fail(errno);
+  cleanup_ = SignalCleanup(SignalCleanup::Action::remove_file, temporary_);
 }
 
 void AtomicFile::remove_temporary() noexcept {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
+  cleanup_.reset();
 }
 
 void AtomicFile::write_at(std::uint64_t place, std::span<const char> bytes) noexcept {
@@ -119,14 +123,18 @@ void AtomicFile::require_written() const {
   if (failure_ != 0) fail(failure_);
 }
 
-void AtomicFile::commit() {
+void AtomicFile::start_sync() const noexcept {
+  ::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE);
+}
+
+void AtomicFile::commit(Durability durability) {
   require_written();
-  if (!sync(file_.get())) fail(errno);
+  if (durability == Durability::content && !sync(file_.get())) fail(errno);
   name();
   if (!file_.close()) fail(errno);
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(errno);
   temporary_.clear();
-  if (!sync_folder(folder_)) fail(errno);
+  cleanup_.reset();
 }
 
 void AtomicFile::fail(int reason) const {

@@ -6,8 +6,19 @@
 #include <span>
 
 #include "geometry/foundation/file_descriptor.h"
+#include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck {
+
+/// What of a file is on the disk, whatever happens to the machine, once it is in its place.
+enum class Durability {
+  content,  ///< all of it; its name, with the next sync_folder()
+  none      ///< what other files can make again: the system writes it when it likes
+};
+
+/// Brings the names of the files that have been put into a folder to the disk.
+/// @throws ComputationError if that fails.
+void sync_folder(const std::filesystem::path& folder);
 
 /// A file that appears under its name whole or not at all. Until commit() it has no name, so that
 /// nothing stays behind however the process ends; where the file system knows no files without
@@ -33,10 +44,12 @@ class AtomicFile {
   /// @throws ComputationError with the system's reason if one of them has failed.
   void require_written() const;
 
-  /// Brings the content to the disk and then the file to its place, instead of one that is there.
-  /// @throws ComputationError if any of it fails; what was in the place before is still there then,
-  /// unless the disk fails after the exchange.
-  void commit();
+  /// Has the system begin to write the content to the disk, for commit() to wait less.
+  void start_sync() const noexcept;
+
+  /// Brings the file to its place, instead of one that is there.
+  /// @throws ComputationError if any of it fails; what was in the place before is still there then.
+  void commit(Durability durability = Durability::content);
 
  private:
   void create();
@@ -47,6 +60,7 @@ class AtomicFile {
   std::filesystem::path path_;
   std::filesystem::path folder_;
   std::filesystem::path temporary_;  ///< empty while the file has no name
+  SignalCleanup cleanup_;            ///< of that name
   FileDescriptor file_;
   int failure_ = 0;  ///< the system's number of the first failure
 };

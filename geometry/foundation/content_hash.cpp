@@ -20,9 +20,10 @@ namespace {
 constexpr std::string_view kOurs = "flexneck, XXH3-128 of all after 512 bytes: ";
 /// What no foreign file begins with. A damaged rest is then damage, not another kind of file.
 constexpr std::string_view kMark = kOurs.substr(0, 8);
+constexpr std::size_t kDigits = 32;
 
 std::string digits_of(const XXH128_hash_t& hash) {
-  std::array<char, 33> digits{};
+  std::array<char, kDigits + 1> digits{};
   std::snprintf(digits.data(), digits.size(), "%016llx%016llx",
                 static_cast<unsigned long long>(hash.high64),
                 static_cast<unsigned long long>(hash.low64));
@@ -43,6 +44,16 @@ std::string hash_from(const FileDescriptor& file, std::uint64_t place,
   }
 }
 
+HashBlock first_block(const FileDescriptor& file, const std::filesystem::path& path) {
+  HashBlock found{};
+  read_at(file, 0, found, path);
+  return found;
+}
+
+bool is_ours(const HashBlock& block) {
+  return std::string_view(block.data(), block.size()).starts_with(kMark);
+}
+
 }  // namespace
 
 std::string hash_of_text(const std::string& text) {
@@ -58,15 +69,26 @@ HashBlock hash_block_of(const FileDescriptor& file, const std::filesystem::path&
   return block;
 }
 
-Trust trust_of(const std::filesystem::path& path) {
+std::optional<std::string> carried_hash(const std::filesystem::path& path) {
+  const HashBlock block = first_block(open_to_read(path), path);
+  if (!is_ours(block)) return std::nullopt;
+  return std::string(block.data() + kOurs.size(), kDigits);
+}
+
+std::string hash_of_content(const std::filesystem::path& path) {
   const FileDescriptor file = open_to_read(path);
-  HashBlock found{};
-  read_at(file, 0, found, path);
-  if (!std::string_view(found.data(), found.size()).starts_with(kMark)) return Trust::foreign;
+  return hash_from(file, is_ours(first_block(file, path)) ? kHashBlockSize : 0, path);
+}
+
+Trust trust_of(const std::filesystem::path& path, const std::string& remedy) {
+  const FileDescriptor file = open_to_read(path);
+  const HashBlock found = first_block(file, path);
+  if (!is_ours(found)) return Trust::foreign;
   if (found != hash_block_of(file, path)) {
     throw InputError(path.string() +
                      ": the HDF5 file is truncated or damaged: its content is not the one whose "
-                     "hash it holds; make it again");
+                     "hash it holds; " +
+                     remedy);
   }
   return Trust::verified;
 }

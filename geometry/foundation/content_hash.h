@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace flexneck {
@@ -24,13 +25,21 @@ using HashBlock = std::array<char, kHashBlockSize>;
 /// @throws ComputationError if the file cannot be read.
 HashBlock hash_block_of(const FileDescriptor& file, const std::filesystem::path& path);
 
+/// The hash that a file of ours carries, unchecked; none if the file is foreign.
+/// @throws InputError or ComputationError if the file cannot be read.
+std::optional<std::string> carried_hash(const std::filesystem::path& path);
+
+/// The hash that a file of ours should carry; of a foreign one, hash_of_file(). @throws as that.
+std::string hash_of_content(const std::filesystem::path& path);
+
 /// What is known of a file before any library parses it.
 enum class Trust {
   verified,  ///< every byte is as we wrote it
   foreign    ///< it has no block of ours: whatever it holds is to be checked
 };
 
+/// @param remedy ends the message, such as "make it again with 'flexneck mesh'"
 /// @throws InputError if the file cannot be read, or has a block of ours and another content.
-Trust trust_of(const std::filesystem::path& path);
+Trust trust_of(const std::filesystem::path& path, const std::string& remedy = "make it again");
 
 }  // namespace flexneck

@@ -24,8 +24,9 @@ class FileDescriptor {
 
   explicit operator bool() const { return number_ >= 0; }
   int get() const { return number_; }
-  /// @return false with errno if the system reports a failure; the descriptor is gone either way
-  bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
+  /// @return false with errno if the system reports a failure; the descriptor is gone either way,
+  /// so that a signal which interrupts the call changes nothing
+  bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
 
  private:
   int number_ = -1;

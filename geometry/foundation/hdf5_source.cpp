@@ -95,13 +95,18 @@ Hdf5Source::Hdf5Source(fs::path path, std::string made_by)
   if (!fs::exists(path_, ignored)) {
     throw InputError(name + ": no such file; make it with '" + made_by_ + "'");
   }
-  if (fs::is_regular_file(path_, ignored)) trust_ = trust_of(path_);
+  if (fs::is_regular_file(path_, ignored)) {
+    trust_ = trust_of(path_, "make it again with '" + made_by_ + "'");
+  }
   if (!is_hdf5(path_)) {
     throw InputError(name + ": expected an HDF5 file, found another kind; make it again with '" +
                      made_by_ + "'");
   }
   size_ = fs::file_size(path_);
-  file_ = Hdf5Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  // Files of ours are whole whoever writes, and not every file system has the locks of HDF5.
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (H5Pset_file_locking(access.get(), false, true) < 0) fail("/");
+  file_ = Hdf5Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
   if (!file_ && trust_ == Trust::verified) fail("/");
   if (!file_) {
     throw InputError(name + ": the HDF5 file is truncated or damaged; make it again with '" +

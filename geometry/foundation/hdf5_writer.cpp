@@ -264,6 +264,7 @@ void Hdf5Writer::commit() {
   for (auto& [name, rows] : impl_->appended) impl_->finish(name, rows);
   impl_->require(impl_->file.close(), "the file");
   AtomicFile& bytes = impl_->bytes;
+  bytes.start_sync();
   bytes.write_at(0, hash_block_of(bytes.descriptor(), bytes.path()));
   bytes.commit();
 }

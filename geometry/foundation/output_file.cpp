@@ -14,15 +14,15 @@ void OutputFile::write_waiting() {
   waiting_.clear();
 }
 
-void OutputFile::commit() {
+void OutputFile::commit(Durability durability) {
   write_waiting();
-  file_.commit();
+  file_.commit(durability);
 }
 
-void write_text(const std::filesystem::path& path, std::string_view text) {
+void write_text(const std::filesystem::path& path, std::string_view text, Durability durability) {
   OutputFile file(path);
   file.write(text);
-  file.commit();
+  file.commit(durability);
 }
 
 std::string exact_text(double number) {

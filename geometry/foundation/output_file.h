@@ -23,7 +23,7 @@ class OutputFile {
     if (waiting_.size() >= kBlock) write_waiting();
   }
   /// @throws ComputationError if writing has failed.
-  void commit();
+  void commit(Durability durability = Durability::content);
 
  private:
   static constexpr std::size_t kBlock = std::size_t{1} << 18U;
@@ -36,7 +36,8 @@ class OutputFile {
 };
 
 /// A whole file at once. @throws as OutputFile does.
-void write_text(const std::filesystem::path& path, std::string_view text);
+void write_text(const std::filesystem::path& path, std::string_view text,
+                Durability durability = Durability::content);
 
 /// The shortest text that reads back as the same number.
 std::string exact_text(double number);

@@ -2,7 +2,6 @@
 #include "geometry/foundation/temporary_folder.h"
 
 #include <stdlib.h>  // mkdtemp is POSIX
-#include <system_error>
 
 #include "geometry/foundation/error.h"
 
@@ -16,11 +15,9 @@ TemporaryFolder::TemporaryFolder() {
     throw ComputationError(name + ": a temporary folder cannot be made");
   }
   path_ = name;
+  cleanup_ = SignalCleanup(SignalCleanup::Action::remove_folder, path_);
 }
 
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
+TemporaryFolder::~TemporaryFolder() { remove_folder(path_); }
 
 }  // namespace flexneck

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/foundation/signal_cleanup.h"
+
 namespace flexneck {
 
-/// A fresh folder of ours alone. It goes at the end of the scope, with all it holds.
+/// A fresh folder of ours alone. It goes with all it holds at the end of the scope, and if a signal
+/// ends the process (signal_cleanup.h).
 class TemporaryFolder {
  public:
   /// @throws ComputationError if the system's folder for temporary files takes none.
@@ -20,6 +23,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  SignalCleanup cleanup_;
 };
 
 }  // namespace flexneck

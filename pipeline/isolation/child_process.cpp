@@ -91,7 +91,10 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
   const int error = posix_spawn(&id_, program.c_str(), actions.get(), nullptr,
                                 pointers_to(words).data(), pointers_to(variables).data());
   close(pipe_ends[1]);
-  if (error == 0) return;
+  if (error == 0) {
+    cleanup_ = SignalCleanup(id_);
+    return;
+  }
   close(output_);
   throw ComputationError(program.string() +
                          ": cannot be started as a child process: " + std::strerror(error));
@@ -139,6 +142,7 @@ ChildEnd ChildProcess::wait(const LineReceiver& on_line) {
   }
   if (ended < 0) throw ComputationError("a child process is lost: the system has ended it");
   id_ = -1;
+  cleanup_.reset();
   while (has_output(0)) read_lines(on_line);
   if (!unread_.empty()) on_line(std::exchange(unread_, {}));
   return end_of(status);

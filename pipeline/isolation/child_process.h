@@ -7,6 +7,8 @@
 #include <sys/types.h>
 #include <vector>
 
+#include "geometry/foundation/signal_cleanup.h"
+
 namespace flexneck::pipeline {
 
 /// How a process ended: by itself with an exit code, or by a signal.
@@ -39,7 +41,8 @@ class ChildProcess {
   bool has_output(int timeout_ms) const;
   void read_lines(const LineReceiver& on_line);
 
-  pid_t id_ = -1;        ///< -1: it has ended
+  pid_t id_ = -1;  ///< -1: it has ended
+  SignalCleanup cleanup_;
   int output_ = -1;      ///< end of the pipe that this process reads
   bool is_open_ = true;  ///< whether more may come from there
   std::string unread_;   ///< beginning of a line

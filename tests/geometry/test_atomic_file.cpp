@@ -148,16 +148,31 @@ TEST_CASE("wherever the disk is full, the failure is told and the file before it
   }
 }
 
-TEST_CASE("a file is on the disk before it takes its place, and its folder after that") {
+TEST_CASE("a file is on the disk before it takes its place, its name with the folder's sync") {
   for (const bool has_unnamed_files : {true, false}) {
     for (const auto& write : kWriters) {
       const Place place;
       the_system().has_unnamed_files = has_unnamed_files;
       write(place.path);
+      sync_folder(place.folder.path());
       CHECK(the_system().log == std::vector<std::string>{"sync", "rename", "sync"});
       CHECK(names_in(place.folder.path()).size() == 1);
     }
   }
+}
+
+TEST_CASE("a file that others can make again takes its place without waiting for the disk") {
+  const Place place;
+  write_text(place.path, "drawn", Durability::none);
+  CHECK(the_system().log == std::vector<std::string>{"rename"});
+  CHECK(text_of_file(place.path) == "drawn");
+}
+
+TEST_CASE("a folder that does not reach the disk is told") {
+  const Place place;
+  the_system().failing = "sync";
+  CHECK_THROWS_AS(sync_folder(place.folder.path()), ComputationError);
+  CHECK_THROWS_AS(sync_folder(place.folder / "none"), ComputationError);
 }
 
 TEST_CASE("what fails while a file takes its place is told, and nothing is left behind") {

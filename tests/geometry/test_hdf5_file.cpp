@@ -64,12 +64,15 @@ TEST_CASE("one flipped bit anywhere in a file of ours is found before HDF5 reads
   // The hash is that of all that follows the block, as its text says.
   CHECK(sound.substr(0, 75) ==
         "flexneck, XXH3-128 of all after 512 bytes: " + hash_of_text(sound.substr(kHashBlockSize)));
+  CHECK(carried_hash(folder / "a.h5") == hash_of_content(folder / "a.h5"));
   // Without the mark at its beginning it is anybody's file, with the same content.
   std::size_t accepted = 0;
   for (std::size_t k = 0; k < sound.size(); k += k < kHashBlockSize ? 1 : 7) {
     std::string flipped = sound;
     flipped[k] = static_cast<char>(flipped[k] ^ (1 << (k % 8)));
     std::ofstream(folder / "b.h5", std::ios::binary) << flipped;
+    if (k >= kHashBlockSize)
+      CHECK(carried_hash(folder / "b.h5") != hash_of_content(folder / "b.h5"));
     try {
       const Hdf5Reader file(folder / "b.h5", kFormat);
       CHECK(file.trust() == Trust::foreign);

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/signal_cleanup.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <dirent.h>
+#include <fcntl.h>
+#include <string_view>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+
+#include <climits>
+
+namespace flexneck {
+
+namespace {
+
+using Action = SignalCleanup::Action;
+
+/// A handler may neither allocate nor lock, so there is place for some.
+struct Entry {
+  std::atomic<bool> is_taken = false;
+  std::atomic<bool> is_ready = false;
+  pid_t owner = -1;  ///< a forked process has no part in it
+  Action action = Action::remove_file;
+  pid_t process = -1;
+  std::array<char, PATH_MAX> path{};
+};
+std::array<Entry, 16> entries;
+
+/// @param fill  sets what is to be done. @return the number of the entry, -1 if none is free
+template <typename Fill>
+int add(const Fill& fill) {
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    if (entries[k].is_taken.exchange(true)) continue;
+    entries[k].owner = ::getpid();
+    fill(entries[k]);
+    entries[k].is_ready = true;
+    return static_cast<int>(k);
+  }
+  return -1;
+}
+
+// From here on only what a handler of signals may call.
+
+void remove_tree(int folder, const char* name);
+
+/// @return whether there was anything
+bool remove_entries(int folder) {
+  constexpr std::size_t kNameStart = offsetof(dirent64, d_name);
+  alignas(dirent64) std::array<char, 4096> block{};
+  bool is_any = false;
+  for (;;) {
+    const long size = ::syscall(SYS_getdents64, folder, block.data(), block.size());
+    if (size <= 0) return is_any;
+    for (long place = 0; place < size;) {
+      const char* const name = block.data() + place + kNameStart;
+      unsigned short length = 0;
+      std::memcpy(&length, block.data() + place + offsetof(dirent64, d_reclen), sizeof length);
+      place += length;
+      if (std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0) continue;
+      remove_tree(folder, name);
+      is_any = true;
+    }
+  }
+}
+
+/// No link is followed.
+void remove_tree(int folder, const char* name) {
+  if (::unlinkat(folder, name, 0) == 0 || errno != EISDIR) return;
+  if (::unlinkat(folder, name, AT_REMOVEDIR) == 0) return;  // also where nothing can be opened
+  const int opened = ::openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (opened < 0) return;
+  // Entries may be passed over while others go.
+  for (int passes = 8; passes > 0 && remove_entries(opened); --passes) ::lseek(opened, 0, SEEK_SET);
+  ::close(opened);
+  ::unlinkat(folder, name, AT_REMOVEDIR);
+}
+
+void carry_out(const Entry& entry) {
+  switch (entry.action) {
+    case Action::end_process:
+      ::kill(entry.process, SIGKILL);
+      ::waitpid(entry.process, nullptr, 0);
+      break;
+    case Action::remove_folder:
+      remove_tree(AT_FDCWD, entry.path.data());
+      break;
+    case Action::remove_file:
+      ::unlink(entry.path.data());
+      break;
+    case Action::remove_empty_folder:
+      ::rmdir(entry.path.data());
+      break;
+  }
+}
+
+extern "C" void end_by(int signal) {
+  clean_up_now();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);  // taken when the handler returns
+}
+
+}  // namespace
+
+void clean_up_now() noexcept {
+  for (const Action action : {Action::end_process, Action::remove_folder, Action::remove_file,
+                              Action::remove_empty_folder}) {
+    for (const Entry& entry : entries)
+      if (entry.is_ready && entry.owner == ::getpid() && entry.action == action) carry_out(entry);
+  }
+}
+
+void remove_folder(const std::filesystem::path& folder) noexcept {
+  remove_tree(AT_FDCWD, folder.c_str());
+}
+
+void clean_up_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = end_by;
+  sigfillset(&action.sa_mask);
+  // The first three ask for an end, the others say that a library has crashed.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
+    struct sigaction before {};
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)
+      ::sigaction(signal, &action, nullptr);
+  }
+}
+
+SignalCleanup::SignalCleanup(Action action, const std::filesystem::path& path) {
+  const std::string_view text = path.native();
+  if (text.size() >= PATH_MAX) return;
+  entry_ = add([&](Entry& entry) {
+    entry.action = action;
+    *std::copy(text.begin(), text.end(), entry.path.begin()) = '\0';
+  });
+}
+
+SignalCleanup::SignalCleanup(pid_t process)
+    : entry_(add([&](Entry& entry) {
+        entry.action = Action::end_process;
+        entry.process = process;
+      })) {}
+
+SignalCleanup::SignalCleanup(SignalCleanup&& other) noexcept
+    : entry_(std::exchange(other.entry_, -1)) {}
+
+SignalCleanup& SignalCleanup::operator=(SignalCleanup&& other) noexcept {
+  reset();
+  entry_ = std::exchange(other.entry_, -1);
+  return *this;
+}
+
+void SignalCleanup::reset() noexcept {
+  if (entry_ < 0) return;
+  Entry& entry = entries[static_cast<std::size_t>(std::exchange(entry_, -1))];
+  entry.is_ready = false;
+  entry.is_taken = false;
+}
+
+}  // namespace flexneck

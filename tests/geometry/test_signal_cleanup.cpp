@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/output_file.h"
+#include "geometry/foundation/signal_cleanup.h"
+#include "geometry/foundation/temporary_folder.h"
+
+using namespace flexneck;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Action = SignalCleanup::Action;
+
+/// Ends a process of its own by a signal, in the middle of some work. @return its end for waitpid
+int status_after(int signal, const std::function<void()>& work) {
+  const pid_t process = ::fork();
+  if (process == 0) {
+    std::signal(signal, SIG_DFL);  // Catch2 handles it
+    clean_up_on_signals();
+    work();
+    std::raise(signal);
+    ::_exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(process, &status, 0) == process);
+  return status;
+}
+
+bool is_killed_by(int signal, int status) {
+  return WIFSIGNALED(status) && WTERMSIG(status) == signal;
+}
+
+/// A folder of folders with more entries than one call of the system lists.
+void fill(const fs::path& folder) {
+  fs::create_directories(folder / "some" / "more");
+  for (int k = 0; k < 300; ++k) {
+    write_text(folder / ("file with a long name, to fill a block soon " + std::to_string(k)), "x");
+    write_text(folder / "some" / "more" / std::to_string(k), "x");
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a signal takes with it what is temporary, and nothing else") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "kept");
+    write_text(folder / "kept" / "file", "x");
+    const int status = status_after(signal, [&] {
+      fs::create_directory(folder / "full");
+      fill(folder / "full");
+      fs::create_symlink(folder / "kept", folder / "full" / "link");
+      fs::create_directory(folder / "empty");
+      write_text(folder / "file", "x");
+      static const SignalCleanup full(Action::remove_folder, folder / "full");
+      static const SignalCleanup file(Action::remove_file, folder / "file");
+      static const SignalCleanup empty(Action::remove_empty_folder, folder / "empty");
+      static const SignalCleanup kept(Action::remove_empty_folder, folder / "kept");
+      static SignalCleanup moved(Action::remove_file, folder / "kept" / "file");
+      moved = SignalCleanup();
+    });
+    CHECK(is_killed_by(signal, status));
+    CHECK(fs::exists(folder / "kept" / "file"));
+    CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
+  }
+}
+
+TEST_CASE("a temporary folder and a file under way do not outlive a signal") {
+  const TemporaryFolder folder;
+  const std::string before = fs::temp_directory_path();
+  ::setenv("TMPDIR", folder.path().c_str(), 1);
+  const int status = status_after(SIGTERM, [&] {
+    static const TemporaryFolder temporary;
+    fill(temporary.path());
+    static OutputFile file(folder / "result");
+    file.write("x");
+  });
+  ::setenv("TMPDIR", before.c_str(), 1);
+  CHECK(is_killed_by(SIGTERM, status));
+  CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("a child process ends before its files go") {
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  const int status = status_after(SIGTERM, [&] {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      for (;;) ::pause();
+    }
+    ::close(ends[1]);  // which the child holds open
+    static const SignalCleanup cleanup(child);
+  });
+  ::close(ends[1]);
+  char byte = 0;
+  CHECK(is_killed_by(SIGTERM, status));
+  CHECK(::read(ends[0], &byte, 1) == 0);  // it would wait for the child otherwise
+  ::close(ends[0]);
+}
+
+TEST_CASE("a signal that is ignored stays so") {
+  const int status = status_after(SIGHUP, [] {
+    std::signal(SIGHUP, SIG_IGN);
+    clean_up_on_signals();
+  });
+  CHECK(!WIFSIGNALED(status));
+}
