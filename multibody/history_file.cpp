@@ -2,83 +2,13 @@
 #include "multibody/history_file.h"
 
 #include <algorithm>
-#include <array>
-#include <complex>
-#include <span>
+#include <limits>
 
-#include "geometry/foundation/error.h"
-#include "geometry/foundation/names.h"
+#include "geometry/foundation/available_memory.h"
+#include "multibody/history_layout.h"
 
 namespace flexneck::multibody {
 namespace {
-
-constexpr const char* kMarkers = "/markers";
-constexpr const char* kJoints = "/joints";
-constexpr const char* kModal = "/modal";
-constexpr const char* kChannels = "/channels";
-constexpr const char* kEnergy = "/energy";
-constexpr const char* kConstraints = "/constraints";
-constexpr const char* kStatistics = "/statistics";
-constexpr const char* kLinearisation = "/linearisation";
-/// Position of a group in the model's list: HDF5 itself lists them by name.
-constexpr const char* kIndex = "index";
-constexpr const char* kUndetermined = "undetermined";
-constexpr const char* kIncomplete = "incomplete";
-constexpr const char* kRedundant = "/statistics/redundant_constraints";
-constexpr const char* kWarnings = "/statistics/warnings";
-constexpr const char* kLimits = "/statistics/step_limits";
-constexpr const char* kLimitedSteps = "/statistics/limited_steps";
-constexpr const char* kModalUnit = "kg^(1/2) m";
-
-/// The vectors of a marker and the fixed-size arrays of a joint with their datasets' names and
-/// units: the writer and the reader walk the same list.
-template <class Markers, class Visit>
-void visit_vectors(Markers& marker, const Visit& visit) {
-  visit("position", marker.position_m, "m");
-  visit("velocity", marker.velocity_m_s, "m/s");
-  visit("acceleration", marker.acceleration_m_s2, "m/s^2");
-  visit("rotation", marker.rotation, "1");
-  visit("angular_velocity", marker.angular_velocity_rad_s, "rad/s");
-  visit("angular_acceleration", marker.angular_acceleration_rad_s2, "rad/s^2");
-}
-
-template <class Joints, class Visit>
-void visit_reactions(Joints& joint, const Visit& visit) {
-  visit("force", joint.force_N, "N");
-  visit("moment", joint.moment_Nm, "N m");
-}
-
-template <class Energies, class Visit>
-void visit_energies(Energies& energy, const Visit& visit) {
-  visit("kinetic", energy.kinetic_J);
-  visit("gravitational", energy.gravitational_J);
-  visit("strain", energy.strain_J);
-  visit("dissipated", energy.dissipated_J);
-  visit("work", energy.work_J);
-}
-
-template <class Constraints, class Visit>
-void visit_constraints(Constraints& constraints, const Visit& visit) {
-  visit("position", constraints.position_m, "m");
-  visit("orientation", constraints.orientation_rad, "rad");
-  visit("velocity", constraints.velocity_m_s, "m/s");
-  visit("angular_velocity", constraints.angular_velocity_rad_s, "rad/s");
-}
-
-/// An Eigen matrix with one column per time is, by its memory, a row-major (n, rows) array.
-template <class Matrix>
-void write_columns(Hdf5Writer& file, const std::string& dataset, const Matrix& values,
-                   std::string_view unit) {
-  file.write(dataset, std::span(values.data(), static_cast<std::size_t>(values.size())),
-             {static_cast<std::size_t>(values.cols()), static_cast<std::size_t>(values.rows())},
-             unit);
-}
-
-void write_vector(Hdf5Writer& file, const std::string& dataset, const Eigen::VectorXd& values,
-                  std::string_view unit) {
-  const auto count = static_cast<std::size_t>(values.size());
-  file.write(dataset, std::span(values.data(), count), {count}, unit);
-}
 
 template <class Matrix>
 Matrix read_columns(const Hdf5Reader& file, const std::string& dataset, std::size_t times,
@@ -92,112 +22,6 @@ Eigen::VectorXd read_vector(const Hdf5Reader& file, const std::string& dataset, 
                             std::string_view unit) {
   const std::vector<double> values = file.read_doubles(dataset, {times}, unit);
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-std::string path_of(const std::string& group, const std::string& name) {
-  return group + "/" + name;
-}
-
-void write_markers(Hdf5Writer& file, const std::vector<MarkerHistory>& markers) {
-  for (std::size_t k = 0; k < markers.size(); ++k) {
-    const std::string group = path_of(kMarkers, markers[k].name);
-    file.write_attribute(group, kIndex, static_cast<std::int64_t>(k));
-    visit_vectors(markers[k], [&](const char* name, const auto& values, const char* unit) {
-      write_columns(file, path_of(group, name), values, unit);
-    });
-  }
-}
-
-void write_joints(Hdf5Writer& file, const std::vector<JointHistory>& joints) {
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    const std::string group = path_of(kJoints, joints[k].name);
-    file.write_attribute(group, kIndex, static_cast<std::int64_t>(k));
-    visit_reactions(joints[k], [&](const char* name, const auto& values, const char* unit) {
-      write_columns(file, path_of(group, name), values, unit);
-    });
-    if (!joints[k].undetermined.empty())
-      file.write_attribute(group, kUndetermined, std::string_view(joints[k].undetermined));
-  }
-}
-
-void write_modal(Hdf5Writer& file, const std::vector<ModalHistory>& modal) {
-  for (std::size_t k = 0; k < modal.size(); ++k) {
-    const std::string group = path_of(kModal, modal[k].body);
-    file.write_attribute(group, kIndex, static_cast<std::int64_t>(k));
-    write_columns(file, path_of(group, "coordinates"), modal[k].coordinates, kModalUnit);
-    file.write(path_of(group, "modes"), modal[k].modes);
-  }
-}
-
-void write_channels(Hdf5Writer& file, const std::vector<Channel>& channels) {
-  for (std::size_t k = 0; k < channels.size(); ++k) {
-    const std::string group = path_of(kChannels, channels[k].name);
-    file.write_attribute(group, kIndex, static_cast<std::int64_t>(k));
-    file.write_attribute(group, "filter", std::string_view(channels[k].filter));
-    write_columns(file, path_of(group, "values"), channels[k].values, channels[k].unit);
-    file.write(path_of(group, "columns"), channels[k].columns);
-  }
-}
-
-void write_statistics(Hdf5Writer& file, const StepStatistics& statistics) {
-  file.write_attribute(kStatistics, "accepted", std::int64_t{statistics.accepted});
-  file.write_attribute(kStatistics, "rejected", std::int64_t{statistics.rejected});
-  file.write_attribute(kStatistics, "evaluations", std::int64_t{statistics.evaluations});
-  file.write_attribute(kStatistics, "largest_position_residual",
-                       statistics.largest_position_residual);
-  file.write_attribute(kStatistics, "largest_velocity_residual",
-                       statistics.largest_velocity_residual);
-  if (statistics.limits.empty()) return;
-  std::vector<std::string> limits;
-  Eigen::VectorXd steps(static_cast<Eigen::Index>(statistics.limits.size()));
-  for (const StepLimit& limit : statistics.limits) {
-    steps[static_cast<Eigen::Index>(limits.size())] = limit.steps;
-    limits.push_back(limit.what);
-  }
-  file.write(kLimits, limits);
-  write_vector(file, kLimitedSteps, steps, "1");
-}
-
-struct ModeNumber {
-  const char* name;
-  double SystemMode::*member;
-  const char* unit;
-};
-constexpr std::array<ModeNumber, 4> kModeNumbers = {
-    {{"frequency", &SystemMode::frequency_Hz, "Hz"},
-     {"damped_frequency", &SystemMode::damped_frequency_Hz, "Hz"},
-     {"damping_ratio", &SystemMode::damping_ratio, "1"},
-     {"growth_rate", &SystemMode::growth_rate_1_s, "1/s"}}};
-
-struct ShapePart {
-  const char* name;
-  Eigen::Matrix3Xcd ModeShape::*member;
-  const char* unit;
-};
-constexpr std::array<ShapePart, 2> kShapeParts = {
-    {{"translation", &ModeShape::translation, "m"}, {"rotation", &ModeShape::rotation, "rad"}}};
-
-void write_linearisation(Hdf5Writer& file, const LinearisationRecord& record) {
-  const std::size_t n = record.modes.size();
-  file.write_attribute(kLinearisation, "about", std::string_view(record.about));
-  file.write(path_of(kLinearisation, "markers"), record.markers);
-  for (const ModeNumber& number : kModeNumbers) {
-    std::vector<double> values;
-    for (const ModeShape& mode : record.modes) values.push_back(mode.mode.*number.member);
-    file.write(path_of(kLinearisation, number.name), values, {n}, number.unit);
-  }
-  for (const ShapePart& part : kShapeParts) {
-    std::vector<double> real;
-    std::vector<double> imaginary;
-    for (const ModeShape& mode : record.modes)
-      for (const std::complex<double>& each : (mode.*part.member).reshaped()) {
-        real.push_back(each.real());
-        imaginary.push_back(each.imag());
-      }
-    const std::string name = path_of(kLinearisation, part.name);
-    file.write(name + "_real", real, {n, record.markers.size(), 3}, part.unit);
-    file.write(name + "_imaginary", imaginary, {n, record.markers.size(), 3}, part.unit);
-  }
 }
 
 /// Members of a group in the order of their attribute `index`.
@@ -267,9 +91,18 @@ Channel read_channel(const Hdf5Reader& file, const std::string& name, std::size_
   return channel;
 }
 
+/// A number of steps, which is whole and no larger than the program counts to.
+template <class Number>
+int count_from(const Hdf5Reader& file, const std::string& object, Number number) {
+  constexpr auto kMost = static_cast<Number>(std::numeric_limits<int>::max());
+  if (!(number >= 0 && number <= kMost) || static_cast<Number>(static_cast<int>(number)) != number)
+    file.refuse(object, "expected a number of steps, found " + std::to_string(number));
+  return static_cast<int>(number);
+}
+
 StepStatistics read_statistics(const Hdf5Reader& file) {
-  const auto count = [&](const char* name) {
-    return static_cast<int>(file.integer_attribute(kStatistics, name));
+  const auto count = [&](const std::string& name) {
+    return count_from(file, path_of(kStatistics, name), file.integer_attribute(kStatistics, name));
   };
   StepStatistics statistics;
   statistics.accepted = count("accepted");
@@ -283,7 +116,8 @@ StepStatistics read_statistics(const Hdf5Reader& file) {
   const std::vector<std::string> limits = file.read_strings(kLimits);
   const Eigen::VectorXd steps = read_vector(file, kLimitedSteps, limits.size(), "1");
   for (std::size_t k = 0; k < limits.size(); ++k)
-    statistics.limits.push_back({limits[k], static_cast<int>(steps[static_cast<Eigen::Index>(k)])});
+    statistics.limits.push_back(
+        {limits[k], count_from(file, kLimitedSteps, steps[static_cast<Eigen::Index>(k)])});
   return statistics;
 }
 
@@ -319,7 +153,7 @@ LinearisationRecord read_linearisation(const Hdf5Reader& file) {
 }
 
 Eigen::VectorXd read_time(const Hdf5Reader& file) {
-  const Eigen::VectorXd time_s = read_vector(file, "/time", kAnyExtent, "s");
+  Eigen::VectorXd time_s = read_vector(file, "/time", kAnyExtent, "s");
   for (Eigen::Index k = 1; k < time_s.size(); ++k) {
     if (!(time_s[k] > time_s[k - 1])) {
       file.refuse("/time", "row " + std::to_string(k + 1) + " is not later than the one before");
@@ -328,46 +162,15 @@ Eigen::VectorXd read_time(const Hdf5Reader& file) {
   return time_s;
 }
 
-void check_group_names(const History& history) {
-  check_names(names_of(history.markers), "marker");
-  check_names(names_of(history.joints), "joint");
-  std::vector<std::string> bodies;
-  for (const ModalHistory& modal : history.modal) bodies.push_back(modal.body);
-  check_names(bodies, "body");
-}
-
 }  // namespace
-
-void write_history(const std::filesystem::path& path, const HistoryFile& file) {
-  const History& history = file.history;
-  check_group_names(history);
-  check_names(names_of(file.channels), "channel");
-  Hdf5Writer writer(path, kHistoryFormat);
-  write_vector(writer, "/time", history.time_s, "s");
-  write_markers(writer, history.markers);
-  write_joints(writer, history.joints);
-  write_modal(writer, history.modal);
-  write_channels(writer, file.channels);
-  visit_energies(history.energy, [&](const char* name, const Eigen::VectorXd& values) {
-    write_vector(writer, path_of(kEnergy, name), values, "J");
-  });
-  visit_constraints(history.constraints,
-                    [&](const char* name, const Eigen::VectorXd& values, const char* unit) {
-                      write_vector(writer, path_of(kConstraints, name), values, unit);
-                    });
-  write_statistics(writer, history.statistics);
-  if (!history.redundant_constraints.empty())
-    writer.write(kRedundant, history.redundant_constraints);
-  if (!history.warnings.empty()) writer.write(kWarnings, history.warnings);
-  if (!history.incomplete.empty())
-    writer.write_attribute(kStatistics, kIncomplete, std::string_view(history.incomplete));
-  if (file.linearisation) write_linearisation(writer, *file.linearisation);
-  write_provenance(writer, file.provenance);
-  writer.commit();
-}
 
 HistoryFile read_history(const std::filesystem::path& path) {
   const Hdf5Reader reader(path, kHistoryFormat);
+  constexpr double kFew = 1e8;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path));
+  if (bytes > kFew) {
+    require_memory(path.string() + ": the history", bytes, "read its datasets piece by piece");
+  }
   HistoryFile file;
   History& history = file.history;
   history.time_s = read_time(reader);

@@ -41,6 +41,7 @@ struct HistoryFile {
   std::optional<LinearisationRecord> linearisation = {};
 };
 
+/// A history that memory holds whole; HistoryWriter takes it in blocks. @throws as that.
 void write_history(const std::filesystem::path& path, const HistoryFile& file);
 /// @throws InputError if the file is missing, truncated, foreign or inconsistent.
 HistoryFile read_history(const std::filesystem::path& path);

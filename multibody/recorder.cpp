@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "multibody/history_arrays.h"
+
 namespace flexneck::multibody {
 
 using Eigen::Index;
@@ -15,35 +17,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Calls visit(array) for each array of a history that has a column, or an entry, per time.
-template <class Visit>
-void visit_arrays(History& history, const Visit& visit) {
-  visit(history.time_s);
-  for (MarkerHistory& marker : history.markers) {
-    for (Eigen::Matrix3Xd* each :
-         {&marker.position_m, &marker.velocity_m_s, &marker.acceleration_m_s2,
-          &marker.angular_velocity_rad_s, &marker.angular_acceleration_rad_s2})
-      visit(*each);
-    visit(marker.rotation);
-  }
-  for (JointHistory& joint : history.joints) {
-    visit(joint.force_N);
-    visit(joint.moment_Nm);
-  }
-  for (ModalHistory& modal : history.modal) visit(modal.coordinates);
-  EnergyHistory& energy = history.energy;
-  ConstraintHistory& constraints = history.constraints;
-  for (VectorXd* part :
-       {&energy.kinetic_J, &energy.gravitational_J, &energy.strain_J, &energy.dissipated_J,
-        &energy.work_J, &constraints.position_m, &constraints.orientation_rad,
-        &constraints.velocity_m_s, &constraints.angular_velocity_rad_s})
-    visit(*part);
-}
-
 /// Keeps the first columns, or entries, of an array.
 template <class Array>
 void resize(Array& values, Index columns) {
-  if constexpr (Array::ColsAtCompileTime == 1)
+  if constexpr (kIsOnePerTime<Array>)
     values.conservativeResize(columns);
   else
     values.conservativeResize(Eigen::NoChange, columns);
@@ -63,10 +40,7 @@ OutputTimes::OutputTimes(const OutputOptions& output)
 Index numbers_per_output(const Model& model) {
   OutputOptions one;
   one.end_time_s = one.interval_s;
-  History history = Recorder(model, one).take();
-  Index numbers = 0;
-  visit_arrays(history, [&](const auto& values) { numbers += values.size(); });
-  return numbers / 2;
+  return numbers_per_output(Recorder(model, one).take());
 }
 
 Recorder::Recorder(const Model& model, const OutputOptions& output)

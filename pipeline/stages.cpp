@@ -2,6 +2,7 @@
 #include "pipeline/stages.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -36,7 +37,10 @@ std::map<std::string, std::string> hashes_of_written(const fs::path& folder,
   for (const auto& [name, time] : write_times(folder)) {
     const auto known = before.find(name);
     if (known == before.end() || known->second != time) {
-      hashes[name] = hash_of_file((folder / name).string());
+      // What was written a moment ago carries its hash, if it is HDF5.
+      const fs::path path = folder / name;
+      const std::optional<std::string> carried = carried_hash(path);
+      hashes[name] = carried ? *carried : hash_of_file(path.string());
     }
   }
   return hashes;
@@ -87,7 +91,7 @@ std::string Stages::hash_of_inputs(const Provenance& from,
 bool Stages::is_there(const Record& record) const {
   return std::all_of(record.outputs.begin(), record.outputs.end(), [&](const auto& output) {
     const fs::path path = folder_ / output.first;
-    return fs::is_regular_file(path) && hash_of_file(path.string()) == output.second;
+    return fs::is_regular_file(path) && hash_of_content(path) == output.second;
   });
 }
 
@@ -113,7 +117,7 @@ void Stages::write() const {
   for (const auto& [stage, record] : records_) {
     json["stages"][stage] = {{"inputs", record.inputs}, {"outputs", record.outputs}};
   }
-  write_text(folder_ / kFile, json.dump(1) + "\n");
+  write_text(folder_ / kFile, json.dump(1) + "\n", Durability::none);
 }
 
 }  // namespace flexneck::pipeline

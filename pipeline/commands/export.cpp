@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "fe_modal/exchange/atb_modal_file.h"
+#include "geometry/foundation/atomic_file.h"
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/inp_writer.h"
 #include "mesher/exchange/msh_writer.h"
@@ -90,6 +91,7 @@ bool export_command(const CommandInput& input) {
   } catch (const InputError& error) {
     throw InputError(target.string() + ": " + error.what());
   }
+  sync_folder(target.has_parent_path() ? target.parent_path() : ".");
   return true;
 }
 

@@ -48,7 +48,7 @@ mesher::ScriptMeshOptions neck_options(const GeometrySection& geometry) {
 mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines, void (*when_read)()) {
   const auto& source = study.structure->source;
   if (const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&source)) {
-    mesher::Mesh mesh = mesher::mesh_script(*script, lines.detail);
+    mesher::Mesh mesh = mesher::mesh_script(*script, lines.detail, lines.warning);
     try {  // a script may leave bodies apart, or lay them over one another
       mesher::check_import(mesh, !script->slits.empty());
     } catch (const InputError& error) {
@@ -63,8 +63,9 @@ mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines, void (*
 }
 
 mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, void (*when_read)()) {
-  return study.structure ? structure_mesh(study, lines, when_read)
-                         : mesher::mesh_script(neck_options(*study.geometry), lines.detail);
+  return study.structure
+             ? structure_mesh(study, lines, when_read)
+             : mesher::mesh_script(neck_options(*study.geometry), lines.detail, lines.warning);
 }
 
 bool is_shipped(const fs::path& script) {

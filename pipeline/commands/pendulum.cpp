@@ -21,6 +21,7 @@ PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
   const multibody::HistoryFile file = read_history(path);
   require_same_inputs(path, file.provenance, study, case_provenance(study, experiment).parameters,
                       "flexneck pendulum");
+  require_whole_run(path, file.history);
   PendulumEntry entry;
   entry.experiment = experiment;
   entry.pulse = case_pulse(study, experiment);

@@ -61,6 +61,7 @@ void PendulumCases::write(const CaseSection& experiment, PendulumRun&& run) cons
   multibody::write_history(folder.history(experiment), file);
   for (const std::string& warning : file.history.warnings)
     input_.console.warning(experiment.name + ": " + warning);
+  require_whole_run(folder.history(experiment), file.history);
 }
 
 }  // namespace flexneck::pipeline

@@ -27,7 +27,8 @@ NeckModes read_neck_modes(const CommandInput& input);
 class PendulumCases {
  public:
   PendulumCases(const CommandInput& input, std::vector<const CaseSection*> cases);
-  /// Waits for the next case and writes its files. @throws std::logic_error if there is none.
+  /// Waits for the next case and writes its files. @throws std::logic_error if there is none,
+  /// ComputationError if the run has ended early, with what there is of it in the files.
   void write_next();
 
  private:

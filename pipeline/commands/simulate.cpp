@@ -4,13 +4,12 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "multibody/campbell.h"
-#include "multibody/history_file.h"
+#include "multibody/recorder.h"
 #include "multibody/steady_rotation.h"
 #include "pipeline/commands/file_commands.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/campbell_output.h"
-#include "pipeline/output/csv_output.h"
-#include "pipeline/output/summary.h"
+#include "pipeline/output/simulated_output.h"
 #include "pipeline/results_folder.h"
 
 namespace flexneck::pipeline {
@@ -18,6 +17,8 @@ namespace flexneck::pipeline {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr Eigen::Index kBlockNumbers = 1 << 22;  ///< of outputs that memory holds at once
 
 /// What the model gets wrong that only its computation shows.
 template <class Compute>
@@ -29,8 +30,9 @@ auto named(const ModelFile& file, const Compute& compute) {
   }
 }
 
-multibody::History run(const ModelFile& file) {
-  const multibody::OutputOptions output{file.end_time_s, file.output.interval_s};
+/// @param output takes the blocks of outputs but the last
+/// @return the last one
+multibody::History run(const ModelFile& file, const multibody::OutputOptions& output) {
   return named(file, [&] {
     if (file.analysis == ModelFile::Analysis::quasi_static)
       return multibody::settle(file.model, file.solver, output);
@@ -58,43 +60,25 @@ std::optional<multibody::CampbellDiagram> campbell(const ModelFile& file) {
   return named(file, [&] { return multibody::campbell_diagram(file.model, file.rates_rad_s); });
 }
 
-template <class Histories>
-void keep(Histories& histories, const std::vector<std::string>& names) {
-  std::erase_if(histories, [&](const auto& each) {
-    return std::find(names.begin(), names.end(), each.name) == names.end();
-  });
-}
+/// Where the results of a model go.
+struct ResultPaths {
+  std::string name;
+  fs::path history, table;
+};
 
-/// The channels need all markers; what is written of markers and joints is what was asked for.
-multibody::HistoryFile result_of(const ModelFile& file, multibody::History history) {
-  multibody::HistoryFile result;
-  const auto derive = [&](const std::vector<ChannelSpec>& specs) {
-    for (const ChannelSpec& spec : specs)
-      result.channels.push_back(channel_of(history, spec, file.model.gravity_m_s2));
-  };
-  derive(file.output.channels);
-  keep(history.markers, file.output.markers);
-  keep(history.joints, file.output.joints);
-  if (file.output.channels.empty()) derive(all_channels(history));
-  result.history = std::move(history);
-  result.provenance = provenance_of(file.files, file.parameters);
-  return result;
-}
-
-void write(const FileInput& input, const multibody::HistoryFile& result) {
-  input.folder.make();
+ResultPaths paths_of(const FileInput& input) {
   const std::string name = input.files.front().stem().string();
-  const fs::path table = input.folder.file(name + ".csv");
-  multibody::write_history(input.folder.file(name + ".h5"), result);
-  write_csv(table, result.history.time_s, result.channels);
-  PeakTable peaks;
-  peaks.append(result.history.time_s, result.channels);
-  input.console.result(name + ": " + input.folder.file(name + ".h5").string() + ", " +
-                       table.string() + "\n" + run_summary(result.history) + "\n\n" +
+  return {name, input.folder.file(name + ".h5"), input.folder.file(name + ".csv")};
+}
+
+void tell(const FileInput& input, const ResultPaths& paths, const multibody::HistoryFile& result,
+          const PeakTable& peaks) {
+  input.console.result(paths.name + ": " + paths.history.string() + ", " + paths.table.string() +
+                       "\n" + run_summary(result.history) + "\n\n" +
                        (result.linearisation ? mode_summary(*result.linearisation) + "\n\n" : "") +
                        peaks.text());
   for (const std::string& warning : result.history.warnings)
-    input.console.warning(name + ": " + warning);
+    input.console.warning(paths.name + ": " + warning);
 }
 
 void write(const FileInput& input, const multibody::CampbellDiagram& diagram) {
@@ -117,14 +101,18 @@ bool simulate_command(const FileInput& input) {
   input.console.step("Simulating " + model.string());
   const auto linearisation = linearised(file);
   const auto diagram = campbell(file);
-  const auto finish = [&](multibody::History history) {
-    multibody::HistoryFile result = result_of(file, std::move(history));
-    result.linearisation = linearisation;
-    write(input, result);
+  input.folder.make();
+  const ResultPaths paths = paths_of(input);
+  multibody::OutputOptions options{file.end_time_s, file.output.interval_s};
+  SimulatedOutput output(file, paths.history, paths.table, multibody::OutputTimes(options).count());
+  options.sink = [&](const multibody::History& block) { output.append(block); };
+  options.block = std::max<Eigen::Index>(1, kBlockNumbers / numbers_per_output(file.model));
+  const auto finish = [&](const multibody::History& last) {
+    tell(input, paths, output.finish(last, linearisation), output.peaks());
     if (diagram) write(input, *diagram);
   };
   try {
-    finish(run(file));
+    finish(run(file, options));
   } catch (const multibody::IncompleteRun& stopped) {
     finish(stopped.history);
     throw ComputationError(file.file.string() + ": " + stopped.what() +

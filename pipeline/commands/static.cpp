@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
 
+#include "geometry/foundation/error.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/experiments/static_chain.h"
 #include "pipeline/experiments/static_tables.h"
@@ -34,6 +35,8 @@ std::vector<ChainLink> read_links(const CommandInput& input, Provenance& provena
 StaticTestSignals write(const CommandInput& input, const CaseSection& experiment,
                         const multibody::Model& model, multibody::History&& history,
                         const Provenance& provenance) {
+  if (history.time_s.size() == 0)
+    throw ComputationError(experiment.name + ": " + history.incomplete);
   const StaticTestSignals signals = static_test_signals(model, history, experiment);
   multibody::HistoryFile file;
   file.history = std::move(history);
@@ -44,7 +47,18 @@ StaticTestSignals write(const CommandInput& input, const CaseSection& experiment
             in_customary_units(file.channels, "in*lbf"));
   for (const std::string& warning : file.history.warnings)
     input.console.warning(experiment.name + ": " + warning);
+  require_whole_run(input.folder.history(experiment), file.history);
   return signals;
+}
+
+/// What is left of a run that ends early, too.
+template <class Run>
+multibody::History history_of(const Run& run) {
+  try {
+    return run();
+  } catch (const multibody::IncompleteRun& stopped) {
+    return stopped.history;
+  }
 }
 
 StaticEntry run_case(const CommandInput& input, const CaseSection& experiment,
@@ -56,16 +70,19 @@ StaticEntry run_case(const CommandInput& input, const CaseSection& experiment,
   const multibody::Model model = static_test_model(input.study, experiment, body);
   entry.settled =
       static_test_signals(model, settled_static_test(input.study, experiment, model), experiment);
-  entry.ramp = write(input, experiment, model,
-                     multibody::simulate(model, input.study.solver,
-                                         {experiment.duration_s, input.study.output_interval_s}),
-                     provenance);
+  entry.ramp =
+      write(input, experiment, model, history_of([&] {
+              return multibody::simulate(model, input.study.solver,
+                                         {experiment.duration_s, input.study.output_interval_s});
+            }),
+            provenance);
   if (links.empty()) return entry;
   const multibody::Model chain = static_chain_model(input.study, experiment, links);
   CaseSection named = experiment;
   named.name += "-chain";
-  entry.chain =
-      write(input, named, chain, settled_static_test(input.study, experiment, chain), provenance);
+  entry.chain = write(
+      input, named, chain,
+      history_of([&] { return settled_static_test(input.study, experiment, chain); }), provenance);
   return entry;
 }
 

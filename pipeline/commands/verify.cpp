@@ -22,6 +22,7 @@ PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& exper
   const multibody::HistoryFile file = read_history(path);
   require_same_inputs(path, file.provenance, input.study,
                       case_provenance(input.study, experiment).parameters, "flexneck pendulum");
+  require_whole_run(path, file.history);
   evidence.run = pendulum_result(input.study, experiment, file.history.time_s, file.channels);
   return evidence;
 }

@@ -95,6 +95,18 @@ History simulate_case(const Model& model, const Study& study, const CaseSection&
              : multibody::simulate_from_equilibrium(model, study.solver, output);
 }
 
+/// Of as many outputs as there are.
+PendulumRun run_of(const Model& model, const CaseSection& experiment, const History& history,
+                   int every) {
+  PendulumRun run;
+  run.channels =
+      pendulum_channels(history.time_s, pendulum_signals(model, history, experiment), experiment);
+  for (multibody::Channel& channel : run.channels)
+    channel.values = thinned(channel.values.transpose(), every).transpose();
+  run.history = thinned(history, every);
+  return run;
+}
+
 }  // namespace
 
 IntegrationCost integration_cost(const Study& study, const CaseSection& experiment,
@@ -111,14 +123,12 @@ PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
   const Model model = prepared_model(study, experiment, body);
   const int every = samples_per_output(study.output_interval_s);
   const multibody::OutputOptions output{experiment.duration_s, study.output_interval_s / every};
-  const History history = simulate_case(model, study, experiment, output);
-  PendulumRun run;
-  run.channels =
-      pendulum_channels(history.time_s, pendulum_signals(model, history, experiment), experiment);
-  for (multibody::Channel& channel : run.channels)
-    channel.values = thinned(channel.values.transpose(), every).transpose();
-  run.history = thinned(history, every);
-  return run;
+  try {
+    return run_of(model, experiment, simulate_case(model, study, experiment, output), every);
+  } catch (const multibody::IncompleteRun& stopped) {
+    if (stopped.history.time_s.size() == 0) throw;
+    return run_of(model, experiment, stopped.history, every);
+  }
 }
 
 PendulumResult pendulum_result(const Study& study, const CaseSection& experiment,

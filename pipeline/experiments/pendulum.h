@@ -33,6 +33,8 @@ struct PendulumRun {
   std::vector<multibody::Channel> channels;  ///< see pendulum_channels(); filtered before thinning
 };
 
+/// A run that ends early is as long as it got, and its history says so.
+/// @throws as multibody::simulate(), IncompleteRun only if there are no outputs.
 PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
                          const fe_modal::ModalBody& body);
 

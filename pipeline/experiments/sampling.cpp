@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "multibody/history_arrays.h"
+
 namespace flexneck::pipeline {
 
 using Eigen::Index;
@@ -32,34 +34,17 @@ Eigen::VectorXd thinned(const Eigen::VectorXd& signal, int every) {
 
 History thinned(const History& history, int every) {
   const std::vector<Index> indices = kept(history.time_s.size(), every);
-  const auto thin = [&](auto& values) {
-    if (values.size() == 0) return;
-    if constexpr (std::decay_t<decltype(values)>::ColsAtCompileTime == 1)
-      values = values(indices).eval();
-    else
-      values = values(Eigen::all, indices).eval();
-  };
   History result = history;
-  thin(result.time_s);
-  for (multibody::MarkerHistory& marker : result.markers) {
-    thin(marker.position_m);
-    thin(marker.velocity_m_s);
-    thin(marker.acceleration_m_s2);
-    thin(marker.rotation);
-    thin(marker.angular_velocity_rad_s);
-    thin(marker.angular_acceleration_rad_s2);
-  }
-  for (multibody::JointHistory& joint : result.joints) {
-    thin(joint.force_N);
-    thin(joint.moment_Nm);
-  }
-  for (multibody::ModalHistory& body : result.modal) thin(body.coordinates);
-  for (Eigen::VectorXd* const energy :
-       {&result.energy.kinetic_J, &result.energy.gravitational_J, &result.energy.strain_J,
-        &result.energy.dissipated_J, &result.energy.work_J, &result.constraints.position_m,
-        &result.constraints.orientation_rad, &result.constraints.velocity_m_s,
-        &result.constraints.angular_velocity_rad_s})
-    thin(*energy);
+  multibody::visit_arrays(result, [&]<class Array>(Array& values) {
+    if ((multibody::kIsOnePerTime<Array> ? values.size() : values.cols()) == 0) return;
+    // Swapped in: where there is no memory, a matrix that Eigen resizes frees its values twice.
+    Array fewer;
+    if constexpr (multibody::kIsOnePerTime<Array>)
+      fewer = values(indices);
+    else
+      fewer = values(Eigen::all, indices);
+    values.swap(fewer);
+  });
   return result;
 }
 

@@ -72,10 +72,10 @@ void draw_campbell(const std::filesystem::path& path, const multibody::CampbellD
   draw_curves(plot, figure);
   const TemporaryFolder workshop;
   const std::string script = "campbell.gp";
-  write_text(workshop / (stem_of(figure) + ".csv"), figure.csv);
-  write_text(workshop / script, figure.script + "set output\n");
+  write_text(workshop / (stem_of(figure) + ".csv"), figure.csv, Durability::none);
+  write_text(workshop / script, figure.script + "set output\n", Durability::none);
   run_gnuplot(workshop.path(), script);
-  write_text(path, text_of_file(workshop / (stem_of(figure) + ".svg")));
+  write_text(path, text_of_file(workshop / (stem_of(figure) + ".svg")), Durability::none);
 }
 
 }  // namespace flexneck::pipeline

@@ -216,6 +216,11 @@ void filter(const Eigen::VectorXd& time_s, ChannelClass cfc, MatrixXd& values) {
   }
 }
 
+void filter_channel(const Eigen::VectorXd& time_s, ChannelClass cfc, Channel& channel) {
+  channel.filter = "CFC " + std::to_string(static_cast<int>(cfc));
+  filter(time_s, cfc, channel.values);
+}
+
 Channel channel_of(const History& history, const ChannelSpec& spec, const Vector3d& gravity_m_s2) {
   const Layout layout = layout_of(spec.quantity);
   Channel channel{spec.name, layout.unit, layout.columns, {}, {}};
@@ -237,10 +242,7 @@ Channel channel_of(const History& history, const ChannelSpec& spec, const Vector
       channel.values =
           marker_values(history, spec, gravity_m_s2, static_cast<Index>(layout.columns.size()));
   }
-  if (spec.filter) {
-    channel.filter = "CFC " + std::to_string(static_cast<int>(*spec.filter));
-    filter(history.time_s, *spec.filter, channel.values);
-  }
+  if (spec.filter) filter_channel(history.time_s, *spec.filter, channel);
   return channel;
 }
 

@@ -61,6 +61,9 @@ void continue_channel(Quantity quantity, const Eigen::VectorXd& last, Eigen::Mat
 /// shorter; that sample stays as it is.
 /// @throws InputError as cfc_filtered().
 void filter(const Eigen::VectorXd& time_s, multibody::ChannelClass cfc, Eigen::MatrixXd& values);
+/// The same for all curves of a channel, which says so.
+void filter_channel(const Eigen::VectorXd& time_s, multibody::ChannelClass cfc,
+                    multibody::Channel& channel);
 
 /// Position, rotation vector, velocity and acceleration of every marker, force and moment of every
 /// joint, modal coordinates and energies: what is shown if nothing is chosen.

@@ -24,7 +24,7 @@ class CsvWriter {
   /// Lines that follow those before, of the same channels.
   void append(const Eigen::VectorXd& time_s, const std::vector<multibody::Channel>& channels);
   /// @throws ComputationError if writing has failed.
-  void commit() { file_.commit(); }
+  void commit() { file_.commit(Durability::none); }
 
  private:
   OutputFile file_;

@@ -209,7 +209,7 @@ void write_comparison(const std::filesystem::path& path,
   if (!curves.is_null()) texts["scripts"] = script_element(source_of(WebLibrary::d3));
   for (const char* const name : {"data.js", "plots.js"})
     texts["scripts"] += script_element(page_part(name));
-  write_text(path, filled(page_part("comparison.html"), texts));
+  write_text(path, filled(page_part("comparison.html"), texts), Durability::none);
 }
 
 }  // namespace flexneck::pipeline

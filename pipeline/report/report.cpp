@@ -44,7 +44,7 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   for (const char* name : {"data.js", "page.js", "plots.js", "orbit.js", "stage.js", "scene.js"}) {
     scripts += script_element(page_part(name));
   }
-  write_text(path, filled(page_part("report.html"), texts));
+  write_text(path, filled(page_part("report.html"), texts), Durability::none);
 }
 
 }  // namespace flexneck::pipeline

@@ -7,7 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/history_file.h"
+#include "multibody/history_writer.h"
 #include "tests/support/point_mass_body.h"
 
 using namespace flexneck;
@@ -109,6 +109,54 @@ TEST_CASE("A history comes back from its file to the last bit and in its order")
   CHECK(read_history(folder / "h.h5").provenance.program == "flexneck 0.1.0");
 }
 
+TEST_CASE("What a run says of itself comes back from its file") {
+  const TemporaryFolder folder;
+  HistoryFile file = random_history();
+  History& run = file.history;
+  run.incomplete = "the step size fell below 1e-10 s at 0.004 s";
+  run.warnings = {"body 'neck' turns its interface 'top' by 64.7 deg", "second"};
+  run.redundant_constraints = {"joint 'OC', position row 1"};
+  run.joints[1].undetermined = "force x, moment z";
+  run.statistics.limits = {{"error: rate of joint 'OC'", 7}, {"the largest step", 2}};
+  testing::RandomNumbers random(3);
+  file.channels = {
+      {"rotation", "rad", {"y"}, random_columns<Eigen::MatrixXd>(random, 1), "CFC 60"}};
+  write_history(folder / "h.h5", file);
+  const HistoryFile read = read_history(folder / "h.h5");
+  CHECK(read.history.incomplete == run.incomplete);
+  CHECK(read.history.warnings == run.warnings);
+  CHECK(read.history.redundant_constraints == run.redundant_constraints);
+  CHECK(read.history.joints[0].undetermined.empty());
+  CHECK(read.history.joints[1].undetermined == "force x, moment z");
+  REQUIRE(read.history.statistics.limits.size() == 2);
+  CHECK(read.history.statistics.limits[0].what == "error: rate of joint 'OC'");
+  CHECK(read.history.statistics.limits[0].steps == 7);
+  CHECK(read.history.statistics.limits[1].steps == 2);
+  REQUIRE(read.channels.size() == 1);
+  CHECK(read.channels[0].unit == "rad");
+  CHECK(read.channels[0].filter == "CFC 60");
+  CHECK(read.channels[0].columns == std::vector<std::string>{"y"});
+  CHECK(read.channels[0].values == file.channels[0].values);
+}
+
+TEST_CASE("A body without modes has a history in blocks, too") {
+  const TemporaryFolder folder;
+  HistoryFile file = random_history();
+  file.history.modal[0] = {"neck", {}, Eigen::MatrixXd(0, kTimes)};
+  file.channels = {{"modal", "kg^(1/2) m", {}, Eigen::MatrixXd(0, kTimes), ""}};
+  HistoryWriter writer(folder / "h.h5");
+  writer.append(file.history, file.channels);
+  HistoryFile last = file;
+  last.history.handed_on = kTimes;
+  last.history.time_s.array() += 0.005;
+  writer.finish(last);
+  const HistoryFile read = read_history(folder / "h.h5");
+  REQUIRE(read.history.time_s.size() == 2 * kTimes);
+  CHECK(read.history.time_s.tail(kTimes) == last.history.time_s);
+  CHECK(read.history.modal[0].coordinates.cols() == 2 * kTimes);
+  CHECK(read.history.joints[1].force_N.rightCols(kTimes) == file.history.joints[1].force_N);
+}
+
 TEST_CASE("The layout is the one the README tells: time first, then components") {
   const TemporaryFolder folder;
   const HistoryFile file = random_history();
@@ -150,6 +198,23 @@ TEST_CASE("A history whose arrays do not fit its times is refused") {
   file.history.time_s[2] = file.history.time_s[1];
   write_history(folder / "t.h5", file);
   CHECK_THROWS_WITH(read_history(folder / "t.h5"), Catch::Contains("row 3"));
+}
+
+TEST_CASE("Steps of a history are counted from 0") {
+  const TemporaryFolder folder;
+  HistoryFile file = random_history();
+  file.history.statistics.limits = {{"error: angle", 300}, {"output", 0}};
+  write_history(folder / "h.h5", file);
+  CHECK(read_history(folder / "h.h5").history.statistics.limits[0].steps == 300);
+  file.history.statistics.limits[1].steps = -1;
+  write_history(folder / "limits.h5", file);
+  CHECK_THROWS_WITH(read_history(folder / "limits.h5"),
+                    Catch::Contains("/statistics/limited_steps") && Catch::Contains("found -1"));
+  file = random_history();
+  file.history.statistics.rejected = -7;
+  write_history(folder / "rejected.h5", file);
+  CHECK_THROWS_WITH(read_history(folder / "rejected.h5"),
+                    Catch::Contains("/statistics/rejected") && Catch::Contains("found -7"));
 }
 
 TEST_CASE("A truncated history is refused with one line") {

@@ -171,11 +171,11 @@ class ForeignFiles(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def flexneck(self, *words):
+    def flexneck(self, *words, code=0):
         done = subprocess.run([FLEXNECK, *words], check=False, capture_output=True, text=True,
                               cwd=self.folder)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        return done.stdout
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + (done.stderr if code else "")
 
     def test_a_mesh(self):
         write_msh(self.folder / "bar.msh")
@@ -210,6 +210,14 @@ class ForeignFiles(unittest.TestCase):
         np.testing.assert_allclose(tip[:, 0], deflection, atol=1e-8 * deflection.max())
         np.testing.assert_allclose(tip[:, 1], 0, atol=1e-12)
         np.testing.assert_allclose(tip[:, 2], HEIGHTS[-1], atol=1e-12)
+
+    def test_a_list_where_one_text_belongs(self):
+        for texts in ([], ["one", "two"]):
+            write_modes(self.folder / "modes.h5")
+            with h5py.File(self.folder / "modes.h5", "a") as file:
+                file.create_dataset("basis/solver", data=texts, dtype=TEXT)
+            self.assertIn("/basis/solver: expected one text",
+                          self.flexneck("info", "modes.h5", code=2))
 
 
 if __name__ == "__main__":

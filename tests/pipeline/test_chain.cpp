@@ -10,12 +10,12 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/simulation.h"
 #include "pipeline/model/model_file.h"
+#include "tests/support/coarse_neck.h"
 #include "tests/support/run_command.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using multibody::History;
-using multibody::SystemMode;
 using Settings = std::vector<std::string>;
 
 namespace {
@@ -24,11 +24,9 @@ namespace {
 class Bodies {
  public:
   Bodies() {
-    const std::string more =
-        " " + std::string(FLEXNECK_SOURCE_DIR) + "/pipeline/studies/hybrid3_chain.toml -q -o " +
-        folder_.path().string() +
-        " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
-        " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in'";
+    const std::string more = " " + std::string(FLEXNECK_SOURCE_DIR) +
+                             "/pipeline/studies/hybrid3_chain.toml -q -o " +
+                             folder_.path().string() + testing::kCoarseNeck;
     for (const char* stage : {"mesh", "modes"}) {
       const testing::CommandOutcome outcome =
           testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + stage + more);

@@ -14,6 +14,7 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "multibody/history_file.h"
+#include "tests/support/coarse_neck.h"
 #include "tests/support/run_command.h"
 
 using Catch::Matchers::Contains;
@@ -25,10 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The coarsest neck and short runs: seconds instead of a minute.
-constexpr const char* kCoarse =
-    " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
-    " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in'"
-    " --set pendulum.duration='0.2 s'";
+const std::string kCoarse = std::string(testing::kCoarseNeck) + " --set pendulum.duration='0.2 s'";
 
 CommandOutcome run_flexneck(const std::string& arguments) {
   return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
@@ -385,9 +383,7 @@ TEST_CASE("giants are refused before they start, with what they take and what th
   check_refused(run_within_4_GB("mesh --refine 2000000000"), "more degrees of freedom than");
   CHECK_FALSE(fs::exists(folder / "out"));
 
-  const std::string coarse =
-      " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
-      " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in' -q";
+  const std::string coarse = std::string(testing::kCoarseNeck) + " -q";
   REQUIRE(run_within_4_GB("mesh" + coarse).exit_code == 0);
   check_refused(run_within_4_GB("modes --set modes.count=4000" + coarse),
                 "take a coarser mesh or fewer modes");
@@ -423,8 +419,7 @@ TEST_CASE("a folder that cannot be made or written is refused") {
   check_refused(run_flexneck("mesh -o " + (folder / "file").string() + kCoarse + " -q"),
                 "cannot be made a folder for results");
   // Not even root makes a file there.
-  check_refused(run_flexneck("mesh -q -o /proc/self" + std::string(kCoarse)),
-                "/proc/self: cannot be written");
+  check_refused(run_flexneck("mesh -q -o /proc/self" + kCoarse), "/proc/self: cannot be written");
 }
 
 TEST_CASE("one command at a time writes into a folder, and the second is told which") {
@@ -449,6 +444,17 @@ TEST_CASE("one command at a time writes into a folder, and the second is told wh
   // No folder is left of a command that makes nothing.
   check_refused(run_flexneck("verify" + out + "/new"), "modes.h5: no such file");
   CHECK(names_in(folder.path()).empty());
+}
+
+TEST_CASE("a folder whose lock cannot be written is left as it was") {
+  const TemporaryFolder folder;
+  for (const std::string out : {"", "/new"}) {
+    const CommandOutcome outcome =
+        testing::run_shell("(ulimit -f 0; " + std::string(FLEXNECK_BINARY_DIR) +
+                           "/flexneck verify -q -o " + folder.path().string() + out + ")");
+    check_refused(outcome, "cannot be written (File too large)");
+    CHECK(names_in(folder.path()).empty());
+  }
 }
 
 TEST_CASE("what cannot be printed is a failure") {

@@ -7,6 +7,7 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
+#include "tests/support/coarse_neck.h"
 #include "tests/support/run_command.h"
 
 using Catch::Matchers::Contains;
@@ -14,11 +15,6 @@ using namespace flexneck;
 using testing::CommandOutcome;
 
 namespace {
-
-/// The coarsest neck.
-constexpr const char* kCoarse =
-    " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
-    " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in'";
 
 CommandOutcome run_alone(const std::string& arguments) {
   return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
@@ -65,7 +61,7 @@ void check_same(const fe_modal::ModalBody& one, const fe_modal::ModalBody& other
 
 TEST_CASE("two ranks find the frequencies, signs and names that one finds") {
   const TemporaryFolder folder;
-  const std::string arguments = " -o " + folder.path().string() + kCoarse;
+  const std::string arguments = " -o " + folder.path().string() + testing::kCoarseNeck;
   require_success(run_alone("mesh -q" + arguments));
   require_success(run_alone("modes -q" + arguments));
   const auto one = fe_modal::read_modal_body(folder / "modes.h5").body;
@@ -84,16 +80,16 @@ TEST_CASE("what is wrong is said once on two ranks, and both end") {
   const std::string out = folder.path().string();
   check_refused(run_on_two_ranks("modes -q -o " + out), 2, "mesh.h5");
   check_refused(run_on_two_ranks("nonsense -q -o " + out), 2, "nonsense");
-  require_success(run_on_two_ranks(std::string("mesh -q -o ") + out + kCoarse));
-  check_refused(
-      run_on_two_ranks(std::string("modes -q -o ") + out + kCoarse + " --set modes.count=100000"),
-      2, "100000");
+  require_success(run_on_two_ranks(std::string("mesh -q -o ") + out + testing::kCoarseNeck));
+  check_refused(run_on_two_ranks(std::string("modes -q -o ") + out + testing::kCoarseNeck +
+                                 " --set modes.count=100000"),
+                2, "100000");
 }
 
 TEST_CASE("what fails on the second rank only is said once by the first, and both end") {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
-  require_success(run_alone("mesh -q -o " + out + kCoarse));
+  require_success(run_alone("mesh -q -o " + out + testing::kCoarseNeck));
   // The second rank has the first element, whose centre is far outside.
   mesher::MeshFile file = mesher::read_mesh(folder / "mesh.h5");
   file.mesh.nodes[static_cast<std::size_t>(file.mesh.blocks[0].nodes[26])][2] += 1;
@@ -103,5 +99,5 @@ TEST_CASE("what fails on the second rank only is said once by the first, and bot
   ranks.assign(elements, 0);
   std::fill_n(ranks.begin(), elements / 2, 1);
   mesher::write_mesh(folder / "mesh.h5", file);
-  check_refused(run_on_two_ranks("modes -q -o " + out + kCoarse), 3, "base_plate");
+  check_refused(run_on_two_ranks("modes -q -o " + out + testing::kCoarseNeck), 3, "base_plate");
 }

@@ -155,6 +155,9 @@ TEST_CASE("what nests or includes without end is refused before it takes the sta
   refused("\n[" + repeated("a.", kMany) + "a]", too_deep);
   refused("\nx = " + repeated("{ a = ", kMany), too_deep);
   refused("\nx = " + repeated("[", kMany), too_deep);
+  // The fourth quote belongs to the text; what follows is not in quotes.
+  for (const std::string text : {R"("""x"""")", R"(""""""")", "'''x''''"})
+    refused("\nx = { b = " + text + ", " + repeated("a.", kMany) + "a = 1 }", too_deep);
   CHECK_THROWS_WITH(document_of(folder, "", {repeated("a.", kMany) + "a=1"}),
                     Contains("a key of at most 32 parts"));
   CHECK_THROWS_WITH(document_of(folder, "", {"a=" + repeated("[", kMany)}), Contains("at most 32"));

@@ -77,20 +77,20 @@ std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study
   std::string script;
   for (Figure& figure : all_figures(results, study, context)) {
     if (figure.missing.empty()) {
-      write_text(workshop / (stem_of(figure) + ".csv"), figure.csv);
+      write_text(workshop / (stem_of(figure) + ".csv"), figure.csv, Durability::none);
       script += figure.script;
     }
     drawn.push_back({std::move(figure), ""});
   }
-  write_text(workshop / kScript, script + "set output\n");
+  write_text(workshop / kScript, script + "set output\n", Durability::none);
   run_gnuplot(workshop.path(), kScript);
   make_folder(folder);
   for (DrawnFigure& each : drawn) {
     const std::string stem = stem_of(each.figure);
     if (each.figure.missing.empty()) {
       each.svg = whole_svg(workshop / (stem + ".svg"));
-      write_text(folder / (stem + ".svg"), each.svg);
-      write_text(folder / (stem + ".csv"), each.figure.csv);
+      write_text(folder / (stem + ".svg"), each.svg, Durability::none);
+      write_text(folder / (stem + ".csv"), each.figure.csv, Durability::none);
     } else {
       fs::remove(folder / (stem + ".svg"));
       fs::remove(folder / (stem + ".csv"));

@@ -12,6 +12,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
+#include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck::pipeline {
 
@@ -73,6 +74,7 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
         "gnuplot-nox");
   }
   int status = 0;
+  const SignalCleanup cleanup = failure == 0 ? SignalCleanup(process) : SignalCleanup();
   if (failure != 0 || waitpid(process, &status, 0) != process || status != 0) {
     throw ComputationError("report: gnuplot failed: " + text_of_file(folder / kComplaints));
   }
