@@ -25,16 +25,21 @@ void add_unique(std::vector<std::string>& errors, std::string error) {
   }
 }
 
-std::vector<std::string> logged_errors() {
-  constexpr std::string_view kPrefix = "Error: ";
+/// Each line of this kind once, without its prefix.
+std::vector<std::string> logged(std::string_view prefix) {
   std::vector<std::string> log;
   gmsh::logger::get(log);
-  std::vector<std::string> errors;
+  std::vector<std::string> found;
   for (const std::string& line : log) {
-    if (line.starts_with(kPrefix)) add_unique(errors, line.substr(kPrefix.size()));
+    if (line.starts_with(prefix)) add_unique(found, line.substr(prefix.size()));
   }
-  return errors;
+  return found;
 }
+
+bool is_failure(const std::string& warning) { return warning.find("failed") != std::string::npos; }
+
+/// gmsh's own word where C would return a null pointer.
+bool is_want_of_memory(const std::string& error) { return error.starts_with("Out of memory"); }
 
 }  // namespace
 
@@ -72,8 +77,11 @@ std::string GmshSession::errors_of(const std::function<void()>& action) {
   } catch (int code) {  // … or as numbers
     thrown = "gmsh error " + std::to_string(code);
   }
-  std::vector<std::string> errors = logged_errors();
+  std::vector<std::string> errors = logged("Error: ");
+  failures_ = logged("Warning: ");
+  std::erase_if(failures_, [](const std::string& warning) { return !is_failure(warning); });
   gmsh::logger::stop();
+  if (std::any_of(errors.begin(), errors.end(), is_want_of_memory)) throw std::bad_alloc();
   if (errors.empty()) add_unique(errors, thrown);
 
   std::string joined;

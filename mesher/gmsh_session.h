@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace flexneck::mesher {
 
@@ -19,6 +20,13 @@ class GmshSession {
   /// Runs `action` and collects the errors that gmsh reports meanwhile, whether it throws or only
   /// logs them. Returns them joined by "; ", empty if there were none. Want of memory passes.
   std::string errors_of(const std::function<void()>& action);
+
+  /// What gmsh has failed to do in the last action, and went on: the mesh may be another than asked
+  /// for.
+  const std::vector<std::string>& failures() const { return failures_; }
+
+ private:
+  std::vector<std::string> failures_;
 };
 
 }  // namespace flexneck::mesher

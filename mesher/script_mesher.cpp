@@ -172,7 +172,7 @@ NodeSet patch_nodes(const Mesh& mesh, const NodePatches& patches) {
 
 std::string gmsh_version() { return GMSH_API_VERSION; }
 
-Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress) {
+Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress, const Progress& warn) {
   require_meshable(options);
   Mesh mesh;
   {
@@ -180,6 +180,8 @@ Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress) {
     report(progress, "gmsh " + gmsh_version() + " runs " + options.script.filename().string());
     run_script(session, options);
     generate(session, options);
+    for (const std::string& failure : session.failures())
+      report(warn, options.script.string() + ": gmsh: " + failure + "; is there memory left?");
     report(progress, "gmsh is done, taking the mesh over");
     mesh = take_over(options);
   }

@@ -43,12 +43,14 @@ struct ScriptMeshOptions {
 /// Runs the script in gmsh, meshes it and takes the mesh over, with lengths in m.
 /// A script is a program: it may do what gmsh scripts may do. With constants to override it runs
 /// twice, first to tell which it declares.
+/// @param warn  is told what gmsh failed to do and went on
 /// @throws InputError if the script cannot be read, has an error (gmsh's message), sets a scaling
 /// factor that gmsh applies to files only, sets a constant that it does not declare, names a part
 /// without material, has elements of a kind that a mesh cannot hold or none of the kind asked for,
 /// leaves a set empty, or cannot be slit as asked.
 /// @throws ComputationError if an element is inverted or degenerate.
-Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress);
+Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress,
+                 const Progress& warn = {});
 
 /// Version of gmsh's interface that the program was built with.
 std::string gmsh_version();

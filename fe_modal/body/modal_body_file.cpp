@@ -54,7 +54,8 @@ template <class Matrix>
 void write_list(Hdf5Writer& file, const std::string& dataset, const std::vector<Matrix>& list,
                 Shape shape, std::string_view unit) {
   std::vector<double> values;
-  for (const RowMajor matrix : list) {
+  for (const Matrix& each : list) {
+    const RowMajor matrix = each;
     values.insert(values.end(), matrix.data(), matrix.data() + matrix.size());
   }
   shape.push_back(extent(Matrix::RowsAtCompileTime));
@@ -142,7 +143,10 @@ void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
     body.modes.push_back(mode);
   }
   body.boundary = file.string_attribute("/basis", "boundary");
-  if (file.has("/basis/solver")) body.solver = file.read_strings("/basis/solver").at(0);
+  if (!file.has("/basis/solver")) return;
+  const std::vector<std::string> solver = file.read_strings("/basis/solver");
+  if (solver.size() != 1) file.refuse("/basis/solver", "expected one text");
+  body.solver = solver[0];
 }
 
 void write_interfaces(Hdf5Writer& file, const ModalBody& body) {

@@ -72,7 +72,9 @@ void write_positions(const std::filesystem::path& path, const Eigen::Matrix3Xd& 
                   : write_matrix_market_array(path, positions_m.transpose());
 }
 
-Eigen::Matrix3Xd read_positions(const std::filesystem::path& path) {
+namespace {
+
+Eigen::Matrix3Xd positions_in(const std::filesystem::path& path) {
   if (!is_binary(path)) {
     const Eigen::MatrixXd table = read_matrix_market_array(path);
     if (table.cols() != 3) {
@@ -87,6 +89,18 @@ Eigen::Matrix3Xd read_positions(const std::filesystem::path& path) {
                      std::to_string(values.size()) + " numbers");
   }
   return values.reshaped(3, values.size() / 3);
+}
+
+}  // namespace
+
+Eigen::Matrix3Xd read_positions(const std::filesystem::path& path) {
+  Eigen::Matrix3Xd positions_m = positions_in(path);
+  for (Eigen::Index n = 0; n < positions_m.cols(); ++n) {
+    if (positions_m.col(n).allFinite()) continue;
+    throw InputError(path.string() + ": node " + std::to_string(n + 1) +
+                     " has a coordinate that is not finite");
+  }
+  return positions_m;
 }
 
 }  // namespace flexneck::fe_modal

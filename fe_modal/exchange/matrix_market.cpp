@@ -11,6 +11,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
+#include "geometry/foundation/regular_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -18,7 +19,8 @@ namespace {
 /// Numbers of a file line by line, comments left out.
 class NumberLines {
  public:
-  explicit NumberLines(const std::filesystem::path& path) : path_(path), stream_(path) {
+  explicit NumberLines(const std::filesystem::path& path)
+      : path_(path), size_(static_cast<double>(size_of_file(path))), stream_(path) {
     if (!stream_) throw InputError(path.string() + ": cannot be read");
     next_line();
     header_ = line_;
@@ -67,6 +69,14 @@ class NumberLines {
     return static_cast<std::int32_t>(number);
   }
 
+  /// A number of rows, columns or entries, no larger than the file has characters.
+  std::int32_t count(double number, double least) const {
+    constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+    return integer(number, least, std::min(kMost, size_));
+  }
+  /// Bytes.
+  double size() const { return size_; }
+
   [[noreturn]] void refuse(const std::string& problem) const {
     throw InputError(path_.string() + ":" + std::to_string(number_) + ": " + problem);
   }
@@ -78,13 +88,12 @@ class NumberLines {
   }
 
   std::filesystem::path path_;
+  double size_ = 0;
   std::ifstream stream_;
   std::string header_;
   std::string line_;
   std::int64_t number_ = 0;
 };
-
-constexpr double kMostRows = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
@@ -113,9 +122,8 @@ MatrixEntries read_matrix_market(const std::filesystem::path& path) {
     lines.refuse("expected \"coordinate real symmetric\" or \"coordinate real general\"");
   }
   const std::vector<double> sizes = lines.next(3);
-  MatrixEntries matrix{
-      lines.integer(sizes[0], 1, kMostRows), lines.integer(sizes[1], 1, kMostRows), is_half, {}};
-  const std::int32_t count = lines.integer(sizes[2], 0, kMostRows);
+  MatrixEntries matrix{lines.count(sizes[0], 1), lines.count(sizes[1], 1), is_half, {}};
+  const std::int32_t count = lines.count(sizes[2], 0);
   matrix.entries.reserve(static_cast<std::size_t>(count));
   for (std::int32_t k = 0; k < count; ++k) {
     const std::vector<double> entry = lines.next(3);
@@ -141,8 +149,8 @@ Eigen::MatrixXd read_matrix_market_array(const std::filesystem::path& path) {
     lines.refuse("expected \"array real general\"");
   }
   const std::vector<double> sizes = lines.next(2);
-  Eigen::MatrixXd table(lines.integer(sizes[0], 1, kMostRows),
-                        lines.integer(sizes[1], 1, kMostRows));
+  if (!(sizes[0] * sizes[1] <= lines.size())) lines.refuse("more numbers than the file has");
+  Eigen::MatrixXd table(lines.count(sizes[0], 1), lines.count(sizes[1], 1));
   for (double& value : table.reshaped()) value = lines.next(1)[0];
   return table;
 }

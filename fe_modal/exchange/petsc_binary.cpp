@@ -11,6 +11,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
+#include "geometry/foundation/regular_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -36,9 +37,10 @@ void write_number(OutputFile& file, Number number) {
 class BinaryInput {
  public:
   explicit BinaryInput(const std::filesystem::path& path)
-      : path_(path), stream_(path, std::ios::binary) {
+      : path_(path),
+        size_(static_cast<std::int64_t>(size_of_file(path))),
+        stream_(path, std::ios::binary) {
     if (!stream_) refuse("cannot be read");
-    size_ = static_cast<std::int64_t>(std::filesystem::file_size(path));
   }
 
   template <typename Number>
@@ -69,8 +71,8 @@ class BinaryInput {
 
  private:
   std::filesystem::path path_;
-  std::ifstream stream_;
   std::int64_t size_ = 0;
+  std::ifstream stream_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <regex>
 #include <string>
 
@@ -60,6 +61,7 @@ Unit parse_unit(std::string_view text) {
                      "'; a number has a decimal point, and no number stands within a unit");
   }
   Unit unit(ut_parse(&unit_system(), name.c_str(), UT_ASCII), ut_free);
+  if (!unit && ut_get_status() == UT_OS) throw std::bad_alloc();
   if (!unit) throw InputError("unknown unit '" + name + "'");
   return unit;
 }

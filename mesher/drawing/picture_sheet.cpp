@@ -136,7 +136,7 @@ void write_png(const std::filesystem::path& path, const PictureSheet& sheet) {
 
   std::string png;
   require_success(cairo_surface_write_to_png_stream(surface.get(), append, &png), path);
-  write_text(path, png);
+  write_text(path, png, Durability::none);
 }
 
 }  // namespace flexneck::mesher

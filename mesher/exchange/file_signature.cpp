@@ -52,8 +52,9 @@ std::string msh_section_problem(TextLines lines) {
 std::string msh_binary_problem(std::string_view contents) {
   constexpr std::string_view kOne("\1\0\0\0", 4);
   if (!contents.starts_with(kOne)) return "its bytes are in another order";
-  if (!trimmed(TextLines(contents.substr(kOne.size() + 1)).next().value_or(""))
-           .starts_with("$End")) {
+  TextLines lines(contents.substr(kOne.size()));
+  lines.next();  // the end of that line
+  if (!trimmed(lines.next().value_or("")).starts_with("$End")) {
     return "section $MeshFormat has no end";
   }
   for (const std::string_view name : {"$Nodes", "$EndNodes", "$Elements", "$EndElements"}) {

@@ -105,8 +105,11 @@ class Reader {
 
   void include(const InpCard& card) {
     constexpr std::size_t kDeepest = 8;
+    constexpr std::size_t kMostFiles = 1000;
     const std::string name = card.parameter("INPUT");
-    const fs::path file = fs::weakly_canonical(folder_ / name);
+    std::error_code error;
+    const fs::path file = fs::weakly_canonical(folder_ / name, error);
+    if (error) card.refuse("INPUT=" + name + " cannot be read (" + error.message() + ")");
     const fs::path relative = file.lexically_relative(folder_);
     if (relative.empty() || *relative.begin() == "..") {
       card.refuse("INPUT=" + name + " lies outside the folder of the file; copy it there");
@@ -114,12 +117,14 @@ class Reader {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) card.refuse("there is no file " + name);
     if (++depth_ > kDeepest) card.refuse("files include each other more than 8 deep");
+    if (++count_ > kMostFiles) card.refuse("more than 1000 files are included");
     read(folder_ / relative, text_of(file));
     --depth_;
   }
 
   fs::path folder_;
   std::size_t depth_ = 0;
+  std::size_t count_ = 0;
 };
 
 template <class Number>

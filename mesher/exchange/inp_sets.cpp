@@ -10,11 +10,14 @@
 namespace flexneck::mesher {
 namespace {
 
+constexpr std::size_t kMostOfRanges = 10'000'000;  ///< numbers of one range
+constexpr std::size_t kMostInSets = 20'000'000;    ///< where there are ranges: 160 MB
+
 std::vector<std::int64_t> range_of(const InpData& line) {
   const std::int64_t first = inp_integer(line, 0);
   const std::int64_t last = line.fields.size() > 1 ? inp_integer(line, 1) : first;
   const std::int64_t step = line.fields.size() > 2 ? inp_integer(line, 2) : 1;
-  constexpr std::int64_t kMost = 10'000'000;
+  constexpr auto kMost = static_cast<std::int64_t>(kMostOfRanges);
   if (step < 1 || last < first || (last - first) / step > kMost) {
     throw InputError(line.place.text() + "expected first, last and step of a range");
   }
@@ -57,11 +60,17 @@ void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& se
   if (card.has("INSTANCE") || (parameter == "NSET" && card.has("ELSET"))) {
     card.refuse("INSTANCE= and ELSET= are not supported; list the numbers");
   }
+  std::size_t all = 0;
+  for (const auto& [key, set] : sets) all += set.members.size();
   std::vector<std::int64_t> members;
   std::vector<std::int64_t> written;
   for (const InpData& line : card.data) {
     if (card.has("GENERATE")) {
       const std::vector<std::int64_t> range = range_of(line);
+      if (all + members.size() + range.size() > kMostInSets) {
+        throw InputError(line.place.text() + "expected at most " + std::to_string(kMostInSets) +
+                         " numbers in all sets, found more");
+      }
       members.insert(members.end(), range.begin(), range.end());
       continue;
     }
@@ -72,8 +81,8 @@ void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& se
     }
   }
   add_to_inp_set(sets, name, members);
-  std::vector<std::int64_t>& all = sets.at(upper_case(name)).written;
-  all.insert(all.end(), written.begin(), written.end());
+  std::vector<std::int64_t>& known = sets.at(upper_case(name)).written;
+  known.insert(known.end(), written.begin(), written.end());
 }
 
 }  // namespace flexneck::mesher

@@ -12,6 +12,9 @@
 namespace flexneck::mesher {
 namespace {
 
+/// Files may hold normals of single precision.
+constexpr double kUnitLength = 1e-6;
+
 [[noreturn]] void refuse(const std::string& problem) { throw InputError("mesh: " + problem); }
 
 void check_material(const Material& material) {
@@ -127,6 +130,11 @@ void check_slit(const Mesh& mesh, const Slit& slit) {
                               mesh.nodes[static_cast<std::size_t>(upper)]) {
       refuse(what + " pairs nodes " + std::to_string(lower) + " and " + std::to_string(upper) +
              ", expected two nodes in one place");
+    }
+    const auto& [x, y, z] = slit.normals[p];
+    if (!(std::abs(std::hypot(x, y, z) - 1) <= kUnitLength && std::isfinite(slit.areas_m2[p]))) {
+      refuse(what + ": pair " + std::to_string(p) +
+             " has no unit vector as its normal, or no finite area");
     }
   }
 }

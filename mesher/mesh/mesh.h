@@ -81,8 +81,8 @@ std::vector<std::string> parts_of(const Mesh& mesh);
 NodeSet nodes_of(const FaceSet& faces);
 
 /// Checks what every consumer relies on: indices in range, no loose node, no empty block or set,
-/// unique names, one material a part, paired nodes in the same place, materials physical (E > 0,
-/// -1 < nu < 0.5, density > 0).
+/// unique names, one material a part, paired nodes in the same place with a unit normal, materials
+/// physical (E > 0, -1 < nu < 0.5, density > 0).
 /// @throws InputError naming the first violation.
 void check(const Mesh& mesh);
 

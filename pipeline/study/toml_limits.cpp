@@ -12,6 +12,13 @@ namespace flexneck::pipeline {
 
 namespace {
 
+/// Place behind the three quotes that end a text. Up to two more before them belong to the text.
+std::size_t behind_long(std::string_view text, std::size_t quotes) {
+  std::size_t end = quotes + 3;
+  while (end < quotes + 5 && end < text.size() && text[end] == text[quotes]) ++end;
+  return end;
+}
+
 /// Place behind a text in quotes that begins at a place; the end of all if it has no end.
 std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
   const char quote = text[begin];
@@ -22,7 +29,7 @@ std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
     if (quote == '"' && text[place] == '\\')
       ++place;
     else if (text.substr(place).starts_with(closing))
-      return place + closing.size();
+      return is_long ? behind_long(text, place) : place + 1;
     else if (!is_long && text[place] == '\n')
       return place;
   }

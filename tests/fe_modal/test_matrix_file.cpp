@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -84,6 +85,32 @@ TEST_CASE("what is wrong with a matrix is said with file and line") {
   check_refused(".mtx", head + "general\n2 3 1\n1 2 1\n", "square");
   check_refused(".petsc", "something else", "PETSc");
   check_refused(".csv", "", ".mtx");
+}
+
+TEST_CASE("sizes that a file cannot have are refused before they take memory") {
+  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
+  check_refused(".mtx", head + "2147483647 2147483647 1\n1 1 1\n", ":2: expected a whole number");
+  check_refused(".mtx", head + "1 1 2147483647\n1 1 1\n", ":2: expected a whole number");
+  const TemporaryFolder folder;
+  std::ofstream(folder / "table.mtx")
+      << "%%MatrixMarket matrix array real general\n2147483647 2147483647\n1\n";
+  CHECK_THROWS_WITH(read_positions(folder / "table.mtx"), Contains(":2: more numbers"));
+  for (const char* const name : {"folder.mtx", "folder.petsc"}) {
+    std::filesystem::create_directory(folder / name);
+    CHECK_THROWS_AS(read_matrix(folder / name), InputError);
+  }
+}
+
+TEST_CASE("positions that are not finite are refused by their node") {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const TemporaryFolder folder;
+  Eigen::Matrix3Xd positions = Eigen::Matrix3Xd::Zero(3, 4);
+  positions(1, 2) = kNan;
+  for (const char* const ending : {".mtx", ".petsc"}) {
+    const auto path = folder / (std::string("file") + ending);
+    write_positions(path, positions);
+    CHECK_THROWS_WITH(read_positions(path), Contains(path.string()) && Contains("node 3"));
+  }
 }
 
 }  // namespace flexneck::fe_modal

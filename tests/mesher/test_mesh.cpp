@@ -110,6 +110,24 @@ TEST_CASE("pairs of a slit must lie on one another") {
   CHECK_THAT(refusal(slit(46)), Contains("slit 'cut' refers to node 46"));
 }
 
+TEST_CASE("pairs of a slit have unit normals and finite areas") {
+  const auto slit = [](double normal, double area_m2) {
+    return [=](Mesh& mesh) {
+      mesh.nodes.push_back(mesh.nodes[44]);
+      mesh.blocks[0].nodes[6] = 45;
+      mesh.slits = {{"cut", false, {44}, {45}, {{0, 0, normal}}, {area_m2}}};
+      mesh.blocks.push_back(mesh.blocks[0]);
+      mesh.blocks.back().part = "twin";
+      mesh.blocks.back().nodes[6] = 44;
+    };
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(refusal(slit(-1, 0)) == "accepted");
+  for (const double normal : {0.0, 0.999, 1e300, kNan})
+    CHECK_THAT(refusal(slit(normal, 1)), Contains("slit 'cut': pair 0 has no unit vector"));
+  CHECK_THAT(refusal(slit(1, kNan)), Contains("no finite area"));
+}
+
 TEST_CASE("materials that no solid can have are refused") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double modulus : {0.0, -1.0, kNan}) {

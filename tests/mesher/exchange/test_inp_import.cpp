@@ -369,6 +369,28 @@ TEST_CASE("included files are followed within the folder only") {
   CHECK_THAT(testing::refusal(options), Contains("there is no file none.inp"));
   options.file = include("main.inp");
   CHECK_THAT(testing::refusal(options), Contains("include each other"));
+  options.file = include(std::string(300, 'n'));
+  CHECK_THAT(testing::refusal(options), Contains("*INCLUDE") && Contains("cannot be read"));
+}
+
+TEST_CASE("ranges of sets are refused before they take the memory") {
+  std::string deck = "*ELSET, ELSET=a, GENERATE\n";
+  for (int k = 0; k < 200; ++k) deck += "1, 10000000\n";
+  CHECK_THAT(refusal_of(deck), Contains("numbers in all sets"));
+}
+
+TEST_CASE("files that include the next one often are refused before the hours") {
+  const Files files;
+  for (int k = 0; k < 7; ++k) {
+    std::string lines;
+    for (int often = 0; often < 20; ++often)
+      lines += "*INCLUDE, INPUT=" + std::to_string(k + 1) + ".inp\n";
+    files.write(std::to_string(k) + ".inp", lines);
+  }
+  files.write("7.inp", "*NODE\n1, 0, 0, 0\n");
+  ImportOptions options;
+  options.file = files.write("main.inp", "*INCLUDE, INPUT=0.inp\n");
+  CHECK_THAT(testing::refusal(options), Contains("more than 1000 files"));
 }
 
 }  // namespace flexneck::mesher

@@ -104,6 +104,15 @@ TEST_CASE("data that a reader passes over runs nothing either") {
   }
 }
 
+TEST_CASE("a .msh in bytes that ends within its header is refused") {
+  const Files files;
+  const std::string one("\1\0\0\0", 4);
+  for (const std::string& rest : {one, one + "\n", one + "\n$EndMeshFormat\n"}) {
+    const auto file = files.write("cut.msh", "$MeshFormat\n4.1 1 8\n" + rest);
+    CHECK_THROWS_WITH(checked_contents(file), Contains("cut.msh: this is no .msh file"));
+  }
+}
+
 TEST_CASE("what lies beside a mesh is left alone, and a name is only a name") {
   const Payload payload;
   const Files files;
