@@ -12,6 +12,11 @@ notes=tests/reliability/campaigns.md
 # NAME COUNT COMMAND, which finds $seed, $count and $out, a fresh folder.
 campaigns='
 mutation-of-files 20000 python3 tests/reliability/mutate_files.py build/flexneck --seed $seed --runs $count --out $out
+faults 2000 python3 -B tests/reliability/disturbed_runs.py faults build/flexneck --shim build/tests/reliability/fault_shim.so --jobs 1 --seed $seed --runs $count --out $out
+races 1000 python3 -B tests/reliability/disturbed_runs.py races build/flexneck --jobs 1 --seed $seed --runs $count --out $out
+kills 200 python3 -B tests/reliability/disturbed_runs.py kills build/flexneck --jobs 1 --seed $seed --runs $count --out $out
+full-disk 200 python3 -B tests/reliability/disturbed_runs.py full-disk build/flexneck --jobs 1 --seed $seed --runs $count --out $out
+fuzz 1000000 python3 tests/reliability/fuzz/fuzz.py --seed $seed --runs $count --out $out
 mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '
 

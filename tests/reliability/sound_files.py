@@ -109,6 +109,10 @@ upper = "head.joint"
 
 PULSE = "time [ms], acceleration [gn]\n0, 0\n5, 4\n10, 9\n20, 0\n"
 
+# The coarsest neck.
+COARSE = ["mesh.quadrant=2", "mesh.inner_ring=2", "mesh.outer_ring=1", "mesh.rubber_layers=1",
+          "geometry.bolt_patch_radius=0.4 in", "pendulum.duration=0.2 s"]
+
 
 @dataclasses.dataclass
 class Format:
@@ -198,9 +202,7 @@ def make(program, folder):
 def make_results(program, folder):
     """Makes a folder of results of the coarsest neck; its files are read by verify and report."""
     os.makedirs(folder)
-    coarse = ["mesh.quadrant=2", "mesh.inner_ring=2", "mesh.outer_ring=1", "mesh.rubber_layers=1",
-              "geometry.bolt_patch_radius=0.4 in", "pendulum.duration=0.2 s"]
-    settings = [word for value in coarse for word in ("--set", value)]
+    settings = [word for value in COARSE for word in ("--set", value)]
     _run(program, ["run", "-q", *settings], folder)
     verify = [["verify", *settings]]
     files = ("mesh.h5", "modes.h5", "pendulum-flexion-60.h5", "static-flexion.h5", "pendulum.json")
