@@ -4,5 +4,6 @@ add_library(flexneck_warnings INTERFACE)
 add_library(flexneck::warnings ALIAS flexneck_warnings)
 # GCC 12 sees overlapping copies in plain string concatenation (GCC bug 105651).
 target_compile_options(
-  flexneck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-restrict
+  flexneck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+                              $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                               $<$<BOOL:${FLEXNECK_WARNINGS_AS_ERRORS}>:-Werror>)

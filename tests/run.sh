@@ -16,11 +16,20 @@ cmake --preset ci -DFLEXNECK_TESTS=ON >/dev/null
 cmake --build --preset ci
 
 echo '== clang-tidy on what the last commit changed'
-changed=$(git diff --name-only --diff-filter=d HEAD~1 -- '*.cpp' 2>/dev/null || true)
-if [ -n "$changed" ]; then
-  echo "$changed" | xargs -n 1 -P "$(nproc)" clang-tidy -p build --quiet
-fi
+cmake --preset fuzz >/dev/null
+tidy() { # FOLDER OF THE BUILD, pathspecs
+  build=$1
+  shift
+  changed=$(git diff --name-only --diff-filter=d HEAD~1 -- "$@" 2>/dev/null || true)
+  [ -z "$changed" ] || echo "$changed" | xargs -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet
+}
+tidy build '*.cpp' ':!tests/reliability/fuzz'
+tidy build-fuzz 'tests/reliability/fuzz/*.cpp'
 
 echo '== tests'
 export OMP_NUM_THREADS=1
 ctest --preset ci --parallel "$(nproc)"
+
+echo '== fuzz'
+cmake --build --preset fuzz
+python3 tests/reliability/fuzz/fuzz.py --seconds 180
