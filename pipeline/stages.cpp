@@ -37,10 +37,7 @@ std::map<std::string, std::string> hashes_of_written(const fs::path& folder,
   for (const auto& [name, time] : write_times(folder)) {
     const auto known = before.find(name);
     if (known == before.end() || known->second != time) {
-      // What was written a moment ago carries its hash, if it is HDF5.
-      const fs::path path = folder / name;
-      const std::optional<std::string> carried = carried_hash(path);
-      hashes[name] = carried ? *carried : hash_of_file(path.string());
+      hashes[name] = hash_of_file((folder / name).string());
     }
   }
   return hashes;
@@ -91,7 +88,7 @@ std::string Stages::hash_of_inputs(const Provenance& from,
 bool Stages::is_there(const Record& record) const {
   return std::all_of(record.outputs.begin(), record.outputs.end(), [&](const auto& output) {
     const fs::path path = folder_ / output.first;
-    return fs::is_regular_file(path) && hash_of_content(path) == output.second;
+    return fs::is_regular_file(path) && computed_hash_of_file(path) == output.second;
   });
 }
 

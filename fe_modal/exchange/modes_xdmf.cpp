@@ -25,7 +25,7 @@ std::vector<mesher::XdmfItem> write_shapes(const std::filesystem::path& path,
     file.write(items.back().dataset, {shape.data(), static_cast<std::size_t>(shape.size())},
                extents, "kg^(-1/2)");
   }
-  file.commit();
+  file.commit(Durability::none);
   return items;
 }
 

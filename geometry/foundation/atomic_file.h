@@ -5,16 +5,11 @@
 #include <filesystem>
 #include <span>
 
+#include "geometry/foundation/durability.h"
 #include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck {
-
-/// What of a file is on the disk, whatever happens to the machine, once it is in its place.
-enum class Durability {
-  content,  ///< all of it; its name, with the next sync_folder()
-  none      ///< what other files can make again: the system writes it when it likes
-};
 
 /// Brings the names of the files that have been put into a folder to the disk.
 /// @throws ComputationError if that fails.

@@ -60,8 +60,6 @@ std::string hash_of_text(const std::string& text) {
   return digits_of(XXH3_128bits(text.data(), text.size()));
 }
 
-std::string hash_of_file(const std::string& path) { return hash_from(open_to_read(path), 0, path); }
-
 HashBlock hash_block_of(const FileDescriptor& file, const std::filesystem::path& path) {
   const std::string text = std::string(kOurs) + hash_from(file, kHashBlockSize, path) + "\n";
   HashBlock block{};
@@ -75,7 +73,12 @@ std::optional<std::string> carried_hash(const std::filesystem::path& path) {
   return std::string(block.data() + kOurs.size(), kDigits);
 }
 
-std::string hash_of_content(const std::filesystem::path& path) {
+std::string hash_of_file(const std::string& path) {
+  const std::optional<std::string> carried = carried_hash(path);
+  return carried ? *carried : hash_from(open_to_read(path), 0, path);
+}
+
+std::string computed_hash_of_file(const std::filesystem::path& path) {
   const FileDescriptor file = open_to_read(path);
   return hash_from(file, is_ours(first_block(file, path)) ? kHashBlockSize : 0, path);
 }

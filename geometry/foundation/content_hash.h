@@ -12,6 +12,7 @@ class FileDescriptor;
 
 /// 128-bit XXH3 hash, 32 hexadecimal digits.
 std::string hash_of_text(const std::string& text);
+/// Of a file's content; of an HDF5 file of ours, the one that it carries and its reader checks.
 /// @throws as open_to_read() and read_at() do.
 std::string hash_of_file(const std::string& path);
 
@@ -29,8 +30,8 @@ HashBlock hash_block_of(const FileDescriptor& file, const std::filesystem::path&
 /// @throws InputError or ComputationError if the file cannot be read.
 std::optional<std::string> carried_hash(const std::filesystem::path& path);
 
-/// The hash that a file of ours should carry; of a foreign one, hash_of_file(). @throws as that.
-std::string hash_of_content(const std::filesystem::path& path);
+/// As hash_of_file(), but of every byte that is there: not the same if a file of ours is damaged.
+std::string computed_hash_of_file(const std::filesystem::path& path);
 
 /// What is known of a file before any library parses it.
 enum class Trust {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/foundation/content_hash.h"
+#include "geometry/foundation/durability.h"
 
 namespace flexneck {
 
@@ -59,7 +60,7 @@ class Hdf5Writer {
   void write_attribute(const std::string& object, const std::string& name, double value);
   void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
 
-  void commit();
+  void commit(Durability durability = Durability::content);
 
  private:
   struct Impl;

@@ -102,7 +102,7 @@ void XdmfDocument::node_vector(const std::string& name, const XdmfItem& values) 
 
 void XdmfDocument::commit() {
   file_.write("</Grid>\n</Domain>\n</Xdmf>\n");
-  file_.commit();
+  file_.commit(Durability::none);
 }
 
 std::string grid_name(const Mesh& mesh, const ElementBlock& block) {

@@ -28,7 +28,7 @@ class XdmfWriter {
     }
     for (const FaceSet& set : mesh_.face_sets) write_faces(set);
     for (const NodeSet& set : mesh_.node_sets) write_nodes(set);
-    view_.commit();
+    view_.commit(Durability::none);
     xdmf_.commit();
   }
 

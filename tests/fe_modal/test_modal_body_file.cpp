@@ -14,10 +14,13 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/support/point_mass_body.h"
 
 namespace flexneck::fe_modal {
 namespace {
+
+using testing::bytes_of;
 
 /// A body in which no two numbers are alike, so that an exchange shows.
 ModalBodyFile sample() {
@@ -102,11 +105,6 @@ ModalBodyFile free_sample() {
   body.invariants = testing::invariants_of_points(points.masses_kg, body.nodes_m, body.shapes);
   file.provenance.program = "flexneck test";
   return file;
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <sys/resource.h>
@@ -21,9 +19,11 @@
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "tests/support/files.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
+using testing::names_in;
 
 namespace {
 
@@ -85,12 +85,6 @@ void write_hdf5(const fs::path& path) {
 void write_plain(const fs::path& path) { write_text(path, std::string(100000, 'x')); }
 
 const std::vector<std::function<void(const fs::path&)>> kWriters = {write_hdf5, write_plain};
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
-  return names;
-}
 
 /// A folder with one file; each test leaves the calls of the system as they were.
 struct Place {

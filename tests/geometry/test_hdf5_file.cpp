@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -10,10 +9,12 @@
 #include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "tests/support/files.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using flexneck::TemporaryFolder;
+using testing::bytes_of;
 
 namespace {
 
@@ -28,11 +29,6 @@ void write_example(const std::filesystem::path& path) {
   file.write("/names", std::vector<std::string>{"a", "", "ζ"});
   file.write_attribute("/group", "mass", 1.5);
   file.commit();
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace
@@ -64,7 +60,7 @@ TEST_CASE("one flipped bit anywhere in a file of ours is found before HDF5 reads
   // The hash is that of all that follows the block, as its text says.
   CHECK(sound.substr(0, 75) ==
         "flexneck, XXH3-128 of all after 512 bytes: " + hash_of_text(sound.substr(kHashBlockSize)));
-  CHECK(carried_hash(folder / "a.h5") == hash_of_content(folder / "a.h5"));
+  CHECK(carried_hash(folder / "a.h5") == computed_hash_of_file(folder / "a.h5"));
   // Without the mark at its beginning it is anybody's file, with the same content.
   std::size_t accepted = 0;
   for (std::size_t k = 0; k < sound.size(); k += k < kHashBlockSize ? 1 : 7) {
@@ -72,7 +68,7 @@ TEST_CASE("one flipped bit anywhere in a file of ours is found before HDF5 reads
     flipped[k] = static_cast<char>(flipped[k] ^ (1 << (k % 8)));
     std::ofstream(folder / "b.h5", std::ios::binary) << flipped;
     if (k >= kHashBlockSize)
-      CHECK(carried_hash(folder / "b.h5") != hash_of_content(folder / "b.h5"));
+      CHECK(carried_hash(folder / "b.h5") != computed_hash_of_file(folder / "b.h5"));
     try {
       const Hdf5Reader file(folder / "b.h5", kFormat);
       CHECK(file.trust() == Trust::foreign);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
 #include <Eigen/Geometry>
@@ -14,10 +13,12 @@
 #include "mesher/drawing/picture_sheet.h"
 #include "mesher/mesh/skin.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/files.h"
 
 namespace flexneck::mesher {
 namespace {
 
+using testing::bytes_of;
 namespace fs = std::filesystem;
 
 const Material kMaterial{
@@ -38,11 +39,6 @@ std::ptrdiff_t covered(const Raster& picture) {
 std::uint32_t pixel_at(const Raster& picture, int x, int y) {
   const int place = y * picture.width() + x;
   return picture.pixels()[static_cast<std::size_t>(place)];
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <span>
-#include <sstream>
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -14,6 +12,7 @@
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/mesh/shape_functions.h"
+#include "tests/support/files.h"
 #include "tests/support/neck_mesh.h"
 
 namespace flexneck::mesher {
@@ -22,6 +21,7 @@ namespace {
 using Catch::Matchers::Contains;
 using geometry::NeckDivisions;
 using geometry::NeckParameters;
+using testing::bytes_of;
 using testing::kInch;
 using testing::neck_mesh;
 using testing::neck_parameters;
@@ -78,12 +78,6 @@ double volume_error(const NeckDivisions& divisions) {
   double sum = 0;
   for (const double volume : exact) sum += volume;
   return std::abs(summarise(neck_mesh("C", divisions)).volume_m3 / sum - 1);
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(path, std::ios::binary).rdbuf();
-  return bytes.str();
 }
 
 double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {

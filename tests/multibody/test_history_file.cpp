@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_writer.h"
+#include "tests/support/files.h"
 #include "tests/support/point_mass_body.h"
 
 using namespace flexneck;
 using namespace flexneck::multibody;
+using testing::bytes_of;
 
 namespace {
 
@@ -55,11 +55,6 @@ HistoryFile random_history() {
   file.provenance.program = "flexneck 0.1.0";
   file.provenance.git_hash = "unknown";
   return file;
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "multibody/simulation.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/coarse_neck.h"
-#include "tests/support/run_command.h"
+#include "tests/support/flexneck_command.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
@@ -28,8 +28,7 @@ class Bodies {
                              "/pipeline/studies/hybrid3_chain.toml -q -o " +
                              folder_.path().string() + testing::kCoarseNeck;
     for (const char* stage : {"mesh", "modes"}) {
-      const testing::CommandOutcome outcome =
-          testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + stage + more);
+      const testing::CommandOutcome outcome = testing::run_flexneck(stage + more);
       INFO(outcome.text);
       REQUIRE(outcome.exit_code == 0);
     }

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <sys/file.h>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "fe_modal/body/modal_body_file.h"
-#include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "multibody/history_file.h"
 #include "tests/support/coarse_neck.h"
-#include "tests/support/run_command.h"
+#include "tests/support/files.h"
+#include "tests/support/flexneck_command.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
+using testing::bytes_of;
+using testing::check_refused;
 using testing::CommandOutcome;
+using testing::names_in;
+using testing::run_flexneck;
 
 namespace {
 
@@ -27,32 +28,6 @@ namespace fs = std::filesystem;
 
 /// The coarsest neck and short runs: seconds instead of a minute.
 const std::string kCoarse = std::string(testing::kCoarseNeck) + " --set pendulum.duration='0.2 s'";
-
-CommandOutcome run_flexneck(const std::string& arguments) {
-  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-/// One clear line: nothing else is printed when the input is at fault.
-void check_refused(const CommandOutcome& outcome, const std::string& reason) {
-  INFO(outcome.text);
-  CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.text, Contains(reason));
-  CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
-}
 
 }  // namespace
 
@@ -413,54 +388,10 @@ TEST_CASE("mesh --show tells dimensions, mass and section of the neck and makes 
   check_refused(run_flexneck("mesh --refine=-1" + out), "a whole number of at least 0");
 }
 
-TEST_CASE("a folder that cannot be made or written is refused") {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "file") << "in the way";
-  check_refused(run_flexneck("mesh -o " + (folder / "file").string() + kCoarse + " -q"),
-                "cannot be made a folder for results");
-  // Not even root makes a file there.
-  check_refused(run_flexneck("mesh -q -o /proc/self" + kCoarse), "/proc/self: cannot be written");
-}
-
-TEST_CASE("one command at a time writes into a folder, and the second is told which") {
-  const TemporaryFolder folder;
-  const std::string out = " -o " + folder.path().string();
-  const fs::path path = folder / ".flexneck.lock";
-  {
-    std::ofstream(path) << "'flexneck run', process 7 on host";
-    const FileDescriptor lock(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-    REQUIRE(::flock(lock.get(), LOCK_EX | LOCK_NB) == 0);
-    for (const char* const command : {"run", "mesh", "verify", "report", "simulate none.toml"})
-      check_refused(run_flexneck(command + out),
-                    folder.path().string() + ": is in use by 'flexneck run', process 7 on host");
-    // Who only reads is not kept out.
-    CHECK(run_flexneck("study" + out).exit_code == 0);
-    CHECK(run_flexneck("mesh --show" + out).exit_code == 0);
-    CHECK(names_in(folder.path()).size() == 1);
-  }
-  // The lock of a process that is gone holds nobody up.
-  check_refused(run_flexneck("verify" + out), "modes.h5: no such file");
-  CHECK(names_in(folder.path()).empty());
-  // No folder is left of a command that makes nothing.
-  check_refused(run_flexneck("verify" + out + "/new"), "modes.h5: no such file");
-  CHECK(names_in(folder.path()).empty());
-}
-
-TEST_CASE("a folder whose lock cannot be written is left as it was") {
-  const TemporaryFolder folder;
-  for (const std::string out : {"", "/new"}) {
-    const CommandOutcome outcome =
-        testing::run_shell("(ulimit -f 0; " + std::string(FLEXNECK_BINARY_DIR) +
-                           "/flexneck verify -q -o " + folder.path().string() + out + ")");
-    check_refused(outcome, "cannot be written (File too large)");
-    CHECK(names_in(folder.path()).empty());
-  }
-}
-
 TEST_CASE("what cannot be printed is a failure") {
   const auto check = [](const std::string& arguments, const std::string& reason) {
     const CommandOutcome outcome =
-        testing::run_shell("(" + std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments + ")");
+        testing::run_shell("(" + testing::flexneck_program() + " " + arguments + ")");
     INFO(arguments);
     CHECK(outcome.exit_code == 3);
     CHECK(outcome.text == "flexneck: standard output: cannot be written (" + reason + ")\n");

@@ -7,7 +7,7 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "tests/support/coarse_neck.h"
-#include "tests/support/run_command.h"
+#include "tests/support/flexneck_command.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
@@ -20,8 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* kLargeSteps = " --set 'solver.smallest_step=0.3 ms'";
 
 CommandOutcome run_coarse(const fs::path& folder, const std::string& arguments) {
-  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments +
-                            " -q -o " + folder.string() + testing::kCoarseNeck);
+  return testing::run_flexneck(arguments + " -q -o " + folder.string() + testing::kCoarseNeck);
 }
 
 }  // namespace

@@ -8,17 +8,15 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "tests/support/coarse_neck.h"
-#include "tests/support/run_command.h"
+#include "tests/support/flexneck_command.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
+using testing::check_refused;
 using testing::CommandOutcome;
+using testing::run_flexneck;
 
 namespace {
-
-CommandOutcome run_alone(const std::string& arguments) {
-  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
-}
 
 /// Without mpirun's own word on a process that fails.
 CommandOutcome run_on_two_ranks(const std::string& arguments) {
@@ -26,19 +24,12 @@ CommandOutcome run_on_two_ranks(const std::string& arguments) {
       "timeout 100 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 "
       "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_base_warn_component_unused=0 "
       "mpirun --quiet -n 2 " +
-      std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
+      testing::flexneck_program() + " " + arguments);
 }
 
 void require_success(const CommandOutcome& outcome) {
   INFO(outcome.text);
   REQUIRE(outcome.exit_code == 0);
-}
-
-void check_refused(const CommandOutcome& outcome, int exit_code, const std::string& reason) {
-  INFO(outcome.text);
-  CHECK(outcome.exit_code == exit_code);
-  CHECK_THAT(outcome.text, Contains(reason));
-  CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
 }
 
 /// The same body but for rounding.
@@ -62,8 +53,8 @@ void check_same(const fe_modal::ModalBody& one, const fe_modal::ModalBody& other
 TEST_CASE("two ranks find the frequencies, signs and names that one finds") {
   const TemporaryFolder folder;
   const std::string arguments = " -o " + folder.path().string() + testing::kCoarseNeck;
-  require_success(run_alone("mesh -q" + arguments));
-  require_success(run_alone("modes -q" + arguments));
+  require_success(run_flexneck("mesh -q" + arguments));
+  require_success(run_flexneck("modes -q" + arguments));
   const auto one = fe_modal::read_modal_body(folder / "modes.h5").body;
   std::filesystem::remove(folder / "modes.h5");
   const CommandOutcome outcome = run_on_two_ranks("modes -v" + arguments);
@@ -78,18 +69,18 @@ TEST_CASE("two ranks find the frequencies, signs and names that one finds") {
 TEST_CASE("what is wrong is said once on two ranks, and both end") {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
-  check_refused(run_on_two_ranks("modes -q -o " + out), 2, "mesh.h5");
-  check_refused(run_on_two_ranks("nonsense -q -o " + out), 2, "nonsense");
+  check_refused(run_on_two_ranks("modes -q -o " + out), "mesh.h5");
+  check_refused(run_on_two_ranks("nonsense -q -o " + out), "nonsense");
   require_success(run_on_two_ranks(std::string("mesh -q -o ") + out + testing::kCoarseNeck));
   check_refused(run_on_two_ranks(std::string("modes -q -o ") + out + testing::kCoarseNeck +
                                  " --set modes.count=100000"),
-                2, "100000");
+                "100000");
 }
 
 TEST_CASE("what fails on the second rank only is said once by the first, and both end") {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
-  require_success(run_alone("mesh -q -o " + out + testing::kCoarseNeck));
+  require_success(run_flexneck("mesh -q -o " + out + testing::kCoarseNeck));
   // The second rank has the first element, whose centre is far outside.
   mesher::MeshFile file = mesher::read_mesh(folder / "mesh.h5");
   file.mesh.nodes[static_cast<std::size_t>(file.mesh.blocks[0].nodes[26])][2] += 1;
@@ -99,5 +90,5 @@ TEST_CASE("what fails on the second rank only is said once by the first, and bot
   ranks.assign(elements, 0);
   std::fill_n(ranks.begin(), elements / 2, 1);
   mesher::write_mesh(folder / "mesh.h5", file);
-  check_refused(run_on_two_ranks("modes -q -o " + out + testing::kCoarseNeck), 3, "base_plate");
+  check_refused(run_on_two_ranks("modes -q -o " + out + testing::kCoarseNeck), "base_plate", 3);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command as it is built.
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <catch2/catch.hpp>
 
@@ -10,11 +8,13 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/history_file.h"
 #include "pipeline/model/model_file.h"
+#include "tests/support/files.h"
+#include "tests/support/flexneck_command.h"
 #include "tests/support/model_text.h"
-#include "tests/support/run_command.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
+using testing::bytes_of;
 using testing::CommandOutcome;
 using testing::double_pendulum_text;
 using testing::with;
@@ -25,13 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 CommandOutcome simulate(const fs::path& model, const fs::path& out, const std::string& more = "") {
-  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck simulate " +
-                            model.string() + " --out " + out.string() + more);
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return testing::run_flexneck("simulate " + model.string() + " --out " + out.string() + more);
 }
 
 std::ptrdiff_t lines_in(const std::string& text) {
@@ -167,15 +161,14 @@ TEST_CASE("a model that is not sound ends in one line, exit code 2 and no file")
   check_refused("name = \"lower\"\nkind",
                 "name = \"lower\"\nposition = [\"1 m\", \"0 m\", \"0 m\"]\nkind",
                 "leave one of them out");
-  const CommandOutcome none =
-      testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck simulate 2>&1");
+  const CommandOutcome none = testing::run_flexneck("simulate");
   CHECK(none.exit_code == 2);
   CHECK_THAT(none.text, Contains("name one model"));
 }
 
 TEST_CASE("what a terminal would obey reaches it spelt out, in one line of bounded length") {
   const TemporaryFolder folder;
-  const std::string flexneck = std::string(FLEXNECK_BINARY_DIR) + "/flexneck ";
+  const std::string flexneck = testing::flexneck_program() + " ";
   const fs::path evil = folder / "a\x1b]0;title\a\nb.toml";
   const auto check_refused = [&](const std::string& line, const std::string& shown) {
     const CommandOutcome outcome = testing::run_shell(flexneck + line);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fstream>
-#include <iterator>
 
 #include <catch2/catch.hpp>
 
@@ -8,6 +6,7 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/simulated_output.h"
+#include "tests/support/files.h"
 #include "tests/support/model_text.h"
 
 using Catch::Matchers::Contains;
@@ -15,6 +14,7 @@ using namespace flexneck;
 using namespace flexneck::pipeline;
 using multibody::History;
 using multibody::HistoryFile;
+using testing::bytes_of;
 using testing::double_pendulum_text;
 
 namespace {
@@ -48,11 +48,6 @@ ModelFile model_in(const TemporaryFolder& folder, const std::string& channels) {
   const std::string fast =
       testing::with(double_pendulum_text(), "rate = \"300 deg/s\"", "rate = \"40 rad/s\"");
   return read_model_file(testing::write_text(folder / "swing.toml", fast + channels), {});
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 /// Runs a model whose outputs come in blocks.

@@ -11,21 +11,19 @@
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "tests/support/calculix.h"
-#include "tests/support/run_command.h"
+#include "tests/support/flexneck_command.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
+using testing::check_refused;
 using testing::CommandOutcome;
+using testing::run_flexneck;
 
 namespace {
 
 namespace fs = std::filesystem;
 
 const std::string kExamples = std::string(FLEXNECK_SOURCE_DIR) + "/geometry/examples/";
-
-CommandOutcome run_flexneck(const std::string& arguments) {
-  return testing::run_shell(std::string(FLEXNECK_BINARY_DIR) + "/flexneck " + arguments);
-}
 
 /// Runs a study into `folder`; whatever goes wrong fails the test with what was printed.
 void run_study(const std::string& study, const fs::path& folder, const std::string& more = "") {
@@ -68,12 +66,6 @@ name = "tip"
 position = ["0.5 m", "0 m", "0 m"]
 )";
   return (folder / "again.toml").string();
-}
-
-void check_refused(const CommandOutcome& outcome, const std::string& reason) {
-  INFO(outcome.text);
-  CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.text, Contains(reason));
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <iterator>
 
 #include <catch2/catch.hpp>
 
@@ -10,17 +9,14 @@
 #include "mesher/exchange/xdmf_writer.h"
 #include "tests/mesher/exchange/files.h"
 #include "tests/mesher/small_mesh.h"
+#include "tests/support/files.h"
 
 namespace flexneck::mesher {
 namespace {
 
 using Catch::Matchers::Contains;
+using testing::bytes_of;
 using testing::Files;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// The small mesh with a node set that is no face set, and with positions that no short text holds.
 Mesh awkward_mesh() {
@@ -116,9 +112,9 @@ TEST_CASE("an .inp gives the mesh back with its materials, positions to 13 digit
   std::erase_if(read.node_sets, [](const NodeSet& set) { return set.name == "boundary"; });
   std::erase_if(read.face_sets, [](const FaceSet& set) { return set.name == "boundary"; });
   check_same(read, mesh);
-  CHECK_THAT(text_of(options.file), Contains("TYPE=C3D20R,ELSET=lower") &&
-                                        Contains("TYPE=C3D20,ELSET=upper") &&
-                                        Contains("floor,1,3\n*STEP"));
+  CHECK_THAT(bytes_of(options.file), Contains("TYPE=C3D20R,ELSET=lower") &&
+                                         Contains("TYPE=C3D20,ELSET=upper") &&
+                                         Contains("floor,1,3\n*STEP"));
 }
 
 TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held") {
@@ -130,14 +126,14 @@ TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held"
   write_inp(files / "tied.inp", mesh, {});
   const std::string upper = std::to_string(a + 1);
   const std::string lower = std::to_string(a);
-  CHECK_THAT(text_of(files / "tied.inp"),
+  CHECK_THAT(bytes_of(files / "tied.inp"),
              Contains("*EQUATION\n2\n" + upper + ",3,1.," + lower + ",3,-1.\n"));
   mesh.node_sets.push_back({"top", {a - 1, a}});
   write_inp(files / "held.inp", mesh, {.reduced = {}, .held = {"top"}, .mode_count = 1});
-  CHECK_THAT(text_of(files / "held.inp"), !Contains("*EQUATION"));
+  CHECK_THAT(bytes_of(files / "held.inp"), !Contains("*EQUATION"));
   write_inp(files / "rollers.inp", mesh,
             {.reduced = {}, .held = {}, .held_directions = {{"top", {true, false, true}}}});
-  const std::string rollers = text_of(files / "rollers.inp");
+  const std::string rollers = bytes_of(files / "rollers.inp");
   CHECK_THAT(rollers, Contains("*EQUATION\n2\n" + upper + ",2,1.," + lower + ",2,-1.\n") &&
                           !Contains(upper + ",3,1.") && Contains("*BOUNDARY\ntop,1\ntop,3\n*STEP"));
   CHECK_THROWS_WITH(write_msh(files / "tied.msh", mesh, MshEncoding::text),
@@ -221,7 +217,7 @@ TEST_CASE("the XDMF names datasets that are there, of the extents it says") {
   file.partitions[2] = {1, 0};
   write_mesh(files / "mesh.h5", file);
   write_xdmf(files / "mesh.h5", file);
-  const std::string xdmf = text_of(files / "mesh.xdmf");
+  const std::string xdmf = bytes_of(files / "mesh.xdmf");
   const Hdf5Reader view(files / "mesh_view.h5", {"flexneck mesh view", 2, "flexneck mesh"});
   const Hdf5Reader mesh(files / "mesh.h5", kMeshFormat);
 

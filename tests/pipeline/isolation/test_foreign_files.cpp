@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Damaged files through the command: each of them crashes or hangs the library that reads it.
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <sys/stat.h>
 
@@ -13,20 +11,17 @@
 #include "mesher/exchange/mesh_import.h"
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/script_mesher.h"
-#include "tests/support/run_command.h"
+#include "tests/support/files.h"
+#include "tests/support/flexneck_command.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
+using testing::bytes_of;
 using testing::CommandOutcome;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 void write(const fs::path& path, const std::string& contents) {
   std::ofstream(path, std::ios::binary) << contents;
@@ -34,17 +29,14 @@ void write(const fs::path& path, const std::string& contents) {
 
 CommandOutcome run_flexneck(const fs::path& folder, const std::string& arguments) {
   return testing::run_shell("cd " + folder.string() + " && TMPDIR=" + folder.string() + " " +
-                            FLEXNECK_BINARY_DIR + "/flexneck -q " + arguments);
+                            testing::flexneck_program() + " -q " + arguments);
 }
 
 /// Exit code 2, one line, and nothing left in the folder for temporary files.
 void check_refused(const fs::path& folder, const std::string& arguments,
                    const std::string& reason) {
-  const CommandOutcome outcome = run_flexneck(folder, arguments);
-  INFO(arguments + ": " + outcome.text);
-  CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.text, Contains(reason));
-  CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
+  INFO(arguments);
+  testing::check_refused(run_flexneck(folder, arguments), reason);
   for (const auto& entry : fs::directory_iterator(folder))
     CHECK_FALSE(entry.path().filename().string().starts_with("flexneck-"));
 }
@@ -114,10 +106,10 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
     check_refused(folder.path(), "mesh study.toml", file + ": " + reason);
   };
   write_box(folder.path());
-  const std::string step = contents_of(folder / "box.step");
-  const std::string brep = contents_of(folder / "box.brep");
-  const std::string msh = contents_of(folder / "box.msh");
-  const std::string unv = contents_of(folder / "box.unv");
+  const std::string step = bytes_of(folder / "box.step");
+  const std::string brep = bytes_of(folder / "box.brep");
+  const std::string msh = bytes_of(folder / "box.msh");
+  const std::string unv = bytes_of(folder / "box.unv");
 
   // A line whose point is a vector.
   const std::size_t line = step.find("= LINE('',#");
@@ -150,7 +142,7 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
 TEST_CASE("what OpenCASCADE complains of while it makes a shape of it is a warning") {
   const TemporaryFolder folder;
   write_box(folder.path());
-  write(folder / "typo.step", with(contents_of(folder / "box.step"), "#1 = ", "#1 ? "));
+  write(folder / "typo.step", with(bytes_of(folder / "box.step"), "#1 = ", "#1 ? "));
   write_study(folder / "study.toml", "file = \"typo.step\"", "volume_1");
   const CommandOutcome outcome = run_flexneck(folder.path(), "mesh study.toml");
   CHECK(outcome.exit_code == 0);
@@ -204,7 +196,7 @@ TEST_CASE("an HDF5 file without a hash that crashes HDF5 is refused in one line"
   const fs::path files = fs::path(FLEXNECK_SOURCE_DIR) / "tests/golden/files/schema_1";
   // The length of the first text in the file, a byte of it raised.
   const auto damaged = [&](const std::string& name) {
-    std::string bytes = contents_of(files / name);
+    std::string bytes = bytes_of(files / name);
     const std::size_t heap = bytes.find("GCOL");
     REQUIRE(heap != std::string::npos);
     bytes.at(heap + 16 + 8 + 3) = 1;

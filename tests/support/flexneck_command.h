@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/run_command.h"
+
+namespace flexneck::testing {
+
+/// Path of the command that this build made.
+inline std::string flexneck_program() { return std::string(FLEXNECK_BINARY_DIR) + "/flexneck"; }
+
+inline CommandOutcome run_flexneck(const std::string& arguments) {
+  return run_shell(flexneck_program() + " " + arguments);
+}
+
+/// The command says why in one clear line and nothing else.
+/// @param reason part of that line
+inline void check_refused(const CommandOutcome& outcome, const std::string& reason,
+                          int exit_code = 2) {
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == exit_code);
+  CHECK_THAT(outcome.text, Catch::Matchers::Contains(reason));
+  CHECK(std::count(outcome.text.begin(), outcome.text.end(), '\n') == 1);
+}
+
+}  // namespace flexneck::testing
