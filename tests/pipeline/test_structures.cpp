@@ -125,10 +125,10 @@ TEST_CASE("a mesh comes back from its export with the same frequencies") {
     CHECK((frequencies_in(folder / "again") - before).cwiseQuotient(before).cwiseAbs().maxCoeff() <
           1e-10);
   }
-  check_refused(run_flexneck("export " + study + " -o " + out.string() + " --to " +
+  check_refused(run_flexneck("export -q " + study + " -o " + out.string() + " --to " +
                              (folder / "bar.inp").string()),
                 "no element of kind hex27");
-  check_refused(run_flexneck("export " + study + " -o " + out.string() + " --to bar.stl"),
+  check_refused(run_flexneck("export -q " + study + " -o " + out.string() + " --to bar.stl"),
                 "expected a file with the ending .msh");
 }
 
@@ -246,9 +246,10 @@ TEST_CASE("weight densities, free supports and decks without pressures are warne
   CHECK(weighed.exit_code == 0);
   CHECK_THAT(weighed.text, Contains("Warning: material 'aluminium': the density is 1.048e+06") &&
                                Contains("a weight density in lbf/in^3"));
-  check_refused(run_flexneck("mesh --set geometry.materials.aluminium.density='0.0975 lbf/in^3' " +
-                             kExamples + "cantilever.toml" + out),
-                "geometry.materials.aluminium.density");
+  check_refused(
+      run_flexneck("mesh -q --set geometry.materials.aluminium.density='0.0975 lbf/in^3' " +
+                   kExamples + "cantilever.toml" + out),
+      "geometry.materials.aluminium.density");
 }
 
 TEST_CASE(
@@ -276,7 +277,7 @@ TEST_CASE("a wrong unit is noticed, and wrong names are refused with near ones")
   CHECK(metres.exit_code == 0);
   CHECK_THAT(metres.text, Contains("Warning: the largest extent is 500 m; were millimetres"));
   CHECK_THAT(run_flexneck("mesh " + study).text, !Contains("Warning"));
-  check_refused(run_flexneck("modes --set 'modes.held=[\"clmp\"]' " + study),
+  check_refused(run_flexneck("modes -q --set 'modes.held=[\"clmp\"]' " + study),
                 "did you mean 'clamp'");
   std::ofstream(folder / "apart.geo") << R"(
 SetFactory("OpenCASCADE");
@@ -286,17 +287,17 @@ MeshSize {:} = 1;
 Physical Volume("bar") = {1, 2};
 )";
   check_refused(
-      run_flexneck("mesh --set geometry.script=" + (folder / "apart.geo").string() +
+      run_flexneck("mesh -q --set geometry.script=" + (folder / "apart.geo").string() +
                    " --set 'geometry.constants={}' " + kExamples + "cantilever.toml" + out),
       "nodes lie in the place of others");
-  check_refused(run_flexneck("mesh --set geometry.unit=kg " + study), "geometry.unit");
-  check_refused(run_flexneck("mesh --set geometry.file=cantilever.stl " + study),
+  check_refused(run_flexneck("mesh -q --set geometry.unit=kg " + study), "geometry.unit");
+  check_refused(run_flexneck("mesh -q --set geometry.file=cantilever.stl " + study),
                 "expected a file with one of the endings");
-  check_refused(run_flexneck("mesh --set geometry.file=part.step " + study),
+  check_refused(run_flexneck("mesh -q --set geometry.file=part.step " + study),
                 "a STEP file says its unit itself");
-  check_refused(run_flexneck("mesh --set geometry.script=a.geo " + study),
+  check_refused(run_flexneck("mesh -q --set geometry.script=a.geo " + study),
                 "expected file or script, found both");
-  check_refused(run_flexneck("mesh --set geometry.constants.lengh='1 m' " + kExamples +
+  check_refused(run_flexneck("mesh -q --set geometry.constants.lengh='1 m' " + kExamples +
                              "cantilever.toml" + out),
                 "did you mean 'length'");
 }
