@@ -49,7 +49,10 @@ std::map<std::string, std::string> declared_constants() {
   std::vector<std::string> names;
   gmsh::onelab::getNames(names);
   std::map<std::string, std::string> declared;
-  for (const std::string& name : names) declared[name.substr(name.rfind('/') + 1)] = name;
+  for (const std::string& name : names) {
+    const bool is_of_gmsh = name.starts_with("Gmsh/");  // what it tells of the model
+    if (!is_of_gmsh) declared[name.substr(name.rfind('/') + 1)] = name;
+  }
   return declared;
 }
 

@@ -17,8 +17,17 @@ races 1000 python3 -B tests/reliability/disturbed_runs.py races build/flexneck -
 kills 200 python3 -B tests/reliability/disturbed_runs.py kills build/flexneck --jobs 1 --seed $seed --runs $count --out $out
 full-disk 200 python3 -B tests/reliability/disturbed_runs.py full-disk build/flexneck --jobs 1 --seed $seed --runs $count --out $out
 fuzz 1000000 python3 tests/reliability/fuzz/fuzz.py --seed $seed --runs $count --out $out
+sanitize 1 run_under sanitize
+thread 20 run_under thread
 mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '
+
+# Runs the tests of a preset of sanitizers $count times.
+run_under() {
+  cmake --preset "$1" && cmake --build --preset "$1" &&
+    OMP_NUM_THREADS=1 ctest --preset "$1" --parallel "$(nproc)" --repeat "until-fail:$count" \
+      --output-log "$root/$out/log"
+}
 
 if [ $# -lt 1 ]; then
   echo "$campaigns" | awk 'NF { printf "%-20s %s\n", $1, $2 }'

@@ -145,7 +145,8 @@ TEST_CASE("a constant that the script does not declare is refused with the neare
   script.options.constants = {{"widht", 2}};
   CHECK_THROWS_AS(script.mesh(), InputError);
   CHECK_THROWS_WITH(script.mesh(), Contains("test.geo") && Contains("declared constant 'widht'") &&
-                                       Contains("did you mean 'width'"));
+                                       Contains("did you mean 'width'") &&
+                                       !Contains("Number of physical groups"));  // gmsh's own
   script.options.constants = {{"bare", 2}};  // has no Name: gmsh keeps it to itself
   CHECK_THROWS_WITH(script.mesh(), Contains("declared constant 'bare'"));
 }
