@@ -26,8 +26,8 @@ Json channels_json(const Experiment& experiment, Eigen::Index stride) {
     for (Eigen::Index row = 0; row < channel.values.rows(); ++row) {
       const bool is_one = channel.values.rows() == 1;
       const std::string& column = channel.columns[static_cast<std::size_t>(row)];
-      const Eigen::VectorXd values =
-          channel.values(row, Eigen::seq(0, channel.values.cols() - 1, stride)).transpose();
+      const Eigen::RowVectorXd values =
+          channel.values(row, Eigen::seq(0, channel.values.cols() - 1, stride));
       channels.push_back({{"name", is_one ? channel.name : channel.name + " " + column},
                           {"unit", channel.unit},
                           {"filter", channel.filter},
