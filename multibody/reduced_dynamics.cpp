@@ -78,14 +78,16 @@ ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& p
   assemble_rows_transposed(equations_, all_rows);
   MatrixXd rows = all_rows(Eigen::all, independent(equations_));
   const Eigen::LLT<MatrixXd> cholesky(M);
-  cholesky.matrixL().solveInPlace(rows);
-  Eigen::ColPivHouseholderQR<MatrixXd> factors;
-  if (rows.cols() > 0) factors.compute(rows);
   const Index free = M.rows() - rows.cols();
-  MatrixXd rest = MatrixXd::Zero(M.rows(), free);
-  rest.bottomRows(free).setIdentity();
-  if (rows.cols() > 0) rest.applyOnTheLeft(factors.householderQ());
-  N_ = cholesky.matrixU().solve(rest);
+  N_ = MatrixXd::Zero(M.rows(), free);
+  MN_ = N_;
+  if (free == 0) return;
+  N_.bottomRows(free).setIdentity();
+  if (rows.cols() > 0) {
+    cholesky.matrixL().solveInPlace(rows);
+    N_.applyOnTheLeft(Eigen::ColPivHouseholderQR<MatrixXd>(rows).householderQ());
+  }
+  cholesky.matrixU().solveInPlace(N_);
   MN_ = M * N_;
 }
 
