@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <vector>
 
-#include "fe_modal/memory_needs.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 

@@ -12,6 +12,10 @@
 
 namespace flexneck::fe_modal {
 
+/// An entry of a Cholesky factor takes this, with the zeros in its blocks and what its making
+/// needs besides.
+inline constexpr double kBytesPerFactorEntry = 10.4;
+
 /// What is said of a matrix that has no Cholesky factor.
 inline constexpr const char* kNotDefinite =
     "the stiffness matrix is not positive definite: a part of the body is not held, or elements "

@@ -6,7 +6,7 @@
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/eigensolver.h"
 #include "fe_modal/free_nodes.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/modal_options.h"
 #include "geometry/foundation/progress.h"
 #include "mesher/mesh/mesh.h"
 

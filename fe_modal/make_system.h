@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "fe_modal/free_nodes.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/modal_options.h"
 #include "fe_modal/modal_system.h"
 
 namespace flexneck::fe_modal {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "fe_modal/cholesky_factor.h"
 #include "geometry/foundation/available_memory.h"
 
 namespace flexneck::fe_modal {

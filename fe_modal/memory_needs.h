@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/modal_options.h"
 
 namespace flexneck::fe_modal {
-
-/// An entry of a Cholesky factor takes this, with the zeros in its blocks and what its making
-/// needs besides.
-inline constexpr double kBytesPerFactorEntry = 10.4;
 
 /// Bytes that an analysis takes, estimated before it starts. By measurements of necks: direct from
 /// 12 000 to 190 000 degrees of freedom, of 27-node and 20-node hexahedra, iterative to a million;

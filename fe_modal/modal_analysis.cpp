@@ -190,23 +190,6 @@ std::string boundary_of(const ModalOptions& options) {
 
 }  // namespace
 
-FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
-  std::vector<RigidTie> ties;
-  for (const InterfaceDefinition& interface : options.interfaces) {
-    if (!interface.is_rigid) continue;
-    ties.push_back({interface.name, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
-                    interface.position_m});
-  }
-  std::vector<HeldDirections> directions;
-  for (const auto& [set, is_held] : options.held_directions) {
-    directions.push_back({mesh.node_set(set).nodes, is_held});
-  }
-  return {mesh,
-          options.held_set.empty() ? std::vector<std::int32_t>{}
-                                   : mesh.node_set(options.held_set).nodes,
-          ties, directions};
-}
-
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                         const Progress& progress, StepTimes* step_times, const Progress& warn) {
   StepTimes unseen;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/modal_options.h"
 
 namespace flexneck::fe_modal {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/petsc_session.h"
+
 #include <cstdlib>
 #include <malloc.h>
 #include <map>
@@ -6,7 +8,6 @@
 
 #include <petscpkg_version.h>
 
-#include "fe_modal/modal_analysis.h"
 #include "fe_modal/petsc_handles.h"
 #include "geometry/foundation/error.h"
 

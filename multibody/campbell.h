@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "multibody/simulation.h"
+#include "multibody/linearisation.h"
 
 namespace flexneck::multibody {
 

@@ -7,11 +7,11 @@
 
 #include <Eigen/Core>
 
-#include "multibody/dormand_prince.h"
+#include "multibody/error_estimate.h"
 #include "multibody/driven_path.h"
 #include "multibody/forces/force_set.h"
 #include "multibody/recorder.h"
-#include "multibody/simulation.h"
+#include "multibody/solver_options.h"
 
 namespace flexneck::multibody {
 

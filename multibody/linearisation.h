@@ -5,9 +5,19 @@
 
 #include <Eigen/Core>
 
-#include "multibody/simulation.h"
+#include "multibody/model.h"
 
 namespace flexneck::multibody {
+
+/// One mode of the linearised system.
+struct SystemMode {
+  double frequency_Hz = 0;  ///< |lambda| / 2 pi, the undamped frequency
+  double damped_frequency_Hz = 0;
+  double damping_ratio = 0;
+  double growth_rate_1_s = 0;  ///< of an unstable one: its largest Re lambda; of others zero
+
+  bool is_unstable() const { return growth_rate_1_s > 0; }
+};
 
 /// Modes of xi'' + damping xi' + stiffness xi = 0, ascending in frequency: from each conjugate pair
 /// of eigenvalues lambda, f = |lambda| / 2 pi and zeta = -Re lambda / |lambda|. Real eigenvalues,
@@ -57,5 +67,12 @@ enum class LinearisedAt {
 /// @throws as simulate_from_equilibrium() or rotating_positions(); InputError if a model that is
 /// given in motion closes a loop.
 std::vector<ModeShape> linearise(const Model& model, LinearisedAt at);
+
+/// Small motions about that equilibrium, or about steady rotation where driven bodies turn (see
+/// LinearisedAt), ascending in frequency. An overdamped mode has a damping ratio of one or more and
+/// the damped frequency zero; a motion without restoring force has frequency zero. One that grows
+/// is unstable: with a frequency it swings, with frequency zero it moves away.
+/// @throws as linearise().
+std::vector<SystemMode> system_modes(const Model& model);
 
 }  // namespace flexneck::multibody

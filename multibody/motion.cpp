@@ -13,6 +13,7 @@
 #include "multibody/driven_path.h"
 #include "multibody/forces/force_set.h"
 #include "multibody/generalised_alpha.h"
+#include "multibody/incomplete_run.h"
 #include "multibody/recorder.h"
 
 namespace flexneck::multibody {

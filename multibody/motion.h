@@ -8,7 +8,8 @@
 #include "multibody/equations.h"
 #include "multibody/history.h"
 #include "multibody/model.h"
-#include "multibody/simulation.h"
+#include "multibody/output_options.h"
+#include "multibody/solver_options.h"
 #include "multibody/time_integrator.h"
 
 namespace flexneck::multibody {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "multibody/incomplete_run.h"
 #include "multibody/motion.h"
 #include "multibody/recorder.h"
 

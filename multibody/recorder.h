@@ -8,7 +8,7 @@
 #include "multibody/joint_check.h"
 #include "multibody/model.h"
 #include "multibody/motion_state.h"
-#include "multibody/simulation.h"
+#include "multibody/output_options.h"
 
 namespace flexneck::multibody {
 

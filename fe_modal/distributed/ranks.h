@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/petsc_session.h"
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::fe_modal {

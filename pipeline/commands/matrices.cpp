@@ -11,6 +11,7 @@
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/structure_options.h"
+#include "fe_modal/petsc_session.h"
 
 namespace flexneck::pipeline {
 

@@ -21,6 +21,7 @@
 #include "pipeline/commands/structure_options.h"
 #include "pipeline/commands/substructures.h"
 #include "pipeline/result_files.h"
+#include "fe_modal/petsc_session.h"
 
 namespace flexneck::pipeline {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/modal_options.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

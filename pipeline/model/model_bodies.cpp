@@ -5,7 +5,7 @@
 #include "geometry/foundation/names.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/result_files.h"
-#include "pipeline/study/sections.h"
+#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

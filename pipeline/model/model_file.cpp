@@ -7,7 +7,7 @@
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/start_check.h"
 #include "pipeline/output/channel_section.h"
-#include "pipeline/study/sections.h"
+#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

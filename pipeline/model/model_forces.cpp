@@ -3,7 +3,7 @@
 #include "geometry/foundation/names.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/resistance_law.h"
-#include "pipeline/study/sections.h"
+#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

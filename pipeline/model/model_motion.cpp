@@ -7,7 +7,7 @@
 #include "pipeline/model/expression.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/pulse.h"
-#include "pipeline/study/sections.h"
+#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

@@ -6,7 +6,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/model/model_sections.h"
-#include "pipeline/study/sections.h"
+#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

@@ -3,6 +3,7 @@
 #include "multibody/time_table.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/resistance_law.h"
+#include "pipeline/document/table_values.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {

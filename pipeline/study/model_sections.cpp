@@ -1,62 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
-
-#include "geometry/foundation/names.h"
+#include "pipeline/model/model_sections.h"
+#include "pipeline/document/table_values.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
-
-std::size_t choice(const StudyTable& table, const std::string& key,
-                   const std::vector<std::string>& names) {
-  const std::string name = table.text(key);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == name) return i;
-  }
-  std::string expected = "expected one of";
-  for (const std::string& each : names) expected += " \"" + each + "\"";
-  table.refuse(key, expected + ", found \"" + name + "\"" + did_you_mean(names, name));
-}
-
-std::size_t choice_or_first(const StudyTable& table, const std::string& key,
-                            const std::vector<std::string>& names) {
-  return table.text_or(key, names.front()) == names.front() ? 0 : choice(table, key, names);
-}
-
-Eigen::Vector3d unit_vector(const StudyTable& table, const std::string& key) {
-  const std::vector<double> numbers = table.numbers(key, 3);
-  const Eigen::Vector3d vector = Eigen::Map<const Eigen::Vector3d>(numbers.data());
-  if (!(vector.norm() > 0)) table.refuse(key, "expected a direction, found a vector of length 0");
-  return vector.normalized();
-}
-
-Eigen::Vector3d quantity_vector(const StudyTable& table, const std::string& key,
-                                const std::string& si_unit) {
-  const std::vector<double> values = table.quantities(key, si_unit, 3);
-  return Eigen::Map<const Eigen::Vector3d>(values.data());
-}
-
-namespace {
-
-/// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the
-/// first three: the products carry the tensor's sign, Ixz = -int x z dm.
-Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
-  std::vector<double> i = table.quantities(key, "kg*m^2", 0);
-  if (i.size() == 3) i.resize(6, 0);
-  if (i.size() != 6) {
-    table.refuse(key, "expected 3 entries (xx, yy, zz) or 6 (and xy, xz, yz), found " +
-                          std::to_string(i.size()));
-  }
-  Eigen::Matrix3d tensor;
-  tensor << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
-  return tensor;
-}
-
-}  // namespace
-
-multibody::RigidBody read_rigid(const StudyTable& body) {
-  return {body.quantity("mass", "kg"), quantity_vector(body, "center", "m"),
-          inertia(body, "inertia")};
-}
 
 BodySection read_body(const StudyTable& table) {
   BodySection body;

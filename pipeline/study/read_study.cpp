@@ -9,6 +9,8 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/document/table_values.h"
+#include "pipeline/model/model_sections.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
@@ -74,19 +76,6 @@ ModesSection read_modes(const StudyTable& table) {
   modes.attached_to = table.text_or("attached_to", "");
   table.finish();
   return modes;
-}
-
-void read_steps(const StudyTable& table, multibody::SolverOptions& options) {
-  options.relative_tolerance = table.number_or("relative_tolerance", options.relative_tolerance);
-  options.absolute_tolerance = table.number_or("absolute_tolerance", options.absolute_tolerance);
-  options.largest_step_s = table.quantity_or("largest_step", "s", options.largest_step_s);
-  options.smallest_step_s = table.quantity_or("smallest_step", "s", options.smallest_step_s);
-  if (!(options.relative_tolerance > 0) || !(options.absolute_tolerance > 0)) {
-    table.refuse("relative_tolerance", "expected positive tolerances");
-  }
-  if (!(options.smallest_step_s > 0) || !(options.largest_step_s > options.smallest_step_s)) {
-    table.refuse("largest_step", "expected 0 < smallest_step < largest_step");
-  }
 }
 
 void read_solver(const StudyTable& table, Study& study) {

@@ -36,19 +36,4 @@ HeadSpringSection read_head_spring(const StudyTable& spring, std::vector<InputFi
 std::vector<CaseSection> read_cases(const StudyTable& root);
 void read_solver(const StudyTable& solver, Study& study);
 
-/// One of the texts in `names`, as its position. @throws InputError with the nearest name.
-std::size_t choice(const StudyTable& table, const std::string& key,
-                   const std::vector<std::string>& names);
-/// The same; the first one where the key is not there.
-std::size_t choice_or_first(const StudyTable& table, const std::string& key,
-                            const std::vector<std::string>& names);
-Eigen::Vector3d unit_vector(const StudyTable& table, const std::string& key);
-/// Three quantities.
-Eigen::Vector3d quantity_vector(const StudyTable& table, const std::string& key,
-                                const std::string& si_unit);
-/// Mass, centre and inertia of a rigid body: the keys mass, center, inertia.
-multibody::RigidBody read_rigid(const StudyTable& body);
-/// Tolerances and steps; keys that are not there keep their values.
-void read_steps(const StudyTable& solver, multibody::SolverOptions& options);
-
 }  // namespace flexneck::pipeline

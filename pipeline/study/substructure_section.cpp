@@ -2,6 +2,7 @@
 #include "pipeline/study/substructure_section.h"
 
 #include "geometry/foundation/names.h"
+#include "pipeline/document/table_values.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {

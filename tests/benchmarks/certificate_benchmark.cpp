@@ -12,6 +12,7 @@
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
 #include "tests/support/neck_mesh.h"
+#include "fe_modal/petsc_session.h"
 
 namespace {
 

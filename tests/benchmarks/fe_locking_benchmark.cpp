@@ -17,6 +17,7 @@
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
+#include "fe_modal/petsc_session.h"
 
 namespace {
 

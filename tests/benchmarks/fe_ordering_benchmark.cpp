@@ -13,6 +13,7 @@
 #include "fe_modal/modal_analysis.h"
 #include "mesher/partition/node_order.h"
 #include "tests/support/neck_mesh.h"
+#include "fe_modal/petsc_session.h"
 
 namespace {
 

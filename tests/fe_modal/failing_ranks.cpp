@@ -10,6 +10,7 @@
 
 #include "fe_modal/distributed/ranks.h"
 #include "geometry/foundation/error.h"
+#include "fe_modal/petsc_session.h"
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <petscsys.h>
 
 #include "fe_modal/modal_analysis.h"
+#include "fe_modal/petsc_session.h"
 
 namespace {
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace flexneck::multibody {
+
+/// Which equations of motion a run solves. They agree to rounding; see README.md for the choice.
+enum class Formulation {
+  descriptor,  ///< all bodies' coordinates, joints as constraints with multipliers: any model
+  recursive,   ///< joint coordinates: trees of bodies, work in proportion to their number
+  automatic    ///< recursive where the joints make trees, else descriptor
+};
+
+/// How a run steps through time.
+enum class Integrator {
+  dormand_prince,    ///< explicit, order 5: for most models
+  generalised_alpha  ///< implicit, order 2: for stiff ones, whose fast vibrations do not matter
+};
+
+struct SolverOptions {
+  double relative_tolerance = 1e-6;
+  double absolute_tolerance = 1e-9;
+  double largest_step_s = 0.05;
+  double smallest_step_s = 1e-10;
+  Formulation formulation = Formulation::automatic;
+  int most_steps = 10'000'000;  ///< tried; a run that needs more is given up
+  Integrator integrator = Integrator::dormand_prince;
+  /// Of the generalised-alpha method, in [0, 1]: by what a step multiplies vibrations that it does
+  /// not resolve.
+  double spectral_radius = 0.8;
+};
+
+}  // namespace flexneck::multibody

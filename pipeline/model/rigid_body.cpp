@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/document/table_values.h"
+#include "pipeline/model/model_sections.h"
+
+namespace flexneck::pipeline {
+namespace {
+
+/// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the
+/// first three: the products carry the tensor's sign, Ixz = -int x z dm.
+Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
+  std::vector<double> i = table.quantities(key, "kg*m^2", 0);
+  if (i.size() == 3) i.resize(6, 0);
+  if (i.size() != 6) {
+    table.refuse(key, "expected 3 entries (xx, yy, zz) or 6 (and xy, xz, yz), found " +
+                          std::to_string(i.size()));
+  }
+  Eigen::Matrix3d tensor;
+  tensor << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  return tensor;
+}
+
+}  // namespace
+
+multibody::RigidBody read_rigid(const StudyTable& body) {
+  return {body.quantity("mass", "kg"), quantity_vector(body, "center", "m"),
+          inertia(body, "inertia")};
+}
+
+}  // namespace flexneck::pipeline
