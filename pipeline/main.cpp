@@ -12,15 +12,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "fe_modal/distributed/ranks.h"
+#include "fe_modal/solve/distributed/ranks.h"
 #include "geometry/foundation/atomic_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/signal_cleanup.h"
-#include "pipeline/child_tasks.h"
+#include "pipeline/commands/child_tasks.h"
 #include "pipeline/commands/commands.h"
-#include "pipeline/folder_lock.h"
+#include "pipeline/folder/folder_lock.h"
 #include "pipeline/version.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/exchange/exported_matrices.h"
 
-#include "fe_modal/assembly.h"
+#include "fe_modal/system/assembly.h"
 
 namespace flexneck::fe_modal {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/element/formulation.h"
 #include "fe_modal/exchange/imported_body.h"
-#include "fe_modal/formulation.h"
-#include "fe_modal/free_nodes.h"
 
 namespace flexneck::fe_modal {
 

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "fe_modal/cholesky_factor.h"
-#include "fe_modal/completeness.h"
-#include "fe_modal/eigensolver.h"
-#include "fe_modal/inertia.h"
-#include "fe_modal/invariants.h"
-#include "fe_modal/mode_conventions.h"
-#include "fe_modal/mode_naming.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/reduction/invariants.h"
+#include "fe_modal/reduction/mode_conventions.h"
+#include "fe_modal/reduction/mode_naming.h"
+#include "fe_modal/solve/completeness.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/solve/inertia.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fe_modal/algebra/nodal_mass.h"
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/exchange/matrix_file.h"
-#include "fe_modal/nodal_mass.h"
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::fe_modal {

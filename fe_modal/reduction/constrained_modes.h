@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/operator_matrix.h"
+#include "fe_modal/algebra/operator_matrix.h"
 
 namespace flexneck::fe_modal {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "fe_modal/element_fields.h"
-#include "fe_modal/matrix_product.h"
+#include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/element/element_fields.h"
 #include "fe_modal/reduction/static_response.h"
 
 namespace flexneck::fe_modal {

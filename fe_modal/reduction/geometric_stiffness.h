@@ -6,11 +6,11 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/formulation.h"
-#include "fe_modal/free_nodes.h"
-#include "fe_modal/mass_matrix.h"
+#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/element/formulation.h"
 #include "fe_modal/reduction/operators.h"
 #include "fe_modal/reduction/reduction.h"
+#include "fe_modal/system/mass_matrix.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {

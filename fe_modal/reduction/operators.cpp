@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/reduction/operators.h"
 
-#include "fe_modal/block_product.h"
+#include "fe_modal/algebra/block_product.h"
 
 namespace flexneck::fe_modal {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fe_modal/block_product.h"
-#include "fe_modal/modal_system.h"
-#include "fe_modal/shift_inverse.h"
+#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/system/modal_system.h"
 
 namespace flexneck::fe_modal {
 

@@ -9,10 +9,10 @@
 
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/eigensolver.h"
-#include "fe_modal/free_nodes.h"
+#include "fe_modal/dofs/free_nodes.h"
 #include "fe_modal/reduction/operators.h"
-#include "fe_modal/rigid_average.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::fe_modal {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/eigensolver.h"
 #include "fe_modal/reduction/operators.h"
+#include "fe_modal/solve/eigensolver.h"
 
 namespace flexneck::fe_modal {
 

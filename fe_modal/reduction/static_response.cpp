@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/reduction/static_response.h"
 
-#include "fe_modal/conjugate_gradients.h"
+#include "fe_modal/algebra/conjugate_gradients.h"
 
 namespace flexneck::fe_modal {
 namespace {

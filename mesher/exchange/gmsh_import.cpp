@@ -8,9 +8,9 @@
 #include <gmsh.h>
 
 #include "geometry/foundation/error.h"
-#include "mesher/gmsh_groups.h"
-#include "mesher/gmsh_session.h"
-#include "mesher/gmsh_take_over.h"
+#include "mesher/gmsh/gmsh_groups.h"
+#include "mesher/gmsh/gmsh_session.h"
+#include "mesher/gmsh/gmsh_take_over.h"
 
 namespace flexneck::mesher {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
-#include "mesher/gmsh_groups.h"
+#include "mesher/gmsh/gmsh_groups.h"
 #include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::mesher {

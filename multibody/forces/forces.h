@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "multibody/forces/resistance.h"
-#include "multibody/time_table.h"
+#include "multibody/numerics/time_table.h"
 
 namespace flexneck::multibody {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/tree/body_inertia.h"
 
-#include "multibody/rotation.h"
+#include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody::tree {
 namespace {

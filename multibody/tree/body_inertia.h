@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "multibody/modal_springs.h"
-#include "multibody/model.h"
-#include "multibody/stress_stiffening.h"
+#include "multibody/model/modal_springs.h"
+#include "multibody/model/model.h"
+#include "multibody/model/stress_stiffening.h"
 
 namespace flexneck::multibody::tree {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "multibody/joint_check.h"
-#include "multibody/model.h"
-#include "multibody/motion_state.h"
+#include "multibody/model/joint_check.h"
+#include "multibody/model/model.h"
+#include "multibody/model/motion_state.h"
 
 namespace flexneck::multibody::tree {
 

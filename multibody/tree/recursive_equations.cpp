@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include "multibody/equations.h"
-#include "multibody/joint_check.h"
+#include "multibody/equations/equations.h"
+#include "multibody/model/joint_check.h"
 #include "multibody/tree/marker_residual.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_error.h"

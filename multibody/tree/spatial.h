@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "multibody/rotation.h"
+#include "multibody/numerics/rotation.h"
 #include "multibody/tree/body_inertia.h"
 #include "multibody/tree/tree_node.h"
 

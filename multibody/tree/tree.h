@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "multibody/driven_path.h"
-#include "multibody/model.h"
+#include "multibody/model/driven_path.h"
+#include "multibody/model/model.h"
 #include "multibody/tree/body_inertia.h"
 #include "multibody/tree/tree_joint.h"
 #include "multibody/tree/tree_node.h"

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "multibody/forces/force_set.h"
-#include "multibody/motion_state.h"
+#include "multibody/equations/force_set.h"
+#include "multibody/model/motion_state.h"
 #include "multibody/tree/tree.h"
 
 namespace flexneck::multibody::tree {

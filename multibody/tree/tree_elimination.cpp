@@ -2,7 +2,7 @@
 // The recursion's way inwards: modes and joints are eliminated body by body.
 #include <cmath>
 
-#include "multibody/cholesky.h"
+#include "multibody/numerics/cholesky.h"
 #include "multibody/tree/spatial.h"
 #include "multibody/tree/tree_dynamics.h"
 

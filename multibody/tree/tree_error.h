@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "multibody/error_estimate.h"
+#include "multibody/numerics/error_estimate.h"
 #include "multibody/tree/tree.h"
 
 namespace flexneck::multibody::tree {

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/foundation/error.h"
-#include "multibody/rotation.h"
+#include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody::tree {
 namespace {

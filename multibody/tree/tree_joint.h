@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 #include "multibody/tree/body_inertia.h"
 
 namespace flexneck::multibody::tree {

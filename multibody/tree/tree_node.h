@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "multibody/model.h"
-#include "multibody/stress_stiffening.h"
+#include "multibody/model/model.h"
+#include "multibody/model/stress_stiffening.h"
 
 namespace flexneck::multibody::tree {
 

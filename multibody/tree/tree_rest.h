@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "multibody/rest.h"
+#include "multibody/numerics/rest.h"
 #include "multibody/tree/tree_dynamics.h"
 
 namespace flexneck::multibody::tree {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "multibody/joint_check.h"
-#include "multibody/rotation.h"
+#include "multibody/model/joint_check.h"
+#include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody::tree {
 namespace {

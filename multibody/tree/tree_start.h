@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "multibody/motion_state.h"
+#include "multibody/model/motion_state.h"
 #include "multibody/tree/tree.h"
 
 namespace flexneck::multibody::tree {

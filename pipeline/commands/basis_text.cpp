@@ -7,7 +7,7 @@
 
 #include "fe_modal/body/basis_table.h"
 #include "fe_modal/body/mode_count_study.h"
-#include "pipeline/text_table.h"
+#include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
 

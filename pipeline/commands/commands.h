@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipeline/commands/file_commands.h"
-#include "pipeline/console.h"
-#include "pipeline/results_folder.h"
+#include "pipeline/console/console.h"
+#include "pipeline/folder/results_folder.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::fe_modal {

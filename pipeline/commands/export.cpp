@@ -9,7 +9,7 @@
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/structure_options.h"
-#include "pipeline/result_files.h"
+#include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {
 

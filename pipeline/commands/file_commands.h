@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/console.h"
-#include "pipeline/results_folder.h"
+#include "pipeline/console/console.h"
+#include "pipeline/folder/results_folder.h"
 
 namespace flexneck::pipeline {
 

@@ -9,10 +9,10 @@
 #include "pipeline/commands/file_commands.h"
 #include "pipeline/commands/mesh_result.h"
 #include "pipeline/commands/mode_table.h"
+#include "pipeline/console/text_table.h"
+#include "pipeline/isolation/result_files.h"
 #include "pipeline/output/result_table.h"
 #include "pipeline/output/summary.h"
-#include "pipeline/result_files.h"
-#include "pipeline/text_table.h"
 #include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {

@@ -9,12 +9,12 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/regular_file.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "geometry/neck_measures.h"
+#include "geometry/neck/neck_measures.h"
 #include "mesher/exchange/import_check.h"
 #include "mesher/exchange/mesh_import.h"
 #include "mesher/exchange/outside_file.h"
+#include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/mesh_file.h"
-#include "mesher/script_mesher.h"
 
 namespace flexneck::pipeline {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/mesh/mesh.h"
-#include "pipeline/console.h"
+#include "pipeline/console/console.h"
 #include "pipeline/isolation/isolated_task.h"
 #include "pipeline/study/study.h"
 

@@ -5,13 +5,13 @@
 
 #include <fmt/core.h>
 
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/modal_body_file.h"
 #include "fe_modal/exchange/exported_matrices.h"
-#include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/structure_options.h"
-#include "fe_modal/petsc_session.h"
 
 namespace flexneck::pipeline {
 

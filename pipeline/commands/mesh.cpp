@@ -9,7 +9,7 @@
 
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
-#include "geometry/neck_measures.h"
+#include "geometry/neck/neck_measures.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/make_mesh.h"
 #include "pipeline/commands/mesh_result.h"

@@ -5,12 +5,12 @@
 
 #include "geometry/plausibility.h"
 #include "mesher/exchange/xdmf_writer.h"
+#include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/partition/element_partition.h"
 #include "mesher/partition/node_order.h"
-#include "mesher/script_mesher.h"
-#include "pipeline/text_table.h"
+#include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "pipeline/text_table.h"
+#include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
 

@@ -4,11 +4,12 @@
 
 #include <fmt/core.h>
 
-#include "fe_modal/distributed/ranks.h"
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/element/rounding.h"
 #include "fe_modal/exchange/modes_xdmf.h"
-#include "fe_modal/memory_needs.h"
-#include "fe_modal/modal_analysis.h"
-#include "fe_modal/rounding.h"
+#include "fe_modal/solve/distributed/ranks.h"
+#include "fe_modal/system/memory_needs.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -20,8 +21,7 @@
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/structure_options.h"
 #include "pipeline/commands/substructures.h"
-#include "pipeline/result_files.h"
-#include "fe_modal/petsc_session.h"
+#include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {
 

@@ -6,8 +6,8 @@
 #include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/experiments/pulse_tables.h"
 #include "pipeline/experiments/variant_tables.h"
+#include "pipeline/isolation/result_files.h"
 #include "pipeline/output/csv_output.h"
-#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 

@@ -7,9 +7,9 @@
 #include <thread>
 #include <utility>
 
+#include "pipeline/isolation/result_files.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/customary_units.h"
-#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 

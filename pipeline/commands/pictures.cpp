@@ -7,7 +7,7 @@
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "pipeline/commands/commands.h"
-#include "pipeline/result_files.h"
+#include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {
 

@@ -7,9 +7,9 @@
 #include "geometry/foundation/step_times.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
+#include "pipeline/console/text_table.h"
+#include "pipeline/folder/stages.h"
 #include "pipeline/output/result_table.h"
-#include "pipeline/stages.h"
-#include "pipeline/text_table.h"
 #include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {

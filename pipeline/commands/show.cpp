@@ -6,11 +6,11 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
-#include "geometry/neck_drawing.h"
-#include "geometry/neck_measures.h"
+#include "geometry/neck/neck_drawing.h"
+#include "geometry/neck/neck_measures.h"
 #include "geometry/plausibility.h"
 #include "pipeline/commands/commands.h"
-#include "pipeline/text_table.h"
+#include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
 

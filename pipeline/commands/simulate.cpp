@@ -3,14 +3,14 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "multibody/campbell.h"
-#include "multibody/recorder.h"
-#include "multibody/steady_rotation.h"
+#include "multibody/analysis/campbell.h"
+#include "multibody/analysis/steady_rotation.h"
+#include "multibody/history/recorder.h"
 #include "pipeline/commands/file_commands.h"
+#include "pipeline/folder/results_folder.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/campbell_output.h"
 #include "pipeline/output/simulated_output.h"
-#include "pipeline/results_folder.h"
 
 namespace flexneck::pipeline {
 

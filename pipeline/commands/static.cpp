@@ -6,9 +6,9 @@
 #include "pipeline/experiments/static_chain.h"
 #include "pipeline/experiments/static_tables.h"
 #include "pipeline/experiments/static_test.h"
+#include "pipeline/isolation/result_files.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/customary_units.h"
-#include "pipeline/result_files.h"
 
 namespace flexneck::pipeline {
 

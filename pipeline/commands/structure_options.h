@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fe_modal/modal_options.h"
+#include "fe_modal/system/modal_options.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

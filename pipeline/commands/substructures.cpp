@@ -10,7 +10,7 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "pipeline/text_table.h"
+#include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fe_modal/modal_options.h"
+#include "fe_modal/system/modal_options.h"
 #include "mesher/mesh/pieces.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/study/substructure_section.h"

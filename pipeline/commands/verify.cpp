@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/commands.h"
-#include "pipeline/result_files.h"
+#include "pipeline/isolation/result_files.h"
 #include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {

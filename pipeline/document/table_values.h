@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/study/study_document.h"
+#include "pipeline/document/study_document.h"
 
 namespace flexneck::pipeline {
 

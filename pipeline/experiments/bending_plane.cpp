@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "multibody/load_cell.h"
+#include "multibody/signals/load_cell.h"
 
 namespace flexneck::pipeline {
 

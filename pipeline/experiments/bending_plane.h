@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "multibody/history.h"
+#include "multibody/history/history.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fe_modal/body/modal_body.h"
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "multibody/history.h"
-#include "multibody/model.h"
+#include "multibody/history/history.h"
+#include "multibody/model/model.h"
 
 namespace flexneck::pipeline {
 

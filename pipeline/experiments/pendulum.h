@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "multibody/history.h"
-#include "multibody/history_file.h"
-#include "multibody/response.h"
-#include "multibody/simulation.h"
+#include "multibody/files/history_file.h"
+#include "multibody/history/history.h"
+#include "multibody/signals/response.h"
+#include "multibody/simulation/simulation.h"
 #include "pipeline/model/pulse.h"
 #include "pipeline/study/study.h"
 

@@ -6,10 +6,10 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "multibody/load_cell.h"
+#include "multibody/signals/load_cell.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/joint_load.h"
-#include "pipeline/output/channel.h"
+#include "pipeline/model/channel.h"
 
 namespace flexneck::pipeline {
 

@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "multibody/cfc_filter.h"
-#include "multibody/history.h"
-#include "multibody/history_file.h"
-#include "multibody/model.h"
+#include "multibody/files/history_file.h"
+#include "multibody/history/history.h"
+#include "multibody/model/model.h"
+#include "multibody/signals/cfc_filter.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 #include "pipeline/experiments/pendulum_tables.h"
 
 namespace flexneck::pipeline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "multibody/history_arrays.h"
+#include "multibody/history/history_arrays.h"
 
 namespace flexneck::pipeline {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "multibody/history.h"
+#include "multibody/history/history.h"
 
 namespace flexneck::pipeline {
 

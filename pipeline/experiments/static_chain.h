@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fe_modal/body/modal_body.h"
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

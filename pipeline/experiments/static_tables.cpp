@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
-#include "multibody/time_table.h"
+#include "multibody/numerics/time_table.h"
 
 namespace flexneck::pipeline {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/experiments/static_test.h"
 
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "multibody/history.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
+#include "multibody/history/history.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {

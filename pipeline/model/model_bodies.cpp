@@ -3,9 +3,9 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "pipeline/model/model_sections.h"
-#include "pipeline/result_files.h"
 #include "pipeline/document/table_values.h"
+#include "pipeline/isolation/result_files.h"
+#include "pipeline/model/model_sections.h"
 
 namespace flexneck::pipeline {
 

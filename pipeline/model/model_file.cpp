@@ -3,11 +3,11 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/document/table_values.h"
+#include "pipeline/model/channel_section.h"
 #include "pipeline/model/model_check.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/start_check.h"
-#include "pipeline/output/channel_section.h"
-#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "geometry/foundation/provenance.h"
-#include "multibody/linearisation.h"
-#include "multibody/model.h"
-#include "multibody/simulation.h"
-#include "pipeline/output/channel.h"
+#include "multibody/analysis/linearisation.h"
+#include "multibody/model/model.h"
+#include "multibody/simulation/simulation.h"
+#include "pipeline/model/channel.h"
 
 namespace flexneck::pipeline {
 

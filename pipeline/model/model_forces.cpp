@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/document/table_values.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/resistance_law.h"
-#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "pipeline/document/table_values.h"
 #include "pipeline/model/expression.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/pulse.h"
-#include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "multibody/model.h"
-#include "multibody/solver_options.h"
+#include "multibody/equations/solver_options.h"
+#include "multibody/model/model.h"
+#include "pipeline/document/study_document.h"
 #include "pipeline/model/csv_table.h"
 #include "pipeline/model/placement.h"
-#include "pipeline/study/study_document.h"
 
 namespace flexneck::pipeline {
 

@@ -2,8 +2,8 @@
 #include "pipeline/model/placement.h"
 
 #include "geometry/foundation/error.h"
-#include "multibody/driven_path.h"
-#include "multibody/rotation.h"
+#include "multibody/model/driven_path.h"
+#include "multibody/numerics/rotation.h"
 
 namespace flexneck::pipeline {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 
 namespace flexneck::pipeline {
 

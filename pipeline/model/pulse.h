@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "multibody/time_table.h"
+#include "multibody/numerics/time_table.h"
 
 namespace flexneck::pipeline {
 

@@ -6,7 +6,7 @@
 
 #include "geometry/foundation/provenance.h"
 #include "multibody/forces/resistance.h"
-#include "pipeline/study/study_document.h"
+#include "pipeline/document/study_document.h"
 
 namespace flexneck::pipeline {
 

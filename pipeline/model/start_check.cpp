@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "multibody/rotation.h"
+#include "multibody/numerics/rotation.h"
 
 namespace flexneck::pipeline {
 

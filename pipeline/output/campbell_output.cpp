@@ -10,9 +10,9 @@
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/output/csv_output.h"
-#include "pipeline/report/embedding.h"
-#include "pipeline/report/figures/curve_figure.h"
-#include "pipeline/report/figures/gnuplot.h"
+#include "pipeline/plotting/curve_figure.h"
+#include "pipeline/plotting/embedding.h"
+#include "pipeline/plotting/gnuplot.h"
 
 namespace flexneck::pipeline {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "multibody/campbell.h"
+#include "multibody/analysis/campbell.h"
 
 namespace flexneck::pipeline {
 

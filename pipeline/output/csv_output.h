@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "geometry/foundation/output_file.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 
 namespace flexneck::pipeline {
 

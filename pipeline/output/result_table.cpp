@@ -8,8 +8,8 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
+#include "pipeline/console/text_table.h"
 #include "pipeline/output/provenance_json.h"
-#include "pipeline/text_table.h"
 
 namespace flexneck::pipeline {
 

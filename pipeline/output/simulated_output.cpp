@@ -6,8 +6,8 @@
 
 #include "geometry/foundation/available_disk.h"
 #include "geometry/foundation/available_memory.h"
-#include "multibody/history_arrays.h"
-#include "pipeline/results_folder.h"
+#include "multibody/history/history_arrays.h"
+#include "pipeline/folder/results_folder.h"
 
 namespace flexneck::pipeline {
 

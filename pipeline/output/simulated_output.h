@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "multibody/history_writer.h"
+#include "multibody/files/history_writer.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/summary.h"

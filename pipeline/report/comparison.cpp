@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/output_file.h"
+#include "pipeline/plotting/embedding.h"
 #include "pipeline/report/curves.h"
-#include "pipeline/report/embedding.h"
 #include "pipeline/report/html_table.h"
 #include "pipeline/report/page_sections.h"
 #include "pipeline/report/web_library.h"

@@ -5,7 +5,7 @@
 
 #include "geometry/foundation/units.h"
 #include "pipeline/output/customary_units.h"
-#include "pipeline/report/embedding.h"
+#include "pipeline/plotting/embedding.h"
 
 namespace flexneck::pipeline {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/report/html_table.h"
 
-#include "pipeline/report/embedding.h"
+#include "pipeline/plotting/embedding.h"
 
 namespace flexneck::pipeline {
 

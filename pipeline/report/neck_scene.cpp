@@ -11,7 +11,7 @@
 
 #include "geometry/foundation/names.h"
 #include "mesher/drawing/outer_surface.h"
-#include "pipeline/report/embedding.h"
+#include "pipeline/plotting/embedding.h"
 #include "pipeline/report/head_shape.h"
 
 namespace flexneck::pipeline {

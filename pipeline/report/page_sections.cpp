@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "pipeline/report/embedding.h"
+#include "pipeline/plotting/embedding.h"
 
 namespace flexneck::pipeline {
 

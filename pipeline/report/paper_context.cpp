@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "multibody/time_table.h"
+#include "multibody/numerics/time_table.h"
+#include "pipeline/document/study_document.h"
 #include "pipeline/study/origins.h"
-#include "pipeline/study/study_document.h"
 
 namespace flexneck::pipeline {
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/output_file.h"
+#include "pipeline/plotting/embedding.h"
 #include "pipeline/report/curves.h"
-#include "pipeline/report/embedding.h"
 #include "pipeline/report/figures/figures.h"
 #include "pipeline/report/neck_scene.h"
 #include "pipeline/report/page_sections.h"

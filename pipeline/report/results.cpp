@@ -10,8 +10,8 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
-#include "pipeline/result_files.h"
-#include "pipeline/results_folder.h"
+#include "pipeline/folder/results_folder.h"
+#include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {
 

@@ -8,7 +8,7 @@
 
 #include "fe_modal/body/modal_body_file.h"
 #include "mesher/mesh/mesh_file.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 #include "pipeline/output/result_table.h"
 #include "pipeline/study/study.h"
 #include "pipeline/verification/verification.h"

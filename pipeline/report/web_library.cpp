@@ -6,7 +6,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
-#include "pipeline/report/embedding.h"
+#include "pipeline/plotting/embedding.h"
 
 namespace flexneck::pipeline {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/model/model_sections.h"
+
 #include "pipeline/document/table_values.h"
 #include "pipeline/study/sections.h"
 

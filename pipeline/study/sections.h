@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "pipeline/document/study_document.h"
 #include "pipeline/study/study.h"
-#include "pipeline/study/study_document.h"
 
 namespace flexneck::pipeline {
 

@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/formulation.h"
+#include "fe_modal/element/formulation.h"
 #include "mesher/exchange/mesh_import.h"
-#include "mesher/script_mesher.h"
+#include "mesher/gmsh/script_mesher.h"
 
 namespace flexneck::pipeline {
 

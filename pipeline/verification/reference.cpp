@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/verification/reference.h"
 
+#include "pipeline/document/study_document.h"
 #include "pipeline/study/origins.h"
-#include "pipeline/study/study_document.h"
 
 namespace flexneck::pipeline {
 

@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
-#include "pipeline/text_table.h"
+#include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
 

@@ -7,12 +7,12 @@
 #include <exception>
 #include <string>
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/modal_analysis.h"
 #include "mesher/mesh/refinement.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
 #include "tests/support/neck_mesh.h"
-#include "fe_modal/petsc_session.h"
 
 namespace {
 

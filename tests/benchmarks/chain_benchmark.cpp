@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "multibody/equations.h"
-#include "multibody/simulation.h"
+#include "multibody/equations/equations.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/benchmarks/chain_models.h"
 #include "tests/benchmarks/simbody_chain.h"
 #include "tests/benchmarks/timing.h"

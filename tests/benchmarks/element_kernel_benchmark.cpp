@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/element_kernel.h"
-#include "fe_modal/matrix_product.h"
+#include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/element/element_kernel.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/benchmarks/timing.h"

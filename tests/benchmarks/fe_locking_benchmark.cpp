@@ -8,16 +8,16 @@
 #include <numbers>
 #include <string>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/cholesky_factor.h"
-#include "fe_modal/eigensolver.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "mesher/partition/node_order.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
-#include "fe_modal/petsc_session.h"
 
 namespace {
 

@@ -8,12 +8,12 @@
 #include <exception>
 #include <vector>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/cholesky_factor.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/system/assembly.h"
 #include "mesher/partition/node_order.h"
 #include "tests/support/neck_mesh.h"
-#include "fe_modal/petsc_session.h"
 
 namespace {
 

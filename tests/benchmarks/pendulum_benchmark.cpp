@@ -7,8 +7,8 @@
 #include <ctime>
 #include <vector>
 
-#include "multibody/batch.h"
-#include "multibody/simulation.h"
+#include "multibody/simulation/batch.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/benchmarks/timing.h"
 #include "tests/support/test_models.h"
 

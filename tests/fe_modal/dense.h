@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/petsc_handles.h"
+#include "fe_modal/algebra/petsc_handles.h"
 
 namespace flexneck::fe_modal {
 

@@ -8,9 +8,9 @@
 
 #include <slepceps.h>
 
-#include "fe_modal/distributed/ranks.h"
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/solve/distributed/ranks.h"
 #include "geometry/foundation/error.h"
-#include "fe_modal/petsc_session.h"
 
 namespace {
 

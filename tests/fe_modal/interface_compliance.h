@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/assembly.h"
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/rigid_average.h"
+#include "fe_modal/system/assembly.h"
+#include "fe_modal/system/rigid_average.h"
 
 namespace flexneck::fe_modal {
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
+#include "fe_modal/algebra/petsc_session.h"
+
 #include <cstdlib>
 #include <optional>
 
 #include <catch2/catch.hpp>
 #include <petscsys.h>
 
-#include "fe_modal/modal_analysis.h"
-#include "fe_modal/petsc_session.h"
+#include "fe_modal/analysis/modal_analysis.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
+#include "fe_modal/system/assembly.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 

@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/attached_mass.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/solve/attached_mass.h"
+#include "fe_modal/system/assembly.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"

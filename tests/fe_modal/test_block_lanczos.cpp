@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/block_lanczos.h"
+#include "fe_modal/solve/block_lanczos.h"
 #include "tests/support/dense_solvers.h"
 
 namespace flexneck::fe_modal {

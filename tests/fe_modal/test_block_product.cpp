@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/block_product.h"
-#include "fe_modal/operator_matrix.h"
+#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/operator_matrix.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/cholesky_factor.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/system/assembly.h"
 #include "mesher/partition/node_order.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"

@@ -4,9 +4,9 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/iterative/coarse_space.h"
-#include "fe_modal/iterative/interface_pieces.h"
+#include "fe_modal/solve/iterative/coarse_space.h"
+#include "fe_modal/solve/iterative/interface_pieces.h"
+#include "fe_modal/system/assembly.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 

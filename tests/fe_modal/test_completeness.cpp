@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/completeness.h"
-#include "fe_modal/inertia.h"
-#include "fe_modal/local_system.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/solve/completeness.h"
+#include "fe_modal/solve/inertia.h"
+#include "fe_modal/solve/local_system.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"

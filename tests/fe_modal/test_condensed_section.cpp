@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/condensed_section.h"
-#include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/pieces.h"
 #include "tests/support/block_mesh.h"

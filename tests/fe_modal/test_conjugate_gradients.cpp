@@ -5,7 +5,7 @@
 #include <Eigen/QR>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/conjugate_gradients.h"
+#include "fe_modal/algebra/conjugate_gradients.h"
 
 namespace flexneck::fe_modal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
 #include "mesher/mesh/refinement.h"
 #include "tests/support/block_mesh.h"
 

@@ -5,10 +5,10 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/cholesky_factor.h"
-#include "fe_modal/eigensolver.h"
-#include "mesher/slits.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/assembly.h"
+#include "mesher/slits/slits.h"
 #include "tests/support/block_mesh.h"
 
 namespace flexneck::fe_modal {

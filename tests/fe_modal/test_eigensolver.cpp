@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/cholesky_factor.h"
-#include "fe_modal/eigensolver.h"
-#include "fe_modal/operator_matrix.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/operator_matrix.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"

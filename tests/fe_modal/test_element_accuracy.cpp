@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/cholesky_factor.h"
-#include "fe_modal/eigensolver.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/assembly.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
 

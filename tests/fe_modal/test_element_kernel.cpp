@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/element_kernel.h"
+#include "fe_modal/element/element_kernel.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/support/block_mesh.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/exchange/exported_matrices.h"
-#include "fe_modal/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "tests/support/block_mesh.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
 #include "tests/support/beam_body.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/fe_modal/interface_compliance.h"

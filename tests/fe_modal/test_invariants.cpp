@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/invariants.h"
+#include "fe_modal/reduction/invariants.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/support/block_mesh.h"
 

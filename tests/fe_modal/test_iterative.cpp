@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/neck_mesh.h"

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "fe_modal/algebra/petsc_handles.h"
 #include "fe_modal/exchange/matrix_file.h"
-#include "fe_modal/petsc_handles.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "tests/fe_modal/dense.h"

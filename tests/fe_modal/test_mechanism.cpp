@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"

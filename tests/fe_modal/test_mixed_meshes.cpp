@@ -10,9 +10,9 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/modal_analysis.h"
-#include "fe_modal/rigid_average.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/system/assembly.h"
+#include "fe_modal/system/rigid_average.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"

@@ -5,11 +5,11 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/cholesky_factor.h"
-#include "fe_modal/eigensolver.h"
-#include "fe_modal/modal_analysis.h"
-#include "fe_modal/rounding.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/element/rounding.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/assembly.h"
 #include "tests/support/block_mesh.h"
 
 namespace flexneck::fe_modal {

@@ -8,8 +8,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/memory_needs.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/system/memory_needs.h"
 #include "geometry/foundation/error.h"
 #include "tests/support/block_mesh.h"
 

@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/mode_naming.h"
+#include "fe_modal/reduction/mode_naming.h"
 #include "tests/support/block_mesh.h"
 
 namespace flexneck::fe_modal {

@@ -7,10 +7,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/basis_table.h"
 #include "fe_modal/body/mode_count_study.h"
-#include "fe_modal/modal_analysis.h"
-#include "fe_modal/rigid_average.h"
+#include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/names.h"
 #include "tests/support/neck_mesh.h"
 

@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/attached_mass.h"
+#include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/mode_count_study.h"
-#include "fe_modal/modal_analysis.h"
+#include "fe_modal/solve/attached_mass.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/rigid_average.h"
+#include "fe_modal/system/rigid_average.h"
 #include "tests/support/block_mesh.h"
 
 namespace flexneck::fe_modal {

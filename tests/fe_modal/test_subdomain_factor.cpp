@@ -4,8 +4,8 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/assembly.h"
-#include "fe_modal/iterative/subdomain_factor.h"
+#include "fe_modal/solve/iterative/subdomain_factor.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "mesher/partition/node_order.h"
 #include "tests/fe_modal/dense.h"

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "geometry/neck_drawing.h"
-#include "geometry/neck_measures.h"
+#include "geometry/neck/neck_drawing.h"
+#include "geometry/neck/neck_measures.h"
 #include "geometry/plausibility.h"
 #include "tests/support/neck_parameters.h"
 

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "geometry/neck_parameters.h"
+#include "geometry/neck/neck_parameters.h"
 #include "tests/support/neck_parameters.h"
 
 namespace flexneck::geometry {

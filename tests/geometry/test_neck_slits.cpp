@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "geometry/neck_slits.h"
+#include "geometry/neck/neck_slits.h"
 
 namespace flexneck::geometry {
 namespace {

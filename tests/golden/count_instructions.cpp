@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "multibody/equations.h"
+#include "multibody/equations/equations.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "tests/support/tree_models.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "geometry/foundation/temporary_folder.h"
-#include "mesher/script_mesher.h"
+#include "mesher/gmsh/script_mesher.h"
 
 namespace flexneck::testing {
 

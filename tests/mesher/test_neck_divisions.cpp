@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "geometry/neck_measures.h"
+#include "geometry/neck/neck_measures.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/mesh/shape_functions.h"

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/neck_slits.h"
+#include "geometry/neck/neck_slits.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "tests/support/neck_mesh.h"

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "mesher/gmsh_session.h"
+#include "mesher/gmsh/gmsh_session.h"
+#include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/shape_functions.h"
-#include "mesher/script_mesher.h"
 #include "tests/mesher/scripts.h"
 
 namespace flexneck::mesher {

@@ -11,7 +11,7 @@
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/side_key.h"
-#include "mesher/slits.h"
+#include "mesher/slits/slits.h"
 #include "tests/mesher/scripts.h"
 
 namespace flexneck::mesher {

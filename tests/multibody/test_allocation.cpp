@@ -6,14 +6,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/dormand_prince.h"
-#include "multibody/equations.h"
-#include "multibody/equations_of_motion.h"
-#include "multibody/generalised_alpha.h"
-#include "multibody/initial_state.h"
-#include "multibody/motion.h"
-#include "multibody/projection.h"
-#include "multibody/state_error.h"
+#include "multibody/descriptor/equations_of_motion.h"
+#include "multibody/descriptor/initial_state.h"
+#include "multibody/descriptor/projection.h"
+#include "multibody/descriptor/state_error.h"
+#include "multibody/equations/equations.h"
+#include "multibody/time/dormand_prince.h"
+#include "multibody/time/generalised_alpha.h"
+#include "multibody/time/motion.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_error.h"
 #include "multibody/tree/tree_start.h"

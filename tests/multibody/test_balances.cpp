@@ -8,10 +8,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/dormand_prince.h"
-#include "multibody/equations.h"
-#include "multibody/motion.h"
-#include "multibody/system.h"
+#include "multibody/descriptor/system.h"
+#include "multibody/equations/equations.h"
+#include "multibody/time/dormand_prince.h"
+#include "multibody/time/motion.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "tests/support/formulations.h"
 #include "tests/support/tree_models.h"

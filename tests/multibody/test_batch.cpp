@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/batch.h"
+#include "multibody/simulation/batch.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/body_dynamics.h"
-#include "multibody/rotation.h"
+#include "multibody/descriptor/body_dynamics.h"
+#include "multibody/numerics/rotation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/cfc_filter.h"
+#include "multibody/signals/cfc_filter.h"
 
 using Catch::Matchers::Contains;
 using Eigen::Index;

@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/driven_path.h"
-#include "multibody/rotation.h"
-#include "multibody/simulation.h"
+#include "multibody/model/driven_path.h"
+#include "multibody/numerics/rotation.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"

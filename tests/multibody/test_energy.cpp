@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/point_mass_body.h"
 #include "tests/support/test_models.h"

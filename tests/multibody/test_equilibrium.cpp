@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/equilibrium.h"
-#include "multibody/simulation.h"
+#include "multibody/descriptor/equilibrium.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Quaterniond;

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/forces/force_set.h"
-#include "multibody/simulation.h"
+#include "multibody/equations/force_set.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/formulations.h"
 #include "tests/support/marker_motion.h"

@@ -7,8 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/generalised_alpha.h"
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
+#include "multibody/time/generalised_alpha.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/minimal_neck.h"
 #include "tests/support/test_models.h"

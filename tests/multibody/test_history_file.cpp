@@ -5,7 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/history_writer.h"
+#include "multibody/files/history_writer.h"
 #include "tests/support/files.h"
 #include "tests/support/point_mass_body.h"
 

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/dormand_prince.h"
+#include "multibody/time/dormand_prince.h"
 
 using Eigen::VectorXd;
 using namespace flexneck::multibody;

@@ -3,11 +3,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/equations_of_motion.h"
-#include "multibody/initial_state.h"
-#include "multibody/joints.h"
-#include "multibody/projection.h"
-#include "multibody/rotation.h"
+#include "multibody/descriptor/equations_of_motion.h"
+#include "multibody/descriptor/initial_state.h"
+#include "multibody/descriptor/joints.h"
+#include "multibody/descriptor/projection.h"
+#include "multibody/numerics/rotation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "multibody/kkt_solver.h"
+#include "multibody/descriptor/kkt_solver.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Index;

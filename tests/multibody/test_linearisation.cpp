@@ -10,8 +10,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/linearisation.h"
-#include "multibody/rotation.h"
+#include "multibody/analysis/linearisation.h"
+#include "multibody/numerics/rotation.h"
 #include "tests/support/dense_solvers.h"
 #include "tests/support/point_mass_body.h"
 

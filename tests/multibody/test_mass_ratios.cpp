@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/equations.h"
-#include "multibody/simulation.h"
+#include "multibody/equations/equations.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 

@@ -8,7 +8,7 @@
 
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck;

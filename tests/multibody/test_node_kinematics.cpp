@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/node_kinematics.h"
-#include "multibody/rotation.h"
+#include "multibody/descriptor/node_kinematics.h"
+#include "multibody/numerics/rotation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/formulations.h"
 #include "tests/support/tree_models.h"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/response.h"
+#include "multibody/signals/response.h"
 
 using namespace flexneck::multibody;
 using Eigen::VectorXd;

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/rotation.h"
+#include "multibody/numerics/rotation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/point_mass_body.h"
 

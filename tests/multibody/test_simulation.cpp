@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Vector3d;

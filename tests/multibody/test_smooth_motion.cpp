@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/smooth_motion.h"
+#include "multibody/numerics/smooth_motion.h"
 
 using flexneck::InputError;
 using flexneck::multibody::SmoothMotion;

@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/load_cell.h"
-#include "multibody/response.h"
-#include "multibody/simulation.h"
+#include "multibody/signals/load_cell.h"
+#include "multibody/signals/response.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 

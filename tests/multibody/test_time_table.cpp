@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/time_table.h"
+#include "multibody/numerics/time_table.h"
 
 using flexneck::InputError;
 using flexneck::multibody::TimeTable;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/equations_of_motion.h"
+#include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_start.h"
 #include "tests/support/test_models.h"

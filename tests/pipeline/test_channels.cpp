@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/history_file.h"
-#include "multibody/load_cell.h"
+#include "multibody/files/history_file.h"
+#include "multibody/signals/load_cell.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/csv_output.h"
 #include "tests/support/model_text.h"

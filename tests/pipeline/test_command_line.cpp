@@ -9,7 +9,7 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 #include "tests/support/coarse_neck.h"
 #include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"

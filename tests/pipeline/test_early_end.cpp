@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 #include "tests/support/coarse_neck.h"
 #include "tests/support/flexneck_command.h"
 

@@ -7,7 +7,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 #include "pipeline/model/csv_table.h"
 #include "pipeline/model/expression.h"
 #include "pipeline/model/model_file.h"

@@ -6,7 +6,7 @@
 
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"

@@ -9,8 +9,8 @@
 
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "pipeline/results_folder.h"
-#include "pipeline/stages.h"
+#include "pipeline/folder/results_folder.h"
+#include "pipeline/folder/stages.h"
 
 namespace flexneck::pipeline {
 namespace {

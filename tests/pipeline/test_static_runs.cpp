@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 #include "pipeline/experiments/static_tables.h"
 #include "pipeline/experiments/static_test.h"
 #include "tests/support/beam_experiment.h"

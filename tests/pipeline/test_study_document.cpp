@@ -6,7 +6,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "pipeline/study/study_document.h"
+#include "pipeline/document/study_document.h"
 
 using Catch::Matchers::Contains;
 using flexneck::Origin;

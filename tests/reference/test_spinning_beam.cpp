@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/response.h"
-#include "multibody/simulation.h"
+#include "multibody/signals/response.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 

@@ -12,8 +12,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/campbell.h"
-#include "multibody/linearisation.h"
+#include "multibody/analysis/campbell.h"
+#include "multibody/analysis/linearisation.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;

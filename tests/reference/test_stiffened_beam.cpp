@@ -10,8 +10,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/response.h"
-#include "multibody/simulation.h"
+#include "multibody/signals/response.h"
+#include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
 

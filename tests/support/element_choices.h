@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "fe_modal/formulation.h"
+#include "fe_modal/element/formulation.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh.h"
 

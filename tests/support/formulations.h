@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "multibody/simulation.h"
+#include "multibody/simulation/simulation.h"
 
 namespace flexneck::testing {
 

@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 
 #include "fe_modal/body/modal_body.h"
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 
 namespace flexneck::testing {
 namespace minimal {

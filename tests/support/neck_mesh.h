@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/foundation/units.h"
-#include "mesher/script_mesher.h"
+#include "mesher/gmsh/script_mesher.h"
 #include "tests/support/neck_parameters.h"
 
 /// Meshes of the four fitted necks. Users of this header link flexneck::geometry and

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "geometry/neck_parameters.h"
+#include "geometry/neck/neck_parameters.h"
 
 /// The four sets of neck dimensions that were fitted to the published frequencies, as fixtures:
 /// written out here a second time, so that tests do not depend on the parameter files.

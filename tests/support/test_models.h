@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 #include "tests/support/beam_body.h"
 
 namespace flexneck::testing {

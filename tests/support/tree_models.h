@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "multibody/model.h"
+#include "multibody/model/model.h"
 #include "tests/support/point_mass_body.h"
 #include "tests/support/test_models.h"
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/modal_body.h"
-#include "multibody/history.h"
+#include "multibody/history/history.h"
 
 namespace flexneck::pipeline {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fe_modal/body/modal_body.h"
-#include "geometry/neck_parameters.h"
-#include "pipeline/report/figures/drawing.h"
+#include "geometry/neck/neck_parameters.h"
+#include "pipeline/plotting/drawing.h"
 
 namespace flexneck::pipeline {
 

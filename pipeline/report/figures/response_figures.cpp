@@ -7,8 +7,8 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
+#include "pipeline/plotting/curve_figure.h"
 #include "pipeline/report/curves.h"
-#include "pipeline/report/figures/curve_figure.h"
 
 namespace flexneck::pipeline {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline/report/figures/figure.h"
+#include "pipeline/plotting/figure.h"
 #include "pipeline/report/paper_context.h"
 #include "pipeline/report/results.h"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <gmsh.h>
 
-#include "mesher/gmsh_session.h"
+#include "mesher/gmsh/gmsh_session.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "tests/mesher/exchange/files.h"
 

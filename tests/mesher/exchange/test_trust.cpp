@@ -7,7 +7,7 @@
 
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/exchange/outside_file.h"
-#include "mesher/gmsh_session.h"
+#include "mesher/gmsh/gmsh_session.h"
 #include "tests/mesher/exchange/files.h"
 
 namespace flexneck::mesher {

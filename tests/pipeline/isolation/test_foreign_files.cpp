@@ -9,8 +9,8 @@
 
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/exchange/mesh_import.h"
+#include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/mesh_file.h"
-#include "mesher/script_mesher.h"
 #include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"
 

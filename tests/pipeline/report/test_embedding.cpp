@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/report/embedding.h"
+#include "pipeline/plotting/embedding.h"
 #include "pipeline/report/html_table.h"
 
 using namespace flexneck;

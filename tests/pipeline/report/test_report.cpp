@@ -9,15 +9,15 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/history_file.h"
+#include "multibody/files/history_file.h"
 #include "pipeline/experiments/pendulum_tables.h"
+#include "pipeline/folder/results_folder.h"
+#include "pipeline/plotting/curve_figure.h"
+#include "pipeline/plotting/embedding.h"
 #include "pipeline/report/comparison.h"
-#include "pipeline/report/embedding.h"
-#include "pipeline/report/figures/curve_figure.h"
 #include "pipeline/report/paper_context.h"
 #include "pipeline/report/report.h"
 #include "pipeline/report/results.h"
-#include "pipeline/results_folder.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;

@@ -2,7 +2,7 @@
 // Values set on the command line, one a line, over a study of a few keys.
 #include <sstream>
 
-#include "pipeline/study/study_document.h"
+#include "pipeline/document/study_document.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "fe_modal/algebra/petsc_handles.h"
+#include "fe_modal/algebra/shift_inverse.h"
+
+namespace flexneck::fe_modal {
+
+/// An entry of a Cholesky factor takes this, with the zeros in its blocks and what its making
+/// needs besides.
+inline constexpr double kBytesPerFactorEntry = 10.4;
+
+/// What is said of a matrix that has no Cholesky factor.
+inline constexpr const char* kNotDefinite =
+    "the stiffness matrix is not positive definite: a part of the body is not held, or elements "
+    "with reduced integration stand in a single row, or Poisson's ratio is too near 1/2";
+
+/// Sparse Cholesky factor of K - shift M, made once and used by every solve, by CHOLMOD.
+class CholeskyFactor : public ShiftInverse {
+ public:
+  /// @param shifted_stiffness K - shift M, symmetric with the upper half stored, N degrees of
+  /// freedom
+  /// @param node_order order of elimination: entry k is the node, three degrees of freedom each,
+  /// that comes k-th; a permutation of 0 … N/3 - 1. Empty: CHOLMOD tries AMD, and METIS on all
+  /// degrees of freedom where AMD fills much, and keeps the better one.
+  /// @throws InputError if memory does not hold the factor, before it is made.
+  /// @throws ComputationError if the matrix is not positive definite or memory runs out.
+  CholeskyFactor(Mat shifted_stiffness, double shift,
+                 std::span<const std::int32_t> node_order = {});
+
+  /// Entries of the factor, as CHOLMOD counts them.
+  double nonzeros() const { return nonzeros_; }
+  void solve(Vec right_hand_side, Vec solution) const override;
+  /// For each column, all at once: the factor, which no cache holds, is read once for many.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override;
+  std::string describe() const override;
+
+ private:
+  double nonzeros_ = 0;
+  MatHandle factor_;
+};
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <exception>
+#include <utility>
+
+#include "fe_modal/algebra/petsc_handles.h"
+
+namespace flexneck::fe_modal {
+
+/// Carries an exception past the C frames of PETSc and SLEPc, which it must not cross: what they
+/// call keeps it and returns an error code, and whoever called them throws it again.
+class KeptException {
+ public:
+  /// Of a function that PETSc calls. @return 0, or an error code if `work` has thrown
+  template <typename Work>
+  PetscErrorCode keep(Work&& work) noexcept {
+    try {
+      std::forward<Work>(work)();
+      return 0;
+    } catch (...) {
+      kept_ = std::current_exception();
+      return PETSC_ERR_LIB;
+    }
+  }
+
+  /// After a call of PETSc: throws what was kept, once.
+  void rethrow() {
+    if (kept_) std::rethrow_exception(std::exchange(kept_, nullptr));
+  }
+
+ private:
+  std::exception_ptr kept_;
+};
+
+}  // namespace flexneck::fe_modal

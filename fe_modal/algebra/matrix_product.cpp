@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/algebra/matrix_product.h"
+
+#include <algorithm>
+
+#include "fe_modal/algebra/petsc_handles.h"
+
+// After a header of PETSc: it does not include what it needs.
+#include <petscblaslapack.h>
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// For BLAS a step between columns is at least one row, also where there is no row.
+PetscBLASInt stride(const MatrixView& matrix) {
+  return static_cast<PetscBLASInt>(std::max<Eigen::Index>(1, matrix.outerStride()));
+}
+
+void product(const char* turn_a, const char* turn_b, Eigen::Index inner, double factor,
+             const MatrixView& a, const MatrixView& b, double keep,
+             Eigen::Ref<Eigen::MatrixXd> result) {
+  const auto rows = static_cast<PetscBLASInt>(result.rows());
+  const auto columns = static_cast<PetscBLASInt>(result.cols());
+  const auto depth = static_cast<PetscBLASInt>(inner);
+  const PetscBLASInt stride_a = stride(a);
+  const PetscBLASInt stride_b = stride(b);
+  const PetscBLASInt stride_result = stride(result);
+  BLASgemm_(turn_a, turn_b, &rows, &columns, &depth, &factor, a.data(), &stride_a, b.data(),
+            &stride_b, &keep, result.data(), &stride_result);
+}
+
+}  // namespace
+
+void multiply(double factor, const MatrixView& a, const MatrixView& b, double keep,
+              Eigen::Ref<Eigen::MatrixXd> result) {
+  product("N", "N", a.cols(), factor, a, b, keep, result);
+}
+
+void multiply_by_transpose(double factor, const MatrixView& a, const MatrixView& b, double keep,
+                           Eigen::Ref<Eigen::MatrixXd> result) {
+  product("N", "T", a.cols(), factor, a, b, keep, result);
+}
+
+Eigen::MatrixXd inner_products(const MatrixView& a, const MatrixView& b) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
+  product("T", "N", a.rows(), 1, a, b, 0, result);
+  return result;
+}
+
+}  // namespace flexneck::fe_modal

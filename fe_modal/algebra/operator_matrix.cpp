@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/algebra/operator_matrix.h"
+
+#include <utility>
+
+#include "fe_modal/algebra/kept_exception.h"
+
+namespace flexneck::fe_modal {
+
+/// What a shell points to.
+struct OperatorMatrix::Context {
+  BlockOperator apply;
+  KeptException failure;
+};
+
+namespace {
+
+constexpr const char* kMaking = "making a matrix of an operator";
+constexpr const char* kUsing = "using a matrix of an operator";
+
+/// What PETSc calls for y = A x.
+PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
+  OperatorMatrix::Context* context = nullptr;
+  PetscInt size = 0;
+  const PetscScalar* in = nullptr;
+  PetscScalar* out = nullptr;
+  PetscErrorCode code = MatShellGetContext(shell, static_cast<void*>(&context));
+  if (code == 0) code = VecGetSize(x, &size);
+  if (code == 0) code = VecGetArrayRead(x, &in);
+  if (code == 0) code = VecGetArray(y, &out);
+  if (code != 0) return code;
+  code = context->failure.keep([&] {
+    Eigen::Map<Eigen::MatrixXd>(out, size, 1) =
+        context->apply(Eigen::Map<const Eigen::MatrixXd>(in, size, 1));
+  });
+  const PetscErrorCode restored = VecRestoreArray(y, &out);
+  if (code == 0) code = restored;
+  return code != 0 ? code : VecRestoreArrayRead(x, &in);
+}
+
+/// Null for matrices that are no shells.
+OperatorMatrix::Context* context_of(Mat matrix) {
+  PetscBool is_shell = PETSC_FALSE;
+  OperatorMatrix::Context* context = nullptr;
+  require(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSHELL, &is_shell),
+          kUsing);
+  if (is_shell == PETSC_TRUE) {
+    require(MatShellGetContext(matrix, static_cast<void*>(&context)), kUsing);
+  }
+  return context;
+}
+
+}  // namespace
+
+OperatorMatrix::OperatorMatrix(Eigen::Index size, BlockOperator apply)
+    : context_(std::make_unique<Context>(Context{std::move(apply), {}})) {
+  const auto n = static_cast<PetscInt>(size);
+  require(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, context_.get(), shell_.out()), kMaking);
+  require(MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(&multiply)),
+          kMaking);
+  require(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE), kMaking);
+}
+
+OperatorMatrix::~OperatorMatrix() = default;
+OperatorMatrix::OperatorMatrix(OperatorMatrix&& other) noexcept = default;
+OperatorMatrix& OperatorMatrix::operator=(OperatorMatrix&& other) noexcept = default;
+
+const BlockOperator* operator_behind(Mat matrix) {
+  const OperatorMatrix::Context* const context = context_of(matrix);
+  return context == nullptr ? nullptr : &context->apply;
+}
+
+void rethrow_from(Mat matrix) {
+  if (OperatorMatrix::Context* const context = context_of(matrix)) context->failure.rethrow();
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/petsc_handles.h"
+
+namespace flexneck::fe_modal {
+
+/// A symmetric linear map of N degrees of freedom as a matrix for PETSc and SLEPc, good for
+/// products alone. All shells of this library are made here: block_product() finds the map behind
+/// them and applies it to all columns at once.
+class OperatorMatrix {
+ public:
+  struct Context;
+
+  OperatorMatrix(Eigen::Index size, BlockOperator apply);
+  ~OperatorMatrix();
+  OperatorMatrix(OperatorMatrix&& other) noexcept;
+  OperatorMatrix& operator=(OperatorMatrix&& other) noexcept;
+
+  Mat get() const { return shell_.get(); }
+
+ private:
+  std::unique_ptr<Context> context_;  ///< at a fixed address: the shell points to it
+  MatHandle shell_;
+};
+
+/// What is behind a matrix that OperatorMatrix has made; null for others.
+const BlockOperator* operator_behind(Mat matrix);
+
+/// After PETSc or SLEPc failed with this matrix: throws what the map behind it has thrown, if that
+/// was the cause.
+void rethrow_from(Mat matrix);
+
+}  // namespace flexneck::fe_modal

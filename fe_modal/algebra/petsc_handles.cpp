@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/algebra/petsc_handles.h"
+
+#include <string>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+
+void require(PetscErrorCode code, std::string_view doing) {
+  if (code == 0) return;
+  const char* text = nullptr;
+  static_cast<void>(PetscErrorMessage(code, &text, nullptr));
+  throw ComputationError("PETSc failed while " + std::string(doing) + ": " +
+                         (text == nullptr ? "unknown error" : text) + " (code " +
+                         std::to_string(static_cast<int>(code)) + ")");
+}
+
+VecHandle vector_on(std::span<const double> values) {
+  VecHandle vector;
+  require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(values.size()),
+                                values.data(), vector.out()),
+          "laying a vector on memory");
+  return vector;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/analysis/convergence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/solve/block_lanczos.h"
+#include "fe_modal/solve/make_system.h"
+#include "fe_modal/solve/mechanism.h"
+#include "mesher/mesh/refinement.h"
+#include "mesher/partition/node_order.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Order of convergence of frequencies that no mesh falls below: where rubber is bonded to a plate
+/// and ends at a right angle, stresses grow as r^(a - 1), a = 0.59 for nu = 1/2 and more below, and
+/// frequencies converge with h^(2a).
+constexpr double kLowestOrder = 1;
+/// For meshes so coarse that they do not show their order yet (Roache, J. Fluids Eng. 116 (1994)
+/// 405, multiplies likewise): a 20-node mesh of two elements through bonded rubber needs 1.25.
+constexpr double kSafety = 1.5;
+/// Iterations stop when they change no eigenvalue by more than this share of the change that the
+/// finer mesh made, or by more than rounding.
+constexpr double kSettled = 1e-2;
+constexpr double kRounding = 1e-8;
+/// Modes this close in frequency may turn into one another from mesh to mesh: they are one shape.
+constexpr double kOneShape = 1e-2;
+/// Less similar shapes are not the same mode, and nothing is known of the error.
+constexpr double kSameMode = 0.8;
+constexpr double kUnknown = 1;
+
+double hertz(double eigenvalue) {
+  return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi);
+}
+
+/// Finds a coarse mode among the finer ones.
+/// @param similarity its modal assurance criterion with each of them
+MeshError compare(double coarse_Hz, const Eigen::VectorXd& fine_Hz,
+                  const Eigen::VectorXd& similarity) {
+  Eigen::Index nearest = 0;
+  similarity.maxCoeff(&nearest);
+  MeshError result;
+  double weighted = 0;
+  for (Eigen::Index j = 0; j < fine_Hz.size(); ++j) {
+    if (std::abs(fine_Hz[j] - fine_Hz[nearest]) > kOneShape * fine_Hz[nearest]) continue;
+    result.mac += similarity[j];
+    weighted += similarity[j] * fine_Hz[j];
+  }
+  result.refined_Hz = weighted / result.mac;
+  const double change = std::abs(coarse_Hz - result.refined_Hz);
+  result.error = result.mac < kSameMode
+                     ? kUnknown
+                     : kSafety * change / (1 - std::exp2(-kLowestOrder)) / coarse_Hz;
+  return result;
+}
+
+/// Modal assurance criteria (coarse, fine) in the mass of the coarse mesh, whose nodes come first.
+Eigen::MatrixXd similarities(const SolvedMesh& coarse, const FreeNodes& fine_nodes,
+                             const Eigen::MatrixXd& fine) {
+  Eigen::MatrixXd seen(coarse.pairs.vectors.rows(), fine.cols());
+  for (Eigen::Index j = 0; j < fine.cols(); ++j) {
+    const Eigen::Matrix3Xd field = fine_nodes.expand(fine.col(j));
+    seen.col(j) = coarse.free_nodes.restrict(field.leftCols(coarse.free_nodes.node_count()));
+  }
+  const Eigen::MatrixXd momentum = block_product(coarse.mass, seen);
+  const Eigen::ArrayXd norms = seen.cwiseProduct(momentum).colwise().sum();
+  const Eigen::ArrayXXd products = (coarse.pairs.vectors.transpose() * momentum).array();
+  return products.square().rowwise() / norms.transpose();
+}
+
+}  // namespace
+
+std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions& options,
+                                   const Progress& progress) {
+  const mesher::RefinedMesh fine = mesher::refine(solved.mesh);
+  const bool held = options.is_held();
+  const FreeNodes free_nodes = free_nodes_of(fine.mesh, options);
+  if (progress) {
+    progress("refining for the error of the mesh, " + std::to_string(free_nodes.dof_count()) +
+             " degrees of freedom");
+  }
+  ModalOptions fine_options = options;
+  fine_options.ranks = nullptr;  // which keep the coarse problem
+  fine_options.element_ranks.clear();
+  fine_options.node_order = mesher::nested_dissection(fine.mesh);
+  const std::unique_ptr<const ModalSystem> system =
+      make_system(fine.mesh, free_nodes, fine_options);
+  const std::unique_ptr<const ShiftInverse> inverse =
+      system->shift_inverse(held ? 0 : -eigenvalue_scale(solved.mesh));
+
+  Eigen::MatrixXd start(free_nodes.dof_count(), solved.pairs.vectors.cols());
+  for (Eigen::Index k = 0; k < start.cols(); ++k) {
+    const Eigen::Matrix3Xd field = solved.free_nodes.expand(solved.pairs.vectors.col(k));
+    start.col(k) = free_nodes.restrict((fine.prolongation * field.transpose()).transpose());
+  }
+  const Eigen::ArrayXd coarse = solved.pairs.values;
+  const Settled settled = [&](const RitzState& state) {
+    if (state.before.size() == 0) return false;
+    const Eigen::ArrayXd allowed =
+        kSettled * (state.values.array() - coarse).abs() +
+        kRounding * (state.values.array().abs() + std::abs(inverse->shift()));
+    return ((state.values - state.before).array().abs() <= allowed).all();
+  };
+  const Eigen::Index count = start.cols();
+  const EigenPairs pairs =
+      block_lanczos(system->mass(), *inverse, EigenPairs(), std::move(start), count, settled);
+
+  const Eigen::MatrixXd similarity = similarities(solved, free_nodes, pairs.vectors);
+  const Eigen::VectorXd fine_Hz = pairs.values.unaryExpr(&hertz);
+  std::vector<MeshError> errors;
+  for (Eigen::Index k = 0; k < similarity.rows(); ++k) {
+    const double coarse_Hz = hertz(solved.pairs.values[k]);
+    // Rigid-body motions are the same on every mesh.
+    errors.push_back(coarse_Hz == 0 ? MeshError{0, 1, 0}
+                                    : compare(coarse_Hz, fine_Hz, similarity.row(k)));
+  }
+  return errors;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/analysis/modal_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fe_modal/analysis/convergence.h"
+#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/reduction/geometric_stiffness.h"
+#include "fe_modal/reduction/invariants.h"
+#include "fe_modal/reduction/mode_conventions.h"
+#include "fe_modal/reduction/mode_naming.h"
+#include "fe_modal/reduction/reduction.h"
+#include "fe_modal/solve/attached_mass.h"
+#include "fe_modal/solve/completeness.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/solve/make_system.h"
+#include "fe_modal/solve/mechanism.h"
+#include "fe_modal/system/assembly.h"
+#include "fe_modal/system/memory_needs.h"
+#include "fe_modal/system/modal_options_check.h"
+#include "fe_modal/system/rigid_average.h"
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr Eigen::Index kAttachedCount = 6;
+
+[[noreturn]] void refuse_mechanism(const std::string& motions) {
+  throw InputError("the body is a mechanism: " + motions + "; hold it or bond it to its neighbour");
+}
+
+/// A stiffness that is not definite is that of a mechanism, or of elements that are none.
+std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
+                                                        const FreeNodes& free_nodes,
+                                                        const ModalSystem& system, double shift) {
+  try {
+    return system.shift_inverse(shift);
+  } catch (const ComputationError&) {
+    const auto motions =
+        shift == 0 ? describe_mechanism(mesh, free_nodes, system, true) : std::nullopt;
+    if (!motions) throw;
+    refuse_mechanism(*motions);
+  }
+}
+
+/// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
+void check_no_mechanism(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                        const ModalSystem& system, const Eigen::VectorXd& values, bool held) {
+  const Eigen::Index rigid = held ? 0 : 6;
+  if (values.size() <= rigid || values[rigid] > kStrainless * eigenvalue_scale(mesh)) return;
+  if (const auto motions = describe_mechanism(mesh, free_nodes, system, held)) {
+    refuse_mechanism(*motions);
+  }
+}
+
+Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues) {
+  return eigenvalues.cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
+}
+
+std::vector<Interface> reduce_interfaces(const ModalOptions& options,
+                                         const std::vector<RigidAverage>& averages,
+                                         const std::vector<StaticResponse>& responses,
+                                         const std::vector<Eigen::Matrix3Xd>& shapes) {
+  const auto m = static_cast<Eigen::Index>(shapes.size());
+  const Eigen::Matrix3Xd zero = Eigen::Matrix3Xd::Zero(3, m);
+  std::vector<Interface> interfaces;
+  if (!options.held_interface.empty()) {
+    interfaces.push_back({options.held_interface, options.held_position_m, zero, zero});
+  }
+  for (std::size_t k = 0; k < averages.size(); ++k) {
+    Interface interface { options.interfaces[k].name, averages[k].point_m(), zero, zero };
+    for (Eigen::Index l = 0; l < m; ++l) {
+      const Vector6d motion = averages[k].of(shapes[static_cast<std::size_t>(l)]);
+      interface.translation.col(l) = motion.head<3>();
+      interface.rotation.col(l) = motion.tail<3>();
+    }
+    if (!responses.empty()) interface.response = responses[k];
+    interfaces.push_back(interface);
+  }
+  return interfaces;
+}
+
+std::vector<ModeRecord> describe_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+                                       const std::vector<std::string>& kinds,
+                                       const std::vector<Eigen::Matrix3Xd>& shapes,
+                                       const Eigen::VectorXd& residuals) {
+  std::vector<RigidAverage> parts;
+  for (const std::string& name : options.rigid_parts) parts.emplace_back(mesh, name);
+  std::vector<Shares> shares;
+  shares.reserve(shapes.size());
+  for (const Eigen::Matrix3Xd& shape : shapes) shares.push_back(motion_shares(parts, shape));
+  const std::vector<std::string> names = mode_names(shares, kinds);
+  std::vector<ModeRecord> records;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    records.push_back({names[k], kinds[k], shares[k], residuals[static_cast<Eigen::Index>(k)]});
+  }
+  return records;
+}
+
+/// Position of an interface among options.interfaces; it is known to be there.
+std::size_t interface_index(const ModalOptions& options, const std::string& name) {
+  const auto found = std::find_if(options.interfaces.begin(), options.interfaces.end(),
+                                  [&](const auto& interface) { return interface.name == name; });
+  return static_cast<std::size_t>(found - options.interfaces.begin());
+}
+
+std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FreeNodes& free_nodes,
+                                     const std::vector<RigidAverage>& averages) {
+  const std::vector<std::string>& chosen = options.basis_interfaces;
+  std::vector<InterfaceLoads> loads;
+  for (std::size_t k = 0; k < averages.size(); ++k) {
+    const std::string& name = options.interfaces[k].name;
+    loads.push_back(interface_loads(name, averages[k], free_nodes));
+    loads.back().corrects_basis =
+        chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end();
+  }
+  return loads;
+}
+
+/// The basis asked for and its certificate.
+std::pair<Reduction, std::string> reduced_basis(
+    const mesher::Mesh& mesh, const FreeNodes& free_nodes, const ModalSystem& system,
+    const ShiftInverse& inverse, const ModalOptions& options,
+    const std::vector<InterfaceLoads>& loads, const Progress& progress, const Progress& warn) {
+  const BodyOperators operators = operators_of(system, inverse);
+  if (options.basis == BasisKind::craig_bampton) {
+    const auto solve = [&](Mat mass, Eigen::Index count) {
+      EigenPairs pairs = lowest_eigenpairs(system.stiffness(), mass, inverse, count);
+      warn_of_cut(pairs, inverse.shift(), warn);
+      return pairs;
+    };
+    return {craig_bampton(operators, system.mass(), solve, options.mode_count, loads, progress),
+            kNotCertified};
+  }
+  auto [pairs, certificate] =
+      lowest_modes(system, inverse, options.mode_count, options.certify, warn);
+  check_no_mechanism(mesh, free_nodes, system, pairs.values, options.is_held());
+  check_eigenvalues(pairs.values, inverse.shift());
+  for (double& value : pairs.values) {
+    if (value < kStrainless * -inverse.shift()) value = 0;
+  }
+  return {complete_modes(operators, pairs, loads, options.basis, progress), certificate};
+}
+
+/// How many of the basis, its first, are the body's own eigenvectors, which are its lowest.
+Eigen::Index eigenvector_count(const Reduction& basis) {
+  return std::count_if(basis.kinds.begin(), basis.kinds.end(), [](const std::string& kind) {
+    return kind == kNormalMode || kind == kRigidMode;
+  });
+}
+
+/// @param modes the body's lowest eigenvectors
+std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
+                                               const ModalSystem& system,
+                                               const ShiftInverse& inverse,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& modes,
+                                               const std::vector<RigidAverage>& averages,
+                                               const std::vector<InterfaceLoads>& loads) {
+  const Eigen::Index count = std::min(kAttachedCount, modes.rows());
+  std::vector<AttachedFrequencies> result;
+  for (const RigidAttachment& body : options.attachments) {
+    const std::size_t region = interface_index(options, body.interface);
+    const Matrix6d rigid_mass = rigid_mass_matrix(
+        body.mass_kg, body.center_m - averages[region].point_m(), body.inertia_kg_m2);
+    const AttachedMass mass(system.mass(), loads[region].forces, rigid_mass);
+    const Eigen::VectorXd values =
+        modes.cols() < count
+            ? lowest_eigenpairs(system.stiffness(), mass.matrix(), inverse, count).values
+            : lowest_eigenvalues(mass, inverse, modes, count);
+    result.push_back({body.name, body.interface, frequencies_Hz(values), rigid_mass});
+  }
+  return result;
+}
+
+/// "fixed: bolts, x of left", or "free".
+std::string boundary_of(const ModalOptions& options) {
+  std::string held = options.held_set;
+  for (const auto& [set, directions] : options.held_directions) {
+    if (!held.empty()) held += ", ";
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (directions[a]) held += "xyz"[a];
+    }
+    held += " of " + set;
+  }
+  return held.empty() ? "free" : "fixed: " + held;
+}
+
+}  // namespace
+
+ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+                        const Progress& progress, StepTimes* step_times, const Progress& warn) {
+  StepTimes unseen;
+  StepTimes& times = step_times != nullptr ? *step_times : unseen;
+  const auto report = [&](const std::string& line) {
+    if (progress) progress(line);
+  };
+  check_options(mesh, options);
+  check_memory(mesh, options);
+  const bool held = options.is_held();
+  const FreeNodes free_nodes = free_nodes_of(mesh, options);
+  report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
+         " degrees of freedom");
+  times.start("assemble");
+  const std::unique_ptr<const ModalSystem> owned_system = make_system(mesh, free_nodes, options);
+  const ModalSystem& system = *owned_system;
+
+  times.start("order and factorise");
+  report("factorising the stiffness");
+  // A held body has a definite stiffness; a free one is shifted below zero.
+  const double shift = held ? 0 : -eigenvalue_scale(mesh);
+  const std::unique_ptr<const ShiftInverse> inverse =
+      factorise_or_refuse(mesh, free_nodes, system, shift);
+  report(inverse->describe());
+  times.start("iterate");
+  report("solving for " + std::to_string(options.mode_count) + " modes");
+  std::vector<RigidAverage> averages;
+  for (const InterfaceDefinition& interface : options.interfaces) {
+    averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
+  }
+  const std::vector<InterfaceLoads> loads = loads_of(options, free_nodes, averages);
+  auto [basis, certificate] =
+      reduced_basis(mesh, free_nodes, system, *inverse, options, loads, progress, warn);
+  EigenPairs& pairs = basis.pairs;
+  if (options.sign_interface.empty()) {
+    apply_conventions(pairs);
+  } else {
+    apply_conventions(pairs, free_nodes, averages[interface_index(options, options.sign_interface)],
+                      options.length_m);
+  }
+
+  times.start("post-process");
+  report("reducing to modal coordinates");
+  ModalBody body;
+  body.frequencies_Hz = frequencies_Hz(pairs.values);
+  body.boundary = boundary_of(options);
+  body.certificate = certificate;
+  body.nodes_m.resize(3, free_nodes.node_count());
+  for (Eigen::Index k = 0; k < free_nodes.node_count(); ++k) {
+    body.nodes_m.col(k) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(k)].data());
+  }
+  for (const auto& vector : pairs.vectors.colwise()) {
+    body.shapes.push_back(free_nodes.expand(vector));
+  }
+  body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
+                              relative_residuals(system.stiffness(), system.mass(), pairs, shift));
+  const Eigen::Index eigenvectors = eigenvector_count(basis);
+  if (options.certify && eigenvectors > 0) {
+    times.start("refine and solve again");
+    const EigenPairs normal = {pairs.values.head(eigenvectors),
+                               pairs.vectors.leftCols(eigenvectors)};
+    const auto errors = mesh_errors({mesh, free_nodes, system.mass(), normal}, options, progress);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      body.modes[k].mesh_error = errors[k];
+    }
+    times.start("post-process");
+  }
+  body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
+  body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes);
+  const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
+  body.orthogonality =
+      (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
+          .cwiseAbs()
+          .maxCoeff();
+  if (options.geometric_stiffness) {
+    report("integrating the geometric stiffness");
+    body.geometric_stiffness =
+        unit_load_stiffness(mesh, options.formulation, free_nodes, system.nodal_mass(),
+                            operators_of(system, *inverse), loads, body.shapes);
+  }
+  if (!options.attachments.empty()) {
+    times.start("iterate with bodies attached");
+    report("solving with rigid bodies attached");
+  }
+  body.attached = attach_bodies(options, system, *inverse, pairs.vectors.leftCols(eigenvectors),
+                                averages, loads);
+  body.solver = inverse->describe();
+  times.stop();
+  return body;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/dofs/free_nodes.h"
+
+namespace flexneck::fe_modal {
+
+/// An element in the degrees of freedom that rigid ties and held directions leave it: of a tie that
+/// any of its nodes are in, the translation and the rotation take the place of these nodes; what is
+/// held has zero rows and columns.
+class ConstrainedElement {
+ public:
+  ConstrainedElement(std::span<const std::int32_t> nodes, const FreeNodes& free_nodes);
+
+  /// FreeNodes' number of each place, -1 if held: (m) places, the ties' last.
+  std::span<const std::int32_t> numbers() const { return numbers_; }
+  /// T^T E T, (3m, 3m) with degree of freedom a m + i, of an element's matrix (3n, 3n).
+  Eigen::MatrixXd reduced(const Eigen::MatrixXd& element) const;
+
+ private:
+  std::vector<std::int32_t> numbers_;
+  Eigen::MatrixXd motion_;  ///< T, (3n, 3m); empty if nothing is constrained
+};
+
+/// An element's mass between nodes, (n, n), in all three directions, (3n, 3n).
+Eigen::MatrixXd in_three_directions(const Eigen::MatrixXd& mass);
+
+}  // namespace flexneck::fe_modal

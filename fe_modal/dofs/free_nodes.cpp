@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/dofs/free_nodes.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// The lowest node of those that are tied together, for each node. Where cuts cross, more than two
+/// nodes are one.
+class TiedNodes {
+ public:
+  explicit TiedNodes(std::size_t node_count) : next_(node_count) {
+    std::iota(next_.begin(), next_.end(), 0);
+  }
+
+  void tie(std::int32_t one, std::int32_t other) {
+    const std::int32_t a = lowest(one);
+    const std::int32_t b = lowest(other);
+    next_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+  std::int32_t lowest(std::int32_t node) const {
+    while (next_[static_cast<std::size_t>(node)] != node) {
+      node = next_[static_cast<std::size_t>(node)];
+    }
+    return node;
+  }
+
+ private:
+  std::vector<std::int32_t> next_;  ///< a lower node that it is tied to, or itself
+};
+
+}  // namespace
+
+FreeNodes::FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
+                     std::span<const mesher::Slit> slits)
+    : indices_(node_count, 0) {
+  TiedNodes tied(node_count);
+  for (const mesher::Slit& slit : slits) {
+    if (!slit.tied) continue;
+    for (std::size_t p = 0; p < slit.lower.size(); ++p) tied.tie(slit.lower[p], slit.upper[p]);
+  }
+  for (const std::int32_t node : held) {
+    indices_.at(static_cast<std::size_t>(tied.lowest(node))) = -1;
+  }
+  std::int32_t next = 0;
+  for (std::size_t k = 0; k < node_count; ++k) {
+    const auto lowest = static_cast<std::size_t>(tied.lowest(static_cast<std::int32_t>(k)));
+    if (lowest < k) {
+      indices_[k] = indices_[lowest];
+    } else if (indices_[k] == 0) {
+      indices_[k] = next++;
+    }
+  }
+  free_count_ = next;
+}
+
+FreeNodes::FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
+                     std::span<const RigidTie> ties, std::span<const HeldDirections> directions)
+    : FreeNodes(mesh.nodes.size(), held, mesh.slits) {
+  if (!ties.empty()) tie_rigidly(mesh, ties);
+  if (!directions.empty()) hold(directions, ties);
+}
+
+void FreeNodes::tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> ties) {
+  // By the numbers that nodes have so far, which slits may have given to several.
+  std::vector<std::int32_t> tie_of_number(static_cast<std::size_t>(free_count_), -1);
+  for (std::size_t t = 0; t < ties.size(); ++t) {
+    for (const std::int32_t node : ties[t].nodes) {
+      if (index(node) < 0) {
+        throw InputError("rigid interface '" + ties[t].name + "' has nodes that are held");
+      }
+      std::int32_t& tie = tie_of_number[static_cast<std::size_t>(index(node))];
+      if (tie >= 0 && tie != static_cast<std::int32_t>(t)) {
+        throw InputError("rigid interfaces '" + ties[static_cast<std::size_t>(tie)].name +
+                         "' and '" + ties[t].name + "' share nodes");
+      }
+      tie = static_cast<std::int32_t>(t);
+    }
+  }
+  std::vector<std::int32_t> new_number(tie_of_number.size());
+  for (std::size_t k = 0; k < new_number.size(); ++k) {
+    new_number[k] = tie_of_number[k] < 0 ? first_tie_++ : -1;
+  }
+  free_count_ = first_tie_ + 2 * static_cast<Eigen::Index>(ties.size());
+  tie_of_.assign(indices_.size(), -1);
+  arms_m_ = Eigen::Matrix3Xd::Zero(3, node_count());
+  for (std::size_t k = 0; k < indices_.size(); ++k) {
+    if (indices_[k] < 0) continue;
+    const auto number = static_cast<std::size_t>(indices_[k]);
+    tie_of_[k] = tie_of_number[number];
+    indices_[k] = new_number[number];
+    if (tie_of_[k] < 0) continue;
+    arms_m_.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[k].data()) -
+        ties[static_cast<std::size_t>(tie_of_[k])].point_m;
+  }
+}
+
+void FreeNodes::hold(std::span<const HeldDirections> directions, std::span<const RigidTie> ties) {
+  held_.assign(static_cast<std::size_t>(free_count_), {});
+  for (const HeldDirections& held : directions) {
+    for (const std::int32_t node : held.nodes) {
+      if (tie(node) >= 0) {
+        throw InputError("rigid interface '" + ties[static_cast<std::size_t>(tie(node))].name +
+                         "' has nodes that are held");
+      }
+      if (index(node) < 0) continue;
+      for (std::size_t a = 0; a < 3; ++a) {
+        bool& is_held = held_[static_cast<std::size_t>(index(node))][a];
+        is_held = is_held || held.is_held[a];
+      }
+    }
+  }
+}
+
+Eigen::Index FreeNodes::held_direction_count() const {
+  Eigen::Index count = 0;
+  for (const std::array<bool, 3>& held : held_) count += std::count(held.begin(), held.end(), true);
+  return count;
+}
+
+void FreeNodes::clear_held(Eigen::VectorXd& values) const {
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (held_[k][a]) values[static_cast<Eigen::Index>(3 * k + a)] = 0;
+    }
+  }
+}
+
+Eigen::VectorXd FreeNodes::restrict(const Eigen::Matrix3Xd& field) const {
+  Eigen::VectorXd values(dof_count());
+  const Eigen::Index ties = (free_count_ - first_tie_) / 2;
+  using Six = Eigen::Matrix<double, 6, 6>;
+  std::vector<Six> matrices(has_rigid_ties() ? static_cast<std::size_t>(ties) : 0, Six::Zero());
+  if (has_rigid_ties()) values.tail(6 * ties).setZero();
+  for (std::int32_t k = 0; k < node_count(); ++k) {
+    if (index(k) >= 0) values.segment<3>(3 * static_cast<Eigen::Index>(index(k))) = field.col(k);
+    if (tie(k) < 0) continue;
+    const Eigen::Vector3d arm = arm_m(k);
+    Eigen::Matrix<double, 3, 6> motion;  // of this node by the six of its tie
+    motion << 1, 0, 0, 0, arm.z(), -arm.y(), 0, 1, 0, -arm.z(), 0, arm.x(), 0, 0, 1, arm.y(),
+        -arm.x(), 0;
+    matrices[static_cast<std::size_t>(tie(k))] += motion.transpose() * motion;
+    values.segment<6>(3 * static_cast<Eigen::Index>(translation(tie(k)))) +=
+        motion.transpose() * field.col(k);
+  }
+  for (std::size_t t = 0; t < matrices.size(); ++t) {
+    auto six =
+        values.segment<6>(3 * static_cast<Eigen::Index>(translation(static_cast<std::int32_t>(t))));
+    six = matrices[t].ldlt().solve(Eigen::Matrix<double, 6, 1>(six)).eval();
+  }
+  clear_held(values);
+  return values;
+}
+
+Eigen::Matrix3Xd FreeNodes::expand(const Eigen::VectorXd& free_values) const {
+  Eigen::Matrix3Xd field = Eigen::Matrix3Xd::Zero(3, node_count());
+  for (std::size_t k = 0; k < indices_.size(); ++k) {
+    if (indices_[k] < 0) continue;
+    auto displacement = field.col(static_cast<Eigen::Index>(k));
+    displacement = free_values.segment<3>(3 * indices_[k]);
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (is_held(indices_[k], a)) displacement[a] = 0;
+    }
+  }
+  for (std::int32_t k = 0; has_rigid_ties() && k < node_count(); ++k) {
+    if (tie(k) < 0) continue;
+    const Eigen::Vector3d turn = free_values.segment<3>(3 * rotation(tie(k)));
+    field.col(k) = free_values.segment<3>(3 * translation(tie(k))) + turn.cross(arm_m(k));
+  }
+  return field;
+}
+
+Eigen::VectorXd FreeNodes::gather(const Eigen::Matrix3Xd& forces) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(dof_count());
+  for (std::size_t k = 0; k < indices_.size(); ++k) {
+    if (indices_[k] < 0) continue;
+    values.segment<3>(3 * indices_[k]) += forces.col(static_cast<Eigen::Index>(k));
+  }
+  for (std::int32_t k = 0; has_rigid_ties() && k < node_count(); ++k) {
+    if (tie(k) < 0) continue;
+    const Eigen::Vector3d force = forces.col(k);
+    values.segment<3>(3 * translation(tie(k))) += force;
+    values.segment<3>(3 * rotation(tie(k))) += arm_m(k).cross(force);
+  }
+  clear_held(values);
+  return values;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "fe_modal/dofs/free_nodes.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Which nodes share an element, in compressed rows: the sparsity of every nodal matrix.
+class NodeGraph {
+ public:
+  /// Of all nodes of the mesh.
+  explicit NodeGraph(const mesher::Mesh& mesh);
+  /// Of the free nodes, by their indices.
+  NodeGraph(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+
+  /// As found elsewhere.
+  NodeGraph(std::vector<std::int32_t> offsets, std::vector<std::int32_t> columns)
+      : offsets_(std::move(offsets)), columns_(std::move(columns)) {}
+
+  std::int32_t node_count() const { return static_cast<std::int32_t>(offsets_.size()) - 1; }
+  /// Nodes that share an element with this one, itself among them, ascending.
+  std::span<const std::int32_t> neighbours(std::int32_t node) const {
+    const auto row = static_cast<std::size_t>(node);
+    const auto begin = static_cast<std::size_t>(offsets_[row]);
+    return std::span(columns_).subspan(begin, static_cast<std::size_t>(offsets_[row + 1]) - begin);
+  }
+
+  const std::vector<std::int32_t>& offsets() const { return offsets_; }  ///< (n + 1)
+  const std::vector<std::int32_t>& columns() const { return columns_; }
+
+ private:
+  std::vector<std::int32_t> offsets_;
+  std::vector<std::int32_t> columns_;
+};
+
+}  // namespace flexneck::fe_modal

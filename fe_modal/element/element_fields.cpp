@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/element/element_fields.h"
+
+#include <span>
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Values of all fields at an element's nodes, (3 n, fields).
+void gather(std::span<const std::int32_t> nodes, const Displacements& fields,
+            Eigen::MatrixXd& values) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index a = 0; a < 3; ++a) {
+        values(a * n + i, static_cast<Eigen::Index>(f)) =
+            (*fields[f])(a, nodes[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formulation,
+                      const Displacements& displacements,
+                      const std::function<void(const PointFields&, double)>& visit) {
+  PointFields fields;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    const mesher::Material& material = mesh.materials.at(block.material);
+    const double shear_modulus = material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio));
+    ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
+    const std::size_t width = mesher::nodes_per_element(block.kind);
+    Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
+    Eigen::MatrixXd values(coordinates.size(), static_cast<Eigen::Index>(displacements.size()));
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      const auto nodes = std::span(block.nodes).subspan(width * e, width);
+      for (std::size_t i = 0; i < width; ++i) {
+        coordinates.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::Vector3d>(
+            mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
+      }
+      gather(nodes, displacements, values);
+      kernel.evaluate(coordinates, material, values, fields);
+      visit(fields, shear_modulus);
+    }
+  }
+}
+
+}  // namespace flexneck::fe_modal

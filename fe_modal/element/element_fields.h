@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "fe_modal/element/element_kernel.h"
+#include "fe_modal/element/formulation.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Displacements of all nodes, (3, n) each.
+using Displacements = std::vector<const Eigen::Matrix3Xd*>;
+
+/// Calls `visit` with the gradients and stresses of the displacements in each element and with its
+/// shear modulus, in Pa.
+/// @throws InputError and ComputationError as element_scheme and ElementKernel.
+void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formulation,
+                      const Displacements& displacements,
+                      const std::function<void(const PointFields&, double)>& visit);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/element/element_kernel.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "fe_modal/algebra/matrix_product.h"
+#include "geometry/foundation/error.h"
+#include "mesher/mesh/shape_functions.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Exact for the mass of every kind with straight edges, and for its volume with curved ones.
+constexpr int kMassStrength = 3;
+
+Eigen::Index pressure_count(PressureSpace space) {
+  switch (space) {
+    case PressureSpace::none:
+      return 0;
+    case PressureSpace::constant:
+      return 1;
+    case PressureSpace::along_axis:
+      return 2;
+    case PressureSpace::linear:
+      return 4;
+  }
+  return 0;
+}
+
+struct Moduli {
+  explicit Moduli(const mesher::Material& material)
+      : mu(material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio))),
+        kappa(material.youngs_modulus_Pa / (3 * (1 - 2 * material.poissons_ratio))),
+        lambda(kappa - 2 * mu / 3) {}
+  double mu, kappa, lambda;
+};
+
+}  // namespace
+
+ElementKernel::Points::Points(mesher::ElementKind kind, int strength) {
+  const mesher::Quadrature rule = mesher::gauss_rule(kind, strength);
+  const mesher::ShapeTable table = mesher::tabulate(kind, rule.points);
+  values = table.values;
+  reference = rule.points;
+  weights = rule.weights;
+  derivatives.resize(values.rows(), 3 * values.cols());
+  for (Eigen::Index q = 0; q < values.cols(); ++q) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      derivatives.col(3 * q + static_cast<Eigen::Index>(b)) = table.derivatives[b].col(q);
+    }
+  }
+  jacobians.resize(3, derivatives.cols());
+  roots.resize(values.cols());
+}
+
+ElementKernel::ElementKernel(const ElementScheme& scheme)
+    : scheme_(scheme),
+      points_(scheme.kind, scheme.strength),
+      mass_points_(scheme.kind, kMassStrength) {
+  const Eigen::Index n = points_.values.rows();
+  const Eigen::Index q = points_.values.cols();
+  const Eigen::Index p = pressure_count(scheme.pressures);
+  gradients_.resize(3 * n, q);
+  pressures_.resize(q, p);
+  divergence_.resize(3 * n, p);
+  products_.resize(3 * n, 3 * n);
+  weighted_.resize(n, mass_points_.values.cols());
+}
+
+void ElementKernel::map(const Eigen::Matrix3Xd& nodes_m, Points& points) {
+  points.jacobians.noalias() = nodes_m * points.derivatives;
+  for (Eigen::Index q = 0; q < points.weights.size(); ++q) {
+    const double volume = points.weights[q] * points.jacobians.middleCols<3>(3 * q).determinant();
+    if (!(volume > 0)) throw ComputationError("it is inverted at an integration point");
+    points.roots[q] = std::sqrt(volume);
+  }
+}
+
+void ElementKernel::differentiate() {
+  const Eigen::Index n = points_.values.rows();
+  for (Eigen::Index q = 0; q < points_.weights.size(); ++q) {
+    const Eigen::Matrix3d to_physical =
+        points_.roots[q] * Eigen::Matrix3d(points_.jacobians.middleCols<3>(3 * q)).inverse();
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3>>(gradients_.col(q).data(), n, 3) =
+        points_.derivatives.middleCols<3>(3 * q).lazyProduct(to_physical);
+  }
+}
+
+void ElementKernel::project_divergence(const Eigen::Matrix3Xd& nodes_m) {
+  pressures_.col(0) = points_.roots;
+  if (scheme_.pressures == PressureSpace::along_axis) {
+    pressures_.col(1) = points_.roots.cwiseProduct(points_.reference.row(2).transpose());
+  }
+  if (scheme_.pressures == PressureSpace::linear) {
+    // Centred and scaled for a well-conditioned Gram matrix; the span is the same.
+    const Eigen::Matrix3Xd positions = nodes_m * points_.values;
+    const Eigen::Vector3d centre = positions.rowwise().mean();
+    const double size = (positions.colwise() - centre).cwiseAbs().maxCoeff();
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      pressures_.col(a + 1) =
+          points_.roots.array() * (positions.row(a).transpose().array() - centre[a]) / size;
+    }
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> gram =
+      pressures_.transpose() * pressures_;
+  gram.llt().matrixL().transpose().solveInPlace<Eigen::OnTheRight>(pressures_);
+  multiply(1, gradients_, pressures_, 0, divergence_);
+}
+
+/// Adds mu (delta_ab sum_c H_cc + H_ba), the part 2 mu eps:eps, and square H_ab.
+void ElementKernel::add_displacement_part(double mu, double square,
+                                          Eigen::MatrixXd& stiffness) const {
+  const Eigen::Index n = points_.values.rows();
+  const auto h = [&](Eigen::Index a, Eigen::Index b) {
+    return products_.block(a * n, b * n, n, n);
+  };
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    for (Eigen::Index b = 0; b < 3; ++b) {
+      auto block = stiffness.block(a * n, b * n, n, n);
+      block += mu * h(b, a) + square * h(a, b);
+      if (a == b) block += mu * (h(0, 0) + h(1, 1) + h(2, 2));
+    }
+  }
+}
+
+double ElementKernel::projected_modulus(const mesher::Material& material) const {
+  if (scheme_.pressures == PressureSpace::none) return 0;
+  const Moduli moduli(material);
+  return scheme_.projected == VolumetricPart::bulk ? moduli.kappa : moduli.lambda;
+}
+
+void ElementKernel::evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+                             const Eigen::MatrixXd& fields, PointFields& result) {
+  const Eigen::Index n = points_.values.rows();
+  map(nodes_m, points_);
+  differentiate();
+  const Eigen::VectorXd to_value = points_.roots.cwiseInverse();
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    for (Eigen::Index b = 0; b < 3; ++b) {
+      result.gradients.at(static_cast<std::size_t>(3 * a + b)) =
+          fields.middleRows(a * n, n).transpose() * gradients_.middleRows(b * n, n) *
+          to_value.asDiagonal();
+    }
+  }
+  result.volumes_m3 = points_.roots.cwiseAbs2();
+  const double projected = projected_modulus(material);
+  const Eigen::MatrixXd divergence =
+      result.gradients[0] + result.gradients[4] + result.gradients[8];
+  result.volumetric_Pa = (Moduli(material).lambda - projected) * divergence;
+  if (scheme_.pressures != PressureSpace::none) {
+    project_divergence(nodes_m);
+    result.volumetric_Pa += projected * (fields.transpose() * divergence_) *
+                            pressures_.transpose() * to_value.asDiagonal();
+  }
+}
+
+void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+                            ElementMatrices& result) {
+  const Moduli moduli(material);
+
+  map(nodes_m, points_);
+  differentiate();
+  // H_ia,jb = int N_i,a N_j,b holds all that the displacements contribute.
+  multiply_by_transpose(1, gradients_, gradients_, 0, products_);
+  result.stiffness.resize(products_.rows(), products_.cols());
+  // 2 mu dev:dev + kappa div^2 = 2 mu eps:eps + lambda div^2
+  double square = moduli.lambda;
+  if (scheme_.pressures != PressureSpace::none) {
+    project_divergence(nodes_m);
+    const double projected = projected_modulus(material);
+    multiply_by_transpose(projected, divergence_, divergence_, 0, result.stiffness);
+    square -= projected;
+  } else {
+    result.stiffness.setZero();
+  }
+  add_displacement_part(moduli.mu, square, result.stiffness);
+
+  const bool shared = scheme_.strength == kMassStrength;
+  if (!shared) map(nodes_m, mass_points_);
+  const Points& points = shared ? points_ : mass_points_;
+  weighted_ = points.values * points.roots.asDiagonal();
+  result.mass.resize(weighted_.rows(), weighted_.rows());
+  multiply_by_transpose(material.density_kg_m3, weighted_, weighted_, 0, result.mass);
+}
+
+}  // namespace flexneck::fe_modal

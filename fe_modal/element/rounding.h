@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/element/formulation.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// How far rounding has moved the lowest frequency that is not zero, relatively. Entries of the
+/// stiffness are of the size of the bulk modulus times the element's; rounded, they no longer let a
+/// body translate without force. What holds it then is lost below some 1e-16 of them: the more, the
+/// nearer Poisson's ratio is to 1/2, and the more slender the body. The strain energy of the mode
+/// summed from strains, element by element, has no such loss: by Rayleigh's quotient its difference
+/// from the eigenvalue is the error. Zero if there is no elastic mode.
+double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formulation,
+                      const ModalBody& body);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/system/assembly.h"
+
+namespace flexneck::fe_modal {
+
+/// Inertia invariants from the consistent mass matrix (equations.md, section 2): each is a sum of
+/// integrals int rho p q = p^T M q of the component fields p, q in {1, s0, psi}. For isoparametric
+/// elements that is the integral itself, by the quadrature of the mass matrix.
+/// @param nodes_m positions in the body frame
+/// @param shapes m fields on all nodes, (3, n) each
+InertiaInvariants inertia_invariants(const NodalMass& mass,
+                                     const std::vector<std::array<double, 3>>& nodes_m,
+                                     const std::vector<Eigen::Matrix3Xd>& shapes);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/reduction/mode_conventions.h"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Relative difference of frequencies below which modes share their space.
+constexpr double kSameFrequency = 1e-6;
+
+using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Translations and length x rotations at the observed region, one column a mode.
+Motions observe(const EigenPairs& pairs, const FreeNodes& free_nodes, const RigidAverage& seen,
+                double length_m) {
+  Motions motions(6, pairs.values.size());
+  for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
+    motions.col(k) = seen.of(free_nodes.expand(pairs.vectors.col(k)));
+  }
+  motions.bottomRows<3>() *= length_m;
+  return motions;
+}
+
+/// End of the group of equal frequencies that starts at `first`.
+Eigen::Index end_of_group(const Eigen::VectorXd& values, Eigen::Index first) {
+  Eigen::Index end = first + 1;
+  // Values are squares of frequencies: twice the relative difference.
+  while (end < values.size() && values[end] - values[end - 1] < 2 * kSameFrequency * values[end]) {
+    ++end;
+  }
+  return end;
+}
+
+/// Orthogonal matrix whose first column has the most fore-aft and least lateral motion.
+Eigen::MatrixXd rotation_to_axes(const Motions& motions) {
+  // x and y translation, x and y rotation: lateral motion counts for, fore-aft against.
+  const Vector6d weights{{-1, 1, 0, 1, -1, 0}};
+  const Eigen::MatrixXd contest = motions.transpose() * weights.asDiagonal() * motions;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(contest).eigenvectors();
+}
+
+double sign_of_largest(const Eigen::VectorXd& values) {
+  Eigen::Index largest = 0;
+  values.cwiseAbs().maxCoeff(&largest);
+  return values[largest] < 0 ? -1 : 1;
+}
+
+}  // namespace
+
+void apply_conventions(EigenPairs& pairs, const FreeNodes& free_nodes, const RigidAverage& seen,
+                       double length_m) {
+  Motions motions = observe(pairs, free_nodes, seen, length_m);
+  for (Eigen::Index first = 0; first < pairs.values.size();) {
+    const Eigen::Index count = end_of_group(pairs.values, first) - first;
+    if (count > 1 && pairs.values[first] > 0) {
+      const Eigen::MatrixXd rotation = rotation_to_axes(motions.middleCols(first, count));
+      pairs.vectors.middleCols(first, count) *= rotation;
+      motions.middleCols(first, count) *= rotation;
+    }
+    first += count;
+  }
+  for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
+    pairs.vectors.col(k) *= sign_of_largest(motions.col(k));
+  }
+}
+
+void apply_conventions(EigenPairs& pairs) {
+  for (auto vector : pairs.vectors.colwise()) vector *= sign_of_largest(vector);
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/attached_mass.h"
+
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/solve/block_lanczos.h"
+
+namespace flexneck::fe_modal {
+Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
+                           const Eigen::Matrix3d& inertia_kg_m2) {
+  Eigen::Matrix3d skew;
+  skew << 0, -center_m.z(), center_m.y(), center_m.z(), 0, -center_m.x(), -center_m.y(),
+      center_m.x(), 0;
+  Matrix6d matrix;
+  matrix << mass_kg * Eigen::Matrix3d::Identity(), -mass_kg * skew, mass_kg * skew,
+      inertia_kg_m2 - mass_kg * skew * skew;
+  return matrix;
+}
+
+AttachedMass::AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass)
+    : loads_(loads),
+      operator_(loads.rows(), [mass, rigid_mass, &loads](const Eigen::MatrixXd& fields) {
+        Eigen::MatrixXd momenta = block_product(mass, fields);
+        multiply(1, loads, rigid_mass * inner_products(loads, fields), 1, momenta);
+        return momenta;
+      }) {}
+
+Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
+                                   const Eigen::Ref<const Eigen::MatrixXd>& modes,
+                                   Eigen::Index count) {
+  // Its own method needs no exact solves, which are dear there and never quite exact.
+  if (const auto own = inverse.iterate(mass.matrix(), count)) return own->values;
+  // The error of an eigenvalue is the square of this, over the relative gap to the next.
+  constexpr double kResidual = 1e-6;
+  Eigen::MatrixXd start(modes.rows(), modes.cols() + mass.loads().cols());
+  start << modes, inverse.solve(mass.loads());
+  start.colwise().normalize();
+  const Settled settled = [](const RitzState& state) {
+    return state.residuals.maxCoeff() < kResidual;
+  };
+  return block_lanczos(mass.matrix(), inverse, EigenPairs(), std::move(start), count, settled)
+      .values;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fe_modal/algebra/operator_matrix.h"
+#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/system/rigid_average.h"
+
+namespace flexneck::fe_modal {
+
+/// Mass matrix of a rigid body about a point, (6, 6): translation of the point, then rotation.
+/// @param center_m of mass, from the point
+/// @param inertia_kg_m2 about the centre of mass
+Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
+                           const Eigen::Matrix3d& inertia_kg_m2);
+
+/// M + C^T M_rigid C as an operator: the body with a rigid one that follows the average motion C of
+/// a region. The matrix itself would be full on the region.
+class AttachedMass {
+ public:
+  /// @param mass of the free degrees of freedom; must outlive this
+  /// @param loads C^T, (dofs, 6): unit forces and moments on the region; must outlive this
+  /// @param rigid_mass about the point that they act at
+  AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass);
+
+  Mat matrix() const { return operator_.get(); }
+  const Eigen::MatrixXd& loads() const { return loads_; }
+
+ private:
+  const Eigen::MatrixXd& loads_;
+  OperatorMatrix operator_;
+};
+
+/// The lowest eigenvalues of K x = lambda (M + C^T M_rigid C) x by inverse iteration of the span of
+/// the body's lowest modes and of its static response to the loads on the region. A mode that is
+/// orthogonal to these in the energy does not move the region, so it is one of the body without
+/// the mass, and none of its lowest: nothing can be missed that is asked for.
+/// @param inverse of K
+/// @param modes (dofs, m) the body's lowest; m is at least `count`
+Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
+                                   const Eigen::Ref<const Eigen::MatrixXd>& modes,
+                                   Eigen::Index count);
+
+}  // namespace flexneck::fe_modal

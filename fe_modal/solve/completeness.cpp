@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/completeness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Neighbours whose eigenvalues differ relatively by less belong to one cluster: 0.05 % in
+/// frequency, more than an eigenvalue that only serves as the next one is uncertain by, and what
+/// the mesh of a symmetric body may set apart.
+constexpr double kCluster = 1e-3;
+/// Eigenvalues below this share of the shift are rigid-body motions.
+constexpr double kRigidBody = 1e-6;
+
+std::string hertz(double eigenvalue) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g Hz",
+                std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi));
+  return text.data();
+}
+
+bool is_rigid(double eigenvalue, double shift) {
+  return eigenvalue <= kRigidBody * std::abs(shift);
+}
+
+/// Whether values[k] begins a cluster.
+bool is_gap(const Eigen::VectorXd& values, Eigen::Index k, double shift) {
+  if (k == 0) return true;
+  return !is_rigid(values[k], shift) && values[k] - values[k - 1] >= kCluster * values[k];
+}
+
+/// The cluster that has values[k]: its first and, if it ends among the values, one past its last.
+struct Cluster {
+  Eigen::Index begin;
+  Eigen::Index end;
+};
+
+Cluster cluster_of(const Eigen::VectorXd& values, Eigen::Index k, double shift) {
+  Cluster cluster{k, k + 1};
+  while (!is_gap(values, cluster.begin, shift)) --cluster.begin;
+  while (cluster.end < values.size() && !is_gap(values, cluster.end, shift)) ++cluster.end;
+  return cluster;
+}
+
+/// "the 6 rigid-body motions", "the 2 modes at 98.5 Hz"
+std::string name_of(const Cluster& cluster, const Eigen::VectorXd& values, double shift) {
+  const std::string count = "the " + std::to_string(cluster.end - cluster.begin);
+  const double first = values[cluster.begin];
+  return count + (shift != 0 && is_rigid(first, shift) ? " rigid-body motions"
+                                                       : " modes at " + hertz(first));
+}
+
+double between(const Eigen::VectorXd& values, Eigen::Index k) {
+  return (std::max(values[k - 1], 0.0) + values[k]) / 2;
+}
+
+std::string complete_below(double eigenvalue) {
+  return "certified: no mode is missing below " + hertz(eigenvalue) + ", by inertia";
+}
+
+/// Of `count` modes among values of which none is missing.
+std::string certificate_of(const Eigen::VectorXd& values, Eigen::Index count, double shift) {
+  const Cluster last = cluster_of(values, count - 1, shift);
+  if (last.end == count) {
+    return count == values.size() ? "certified: all modes that there are"
+                                  : complete_below(between(values, count));
+  }
+  const std::string cut = "; the count cuts " + name_of(last, values, shift);
+  return (last.begin == 0 ? kNotCertified : complete_below(between(values, last.begin))) + cut;
+}
+
+}  // namespace
+
+std::optional<std::string> prove_complete(const ModalSystem& system, const Eigen::VectorXd& values,
+                                          Eigen::Index count, double shift) {
+  const Eigen::Index end = cluster_of(values, count - 1, shift).end;
+  if (end == values.size()) return std::nullopt;
+  const double sigma = between(values, end);
+  const Eigen::Index counted = system.eigenvalues_below(sigma);
+  if (counted != end) {
+    throw ComputationError("the eigensolver found " + std::to_string(end) + " modes below " +
+                           hertz(sigma) + ", but the inertia of the stiffness counts " +
+                           std::to_string(counted));
+  }
+  return certificate_of(values, count, shift);
+}
+
+void check_eigenvalues(const Eigen::VectorXd& values, double shift) {
+  const double scale = std::max(std::abs(shift), values.cwiseAbs().maxCoeff());
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    if (values[k] >= -kRigidBody * scale && std::isfinite(values[k])) continue;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "eigenvalue %td is %.3g 1/s^2, expected a number >= 0: stiffness or mass is not "
+                  "positive, or too near to it",
+                  k + 1, values[k]);
+    throw ComputationError(text.data());
+  }
+}
+
+void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn) {
+  constexpr Eigen::Index kRigidMotions = 6;
+  const Eigen::Index count = pairs.values.size();
+  if (count == 0 || !warn) return;
+  const std::string cuts = "the number of modes, " + std::to_string(count) + ", cuts ";
+  if (shift != 0 && count < kRigidMotions) {
+    warn(cuts +
+         "the 6 rigid-body motions of a free body, of which any combination is one: ask "
+         "for at least 6");
+    return;
+  }
+  if (!(pairs.next - pairs.values[count - 1] < kCluster * pairs.next)) return;
+  const Eigen::Index begin = cluster_of(pairs.values, count - 1, shift).begin;
+  warn(cuts + "a cluster of equal frequencies at " + hertz(pairs.values[begin]) +
+       ", of which any combination is a mode: ask for more" +
+       (begin > 0 ? ", or for " + std::to_string(begin) : ""));
+}
+
+CertifiedModes lowest_modes(const ModalSystem& system, const ShiftInverse& inverse,
+                            Eigen::Index count, bool certify, const Progress& warn) {
+  const auto solve = [&](Eigen::Index asked) {
+    return lowest_eigenpairs(system.stiffness(), system.mass(), inverse, asked);
+  };
+  if (!certify) {
+    EigenPairs pairs = solve(count);
+    warn_of_cut(pairs, inverse.shift(), warn);
+    return {std::move(pairs), kNotCertified};
+  }
+  PetscInt size = 0;
+  require(MatGetSize(system.mass(), &size, nullptr), "asking for the number of modes");
+  for (Eigen::Index more = 1;; more *= 2) {
+    const Eigen::Index asked = std::min<Eigen::Index>(count + more, size);
+    const EigenPairs pairs = solve(asked);
+    auto certificate = prove_complete(system, pairs.values, count, inverse.shift());
+    if (!certificate && asked == size) {
+      certificate = certificate_of(pairs.values, count, inverse.shift());
+    }
+    if (!certificate) continue;
+    EigenPairs lowest{pairs.values.head(count), pairs.vectors.leftCols(count)};
+    if (asked > count) lowest.next = pairs.values[count];
+    warn_of_cut(lowest, inverse.shift(), warn);
+    return {std::move(lowest), *certificate};
+  }
+}
+
+}  // namespace flexneck::fe_modal

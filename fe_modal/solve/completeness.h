@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/modal_system.h"
+#include "geometry/foundation/progress.h"
+
+namespace flexneck::fe_modal {
+
+/// Of modes that nothing is known of.
+inline constexpr const char* kNotCertified = "not certified";
+
+/// The lowest modes, and what is known of their completeness: a sentence.
+struct CertifiedModes {
+  EigenPairs pairs;
+  std::string certificate;
+};
+
+/// The lowest `count` modes. Certified, they are counted by inertia in the first gap above the last
+/// one, for which more modes are computed where they need be. Where `count` cuts a cluster of equal
+/// frequencies, which a square section has in pairs and a free body six of, the certificate says
+/// nothing of the cluster.
+/// @param warn takes a line if `count` cuts a cluster; may be empty
+/// @throws ComputationError if the counts disagree.
+CertifiedModes lowest_modes(const ModalSystem& system, const ShiftInverse& inverse,
+                            Eigen::Index count, bool certify, const Progress& warn);
+
+/// Proves that there are no eigenvalues but those given below the first gap above
+/// values[count - 1]: the sentence that says up to where the lowest `count` are complete, or
+/// nothing if there is no gap.
+/// @param values ascending, those above `count` serve to find the gap
+/// @param shift of the inverse; eigenvalues much smaller than it are rigid-body motions
+/// @throws ComputationError if the inertia counts another number.
+std::optional<std::string> prove_complete(const ModalSystem& system, const Eigen::VectorXd& values,
+                                          Eigen::Index count, double shift);
+
+/// @param shift of the inverse; eigenvalues are those of a body with positive stiffness otherwise
+/// @throws ComputationError for values that are not numbers, or negative beyond rounding.
+void check_eigenvalues(const Eigen::VectorXd& values, double shift);
+
+/// Warns if the next eigenvalue belongs to the cluster of the last pair, or if rigid-body motions
+/// are among those that are left out.
+/// @param shift of the inverse; not zero for a free body
+void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/iterative/block_davidson.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "fe_modal/algebra/matrix_product.h"
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr Eigen::Index kGuards = 4;         ///< columns beyond those wanted
+constexpr Eigen::Index kBlocksOfBasis = 4;  ///< when the basis is that wide, it is cut back
+constexpr int kMostIterations = 500;
+/// Of r^T P r / lambda, which estimates the relative error of lambda if P is near K^-1. That of
+/// shapes is its root, and static compliances, which are asked for to 1e-8, take shapes as exact.
+constexpr double kTolerance = 1e-15;
+/// Columns that are so much shorter after orthogonalisation have nothing new.
+constexpr double kNothingNew = 1e-10;
+
+Eigen::MatrixXd product(const MatrixView& columns, const MatrixView& combination) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns.rows(), combination.cols());
+  multiply(1, columns, combination, 0, result);
+  return result;
+}
+
+/// The basis V, V^T M V = 1, and V^T K V. K V and M V are not kept, for products with K and M are
+/// cheap beside the preconditioner. Memory is taken once: at a million degrees of freedom it would
+/// not do to copy it.
+class Basis {
+ public:
+  Basis(Eigen::Index size, Eigen::Index capacity)
+      : vectors_(size, capacity), projected_(Eigen::MatrixXd::Zero(capacity, capacity)) {}
+
+  Eigen::Index count() const { return count_; }
+  Eigen::Index capacity() const { return vectors_.cols(); }
+  auto vectors() const { return vectors_.leftCols(count_); }
+  auto projected() const { return projected_.topLeftCorner(count_, count_); }
+
+  /// @param forces K times the block
+  void append(const Eigen::MatrixXd& block, const Eigen::MatrixXd& forces) {
+    const Eigen::Index columns = block.cols();
+    vectors_.middleCols(count_, columns) = block;
+    count_ += columns;
+    const Eigen::MatrixXd shares = inner_products(vectors(), forces);
+    projected_.block(0, count_ - columns, count_, columns) = shares;
+    projected_.block(count_ - columns, 0, columns, count_) = shares.transpose();
+  }
+  /// Keeps combinations of the columns.
+  /// @param combination orthonormal
+  void cut_back(const Eigen::MatrixXd& combination) {
+    constexpr Eigen::Index kRows = 4096;
+    for (Eigen::Index first = 0; first < vectors_.rows(); first += kRows) {
+      auto rows = vectors_.middleRows(first, std::min(kRows, vectors_.rows() - first));
+      const Eigen::MatrixXd turned = product(rows.leftCols(count_), combination);
+      rows.leftCols(combination.cols()) = turned;
+    }
+    const Eigen::MatrixXd turned = combination.transpose() * projected() * combination;
+    count_ = combination.cols();
+    projected_.topLeftCorner(count_, count_) = turned;
+  }
+
+ private:
+  Eigen::MatrixXd vectors_;
+  Eigen::MatrixXd projected_;
+  Eigen::Index count_ = 0;
+};
+
+Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns) {
+  std::mt19937_64 generator(1);
+  Eigen::MatrixXd block(size, columns);
+  // Not std::uniform_real_distribution, whose numbers differ from library to library.
+  for (double& x : block.reshaped()) {
+    x = std::ldexp(static_cast<double>(generator() >> 11U), -53) - 0.5;
+  }
+  return block;
+}
+
+/// What of the columns is M-orthogonal to the basis, M-orthonormal among themselves.
+Eigen::MatrixXd orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperator& mass) {
+  Eigen::MatrixXd momenta = mass(block);
+  for (int pass = 0; pass < 2; ++pass) {
+    if (basis.count() > 0) {
+      multiply(-1, basis.vectors(), inner_products(basis.vectors(), momenta), 1, block);
+      momenta = mass(block);
+    }
+    Eigen::MatrixXd gram = inner_products(block, momenta);
+    const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+    const Eigen::VectorXd& lengths = solver.eigenvalues();
+    const Eigen::Index dropped = (lengths.array() < kNothingNew).count();
+    const Eigen::Index kept = lengths.size() - dropped;
+    const Eigen::MatrixXd combination = scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
+                                        lengths.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+    block = product(block, combination);
+    momenta = product(momenta, combination);
+  }
+  return block;
+}
+
+/// The Ritz vectors and those of the iteration before, which make it converge as if the basis had
+/// not been cut back (Stathopoulos and Saad, Electron. Trans. Numer. Anal. 7 (1998) 163).
+/// @param best, before of the basis now and then, which has grown since; orthonormal
+Eigen::MatrixXd restart_combination(const Eigen::MatrixXd& best, const Eigen::MatrixXd& before) {
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(best.rows(), best.cols() + before.cols());
+  both.leftCols(best.cols()) = best;
+  both.topRightCorner(before.rows(), before.cols()) = before;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(both);
+  return factors.householderQ() * Eigen::MatrixXd::Identity(both.rows(), both.cols());
+}
+
+}  // namespace
+
+DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperator& mass,
+                              const BlockOperator& preconditioner, Eigen::Index size,
+                              Eigen::Index count) {
+  const Eigen::Index width = std::min(count + kGuards, size);
+  // Of a small body a block may be added when little is left to find.
+  Basis basis(size, std::min(kBlocksOfBasis * width, size + width));
+  Eigen::MatrixXd block = preconditioner(mass(random_block(size, width)));
+  Eigen::MatrixXd before;
+  for (int iteration = 1; iteration <= kMostIterations; ++iteration) {
+    block = orthonormal(basis, std::move(block), mass);
+    if (block.cols() == 0) break;
+    basis.append(block, stiffness(block));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());
+    const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, basis.count()));
+    const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
+    EigenPairs pairs{values, product(basis.vectors(), best)};
+    Eigen::MatrixXd residuals = stiffness(pairs.vectors);
+    residuals -= mass(pairs.vectors) * values.asDiagonal();
+    block = preconditioner(residuals);
+    const Eigen::VectorXd errors =
+        block.cwiseProduct(residuals).colwise().sum().transpose().cwiseQuotient(values);
+    if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
+      EigenPairs lowest{values.head(count), pairs.vectors.leftCols(count)};
+      if (values.size() > count) lowest.next = values[count];
+      return {std::move(lowest), iteration};
+    }
+    if (basis.count() + width > basis.capacity()) {
+      const Eigen::MatrixXd combination = restart_combination(best, before);
+      basis.cut_back(combination);
+      before = Eigen::MatrixXd::Identity(combination.cols(), width);
+    } else {
+      before = best;
+    }
+    // What has converged needs no more.
+    Eigen::Index open = 0;
+    for (Eigen::Index k = 0; k < errors.size(); ++k) {
+      if (errors[k] >= kTolerance) block.col(open++) = block.col(k);
+    }
+    block.conservativeResize(Eigen::NoChange, open);
+  }
+  throw ComputationError("the iterative eigensolver has not converged in " +
+                         std::to_string(kMostIterations) + " iterations");
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/node_graph.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Lists of free nodes, ascending.
+using NodeLists = std::vector<std::vector<std::int32_t>>;
+
+/// The nodes of subdomains of some ten thousand nodes whatever the size of the body, at least two
+/// where there are two elements. Elements belong to one each, nodes between them to several. None
+/// goes across parts: the stiffness may jump by thousands there, and a coarse space follows a jump
+/// only along the interface of subdomains.
+NodeLists find_subdomains(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+
+/// What moves when nothing does but in a layer of elements around the nodes: the nodes all of whose
+/// elements are in the layer.
+std::vector<std::int32_t> widened(const NodeGraph& graph, const std::vector<std::int32_t>& nodes);
+
+/// m, (3, free nodes)
+Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/mechanism.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/rigid_average.h"
+#include "mesher/mesh/bounding_box.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Motions without strain are looked for in this number: two bodies that nothing holds have twelve.
+constexpr Eigen::Index kMostMotions = 12;
+/// A singular value, or a deviation from a rigid motion, below this share of the largest is none.
+constexpr double kNone = 1e-3;
+
+using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
+Eigen::MatrixXd strainless_fields(const FreeNodes& free_nodes, const ModalSystem& system,
+                                  double scale) {
+  const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
+  const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), system.mass(), *inverse,
+                                             std::min(kMostMotions, free_nodes.dof_count()));
+  const Eigen::Index count = (pairs.values.array() < kStrainless * scale).count();
+  Eigen::MatrixXd fields(3 * free_nodes.node_count(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Matrix3Xd field = free_nodes.expand(pairs.vectors.col(k));
+    fields.col(k) = Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
+  }
+  return fields;
+}
+
+struct Part {
+  std::string name;
+  RigidAverage average;
+  std::vector<std::int32_t> nodes;
+};
+
+std::vector<Part> rigid_parts_of(const mesher::Mesh& mesh) {
+  std::vector<Part> parts;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    auto part = std::find_if(parts.begin(), parts.end(),
+                             [&](const Part& known) { return known.name == block.part; });
+    if (part == parts.end()) {
+      part = parts.insert(part, {block.part, RigidAverage(mesh, block.part), {}});
+    }
+    part->nodes.insert(part->nodes.end(), block.nodes.begin(), block.nodes.end());
+  }
+  return parts;
+}
+
+/// The rigid motion of a part in each field; rotations are lengths at the distance `length_m`.
+Motions motions_of(const Part& part, const Eigen::MatrixXd& fields, double length_m) {
+  Motions motions(6, fields.cols());
+  for (Eigen::Index k = 0; k < fields.cols(); ++k) {
+    motions.col(k) = part.average.of(
+        Eigen::Map<const Eigen::Matrix3Xd>(fields.col(k).data(), 3, fields.rows() / 3));
+  }
+  motions.bottomRows<3>() *= length_m;
+  return motions;
+}
+
+/// Combinations of the fields in which the heaviest part stands still.
+Eigen::MatrixXd without_motion_as_a_whole(const std::vector<Part>& parts,
+                                          const Eigen::MatrixXd& fields, double length_m) {
+  const auto heaviest =
+      std::max_element(parts.begin(), parts.end(), [](const Part& one, const Part& other) {
+        return one.average.gram()(0, 0) < other.average.gram()(0, 0);
+      });
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(motions_of(*heaviest, fields, length_m),
+                                              Eigen::ComputeFullV);
+  const Eigen::VectorXd& values = svd.singularValues();
+  const Eigen::Index rank = (values.array() > kNone * values[0]).count();
+  return fields * svd.matrixV().rightCols(fields.cols() - rank);
+}
+
+/// Largest deviation of the part's nodes from rigid motion, over the field's largest displacement.
+double deformation(const mesher::Mesh& mesh, const Part& part, const Eigen::VectorXd& field) {
+  const Eigen::Map<const Eigen::Matrix3Xd> displacement(field.data(), 3, field.size() / 3);
+  const Vector6d motion = part.average.of(displacement);
+  double deviation = 0;
+  for (const std::int32_t node : part.nodes) {
+    const Eigen::Vector3d arm =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data()) -
+        part.average.point_m();
+    const Eigen::Vector3d rigid = motion.head<3>() + motion.tail<3>().cross(arm);
+    deviation = std::max(deviation, (displacement.col(node) - rigid).norm());
+  }
+  return deviation / displacement.colwise().norm().maxCoeff();
+}
+
+/// "z", or "(0.71, 0.71, 0)".
+std::string direction_name(Eigen::Vector3d direction) {
+  Eigen::Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  if (direction[largest] < 0) direction = -direction;
+  if (direction[largest] > 1 - kNone) return std::string(1, "xyz"[largest]);
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "(%.2f, %.2f, %.2f)", direction[0], direction[1],
+                direction[2]);
+  return text.data();
+}
+
+/// @param motion of a part: the only one it has; rotation as a length
+std::string describe_motion(const Part& part, Vector6d motion, double length_m) {
+  motion.tail<3>() /= length_m;
+  const Eigen::Vector3d translation = motion.head<3>();
+  const Eigen::Vector3d rotation = motion.tail<3>();
+  if (rotation.norm() * length_m < kNone * translation.norm()) {
+    return "slides freely along " + direction_name(translation.normalized());
+  }
+  // The point of the axis that is nearest to the part's centre does not move across it.
+  const Eigen::Vector3d axis = rotation.normalized();
+  const Eigen::Vector3d to_axis = rotation.cross(translation) / rotation.squaredNorm();
+  Eigen::Vector3d foot = part.average.point_m() + to_axis;
+  foot -= axis * axis.dot(foot);  // the same for all parts that turn together
+  const double rounding = kNone * length_m;
+  foot = foot.unaryExpr([&](double x) { return std::abs(x) < rounding ? 0.0 : x; });
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), " through (%.3g, %.3g, %.3g) m", foot[0], foot[1],
+                foot[2]);
+  return "turns freely about " + direction_name(axis) + text.data();
+}
+
+/// How the part moves; nothing if it stands still.
+std::optional<std::string> describe_part(const Part& part, const Eigen::MatrixXd& fields,
+                                         double length_m) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(motions_of(part, fields, length_m),
+                                              Eigen::ComputeThinU);
+  const double whole = fields.cwiseAbs().maxCoeff();
+  const Eigen::Index ways = (svd.singularValues().array() > kNone * whole).count();
+  if (ways == 0) return std::nullopt;
+  if (ways == 6) return "is not held: it moves freely in every way";
+  if (ways > 1) return "moves freely in " + std::to_string(ways) + " ways";
+  return describe_motion(part, svd.matrixU().col(0), length_m);
+}
+
+}  // namespace
+
+double eigenvalue_scale(const mesher::Mesh& mesh) {
+  double slowest = HUGE_VAL;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    const mesher::Material& material = mesh.materials.at(block.material);
+    slowest = std::min(slowest, material.youngs_modulus_Pa / material.density_kg_m3);
+  }
+  return slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
+}
+
+std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                                              const ModalSystem& system, bool is_held) {
+  const double length_m = mesher::bounding_box(mesh).extent_m().norm();
+  const std::vector<Part> parts = rigid_parts_of(mesh);
+  Eigen::MatrixXd fields = strainless_fields(free_nodes, system, eigenvalue_scale(mesh));
+  if (!is_held && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
+  std::string text;
+  for (const Part& part : parts) {
+    const auto motion = fields.cols() == 0 ? std::nullopt : describe_part(part, fields, length_m);
+    if (!motion) continue;
+    for (const auto& field : fields.colwise()) {
+      if (deformation(mesh, part, field) > kNone) return std::nullopt;
+    }
+    text += (text.empty() ? "part '" : "; part '") + part.name + "' " + *motion;
+  }
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
+}  // namespace flexneck::fe_modal

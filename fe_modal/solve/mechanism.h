@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/system/modal_system.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Crude estimate of a body's lowest elastic eigenvalue, 1/s^2: (c / L)^2 of the slowest material.
+double eigenvalue_scale(const mesher::Mesh& mesh);
+
+/// Eigenvalues below this share of the scale belong to motions without strain.
+inline constexpr double kStrainless = 1e-6;
+
+/// Which parts move without strain, and how, e.g. "part 'pin' turns freely about z through (0, 0,
+/// 0.1) m". Of a body that nothing holds the motion as a whole does not count: the heaviest part
+/// stands still.
+/// @param is_held whether a node set is held
+/// @return nothing if every such motion is too large for parts as rigid bodies: then it bends
+/// @throws ComputationError if the motions cannot be computed.
+std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                                              const ModalSystem& system, bool is_held);
+
+}  // namespace flexneck::fe_modal

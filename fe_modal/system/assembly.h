@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "fe_modal/algebra/symmetric_matrix.h"
+#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/node_graph.h"
+#include "fe_modal/element/formulation.h"
+#include "fe_modal/system/mass_matrix.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Matrices of the whole body.
+struct SystemMatrices {
+  NodeGraph graph;            ///< of the free nodes
+  SymmetricMatrix stiffness;  ///< of the free degrees of freedom, N/m
+  NodalMass nodal_mass;       ///< of all nodes, kg
+  MassMatrix mass;            ///< of the free degrees of freedom, kg; void with constraints
+  /// Where there are rigid ties or held directions: of the free degrees of freedom, the ties'
+  /// included; zero where a direction is held.
+  std::optional<SymmetricMatrix> constrained_mass;
+
+  Mat mass_operator() const { return constrained_mass ? constrained_mass->get() : mass.get(); }
+};
+
+/// @throws InputError if a part's kind of element has no such formulation.
+/// @throws ComputationError if an element is inverted, or PETSc fails, e.g. for want of memory.
+SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+                        const FormulationChoice& formulation = {});
+
+/// K - shift M.
+SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/system/memory_needs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "geometry/foundation/available_memory.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr double kProgram = 0.09e9;         ///< libraries, before anything is read
+constexpr double kAssembledPerDof = 4.1e3;  ///< mesh, graph, stiffness, its copy, mass, ten modes
+constexpr double kIterativePerDof = 7.2e3;  ///< those and the subdomains' factors
+/// Of a neck with so many degrees of freedom, in an order by nested dissection.
+constexpr double kReferenceDofs = 191388;
+constexpr double kReferenceEntries = 183.8e6;
+constexpr double kGrowth = 1.42;
+/// Copies of a mode: two Krylov spaces, of which one is twice as wide, shapes and what is written.
+constexpr double kBytesPerDof = 9 * 8;
+constexpr int kIncluded = 10;  ///< modes that the figures above have
+/// Of pairs of modes: projected matrices and invariants.
+constexpr double kBytesPerPair = 300;
+
+std::string dofs_text(double dofs) {
+  return std::to_string(std::llround(dofs)) + " degrees of freedom";
+}
+
+}  // namespace
+
+MemoryNeeds memory_needs(double dofs, Solver solver, int mode_count) {
+  const double more = std::max(0, mode_count - kIncluded);
+  const double modes = more * (kBytesPerDof * dofs + kBytesPerPair * more);
+  const double assembling = kProgram + kAssembledPerDof * dofs + modes;
+  if (solver == Solver::iterative) {
+    return {assembling, kProgram + kIterativePerDof * dofs + modes};
+  }
+  const double entries = kReferenceEntries * std::pow(dofs / kReferenceDofs, kGrowth);
+  return {assembling, assembling + kBytesPerFactorEntry * entries};
+}
+
+void check_memory(const mesher::Mesh& mesh, const ModalOptions& options) {
+  const double dofs = 3.0 * static_cast<double>(mesh.nodes.size());
+  const MemoryNeeds needs = memory_needs(dofs, options.solver, options.mode_count);
+  const std::string what = std::to_string(options.mode_count) + " modes of " + dofs_text(dofs);
+  if (options.solver == Solver::iterative) {
+    require_memory("solving for " + what + " by iteration", needs.peak,
+                   "take a coarser mesh or fewer modes");
+    return;
+  }
+  require_memory("assembling for " + what, needs.assembling, "take a coarser mesh or fewer modes");
+  if (!options.certify) return;
+  constexpr double kCutInEight = 8;
+  const MemoryNeeds refined = memory_needs(kCutInEight * dofs, options.solver, options.mode_count);
+  require_memory("the mesh's error, estimated with " + dofs_text(kCutInEight * dofs) + ",",
+                 refined.assembling, "take a coarser mesh, or leave out modes.certify");
+}
+
+}  // namespace flexneck::fe_modal

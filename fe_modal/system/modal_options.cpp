@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/system/modal_options.h"
+
+namespace flexneck::fe_modal {
+
+FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
+  std::vector<RigidTie> ties;
+  for (const InterfaceDefinition& interface : options.interfaces) {
+    if (!interface.is_rigid) continue;
+    ties.push_back({interface.name, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
+                    interface.position_m});
+  }
+  std::vector<HeldDirections> directions;
+  for (const auto& [set, is_held] : options.held_directions) {
+    directions.push_back({mesh.node_set(set).nodes, is_held});
+  }
+  return {mesh,
+          options.held_set.empty() ? std::vector<std::int32_t>{}
+                                   : mesh.node_set(options.held_set).nodes,
+          ties, directions};
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/body/basis_kind.h"
+#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/element/formulation.h"
+#include "fe_modal/system/solver.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+class Ranks;
+
+/// The least-squares rigid motion of a face set about a point: minimises
+/// int |u - t - theta x (x - position)|^2 dA. On a held face set or node set it is zero.
+struct InterfaceDefinition {
+  std::string name;
+  std::string set;  ///< a face set; for the held interface a node set
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  /// Its nodes are tied to one another and move rigidly, as if a stiff plate were glued on.
+  bool is_rigid = false;
+};
+
+/// A rigid body fixed to an interface, for the frequencies of the loaded structure.
+struct RigidAttachment {
+  std::string name;
+  std::string interface;
+  double mass_kg = 0;
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();       ///< mesh frame
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre, mesh axes
+};
+
+struct ModalOptions {
+  int mode_count = 10;
+  FormulationChoice formulation;
+  Solver solver = Solver::direct;
+  BasisKind basis = BasisKind::normal;
+  /// Interfaces whose static shapes join the basis; empty: all.
+  std::vector<std::string> basis_interfaces;
+  bool geometric_stiffness = false;  ///< of the modes under unit loads; of a held body
+  /// Count the modes by inertia too, which costs a factorisation by MUMPS, and estimate the error
+  /// of the mesh, which costs a solution with eight times the elements. Not of Craig-Bampton.
+  bool certify = false;
+  std::string held_set;  ///< node set held in all directions; empty: none
+  /// Node sets held in some of x, y and z only.
+  std::map<std::string, std::array<bool, 3>> held_directions = {};
+  std::string held_interface;  ///< name of the interface on the held nodes, modes zero there
+  Eigen::Vector3d held_position_m = Eigen::Vector3d::Zero();
+  std::vector<InterfaceDefinition> interfaces;
+  std::vector<std::string> rigid_parts;  ///< parts whose rigid motions name the modes: the plates
+  double length_m = 0;                   ///< turns rotations into lengths for the sign rule
+  std::string sign_interface;            ///< interface whose motion fixes the signs
+  std::vector<RigidAttachment> attachments;
+  const Ranks* ranks = nullptr;  ///< processes that share the work, see ranks.h; null: this alone
+  std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
+  std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
+
+  bool is_held() const { return !held_set.empty() || !held_directions.empty(); }
+};
+
+/// The nodes that the options leave free. @throws InputError for unknown sets, and as FreeNodes.
+FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/system/modal_options_check.h"
+
+#include <algorithm>
+
+#include <Eigen/QR>
+
+#include "fe_modal/dofs/free_nodes.h"
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Three nodes that are not on a line keep a body from turning.
+void check_held(const mesher::Mesh& mesh, const std::string& set) {
+  const std::vector<std::int32_t>& nodes = mesh.node_set(set).nodes;
+  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    positions.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(nodes[k])].data());
+  }
+  positions.colwise() -= positions.rowwise().mean().eval();
+  Eigen::ColPivHouseholderQR<Eigen::Matrix3Xd> decomposition(positions);
+  decomposition.setThreshold(1e-6);
+  if (decomposition.rank() < 2) {
+    throw InputError("held set '" + set + "' has " + std::to_string(nodes.size()) +
+                     " nodes on one line: the body can turn about it; hold an area");
+  }
+}
+
+void check_parts(const mesher::Mesh& mesh, const ModalOptions& options) {
+  std::vector<std::string> parts;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    if (std::find(parts.begin(), parts.end(), block.part) == parts.end()) {
+      parts.push_back(block.part);
+    }
+    try {
+      static_cast<void>(
+          element_scheme(block.kind, options.formulation.of(mesh.materials.at(block.material))));
+    } catch (const InputError& error) {
+      throw InputError("part '" + block.part + "': " + error.what());
+    }
+  }
+  for (const auto& entry : options.formulation.of_material) {
+    static_cast<void>(find_name(names_of(mesh.materials), entry.first, "material"));
+  }
+  for (const std::string& name : options.rigid_parts) {
+    static_cast<void>(find_name(parts, name, "part"));
+  }
+}
+
+void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
+  std::vector<std::string> names = names_of(options.interfaces);
+  for (const InterfaceDefinition& interface : options.interfaces) {
+    static_cast<void>(mesh.face_set(interface.set));
+  }
+  if (!options.sign_interface.empty()) {
+    static_cast<void>(find_name(names, options.sign_interface, "interface"));
+    if (!(options.length_m > 0)) {
+      throw InputError("the length that turns rotations into lengths must be positive, found " +
+                       std::to_string(options.length_m) + " m");
+    }
+  }
+  for (const RigidAttachment& attachment : options.attachments) {
+    static_cast<void>(find_name(names, attachment.interface, "interface"));
+    if (!options.is_held()) {
+      throw InputError("rigid body '" + attachment.name +
+                       "' is attached to a free body: name a set of nodes to hold");
+    }
+    if (!(attachment.mass_kg >= 0)) {
+      throw InputError("the mass of rigid body '" + attachment.name + "' is negative");
+    }
+  }
+  if (!options.held_interface.empty()) {
+    if (options.held_set.empty()) {
+      throw InputError("interface '" + options.held_interface +
+                       "' is to lie on held nodes, but no set is held");
+    }
+    names.push_back(options.held_interface);
+  }
+  check_names(names, "interface");
+  check_names(names_of(options.attachments), "attachment");
+}
+
+void check_basis(const ModalOptions& options, Eigen::Index dofs) {
+  if (options.basis == BasisKind::normal) return;
+  const std::string who =
+      "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
+  const bool held = options.is_held();
+  if (options.basis == BasisKind::inertia_relief && held) {
+    const std::string& set =
+        options.held_set.empty() ? options.held_directions.begin()->first : options.held_set;
+    throw InputError(who + " is for a free body, but '" + set +
+                     "' is held; take 'residual' or hold nothing");
+  }
+  if (options.basis != BasisKind::inertia_relief && !held) {
+    throw InputError(who + " is for a held body, but nothing is held; take 'inertia-relief'");
+  }
+  if (options.interfaces.empty()) {
+    throw InputError(who +
+                     " adds the static shapes of interface loads: name an interface that is "
+                     "not held");
+  }
+  const std::vector<std::string> names = names_of(options.interfaces);
+  for (const std::string& name : options.basis_interfaces) {
+    static_cast<void>(find_name(names, name, "interface"));
+  }
+  const auto constraints = static_cast<Eigen::Index>(
+      6 * (options.basis_interfaces.empty() ? names.size() : options.basis_interfaces.size()));
+  if (options.basis == BasisKind::craig_bampton && options.mode_count + constraints > dofs) {
+    throw InputError(who + ": " + std::to_string(options.mode_count) + " modes with " +
+                     std::to_string(constraints) + " held interface motions are more than the " +
+                     std::to_string(dofs) + " degrees of freedom");
+  }
+}
+
+}  // namespace
+
+void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
+  mesher::check(mesh);
+  check_parts(mesh, options);
+  // With directions held besides, a line of nodes may be enough; if not, the mechanism is named.
+  if (!options.held_set.empty() && options.held_directions.empty()) {
+    check_held(mesh, options.held_set);
+  }
+  const FreeNodes free_nodes = free_nodes_of(mesh, options);
+  const Eigen::Index dofs = free_nodes.dof_count() - free_nodes.held_direction_count();
+  // Static shapes alone make a basis too.
+  const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
+  if (options.mode_count < least || options.mode_count > dofs) {
+    throw InputError("the number of modes must lie between " + std::to_string(least) + " and the " +
+                     std::to_string(dofs) + " degrees of freedom, found " +
+                     std::to_string(options.mode_count));
+  }
+  check_interfaces(mesh, options);
+  check_basis(options, dofs);
+  if (options.geometric_stiffness && !options.is_held()) {
+    throw InputError(
+        "the geometric stiffness under unit loads is that of a held body: name a set "
+        "of nodes to hold");
+  }
+}
+
+}  // namespace flexneck::fe_modal

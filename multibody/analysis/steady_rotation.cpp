@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/analysis/steady_rotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/QR>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Directions, axes and rates that rounded input gives are the same within this share.
+constexpr double kSame = 1e-9;
+
+constexpr int kMostIterations = 100;
+/// As in the search for an equilibrium at rest: extents of the longest step and of the one that
+/// ends the search, and the share of the largest stiffness below which there is none.
+constexpr double kLargestStep = 0.5;
+constexpr double kConverged = 1e-10;
+constexpr double kNeutral = 1e-10;
+/// Extent by which bodies may move away in a turn where nothing holds them.
+constexpr double kDrift = 1e-6;
+
+/// Extent of the displacements over which loads all round the axis are compared, and the share of
+/// the largest by which they may differ: rounding is a tenth of it.
+constexpr double kProbe = 2e-5;
+constexpr double kEven = 1e-9;
+/// No multiple of this angle is a full turn, so that no pattern round the axis repeats with it.
+constexpr double kPhase_rad = 1;
+
+bool is_along(const Vector3d& vector, const Vector3d& axis) {
+  return vector.cross(axis.normalized()).norm() <= kSame * vector.norm();
+}
+
+bool is_constant(const TimeTable& table) {
+  const std::vector<double>& times = table.times_s();
+  if (times.empty()) return true;
+  const double value = table.value(times.front());
+  return table.value(times.front() - 1) == value && table.value(times.back() + 1) == value &&
+         std::all_of(times.begin(), times.end(),
+                     [&](double time) { return table.value(time) == value; });
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError(what +
+                   "; small motions about steady rotation need coefficients that are "
+                   "constant as seen from the bodies that turn");
+}
+
+bool travels(const DrivenBody& body) {
+  return body.initial_velocity_m_s != 0 || !body.acceleration_m_s2.times_s().empty() ||
+         !body.motion.is_none();
+}
+
+bool turns_unevenly(const DrivenBody& body) {
+  return !body.turn.acceleration_rad_s2.times_s().empty() || !body.turn.motion.is_none();
+}
+
+TurningFrame frame_of(const DrivenBody& body) {
+  return {body.turn.initial_rate_rad_s * body.turn.axis, body.turn.point_m};
+}
+
+bool is_same(const TurningFrame& a, const TurningFrame& b) {
+  const Vector3d between = b.point_m - a.point_m;
+  const double away = between.cross(a.rate_rad_s.normalized()).norm();
+  return (a.rate_rad_s - b.rate_rad_s).norm() <= kSame * a.rate_rad_s.norm() &&
+         away <= kSame * std::max(1.0, between.norm());
+}
+
+void check_loads(const Model& model, const TurningFrame& frame) {
+  const Vector3d& axis = frame.rate_rad_s;
+  if (!is_along(model.gravity_m_s2, axis))
+    refuse("gravity is not along the axis about which driven bodies turn");
+  const auto check = [&](const std::string& kind, const auto& load, const TimeTable& magnitude) {
+    if (!is_constant(magnitude)) refuse(kind + " '" + load.name + "' changes with time");
+    if (!is_along(load.direction, axis))
+      refuse(kind + " '" + load.name + "' is not along the axis about which driven bodies turn");
+  };
+  for (const PointForce& force : model.forces) check("force", force, force.magnitude_N);
+  for (const Torque& torque : model.torques) check("torque", torque, torque.magnitude_Nm);
+}
+
+/// Joints between what turns and what does not must let it turn.
+void check_joints(const EquationsOfMotion& equations, const TurningFrame& frame) {
+  const System& system = equations.system();
+  const double rate = frame.rate_rad_s.norm();
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const JointRows& joint = equations.joint(k);
+    const Violation parting = violation(joint, joint.velocity_residual);
+    double speed = rate * system.size_m;
+    for (const std::size_t marker : {system.joints[k].marker_i, system.joints[k].marker_j})
+      speed = std::max(speed, equations.marker(marker).pd.norm());
+    if (parting.translation > kSame * speed || parting.rotation > kSame * rate)
+      refuse("joint '" + system.joints[k].name +
+             "' ties a body to one that does not turn with it about the same axis");
+  }
+}
+
+/// Seen from the frame, loads and their derivatives must be the same at any time.
+void check_evenness(ReducedDynamics& here, const TurningFrame& frame) {
+  const double rate = frame.rate_rad_s.norm();
+  if (rate == 0) return;
+  ReducedDynamics there = here.turned(kPhase_rad / rate);
+  // Displaced by xi, and moving at as much a radian; what is quadratic in both cancels.
+  const auto change = [&](ReducedDynamics& seen, const VectorXd& xi) {
+    return VectorXd(seen.accelerations_at(xi, rate * xi) - seen.accelerations_at(-xi, -rate * xi));
+  };
+  double largest = 0;
+  double difference = 0;
+  for (Eigen::Index i = 0; i < here.count(); ++i) {
+    VectorXd xi = VectorXd::Unit(here.count(), i);
+    xi *= kProbe / here.extent(xi);
+    const VectorXd found = change(here, xi);
+    largest = std::max(largest, found.lpNorm<Eigen::Infinity>());
+    difference = std::max(difference, (change(there, xi) - found).lpNorm<Eigen::Infinity>());
+  }
+  const VectorXd none = VectorXd::Zero(here.count());
+  const VectorXd load = there.accelerations_at(none) - here.accelerations_at(none);
+  if (difference > kEven * largest || load.norm() > kEven / kProbe * largest)
+    refuse(
+        "a joint, spring, bushing or resistance between bodies that turn and bodies that do not is "
+        "not the same all round the axis");
+}
+
+/// Newton's step, and the accelerations that it leaves where nothing resists.
+struct Step {
+  VectorXd xi, rest;
+};
+Step newton_step(const MatrixXd& stiffness, const VectorXd& accelerations) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
+  factors.setThreshold(kNeutral);
+  factors.compute(stiffness);
+  const VectorXd xi = factors.solve(accelerations);
+  return {xi, accelerations - stiffness * xi};
+}
+
+}  // namespace
+
+std::optional<TurningFrame> steady_rotation(const Model& model) {
+  struct Driven {
+    const std::string& name;
+    const DrivenBody& motion;
+  };
+  std::vector<Driven> turning, others;
+  for (const Body& body : model.bodies) {
+    const auto* driven = std::get_if<DrivenBody>(&body.kind);
+    if (driven == nullptr) continue;
+    const DrivenMotion start = DrivenPath(body.initial_pose, *driven).at(0);
+    (start.angular_velocity_rad_s.isZero(0) ? others : turning).push_back({body.name, *driven});
+  }
+  if (turning.empty()) return {};
+  const TurningFrame frame = frame_of(turning.front().motion);
+  for (const auto& [name, motion] : turning) {
+    if (travels(motion) || turns_unevenly(motion))
+      refuse("driven body '" + name + "' does not turn at a constant rate about a fixed axis");
+    if (!is_same(frame, frame_of(motion)))
+      refuse("driven bodies '" + turning.front().name + "' and '" + name +
+             "' turn at different rates or about different axes");
+  }
+  for (const auto& [name, motion] : others)
+    if (travels(motion) || turns_unevenly(motion))
+      refuse("driven body '" + name + "' moves while others turn");
+  check_loads(model, frame);
+  return frame;
+}
+
+VectorXd rotating_positions(EquationsOfMotion& equations, const TurningFrame& frame,
+                            const VectorXd& positions) {
+  VectorXd at = positions;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    ReducedDynamics reduced(equations, at, 0, frame);
+    const VectorXd still = VectorXd::Zero(reduced.count());
+    const VectorXd accelerations = reduced.accelerations_at(still);
+    if (iteration == 0) check_joints(equations, frame);
+    if (!accelerations.allFinite()) break;
+    Step step = newton_step(reduced.stiffness(), accelerations);
+    step.xi *= std::min(1.0, kLargestStep / std::max(reduced.extent(step.xi), kConverged));
+    if (reduced.extent(step.xi) <= kConverged) {
+      const double rate = std::max(frame.rate_rad_s.norm(), 1.0);
+      if (reduced.extent(step.rest) * std::pow(2 * std::numbers::pi / rate, 2) > kDrift) break;
+      check_evenness(reduced, frame);
+      return reduced.positions_at(step.xi);
+    }
+    // Halve the step until it helps; what is left is less than a thousandth of it.
+    for (int halving = 0; halving < 10; ++halving, step.xi /= 2)
+      if (reduced.accelerations_at(step.xi).norm() < accelerations.norm()) break;
+    at = reduced.positions_at(step.xi);
+  }
+  throw ComputationError(
+      "no state of steady rotation was found from the poses given, in which gravity, forces and "
+      "centrifugal loads balance; near a critical speed there may be none");
+}
+
+}  // namespace flexneck::multibody

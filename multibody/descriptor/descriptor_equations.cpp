@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/descriptor/equations_of_motion.h"
+#include "multibody/descriptor/equilibrium.h"
+#include "multibody/descriptor/initial_state.h"
+#include "multibody/descriptor/projection.h"
+#include "multibody/descriptor/reduced_dynamics.h"
+#include "multibody/descriptor/state_error.h"
+#include "multibody/descriptor/system.h"
+#include "multibody/equations/equations.h"
+#include "multibody/numerics/independent_rows.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// pdd = P Vdot + gp, Omd = W Vdot + gr.
+MarkerState marker_state(const EquationsOfMotion& equations, std::size_t index) {
+  const System& system = equations.system();
+  const NodeKinematics& motion = equations.marker(index);
+  MarkerState state{motion.p, motion.pd, motion.gp, motion.R, motion.Om, motion.gr};
+  const std::size_t b = system.markers[index].free_body;
+  if (b == JointPlace::kNoBody) return state;
+  const auto rates = equations.accelerations().segment(system.bodies[b].velocity, motion.P.cols());
+  state.acceleration_m_s2 += motion.P * rates;
+  state.angular_acceleration_rad_s2 += motion.W * rates;
+  return state;
+}
+
+Energies energies_of(const EquationsOfMotion& equations, const VectorXd& state) {
+  const System& system = equations.system();
+  Energies sum;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const FreeBody& body = system.bodies[b];
+    const BodyTerms& terms = equations.body(b);
+    const auto V =
+        state.segment(system.position_count + body.velocity, body.constants.velocity_count());
+    sum.kinetic_J += kinetic_energy_J(terms, V);
+    sum.gravitational_J += gravitational_energy_J(body.constants, system.gravity_m_s2, terms);
+    sum.strain_J += body.constants.springs.energy_J(terms.a);
+  }
+  sum.strain_J += equations.forces().stored_J();
+  return sum;
+}
+
+class DescriptorEquations final : public Equations {
+ public:
+  DescriptorEquations(const Model& model, const SolverOptions& solver, Drive drive)
+      : model_(model),
+        system_(model),
+        equations_(system_, drive),
+        projection_(equations_),
+        error_(system_, solver.relative_tolerance, solver.absolute_tolerance),
+        guard_(model, {solver.relative_tolerance, solver.absolute_tolerance}, system_.size_m) {}
+
+  Vector given_state() override {
+    Vector state = multibody::given_state(model_, system_);
+    join(model_, equations_, state, Check::positions_and_velocities);
+    return state;
+  }
+
+  Vector given_place() override {
+    Vector state = multibody::given_state(model_, system_);
+    join(model_, equations_, state, Check::positions);
+    state.segment(system_.position_count, system_.velocity_count).setZero();
+    return state;
+  }
+
+  Vector equilibrium_state() override {
+    EquationsOfMotion held(system_, Drive::held);
+    Vector state = Vector::Zero(system_.state_count());
+    state.head(system_.position_count) = equilibrium_positions(model_, held);
+    state.segment(system_.position_count, system_.velocity_count) =
+        carried_velocities(model_, system_);
+    projection_.apply(0, state);
+    return state;
+  }
+
+  void settle(double time_s, Vector& state) override {
+    Vector positions = state.head(system_.position_count);
+    // The driven bodies may have moved on.
+    projection_.converge_positions(time_s, positions);
+    state.head(system_.position_count) = settled_positions(equations_, positions, time_s);
+  }
+
+  void set_interval(double begin_s, double end_s) override {
+    equations_.set_interval(begin_s, end_s);
+  }
+  void derivative(double time_s, const Vector& state, Vector& rate) override {
+    equations_.evaluate(time_s, state, rate);
+  }
+  void finish_step(double time_s, Vector& state, Vector& rate) override {
+    projection_.apply_behind_step(time_s, state);
+    equations_.evaluate_updated(state, rate);
+  }
+  ErrorEstimate measure(const Vector& begin, const Vector& end,
+                        const Vector& error) const override {
+    return error_(begin, end, error);
+  }
+  std::string name_of(std::size_t component) const override { return error_.name_of(component); }
+  const ForceSet& forces() const override { return equations_.forces(); }
+  int evaluations() const override { return equations_.evaluations(); }
+  std::vector<std::string> redundant_constraints() const override {
+    std::vector<std::string> names;
+    for (const KktSolver::RedundantRow& each : equations_.solver().redundant_rows()) {
+      const JointRows& joint = equations_.joint(each.joint);
+      const bool moves = each.row < joint.translation_rows;
+      const Index row = moves ? each.row : each.row - joint.translation_rows;
+      names.push_back("joint '" + system_.joints[each.joint].name + "', " +
+                      (moves ? "position" : "orientation") + " row " + std::to_string(row + 1));
+    }
+    return names;
+  }
+
+  Layout layout() const override {
+    return {system_.position_count, system_.velocity_count, system_.constraint_count};
+  }
+  void retract(Eigen::Ref<Vector> positions,
+               const Eigen::Ref<const Vector>& change) const override {
+    system_.retract(positions, change);
+  }
+  const Vector& multipliers() const override { return equations_.multipliers(); }
+  void residual(double time_s, const Vector& state, const Vector& accelerations,
+                const Vector& multipliers, Vector& residual) override {
+    equations_.residual(time_s, state, accelerations, multipliers, residual);
+  }
+  void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const override {
+    assemble_mass(equations_, mass);
+    assemble_rows_transposed(equations_, rows_transposed);
+  }
+  void rate(const Vector& state, const Vector& accelerations, Vector& rate) const override {
+    equations_.fill_rate(state, accelerations, rate);
+  }
+  void redundant_rows(std::vector<Index>& rows) const override {
+    rows.clear();
+    const KktSolver& solver = equations_.solver();
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      for (Index row = 0; row < equations_.joint(k).rows; ++row)
+        if (solver.is_left_out(k, row)) rows.push_back(solver.joint_offset(k) + row);
+  }
+
+  void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
+    // The correction is of the size of the interpolation's error: with the factors from before it,
+    // velocities and accelerations are as exact as the interpolated state.
+    projection_.apply(time_s, state, false);
+    equations_.solve();
+    equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
+    record_residuals(time_s, recorder, column);
+    for (std::size_t k = 0; k < system_.markers.size(); ++k)
+      recorder.marker(column, k, marker_state(equations_, k));
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      recorder.joint(column, k, equations_.joint_reaction(k),
+                     equations_.marker(system_.joints[k].marker_i).R);
+    for (std::size_t b = 0; b < system_.bodies.size(); ++b)
+      recorder.modal(column, system_.bodies[b].index, equations_.body(b).a);
+    if (!equations_.solver().redundant_rows().empty()) record_undetermined(recorder);
+    const Index quadratures = system_.position_count + system_.velocity_count;
+    recorder.energy(column, energies_of(equations_, state), state[quadratures],
+                    state[quadratures + 1]);
+  }
+
+ private:
+  void record_residuals(double time_s, Recorder& recorder, Index column) {
+    for (const Joint& joint : system_.joints)
+      for (const std::size_t marker : {joint.marker_i, joint.marker_j}) {
+        const NodeKinematics& motion = equations_.marker(marker);
+        guard_.see(motion.p, motion.pd, motion.Om);
+      }
+    const bool left_out = !equations_.solver().redundant_rows().empty();
+    for (std::size_t k = 0; k < system_.joints.size(); ++k) {
+      const JointRows& joint = equations_.joint(k);
+      const Violation position = violation(joint, joint.position_residual);
+      const Violation velocity = violation(joint, joint.velocity_residual);
+      recorder.residuals(column, position, velocity);
+      guard_.check(time_s, k, position, velocity, left_out);
+    }
+  }
+
+  /// A reaction's component is left open if some multipliers that move nothing, B^T lambda = 0,
+  /// have it.
+  void record_undetermined(Recorder& recorder) const {
+    const KktSolver& solver = equations_.solver();
+    std::vector<bool> left_out(static_cast<std::size_t>(system_.constraint_count), false);
+    for (const KktSolver::RedundantRow& each : solver.redundant_rows())
+      left_out[static_cast<std::size_t>(solver.joint_offset(each.joint) + each.row)] = true;
+    const Eigen::MatrixXd free = free_multipliers(solver.rows_in_metres(), left_out);
+    for (std::size_t k = 0; k < system_.joints.size(); ++k) {
+      const JointRows& joint = equations_.joint(k);
+      const Eigen::Matrix3d& R_i = equations_.marker(system_.joints[k].marker_i).R;
+      Eigen::Array<bool, 6, 1> open = Eigen::Array<bool, 6, 1>::Constant(false);
+      for (Index c = 0; c < free.cols(); ++c) {
+        RowVector multipliers = RowVector::Zero();
+        multipliers.head(joint.rows) = free.col(c).segment(solver.joint_offset(k), joint.rows);
+        const Reaction found = reaction(joint, multipliers);
+        Eigen::Matrix<double, 6, 1> components;
+        components << R_i.transpose() * found.force_N, R_i.transpose() * found.moment_Nm;
+        open = open || components.array().abs() > 1e-7 * free.col(c).norm();
+      }
+      recorder.undetermined(k, open);
+    }
+  }
+
+  const Model& model_;
+  System system_;
+  EquationsOfMotion equations_;
+  Projection projection_;
+  StateError error_;
+  JointGuard guard_;
+};
+
+}  // namespace
+
+std::unique_ptr<Equations> descriptor_equations(const Model& model, const SolverOptions& solver,
+                                                Drive drive) {
+  return std::make_unique<DescriptorEquations>(model, solver, drive);
+}
+
+}  // namespace flexneck::multibody

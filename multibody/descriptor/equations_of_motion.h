@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/descriptor/joints.h"
+#include "multibody/descriptor/kkt_solver.h"
+#include "multibody/descriptor/node_kinematics.h"
+#include "multibody/descriptor/system.h"
+#include "multibody/equations/force_set.h"
+
+namespace flexneck::multibody {
+
+/// Evaluates the equations of motion, equations.md (8)-(13) and section 5, of a system. Owns the
+/// workspace: after construction nothing is allocated. Call set_positions, then
+/// set_velocities, then solve.
+class EquationsOfMotion {
+ public:
+  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
+
+  /// @param system  must outlive this
+  explicit EquationsOfMotion(const System& system, Drive drive = Drive::prescribed);
+
+  /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
+  void set_interval(double begin_s, double end_s);
+
+  /// Configuration, mass matrices, constraint rows and their factors.
+  void set_positions(double time_s, const ConstVector& positions);
+  /// The same without the factors: what is solved next uses those of the last configuration that
+  /// was factorised.
+  void update_positions(double time_s, const ConstVector& positions);
+  void factorise();
+  /// Velocity residuals alone.
+  void update_velocity_residual(const ConstVector& velocities);
+  /// Right-hand sides and velocity residuals.
+  void set_velocities(const ConstVector& velocities);
+  /// Accelerations and multipliers.
+  void solve();
+  /// Rate of the whole state (System::state_count()): all three steps.
+  void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
+  /// The same once positions and velocities are updated.
+  void evaluate_updated(const ConstVector& state, Eigen::VectorXd& rate);
+  /// The rate of a state that was updated, whose accelerations and multipliers are known.
+  void fill_rate(const ConstVector& state, const ConstVector& accelerations,
+                 Eigen::VectorXd& rate) const;
+
+  /// What accelerations and multipliers leave of the equations of motion, M V' + B^T lambda - u,
+  /// above what the positions leave of the constraints. Nothing is factorised.
+  void residual(double time_s, const ConstVector& state, const ConstVector& accelerations,
+                const ConstVector& multipliers, Eigen::VectorXd& residual);
+
+  /// Solves [M B^T; B 0] [change; .] = [0; -residual]: the smallest change in the mass metric.
+  void remove_residual(const Eigen::VectorXd& residual, Eigen::VectorXd& change);
+  /// Markers that neither joint nor force touches, after set_velocities().
+  void update_idle_markers(const ConstVector& velocities);
+
+  const System& system() const { return system_; }
+  const Eigen::VectorXd& accelerations() const { return accelerations_; }
+  const Eigen::VectorXd& multipliers() const { return multipliers_; }
+  const Eigen::VectorXd& right_hand_side() const { return right_hand_side_; }
+  const Eigen::VectorXd& position_residual() const { return position_residual_; }
+  const Eigen::VectorXd& velocity_residual() const { return velocity_residual_; }
+  const BodyTerms& body(std::size_t index) const { return bodies_[index]; }
+  const NodeKinematics& marker(std::size_t index) const { return markers_[index]; }
+  const JointRows& joint(std::size_t index) const { return joints_[index]; }
+  const KktSolver& solver() const { return solver_; }
+  Reaction joint_reaction(std::size_t joint) const;
+  const ForceSet& forces() const { return forces_; }
+  /// The multipliers are known only after solve().
+  double dissipation_W(const ConstVector& velocities) const;
+  double work_W() const;
+  int evaluations() const { return evaluations_; }
+
+ private:
+  double table_time(double time_s) const;
+  void update_driven_bodies();
+  void update_marker_configuration(std::size_t index);
+  void update_marker_velocities(std::size_t index, const ConstVector& velocities);
+  void update_joint_velocities();
+  void apply_forces();
+
+  const System& system_;
+  Drive drive_;
+  double interval_begin_s_;
+  double interval_end_s_;
+  double time_s_ = 0;
+  std::vector<BodyTerms> bodies_;
+  std::vector<DrivenMotion> driven_;
+  std::vector<NodeKinematics> markers_;
+  std::vector<std::size_t> active_markers_, idle_markers_;
+  std::vector<JointRows> joints_;
+  ForceSet forces_;
+  KktSolver solver_;
+  Eigen::VectorXd right_hand_side_, gamma_;
+  Eigen::VectorXd position_residual_, velocity_residual_;
+  Eigen::VectorXd accelerations_, multipliers_;
+  Eigen::VectorXd scratch_;
+  int evaluations_ = 0;
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/descriptor/joints.h"
+
+#include "geometry/foundation/error.h"
+#include "multibody/numerics/rotation.h"
+
+namespace flexneck::multibody {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+struct JointLaw {
+  Index translation_rows;
+  Index angular_rows;
+  /// Sets T and returns the orientation's residual, T's rows used.
+  Vector3d (*orientation)(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
+  /// What T's rows of gamma have besides T (gr_j - gr_i).
+  Vector3d (*bias)(const NodeKinematics& i, const NodeKinematics& j, const JointRows& joint);
+};
+
+namespace {
+
+Vector3d no_orientation(const NodeKinematics&, const NodeKinematics&, JointRows&) {
+  return Vector3d::Zero();
+}
+
+Vector3d no_bias(const NodeKinematics&, const NodeKinematics&, const JointRows&) {
+  return Vector3d::Zero();
+}
+
+/// Phi = log(R_i R_j^T).
+Vector3d same_orientation(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  joint.T.setIdentity();
+  return rotation_log(i.R * j.R.transpose());
+}
+
+/// Two unit vectors that make a right-handed frame with the unit vector h, as rows.
+TwoRows across(const Vector3d& h) {
+  Index smallest = 0;
+  h.cwiseAbs().minCoeff(&smallest);
+  const Vector3d first = h.cross(Vector3d::Unit(smallest)).normalized();
+  TwoRows rows;
+  rows.row(0) = first.transpose();
+  rows.row(1) = h.cross(first).transpose();
+  return rows;
+}
+
+/// Phi = T (h_j x h_i) with T perpendicular to h_j, fixed in j; equivalent to eq. (12).
+Vector3d common_axis(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  joint.T.topRows<2>().noalias() = joint.across_j * j.R.transpose();
+  return joint.T * Vector3d(j.R * joint.axis_j).cross(i.R * joint.axis_i);
+}
+
+/// T (-c_i + c_j) with c_k = h x (Om_k x (Om_k x h_k)).
+Vector3d common_axis_bias(const NodeKinematics& i, const NodeKinematics& j,
+                          const JointRows& joint) {
+  const Vector3d h_i = i.R * joint.axis_i;
+  const Vector3d h_j = j.R * joint.axis_j;
+  return joint.T * h_j.cross(j.Om.cross(j.Om.cross(h_j)) - i.Om.cross(i.Om.cross(h_i)));
+}
+
+/// Phi = h_i . h_j, whose rate is (h_i x h_j) . (Om_i - Om_j).
+Vector3d crossed_axes(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  const Vector3d h_i = i.R * joint.axis_i;
+  const Vector3d h_j = j.R * joint.axis_j;
+  joint.T.row(0) = h_i.cross(h_j).transpose();
+  return {h_i.dot(h_j), 0, 0};
+}
+
+/// -(h_i x h_j)' . (Om_i - Om_j).
+Vector3d crossed_axes_bias(const NodeKinematics& i, const NodeKinematics& j,
+                           const JointRows& joint) {
+  const Vector3d h_i = i.R * joint.axis_i;
+  const Vector3d h_j = j.R * joint.axis_j;
+  const Vector3d turning = i.Om.cross(h_i).cross(h_j) + h_i.cross(j.Om.cross(h_j));
+  return {-turning.dot(i.Om - j.Om), 0, 0};
+}
+
+constexpr JointLaw kBall{3, 0, no_orientation, no_bias};
+constexpr JointLaw kPin{3, 2, common_axis, common_axis_bias};
+constexpr JointLaw kFixed{3, 3, same_orientation, no_bias};
+constexpr JointLaw kUniversal{3, 1, crossed_axes, crossed_axes_bias};
+constexpr JointLaw kCylindrical{2, 2, common_axis, common_axis_bias};
+constexpr JointLaw kSlider{2, 3, same_orientation, no_bias};
+constexpr JointLaw kFree{0, 0, no_orientation, no_bias};
+
+const JointLaw& law_of(JointKind kind) {
+  switch (kind) {
+    case JointKind::ball:
+      return kBall;
+    case JointKind::pin:
+      return kPin;
+    case JointKind::fixed:
+      return kFixed;
+    case JointKind::universal:
+      return kUniversal;
+    case JointKind::cylindrical:
+      return kCylindrical;
+    case JointKind::slider:
+      return kSlider;
+    case JointKind::free:
+      return kFree;
+  }
+  throw InputError("unknown kind of joint");
+}
+
+/// Marker j may slide along an axis of i.
+bool slides(const JointRows& joint) { return joint.translation_rows == 2; }
+
+void fill_rows(const NodeKinematics& node, const JointRows& joint, double sign, TransposedRows& B) {
+  if (B.rows() == 0) return;
+  if (slides(joint))
+    B.leftCols<2>().noalias() =
+        node.P.transpose().lazyProduct(sign * joint.D.topRows<2>().transpose());
+  else if (joint.translation_rows == 3)
+    B.leftCols<3>() = sign * node.P.transpose();
+  if (joint.law->angular_rows == 0) return;
+  const Matrix3d T_transposed = sign * joint.T.transpose();
+  B.middleCols<3>(joint.translation_rows).noalias() = node.W.transpose().lazyProduct(T_transposed);
+}
+
+}  // namespace
+
+JointRows::JointRows(const Joint& joint, Index velocity_count_i, Index velocity_count_j)
+    : law(&law_of(joint.kind)),
+      axis_i(joint.axis),
+      axis_j(joint.kind == JointKind::universal ? joint.second_axis : joint.axis),
+      across_i(across(axis_i)),
+      across_j(across(axis_j)),
+      translation_rows(law->translation_rows),
+      rows(law->translation_rows + law->angular_rows),
+      B_i(TransposedRows::Zero(velocity_count_i, kMaxRows)),
+      B_j(TransposedRows::Zero(velocity_count_j, kMaxRows)) {}
+
+void update_configuration(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  const Index n = joint.translation_rows;
+  const Vector3d gap = i.p - j.p;
+  if (slides(joint)) {
+    // D turns with marker i.
+    joint.D.topRows<2>().noalias() = joint.across_i * i.R.transpose();
+    for (Index r = 0; r < 2; ++r) joint.L.row(r) = Vector3d(joint.D.row(r)).cross(gap).transpose();
+  }
+  joint.position_residual.head(n) = joint.D.topRows(n) * gap;
+  if (joint.law->angular_rows > 0)
+    joint.position_residual.segment<3>(n) = joint.law->orientation(i, j, joint);
+  fill_rows(i, joint, 1, joint.B_i);
+  fill_rows(j, joint, -1, joint.B_j);
+  if (slides(joint) && joint.B_i.rows() > 0)
+    joint.B_i.leftCols<2>().noalias() +=
+        i.W.transpose().lazyProduct(joint.L.topRows<2>().transpose());
+}
+
+void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  const Index n = joint.translation_rows;
+  joint.velocity_residual.head(n) = joint.D.topRows(n) * (i.pd - j.pd);
+  if (slides(joint))
+    for (Index r = 0; r < n; ++r) joint.velocity_residual[r] += joint.L.row(r).dot(i.Om);
+  if (joint.law->angular_rows > 0) joint.velocity_residual.segment<3>(n) = joint.T * (i.Om - j.Om);
+}
+
+void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  update_velocity_residual(i, j, joint);
+  const Index n = joint.translation_rows;
+  joint.gamma.head(n) = joint.D.topRows(n) * (j.gp - i.gp);
+  if (slides(joint)) {
+    // With d' = Om_i x d: (d . gap)'' has 2 d' . gap' and d'' . gap besides.
+    const Vector3d parting = i.pd - j.pd;
+    const Vector3d gap = i.p - j.p;
+    for (Index r = 0; r < n; ++r) {
+      const Vector3d turning = i.Om.cross(Vector3d(joint.D.row(r)));
+      joint.gamma[r] -=
+          joint.L.row(r).dot(i.gr) + 2 * turning.dot(parting) + i.Om.cross(turning).dot(gap);
+    }
+  }
+  if (joint.law->angular_rows > 0)
+    joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.law->bias(i, j, joint);
+}
+
+Violation violation(const JointRows& joint, const RowVector& residual) {
+  return {residual.head(joint.translation_rows).norm(),
+          residual.segment(joint.translation_rows, joint.law->angular_rows).norm()};
+}
+
+Reaction reaction(const JointRows& joint, const RowVector& multipliers) {
+  const Index n = joint.translation_rows;
+  return {joint.D.topRows(n).transpose() * multipliers.head(n),
+          joint.T.topRows(joint.rows - n).transpose() * multipliers.segment(n, joint.rows - n)};
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "multibody/descriptor/node_kinematics.h"
+#include "multibody/model/joint_check.h"
+#include "multibody/model/model.h"
+#include "multibody/model/motion_state.h"
+
+namespace flexneck::multibody {
+
+/// Rows that the largest joint has; arrays are padded to it.
+inline constexpr Eigen::Index kMaxRows = 6;
+using RowVector = Eigen::Matrix<double, kMaxRows, 1>;
+/// Transposed rows of a body, (6+m, kMaxRows): column r is row r of B, zero beyond the joint's
+/// rows.
+using TransposedRows = Eigen::Matrix<double, Eigen::Dynamic, kMaxRows, Eigen::RowMajor>;
+
+using TwoRows = Eigen::Matrix<double, 2, 3>;
+
+/// What tells one kind of joint from another: how many rows hold the positions together, and how
+/// orientations are held.
+struct JointLaw;
+
+/// Constraint rows of a joint, "rows i minus j" (equations.md section 4): first those along the
+/// directions D (none, 2 or 3) that hold the positions together, then those of T (none, 1, 2 or 3)
+/// for the orientations:
+///   B = [D P_i + L W_i, -D P_j; T W_i, -T W_j],  B Vdot = gamma,  B V + drive = velocity residual.
+/// D, L and T follow from the configuration; L is not zero only where marker j slides along i.
+struct JointRows {
+  JointRows(const Joint& joint, Eigen::Index velocity_count_i, Eigen::Index velocity_count_j);
+
+  const JointLaw* law;            ///< of static storage
+  Eigen::Vector3d axis_i;         ///< in the axes of marker i
+  Eigen::Vector3d axis_j;         ///< in the axes of marker j
+  TwoRows across_i, across_j;     ///< unit vectors across these axes, in the same axes
+  Eigen::Index translation_rows;  ///< of D
+  Eigen::Index rows;
+  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();  ///< world; unused rows do not count
+  Eigen::Matrix3d L = Eigen::Matrix3d::Zero();      ///< rows d x (p_i - p_j) with d of D
+  Eigen::Matrix3d T = Eigen::Matrix3d::Zero();      ///< world; unused rows are zero
+  TransposedRows B_i, B_j;                          ///< a driven body's has no rows
+  RowVector position_residual = RowVector::Zero();  ///< Phi
+  RowVector velocity_residual = RowVector::Zero();  ///< its rate
+  RowVector gamma = RowVector::Zero();
+};
+
+/// D, L, T, B and Phi.
+void update_configuration(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
+/// The velocity residual alone.
+void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
+/// The velocity residual and gamma.
+void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
+
+/// Length of what a residual says about positions and about orientations.
+Violation violation(const JointRows& joint, const RowVector& residual);
+
+/// From the joint's multipliers, padded with zeros.
+Reaction reaction(const JointRows& joint, const RowVector& multipliers);
+
+}  // namespace flexneck::multibody

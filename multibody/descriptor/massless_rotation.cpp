@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/descriptor/massless_rotation.h"
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+
+#include "geometry/foundation/error.h"
+#include "multibody/descriptor/equations_of_motion.h"
+#include "multibody/descriptor/initial_state.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kNone = 1e-13;
+/// A joint that a unit rotation moves by less, of l, does not hold it.
+constexpr double kHeld = 1e-6;
+
+/// Whether all moments are there whatever l is: no body reaches further than twice the size.
+bool is_massive(const RigidBody& body, const Vector3d& moments, double size_m) {
+  return moments[0] > kNone * body.mass_kg * 4 * size_m * size_m;
+}
+
+/// l in the header.
+double length_m(const Model& model, std::size_t body, double size_m) {
+  const Vector3d& center = std::get<RigidBody>(model.bodies[body].kind).center_m;
+  double length = center.norm();
+  for (const Joint& joint : model.joints)
+    for (const std::size_t k : {joint.marker_i, joint.marker_j})
+      if (model.markers[k].body == body)
+        length = std::max(length, (model.markers[k].position_m - center).norm());
+  return length > 0 ? length : size_m;
+}
+
+/// A rotation of a free body about an axis through its centre of mass without inertia.
+struct MasslessRotation {
+  std::size_t body;  ///< among the system's
+  Vector3d axis;     ///< body axes
+  double length_m;
+};
+
+std::vector<MasslessRotation> massless_rotations(const System& system) {
+  std::vector<MasslessRotation> found;
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    const std::size_t index = system.bodies[b].index;
+    const auto* rigid = std::get_if<RigidBody>(&system.model.bodies[index].kind);
+    if (rigid == nullptr) continue;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> moments(rigid->inertia_kg_m2);
+    if (is_massive(*rigid, moments.eigenvalues(), system.size_m)) continue;
+    const double length = length_m(system.model, index, system.size_m);
+    for (Index k = 0; k < 3; ++k)
+      if (moments.eigenvalues()[k] <= kNone * rigid->mass_kg * length * length)
+        found.push_back({b, moments.eigenvectors().col(k), length});
+  }
+  return found;
+}
+
+/// What a unit rotation moves in the joints' rows, distances in units of l.
+VectorXd moved_rows(const EquationsOfMotion& equations, const MasslessRotation& rotation) {
+  const System& system = equations.system();
+  const std::size_t index = system.bodies[rotation.body].index;
+  const Vector3d& center = std::get<RigidBody>(system.model.bodies[index].kind).center_m;
+  VectorXd velocity(6);
+  velocity << equations.body(rotation.body).A * center.cross(rotation.axis), rotation.axis;
+  VectorXd moved = VectorXd::Zero(system.constraint_count);
+  for (std::size_t k = 0; k < system.joints.size(); ++k) {
+    const JointRows& joint = equations.joint(k);
+    const auto add = [&](std::size_t body, const TransposedRows& rows) {
+      if (body != rotation.body) return;
+      RowVector of_joint = rows.transpose() * velocity;
+      of_joint.head(joint.translation_rows) /= rotation.length_m;
+      moved.segment(equations.solver().joint_offset(k), joint.rows) += of_joint.head(joint.rows);
+    };
+    add(system.places[k].body_i, joint.B_i);
+    add(system.places[k].body_j, joint.B_j);
+  }
+  return moved;
+}
+
+[[noreturn]] void refuse(const System& system, const std::vector<MasslessRotation>& rotations,
+                         const VectorXd& shares) {
+  Index largest = 0;
+  shares.cwiseAbs().maxCoeff(&largest);
+  const std::size_t body = rotations[static_cast<std::size_t>(largest)].body;
+  Vector3d axis = Vector3d::Zero();
+  for (std::size_t k = 0; k < rotations.size(); ++k)
+    if (rotations[k].body == body) axis += shares[static_cast<Index>(k)] * rotations[k].axis;
+  axis.normalize();
+  // Rounding is not shown, nor which of both ways the axis points.
+  Index main = 0;
+  axis.cwiseAbs().maxCoeff(&main);
+  if (axis[main] < 0) axis = -axis;
+  axis = (axis.array().abs() < 1e-9).select(0, axis);
+  std::ostringstream problem;
+  problem << "body '" << system.bodies[body].name << "' has no moment of inertia about the axis ("
+          << axis[0] << ", " << axis[1] << ", " << axis[2]
+          << ") of its frame, through its centre of mass, and no joint holds it there, "
+          << "so its rotation is not determined; give it a moment of inertia, or hold it";
+  throw InputError(problem.str());
+}
+
+}  // namespace
+
+Matrix3d raised_inertia(const Model& model, std::size_t body, double size_m) {
+  const RigidBody& rigid = std::get<RigidBody>(model.bodies[body].kind);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> moments(rigid.inertia_kg_m2);
+  if (is_massive(rigid, moments.eigenvalues(), size_m)) return rigid.inertia_kg_m2;
+  const double length = length_m(model, body, size_m);
+  const double least = kNone * rigid.mass_kg * length * length;
+  const Vector3d missing = (least - moments.eigenvalues().array()).max(0);
+  return rigid.inertia_kg_m2 +
+         moments.eigenvectors() * missing.asDiagonal() * moments.eigenvectors().transpose();
+}
+
+void check_massless_rotations(const Model& model) {
+  const System system(model);
+  const std::vector<MasslessRotation> rotations = massless_rotations(system);
+  if (rotations.empty()) return;
+  EquationsOfMotion equations(system, Drive::held);
+  equations.update_positions(0, given_state(model, system).head(system.position_count));
+  const auto count = static_cast<Index>(rotations.size());
+  MatrixXd moved(system.constraint_count, count);
+  for (Index k = 0; k < count; ++k)
+    moved.col(k) = moved_rows(equations, rotations[static_cast<std::size_t>(k)]);
+  // Velocities that move no mass must move a joint, or M and B leave them open together.
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> held(moved.transpose() * moved);
+  if (held.eigenvalues()[0] <= kHeld * kHeld) refuse(system, rotations, held.eigenvectors().col(0));
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "multibody/descriptor/equations_of_motion.h"
+#include "multibody/descriptor/projection.h"
+
+namespace flexneck::multibody {
+
+/// M, (velocity_count, velocity_count), of equations whose positions are updated.
+void assemble_mass(const EquationsOfMotion& equations, Eigen::MatrixXd& M);
+/// B^T, (velocity_count, constraint_count), of equations whose positions are updated.
+void assemble_rows_transposed(const EquationsOfMotion& equations, Eigen::MatrixXd& B_transposed);
+
+/// A frame that turns evenly about an axis fixed in the world, along its rate and through a point.
+/// By default one at rest.
+struct TurningFrame {
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
+};
+
+/// The system seen in k independent coordinates about a configuration that keeps the joints: xi
+/// displaces along the columns of N, a basis of the null space of B that is orthonormal in M
+/// (B N = 0, N^T M N = I), and the joints are closed again behind it. Velocities and accelerations
+/// are those against a frame, in which the driven bodies are at rest (equations.md section 10).
+/// Since N^T M Vdot = N^T u, in a frame at rest the accelerations of xi at rest are minus the
+/// gradient of the potential energy.
+class ReducedDynamics {
+ public:
+  /// @param equations  of a frame at rest with Drive::held; must outlive this
+  /// @param positions  of the free bodies, on the joints
+  /// @param time_s     of the forces and the driven bodies' places
+  ReducedDynamics(EquationsOfMotion& equations, const Eigen::VectorXd& positions, double time_s = 0,
+                  TurningFrame frame = {});
+
+  /// The same at a later time, turned with the frame until then, and xi with it.
+  ReducedDynamics turned(double time_s) const;
+
+  Eigen::Index count() const { return N_.cols(); }
+  const Eigen::MatrixXd& basis() const { return N_; }
+  /// Largest displacement of a body that xi means: of its origin and its deformation in units of
+  /// the system's size, or its rotation in rad.
+  double extent(const Eigen::VectorXd& xi) const;
+  Eigen::VectorXd positions_at(const Eigen::VectorXd& xi);
+  /// Accelerations of xi, displaced by xi and at rest.
+  Eigen::VectorXd accelerations_at(const Eigen::VectorXd& xi);
+  /// The same with the velocities N rates.
+  Eigen::VectorXd accelerations_at(const Eigen::VectorXd& xi, const Eigen::VectorXd& rates);
+  /// -d accelerations / d xi and -d accelerations / d xidot by central differences, (k, k).
+  Eigen::MatrixXd stiffness();
+  Eigen::MatrixXd damping();
+  /// Velocities that the positions set last have with the frame.
+  Eigen::VectorXd carried_velocities() const;
+
+ private:
+  /// Accelerations of xi at the positions set last.
+  /// @param velocities  against the frame
+  Eigen::VectorXd solve(const Eigen::VectorXd& velocities);
+
+  EquationsOfMotion& equations_;
+  Projection projection_;
+  Eigen::VectorXd origin_;
+  double time_s_;
+  TurningFrame frame_;
+  Eigen::MatrixXd N_;
+  Eigen::MatrixXd MN_;
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/descriptor/body_dynamics.h"
+#include "multibody/descriptor/kkt_solver.h"
+#include "multibody/descriptor/node_kinematics.h"
+#include "multibody/model/driven_path.h"
+#include "multibody/model/model.h"
+
+namespace flexneck::multibody {
+
+/// A body with degrees of freedom, and where its share of the state lies. Its positions are x, a
+/// unit quaternion (w, x, y, z) and a: 7+m numbers; its velocities V: 6+m.
+struct FreeBody {
+  std::string name;
+  std::size_t index;  ///< among the model's bodies
+  BodyConstants constants;
+  Eigen::Index position;
+  Eigen::Index velocity;
+};
+
+struct SystemMarker {
+  NodeConstants node;
+  std::size_t free_body = JointPlace::kNoBody;    ///< among the free bodies, or
+  std::size_t driven_body = JointPlace::kNoBody;  ///< among the driven ones
+};
+
+/// A model laid out for the equations. Its state is a vector y = [Q; V; e]: positions and
+/// velocities of the free bodies in the model's order, and two quadratures e: the energy that
+/// damping has dissipated and the work of forces and driven bodies.
+struct System {
+  static constexpr Eigen::Index kQuadratures = 2;
+
+  /// @param model  sound (see check()); must outlive this
+  explicit System(const Model& model);
+
+  const Model& model;
+  std::vector<FreeBody> bodies;
+  std::vector<DrivenPath> driven;
+  std::vector<SystemMarker> markers;
+  std::vector<Joint> joints;
+  std::vector<JointPlace> places;  ///< of the joints
+  Eigen::Vector3d gravity_m_s2;
+
+  Eigen::Index position_count = 0;
+  Eigen::Index velocity_count = 0;
+  Eigen::Index constraint_count = 0;
+  /// Largest distance in a body: from its origin to a joint, or its radius. One for points alone.
+  double size_m = 0;
+
+  Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
+  std::vector<Eigen::Index> body_sizes() const;
+  /// By how many metres a unit of each velocity moves its body, (velocity_count): a radian the
+  /// system's size, a modal coordinate the root mean square of its mass.
+  Eigen::VectorXd velocity_lengths_m() const;
+
+  /// Q (+) dQ, equations.md section 5, with the exact exponential.
+  void retract(Eigen::Ref<Eigen::VectorXd> positions,
+               const Eigen::Ref<const Eigen::VectorXd>& change) const;
+  void normalise(Eigen::Ref<Eigen::VectorXd> positions) const;
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "geometry/foundation/hdf5_file.h"
+#include "geometry/foundation/provenance.h"
+#include "multibody/analysis/linearisation.h"
+#include "multibody/history/history.h"
+
+namespace flexneck::multibody {
+
+/// The layout is described in multibody/README.md.
+inline constexpr FileFormat kHistoryFormat{"flexneck history", 2, "flexneck pendulum"};
+
+/// Curves that were derived from a history, at its times.
+struct Channel {
+  std::string name;
+  std::string unit;
+  std::vector<std::string> columns;  ///< names of the curves, such as x, y, z
+  Eigen::MatrixXd values;            ///< one row per curve
+  std::string filter;                ///< such as "CFC 600"; empty for none
+};
+
+/// Modes of the linearised model, /linearisation. Shapes as in ModeShape, (modes, markers, 3).
+struct LinearisationRecord {
+  std::string about;                 ///< "equilibrium", "steady rotation" or "given"
+  std::vector<std::string> markers;  ///< of the model, in its order
+  std::vector<ModeShape> modes;
+};
+
+struct HistoryFile {
+  History history;
+  std::vector<Channel> channels = {};
+  Provenance provenance;
+  std::optional<LinearisationRecord> linearisation = {};
+};
+
+/// A history that memory holds whole; HistoryWriter takes it in blocks. @throws as that.
+void write_history(const std::filesystem::path& path, const HistoryFile& file);
+/// @throws InputError if the file is missing, truncated, foreign or inconsistent.
+HistoryFile read_history(const std::filesystem::path& path);
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/history/deformation_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Limits {
+  double told, stopped;
+};
+constexpr Limits kRotation_rad = {1, 2 * std::numbers::pi};
+constexpr Limits kDisplacement = {0.5, 5};  ///< lengths of the body
+
+/// Diagonal of the box round nodes and interfaces; of a body without extent its radius of inertia.
+double length_of(const fe_modal::ModalBody& body) {
+  Vector3d lowest =
+      body.interfaces.empty() ? Vector3d::Zero().eval() : body.interfaces.front().position_m;
+  Vector3d highest = lowest;
+  const auto add = [&](const Vector3d& point) {
+    lowest = lowest.cwiseMin(point);
+    highest = highest.cwiseMax(point);
+  };
+  for (const fe_modal::Interface& each : body.interfaces) add(each.position_m);
+  for (Eigen::Index k = 0; k < body.nodes_m.cols(); ++k) add(body.nodes_m.col(k));
+  const double length = (highest - lowest).norm();
+  const fe_modal::InertiaInvariants& inertia = body.invariants;
+  return length > 0 ? length : std::sqrt(inertia.J0.trace() / (2 * inertia.mass));
+}
+
+}  // namespace
+
+DeformationGuard::DeformationGuard(const Model& model) {
+  for (const Body& body : model.bodies) {
+    const auto* deformable = std::get_if<DeformableBody>(&body.kind);
+    bodies_.emplace_back();
+    safe_.push_back(std::numeric_limits<double>::infinity());
+    if (deformable == nullptr || deformable->modes.mode_count() == 0) continue;
+    Watched watched{deformable, body.name, length_of(deformable->modes),
+                    deformable->modes.invariants.mass};
+    double largest = 1 / (std::sqrt(watched.mass_kg) * watched.length_m * kDisplacement.told);
+    for (const fe_modal::Interface& each : deformable->modes.interfaces)
+      largest = std::max({largest, each.rotation.norm() / kRotation_rad.told,
+                          each.translation.norm() / (watched.length_m * kDisplacement.told)});
+    safe_.back() = 1 / (largest * largest);
+    bodies_.back() = watched;
+  }
+}
+
+std::string DeformationGuard::text_of(const Watched& watched, const Deformation& found) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "body '" << watched.name << "' ";
+  if (found.turns)
+    text << "turns its interface '" << found.interface->name << "' by "
+         << found.value * 180 / std::numbers::pi << " deg";
+  else
+    text << "displaces its "
+         << (found.interface == nullptr ? "mass" : "interface '" + found.interface->name + "'")
+         << " by " << found.value << " of its length";
+  text.precision(6);
+  text << " at " << found.time_s << " s";
+  return text.str();
+}
+
+void DeformationGuard::check_large(double time_s, std::size_t body, const Eigen::VectorXd& a) {
+  Watched& watched = bodies_[body].value();
+  Deformation worst;
+  bool is_beyond = false;
+  const auto consider = [&](double value, bool turns, const fe_modal::Interface* interface) {
+    const Limits& limits = turns ? kRotation_rad : kDisplacement;
+    is_beyond |= !(value <= limits.stopped);
+    // What is not a number is worse than all.
+    if (!(value / limits.told <= worst.of_limit))
+      worst = {value / limits.told, value, turns, interface, time_s};
+  };
+  consider(a.norm() / (std::sqrt(watched.mass_kg) * watched.length_m), false, nullptr);
+  for (const fe_modal::Interface& each : watched.body->modes.interfaces) {
+    consider((each.rotation * a).norm(), true, &each);
+    consider((each.translation * a).norm() / watched.length_m, false, &each);
+  }
+  if (worst.of_limit > watched.largest.of_limit) watched.largest = worst;
+  if (is_beyond)
+    throw ComputationError(text_of(watched, worst) +
+                           ", where modes mean nothing; its loads are too large, or it needs "
+                           "stress_stiffening or several bodies in its place");
+}
+
+std::vector<std::string> DeformationGuard::warnings() const {
+  std::vector<std::string> texts;
+  for (const std::optional<Watched>& each : bodies_)
+    if (each && each->largest.of_limit > 1)
+      texts.push_back(text_of(*each, each->largest) +
+                      ", beyond the small deformations for which modes hold: above 57 deg or half "
+                      "of its length what they do is off by a tenth and more, that of several "
+                      "bodies in its place is not");
+  return texts;
+}
+
+}  // namespace flexneck::multibody

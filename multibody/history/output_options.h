@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "multibody/history/history.h"
+
+namespace flexneck::multibody {
+
+struct OutputOptions {
+  double end_time_s = 1.0;
+  double interval_s = 1e-3;
+  /// Where there is one, it takes the outputs in blocks as they come, so that memory does not grow
+  /// with their number. What the run returns then has the last block only.
+  std::function<void(const History& outputs)> sink = {};
+  Eigen::Index block = 0;  ///< outputs of a block, with a sink
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/history/recorder.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "multibody/history/history_arrays.h"
+
+namespace flexneck::multibody {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Keeps the first columns, or entries, of an array.
+template <class Array>
+void resize(Array& values, Index columns) {
+  if constexpr (kIsOnePerTime<Array>)
+    values.conservativeResize(columns);
+  else
+    values.conservativeResize(Eigen::NoChange, columns);
+}
+
+}  // namespace
+
+OutputTimes::OutputTimes(const OutputOptions& output)
+    : interval_s_(output.interval_s), end_s_(output.end_time_s) {
+  constexpr double kSlack = 1e-9;  // of an interval: the end may be a multiple but for rounding
+  const auto whole = static_cast<Index>(end_s_ / interval_s_ + kSlack);
+  const bool end_is_multiple =
+      end_s_ - static_cast<double>(whole) * interval_s_ <= kSlack * interval_s_;
+  count_ = whole + (end_is_multiple ? 1 : 2);
+}
+
+Index numbers_per_output(const Model& model) {
+  OutputOptions one;
+  one.end_time_s = one.interval_s;
+  return numbers_per_output(Recorder(model, one).take());
+}
+
+Recorder::Recorder(const Model& model, const OutputOptions& output)
+    : times_(output),
+      block_(output.sink ? std::max<Index>(output.block, 1) : times_.count()),
+      sink_(output.sink),
+      deformation_(model),
+      modal_of_body_(model.bodies.size(), 0),
+      last_rotations_(model.markers.size(), Eigen::Vector4d::Zero()),
+      undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {
+  for (const Marker& marker : model.markers) history_.markers.emplace_back().name = marker.name;
+  for (const Joint& joint : model.joints) history_.joints.emplace_back().name = joint.name;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto* deformable = std::get_if<DeformableBody>(&model.bodies[b].kind);
+    if (deformable == nullptr) continue;
+    ModalHistory modal{model.bodies[b].name, {}, {}};
+    modal.coordinates.resize(deformable->modes.mode_count(), 0);
+    for (const fe_modal::ModeRecord& mode : deformable->modes.modes)
+      modal.modes.push_back(mode.name);
+    modal_of_body_[b] = history_.modal.size();
+    history_.modal.push_back(std::move(modal));
+  }
+  make_room();
+}
+
+void Recorder::make_room() {
+  const Index size = std::min(block_, columns() - history_.handed_on);
+  visit_arrays(history_, [&](auto& values) { resize(values, size); });
+  // The largest residual of the joints is kept.
+  ConstraintHistory& constraints = history_.constraints;
+  for (VectorXd* part : {&constraints.position_m, &constraints.orientation_rad,
+                         &constraints.velocity_m_s, &constraints.angular_velocity_rad_s})
+    part->setZero();
+  for (Index k = 0; k < size; ++k) history_.time_s[k] = time_s(history_.handed_on + k);
+}
+
+void Recorder::begin(Index column) {
+  if (place(column) < history_.time_s.size()) return;
+  sink_(history_);
+  for (std::size_t k = 0; k < last_rotations_.size(); ++k)
+    last_rotations_[k] = history_.markers[k].rotation.rightCols<1>();
+  history_.handed_on = column;
+  make_room();
+}
+
+void Recorder::marker(Index column, std::size_t index, const MarkerState& motion) {
+  MarkerHistory& marker = history_.markers[index];
+  column = place(column);
+  marker.position_m.col(column) = motion.position_m;
+  marker.velocity_m_s.col(column) = motion.velocity_m_s;
+  marker.angular_velocity_rad_s.col(column) = motion.angular_velocity_rad_s;
+  marker.acceleration_m_s2.col(column) = motion.acceleration_m_s2;
+  marker.angular_acceleration_rad_s2.col(column) = motion.angular_acceleration_rad_s2;
+  // Of the two quaternions of a rotation, the one near the last.
+  const Eigen::Quaterniond q(motion.rotation);
+  Eigen::Vector4d rotation(q.w(), q.x(), q.y(), q.z());
+  const double* const last =
+      column > 0 ? &marker.rotation(0, column - 1) : last_rotations_[index].data();
+  if (rotation.dot(Eigen::Map<const Eigen::Vector4d>(last)) < 0) rotation = -rotation;
+  marker.rotation.col(column) = rotation;
+}
+
+void Recorder::joint(Index column, std::size_t index, const Reaction& world,
+                     const Eigen::Matrix3d& R_i) {
+  JointHistory& joint = history_.joints[index];
+  column = place(column);
+  joint.force_N.col(column) = R_i.transpose() * world.force_N;
+  joint.moment_Nm.col(column) = R_i.transpose() * world.moment_Nm;
+}
+
+void Recorder::modal(Index column, std::size_t body, const VectorXd& a) {
+  if (a.size() == 0) return;
+  deformation_.check(time_s(column), body, a);
+  history_.modal[modal_of_body_[body]].coordinates.col(place(column)) = a;
+}
+
+void Recorder::energy(Index column, const Energies& stored, double dissipated_J, double work_J) {
+  EnergyHistory& energy = history_.energy;
+  column = place(column);
+  energy.kinetic_J[column] = stored.kinetic_J;
+  energy.gravitational_J[column] = stored.gravitational_J;
+  energy.strain_J[column] = stored.strain_J;
+  energy.dissipated_J[column] = dissipated_J;
+  energy.work_J[column] = work_J;
+}
+
+void Recorder::conserve_energy(Index column) {
+  EnergyHistory& energy = history_.energy;
+  const Index k = place(column);
+  const double stored_J = energy.kinetic_J[k] + energy.gravitational_J[k] + energy.strain_J[k];
+  if (column == 0) first_energy_J_ = stored_J;
+  energy.work_J[k] = stored_J - first_energy_J_;
+}
+
+void Recorder::residuals(Index column, const Violation& position, const Violation& velocity) {
+  const auto keep = [](double& largest, double value) { largest = std::max(largest, value); };
+  ConstraintHistory& constraints = history_.constraints;
+  column = place(column);
+  keep(constraints.position_m[column], position.translation);
+  keep(constraints.orientation_rad[column], position.rotation);
+  keep(constraints.velocity_m_s[column], velocity.translation);
+  keep(constraints.angular_velocity_rad_s[column], velocity.rotation);
+  StepStatistics& statistics = history_.statistics;
+  keep(statistics.largest_position_residual, std::max(position.translation, position.rotation));
+  keep(statistics.largest_velocity_residual, std::max(velocity.translation, velocity.rotation));
+}
+
+void Recorder::undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& components) {
+  undetermined_[joint] = undetermined_[joint] || components;
+}
+
+void Recorder::redundant(std::vector<std::string> constraints) {
+  history_.redundant_constraints = std::move(constraints);
+}
+
+History Recorder::take() {
+  constexpr std::array<const char*, 6> kNames = {"force x",  "force y",  "force z",
+                                                 "moment x", "moment y", "moment z"};
+  for (std::size_t k = 0; k < undetermined_.size(); ++k)
+    for (std::size_t c = 0; c < kNames.size(); ++c) {
+      if (!undetermined_[k][static_cast<Index>(c)]) continue;
+      std::string& text = history_.joints[k].undetermined;
+      text += (text.empty() ? "" : ", ") + std::string(kNames[c]);
+    }
+  history_.warnings = deformation_.warnings();
+  return std::move(history_);
+}
+
+History Recorder::take_incomplete(Index column, const std::string& why) {
+  history_.incomplete = why;
+  visit_arrays(history_, [&](auto& values) { resize(values, place(column)); });
+  return take();
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/model/model.h"
+
+namespace flexneck::multibody {
+
+/// Motion of a driven body's frame, world axes.
+struct DrivenMotion {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< body axes to world
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d acceleration_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_acceleration_rad_s2 = Eigen::Vector3d::Zero();
+};
+
+/// The motion of a driven body: exact, by the integrals of its tables and of its functions of time.
+/// It translates along a direction and turns about an axis whose point translates with it:
+///   x = point + travel direction + R(angle) (x0 - point).
+class DrivenPath {
+ public:
+  DrivenPath(const Pose& start, const DrivenBody& body);
+
+  /// @param table_time_s  at which accelerations are read, so that at the ends of an interval a
+  /// jump shows its inner side
+  DrivenMotion at(double time_s, double table_time_s) const;
+  DrivenMotion at(double time_s) const { return at(time_s, time_s); }
+
+  /// Times at which an acceleration or its slope may jump.
+  void add_breakpoints(std::vector<double>& times_s) const;
+
+ private:
+  /// One coordinate, m or rad: an initial rate, a table of accelerations and a function of time.
+  struct Coordinate {
+    Coordinate(double initial_rate, const TimeTable& accelerations, const SmoothMotion& function);
+
+    double value(double time_s) const;
+    double rate(double time_s) const;
+    double second_rate(double time_s) const;
+
+    bool moves;
+    double value_before = 0, rate_before;  ///< what the table alone would have at time zero
+    TimeTable table;
+    SmoothMotion motion;
+  };
+
+  void turn(double time_s, double table_time_s, DrivenMotion& motion) const;
+
+  Eigen::Vector3d position_m_;  ///< of the start, and
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d direction_, axis_, point_m_;
+  Coordinate travel_, angle_;
+};
+
+/// How driven bodies move.
+enum class Drive {
+  prescribed,  ///< as their tables say
+  held         ///< not at all, where they are at the time asked for
+};
+
+}  // namespace flexneck::multibody

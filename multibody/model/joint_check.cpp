@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/model/joint_check.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+constexpr double kTolerance = 1e-6;
+/// A system without extent, such as a point on a ball joint.
+constexpr double kSmallestSize_m = 1e-3;
+
+/// What rounding leaves of a residual whatever the tolerance, of the system's size or speed, and of
+/// a distance from the world's origin.
+constexpr double kRounding = 1e-11;
+constexpr double kDigits = 1e-13;
+/// Of a start that just fits, added up over a motion, for rows that are left out.
+constexpr double kLeftOut = 1e-5;
+
+[[noreturn]] void refuse(const Joint& joint, const Model& model, const std::string& problem) {
+  throw InputError("joint '" + joint.name + "' between markers '" +
+                   model.markers[joint.marker_i].name + "' and '" +
+                   model.markers[joint.marker_j].name + "': " + problem);
+}
+
+}  // namespace
+
+void check_positions(const Model& model, std::size_t joint, const Violation& found, double size_m) {
+  const double size = std::max(size_m, kSmallestSize_m);
+  if (found.translation <= kTolerance * size && found.rotation <= kTolerance) return;
+  std::ostringstream problem;
+  problem << "at the start the markers are " << found.translation << " m and " << found.rotation
+          << " rad apart; give the bodies poses that fit the joint";
+  refuse(model.joints[joint], model, problem.str());
+}
+
+void check_velocities(const Model& model, std::size_t joint, const Violation& found, double size_m,
+                      double speed_m_s) {
+  const double size = std::max(size_m, kSmallestSize_m);
+  if (found.translation <= kTolerance * speed_m_s &&
+      size * found.rotation <= kTolerance * speed_m_s)
+    return;
+  std::ostringstream problem;
+  problem << "at the start the markers part with " << found.translation << " m/s and "
+          << found.rotation << " rad/s; give the bodies velocities that fit the joint";
+  refuse(model.joints[joint], model, problem.str());
+}
+
+JointGuard::JointGuard(const Model& model, Tolerance tolerance, double size_m)
+    : model_(model),
+      tolerance_{std::max(tolerance.relative, kRounding), tolerance.absolute},
+      size_m_(size_m) {}
+
+void JointGuard::see(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
+                     const Eigen::Vector3d& angular_velocity_rad_s) {
+  reach_m_ = std::max(reach_m_, position_m.norm());
+  speed_m_s_ = std::max({speed_m_s_, velocity_m_s.norm(), size_m_ * angular_velocity_rad_s.norm()});
+}
+
+void JointGuard::check(double time_s, std::size_t joint, const Violation& position,
+                       const Violation& velocity, bool left_out) const {
+  const double relative = tolerance_.relative + (left_out ? kLeftOut : 0);
+  const double length = tolerance_.absolute + relative * size_m_ + kDigits * reach_m_;
+  const double angle = tolerance_.absolute + relative;
+  const double speed = tolerance_.absolute + relative * speed_m_s_;
+  // A residual that is not a number exceeds every tolerance.
+  if (position.translation <= length && position.rotation <= angle &&
+      velocity.translation <= speed && size_m_ * velocity.rotation <= speed)
+    return;
+  std::ostringstream problem;
+  problem << "joint '" << model_.joints[joint].name << "' does not hold at " << time_s
+          << " s: its markers miss each other by " << position.translation << " m and "
+          << position.rotation << " rad and part with " << velocity.translation << " m/s and "
+          << velocity.rotation << " rad/s, where the run's tolerances allow " << length << " m, "
+          << angle << " rad and " << speed
+          << " m/s; what follows would be wrong. The joints may be nearly singular there; smaller "
+             "tolerances may help";
+  throw ComputationError(problem.str());
+}
+
+void refuse_floating_body(const std::string& body) {
+  throw InputError("body '" + body +
+                   "': no joint connects it, directly or through others, to a driven body, so "
+                   "it has no equilibrium");
+}
+
+}  // namespace flexneck::multibody

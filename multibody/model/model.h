@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "fe_modal/body/modal_body.h"
+#include "multibody/forces/forces.h"
+#include "multibody/numerics/smooth_motion.h"
+#include "multibody/numerics/time_table.h"
+
+namespace flexneck::multibody {
+
+/// Position of a frame's origin and its rotation to the world: v_World = rotation * v_Frame.
+struct Pose {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+struct RigidBody {
+  double mass_kg = 0;
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();       ///< body frame
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre, body axes
+};
+
+struct DeformableBody {
+  fe_modal::ModalBody modes;      ///< the chosen modes only
+  Eigen::VectorXd damping_ratio;  ///< zeta of each mode
+  /// Modal coordinates of the body without load, a permanent set, kg^(1/2) m; empty for none. The
+  /// body starts there.
+  Eigen::VectorXd offset = {};
+  /// Whether its loads stiffen and soften it, by the geometric stiffness in its modes file
+  /// (equations.md section 3a). Without, it is linear in its own frame.
+  bool stress_stiffening = false;
+};
+
+/// Rotation of a driven body about an axis through a point, which translates with the body. The
+/// angle is the sum of an initial rate, a table and a function of time; by default zero.
+struct DrivenTurn {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();    ///< unit vector in the world
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< world, at time zero
+  double initial_rate_rad_s = 0;
+  TimeTable acceleration_rad_s2;  ///< zero outside
+  SmoothMotion motion = {};       ///< in rad where that says m
+};
+
+/// A body that translates and turns in a given way, whatever acts on it. Its travel is the sum of
+/// an initial velocity, a table and a function of time. With nothing of it it is the ground.
+struct DrivenBody {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
+  double initial_velocity_m_s = 0;                       ///< along `direction`
+  TimeTable acceleration_m_s2;                           ///< along `direction`; zero outside
+  SmoothMotion motion = {};                              ///< along `direction`
+  DrivenTurn turn = {};
+};
+
+struct Body {
+  std::string name;
+  std::variant<RigidBody, DeformableBody, DrivenBody> kind;
+  Pose initial_pose;
+  Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();  ///< of the origin, world
+  Eigen::Vector3d initial_angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< body axes
+};
+
+/// A frame on a body: on a rigid or driven body anywhere, on a deformable one at an interface,
+/// whose motion it follows (finite rotation).
+struct Marker {
+  std::string name;
+  std::size_t body = 0;
+  std::string interface;                                 ///< of a deformable body; else empty
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< body frame; unused at an interface
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< marker axes to body axes
+};
+
+/// What two markers have in common. "free" joins nothing: its bodies move as if it were not there,
+/// and it carries no load.
+enum class JointKind {
+  ball,         ///< their origins
+  pin,          ///< their origins and an axis
+  fixed,        ///< all
+  universal,    ///< their origins; an axis of i stays perpendicular to one of j (ATB's Euler joint)
+  cylindrical,  ///< an axis, along which j slides and about which it turns
+  slider,       ///< their orientations and an axis, along which j slides (ATB's slip joint)
+  free
+};
+
+/// Joins two markers. Its reaction is what body i exerts on body j, so let i be the lower one.
+/// Where the markers' origins may part, its moment is about that of marker j.
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::fixed;
+  std::size_t marker_i = 0;
+  std::size_t marker_j = 0;
+  /// Unit vector of a pin, cylindrical or slider joint in the axes of both markers, of a universal
+  /// joint in those of marker i.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
+  Eigen::Vector3d second_axis = Eigen::Vector3d::UnitX();  ///< universal: axes of marker j
+};
+
+struct Model {
+  std::vector<Body> bodies;
+  std::vector<Marker> markers;
+  std::vector<Joint> joints;
+  std::vector<PointForce> forces;
+  std::vector<Torque> torques;
+  std::vector<MarkerSpring> springs;
+  std::vector<Bushing> bushings;
+  std::vector<JointResistance> resistances;
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< world
+
+  /// @throws InputError if there is none of that name; the message lists those there are.
+  std::size_t body_index(const std::string& name) const;
+  std::size_t marker_index(const std::string& name) const;
+  std::size_t joint_index(const std::string& name) const;
+};
+
+/// Checks names, indices, masses and inertias (symmetric, positive, triangle inequality), damping,
+/// unit vectors. @throws InputError naming the body, marker, joint or force.
+void check(const Model& model);
+
+}  // namespace flexneck::multibody

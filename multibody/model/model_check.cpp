@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <sstream>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "multibody/model/forces_check.h"
+#include "multibody/model/model.h"
+#include "multibody/model/stress_stiffening.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Relative slack of every comparison that rounding may spoil: unit lengths, symmetry, triangles.
+constexpr double kSlack = 1e-9;
+/// A file's modes must be mass-normalised to this; kModalBodyFormat's reader demands the same.
+constexpr double kMassNormalisation = 1e-6;
+
+[[noreturn]] void refuse(const std::string& who, const std::string& problem) {
+  throw InputError(who + ": " + problem);
+}
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+template <class Derived>
+void check_finite(const std::string& who, const std::string& what,
+                  const Eigen::MatrixBase<Derived>& values) {
+  if (!values.allFinite()) refuse(who, what + " is not finite");
+}
+
+void check_unit_vector(const std::string& who, const std::string& what, const Vector3d& vector) {
+  if (!(std::abs(vector.norm() - 1) <= kSlack)) {
+    refuse(who, what + " must be a unit vector, but its length is " + text(vector.norm()));
+  }
+}
+
+void check_rotation(const std::string& who, const Eigen::Quaterniond& rotation) {
+  if (!(std::abs(rotation.norm() - 1) <= kSlack)) {
+    refuse(who, "rotation must be a unit quaternion, but its length is " + text(rotation.norm()));
+  }
+}
+
+void check_mass(const std::string& who, double mass_kg) {
+  if (!(mass_kg > 0) || !std::isfinite(mass_kg)) {
+    refuse(who, "mass must be positive, not " + text(mass_kg) + " kg");
+  }
+}
+
+/// About the centre of mass. Equality in the triangle inequality is a flat body and allowed, and so
+/// are moments of zero (massless_rotation.h).
+void check_inertia(const std::string& who, const Matrix3d& inertia) {
+  check_finite(who, "inertia", inertia);
+  if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() >
+      kSlack * inertia.cwiseAbs().maxCoeff()) {
+    refuse(who, "inertia must be symmetric");
+  }
+  const Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const std::string listed = text(moments[0]) + ", " + text(moments[1]) + ", " + text(moments[2]);
+  if (!(moments[0] >= -kSlack * moments[2])) {
+    refuse(who,
+           "no principal moment of inertia may be negative, but they are " + listed + " kg m^2");
+  }
+  if (moments[2] * (1 - kSlack) > moments[0] + moments[1]) {
+    refuse(who, "no body has the principal moments of inertia " + listed +
+                    " kg m^2: the largest exceeds the sum of the others; are they about the "
+                    "centre of mass and of one unit?");
+  }
+}
+
+void check_kind(const std::string& who, const RigidBody& rigid) {
+  check_mass(who, rigid.mass_kg);
+  check_finite(who, "centre of mass", rigid.center_m);
+  check_inertia(who, rigid.inertia_kg_m2);
+}
+
+void check_shapes(const std::string& who, const fe_modal::ModalBody& modes) {
+  const Eigen::Index m = modes.mode_count();
+  const auto count = static_cast<std::size_t>(m);
+  const fe_modal::InertiaInvariants& inv = modes.invariants;
+  const bool sound = modes.modes.size() == count && inv.S2.cols() == m && inv.N0.cols() == m &&
+                     inv.G0.size() == count && inv.G.size() == count * count &&
+                     inv.N.size() == count * count && inv.Maa.rows() == m && inv.Maa.cols() == m;
+  if (!sound)
+    refuse(who, "its inertia invariants are not those of " + std::to_string(m) + " modes");
+  for (const fe_modal::Interface& each : modes.interfaces) {
+    if (each.translation.cols() != m || each.rotation.cols() != m) {
+      refuse(who,
+             "interface '" + each.name + "' has not the shapes of " + std::to_string(m) + " modes");
+    }
+    check_finite(who, "interface '" + each.name + "'", each.position_m);
+    check_finite(who, "interface '" + each.name + "'", each.translation);
+    check_finite(who, "interface '" + each.name + "'", each.rotation);
+  }
+}
+
+/// Mass matrix of the undeformed body at rest in its frame (equations.md section 2).
+Eigen::MatrixXd mass_matrix(const fe_modal::InertiaInvariants& inv) {
+  const Eigen::Index m = inv.S2.cols();
+  Matrix3d skew;
+  skew << 0, -inv.S1[2], inv.S1[1], inv.S1[2], 0, -inv.S1[0], -inv.S1[1], inv.S1[0], 0;
+  Eigen::MatrixXd mass(6 + m, 6 + m);
+  mass << inv.mass * Matrix3d::Identity(), -skew, inv.S2,  //
+      skew, inv.J0, inv.N0,                                //
+      inv.S2.transpose(), inv.N0.transpose(), inv.Maa;
+  return mass;
+}
+
+void check_invariants(const std::string& who, const fe_modal::InertiaInvariants& inv) {
+  check_mass(who, inv.mass);
+  const Eigen::Index m = inv.S2.cols();
+  const Eigen::MatrixXd mass = mass_matrix(inv);
+  check_finite(who, "inertia invariants", mass);
+  if (m > 0) {
+    const double deviation = (inv.Maa - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff();
+    if (deviation > kMassNormalisation) {
+      refuse(who, "its modes are not mass-normalised: Maa differs from the identity by " +
+                      text(deviation));
+    }
+  }
+  // The modes of a body can never carry more inertia than it has.
+  if (Eigen::LLT<Eigen::MatrixXd>(mass).info() != Eigen::Success) {
+    refuse(who,
+           "its inertia invariants contradict each other: the mass matrix is not positive "
+           "definite");
+  }
+}
+
+void check_kind(const std::string& who, const DeformableBody& deformable) {
+  const Eigen::Index m = deformable.modes.mode_count();
+  check_shapes(who, deformable.modes);
+  check_invariants(who, deformable.modes.invariants);
+  if (!deformable.modes.frequencies_Hz.allFinite() ||
+      !(deformable.modes.frequencies_Hz.array() > 0).all()) {
+    refuse(who, "its frequencies must be positive");
+  }
+  if (deformable.damping_ratio.size() != m) {
+    refuse(who, "there must be one damping ratio per mode, " + std::to_string(m) +
+                    ", but there are " + std::to_string(deformable.damping_ratio.size()));
+  }
+  if (deformable.offset.size() != 0 && deformable.offset.size() != m)
+    refuse(who, "its offset must have one coordinate per mode, " + std::to_string(m) +
+                    ", but has " + std::to_string(deformable.offset.size()));
+  check_finite(who, "offset", deformable.offset);
+  check_stress_stiffening(who, deformable);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    const double zeta = deformable.damping_ratio[k];
+    if (!(zeta >= 0) || !std::isfinite(zeta)) {
+      refuse(who, "damping ratio of mode '" +
+                      deformable.modes.modes[static_cast<std::size_t>(k)].name +
+                      "' must not be negative, but is " + text(zeta));
+    }
+  }
+}
+
+void check_kind(const std::string& who, const DrivenBody& driven) {
+  check_unit_vector(who, "direction of motion", driven.direction);
+  if (!std::isfinite(driven.initial_velocity_m_s)) refuse(who, "initial velocity is not finite");
+  check_unit_vector(who, "axis of rotation", driven.turn.axis);
+  check_finite(who, "point of rotation", driven.turn.point_m);
+  if (!std::isfinite(driven.turn.initial_rate_rad_s))
+    refuse(who, "initial rate of rotation is not finite");
+}
+
+void check_body(const Body& body) {
+  const std::string who = "body '" + body.name + "'";
+  std::visit([&](const auto& kind) { check_kind(who, kind); }, body.kind);
+  check_finite(who, "initial position", body.initial_pose.position_m);
+  check_rotation(who, body.initial_pose.rotation);
+  check_finite(who, "initial velocity", body.initial_velocity_m_s);
+  check_finite(who, "initial angular velocity", body.initial_angular_velocity_rad_s);
+  const bool moves =
+      !body.initial_velocity_m_s.isZero(0) || !body.initial_angular_velocity_rad_s.isZero(0);
+  if (moves && std::holds_alternative<DrivenBody>(body.kind)) {
+    refuse(who, "it is driven: its velocity follows from its motion and cannot be given as well");
+  }
+}
+
+void check_index(const std::string& who, const std::string& kind, std::size_t index,
+                 std::size_t count) {
+  if (index >= count) {
+    refuse(who, "there is no " + kind + " of index " + std::to_string(index) + ": there are " +
+                    std::to_string(count));
+  }
+}
+
+void check_marker(const Marker& marker, const Model& model) {
+  const std::string who = "marker '" + marker.name + "'";
+  check_index(who, "body", marker.body, model.bodies.size());
+  check_finite(who, "position", marker.position_m);
+  check_rotation(who, marker.rotation);
+  const Body& body = model.bodies[marker.body];
+  if (const auto* deformable = std::get_if<DeformableBody>(&body.kind)) {
+    try {
+      find_name(names_of(deformable->modes.interfaces), marker.interface, "interface");
+    } catch (const InputError& error) {
+      refuse(who, "on the deformable body '" + body.name + "' " + error.what());
+    }
+  } else if (!marker.interface.empty()) {
+    refuse(who, "body '" + body.name + "' is not deformable and has no interface '" +
+                    marker.interface + "'; give a position instead");
+  }
+}
+
+void check_joint(const Joint& joint, const Model& model) {
+  const std::string who = "joint '" + joint.name + "'";
+  check_index(who, "marker", joint.marker_i, model.markers.size());
+  check_index(who, "marker", joint.marker_j, model.markers.size());
+  const std::size_t body_i = model.markers[joint.marker_i].body;
+  const std::size_t body_j = model.markers[joint.marker_j].body;
+  const Body& lower = model.bodies[body_i];
+  const Body& upper = model.bodies[body_j];
+  if (body_i == body_j) {
+    refuse(who, "both markers are on body '" + lower.name + "'; a joint needs two bodies");
+  }
+  if (std::holds_alternative<DrivenBody>(lower.kind) &&
+      std::holds_alternative<DrivenBody>(upper.kind)) {
+    refuse(who,
+           "it joins '" + lower.name + "' and '" + upper.name + "', whose motions are both given");
+  }
+  check_unit_vector(who, "axis", joint.axis);
+  check_unit_vector(who, "second axis", joint.second_axis);
+}
+
+}  // namespace
+
+void check(const Model& model) {
+  check_names(names_of(model.bodies), "body");
+  check_names(names_of(model.markers), "marker");
+  check_names(names_of(model.joints), "joint");
+  check_finite("model", "gravity", model.gravity_m_s2);
+  for (const Body& body : model.bodies) check_body(body);
+  for (const Marker& marker : model.markers) check_marker(marker, model);
+  for (const Joint& joint : model.joints) check_joint(joint, model);
+  check_forces(model);
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/numerics/rest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostIterations = 200;
+/// Extent (see RestProblem) of the largest step, and of the one that ends the search: Newton's
+/// convergence is quadratic, so what is left behind the last is rounding.
+constexpr double kLargestStep = 0.5;
+constexpr double kConverged = 1e-10;
+/// Stiffness below this share of the largest is none: the direction is neutral.
+constexpr double kNeutral = 1e-10;
+
+/// Newton's step with the stiffness made positive, so that it always leads downhill.
+VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen((stiffness + stiffness.transpose()) / 2);
+  const VectorXd magnitude = eigen.eigenvalues().cwiseAbs();
+  // Not zero even where all stiffness vanishes: the caller shortens a long step.
+  const double floor = std::max(kNeutral * magnitude.maxCoeff(), 1e-9);
+  VectorXd along = eigen.eigenvectors().transpose() * force;
+  // In a neutral direction only a force that is more than rounding counts.
+  const double noise = 1e-12 * force.norm();
+  for (Index i = 0; i < along.size(); ++i) {
+    const bool neutral = magnitude[i] <= floor;
+    along[i] =
+        neutral && std::abs(along[i]) <= noise ? 0 : along[i] / std::max(magnitude[i], floor);
+  }
+  return eigen.eigenvectors() * along;
+}
+
+}  // namespace
+
+void find_equilibrium(RestProblem& rest) {
+  if (rest.count() == 0) return;
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    const VectorXd force = rest.forces_at(VectorXd::Zero(rest.count()));
+    const double energy = rest.energy();
+    if (!(force.allFinite() && std::isfinite(energy))) break;
+    VectorXd step = descent_step(rest.stiffness(), force);
+    step *= std::min(1.0, kLargestStep / std::max(rest.extent(step), kConverged));
+    if (rest.extent(step) <= kConverged) {
+      rest.move_to(step);
+      return;
+    }
+    // Halve the step until it leads down; close to the end the energy no longer tells, the forces
+    // do.
+    for (int halving = 0; halving < 40; ++halving, step /= 2) {
+      const double remaining = rest.forces_at(step).norm();
+      if (rest.energy() < energy || remaining < force.norm()) break;
+    }
+    rest.move_to(step);
+  }
+  throw ComputationError("no static equilibrium was found from the poses given, after " +
+                         std::to_string(kMostIterations) + " steps");
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "multibody/history/history.h"
+#include "multibody/model/model.h"
+#include "multibody/simulation/simulation.h"
+
+namespace flexneck::multibody {
+
+/// One of many runs.
+struct BatchRun {
+  const Model* model;  ///< not null; must outlive the batch; runs may share it
+  SolverOptions solver = {};
+  OutputOptions output = {};
+  bool from_equilibrium = false;  ///< see simulate_from_equilibrium()
+};
+
+/// What a run of a batch leaves.
+struct BatchResult {
+  History history;    ///< empty if the run could not start
+  std::string error;  ///< why it failed or ended early; empty as a rule
+};
+
+/// Runs many models on several threads, each run on one. Results are in the order of the runs and
+/// the same to the last bit as if they were run one by one. A run that fails stops no other.
+/// @param threads  at least 1; more than there are runs or processors help nothing
+/// @throws InputError if `threads` is zero.
+std::vector<BatchResult> simulate_batch(const std::vector<BatchRun>& runs, unsigned threads);
+
+}  // namespace flexneck::multibody

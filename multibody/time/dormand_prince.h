@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/numerics/error_estimate.h"
+#include "multibody/time/time_integrator.h"
+
+namespace flexneck::multibody {
+
+/// What DormandPrince integrates. Vectors keep their size; nothing here should allocate.
+struct InitialValueProblem {
+  using Vector = Eigen::VectorXd;
+
+  std::function<void(double time_s, const Vector& y, Vector& rate)> derivative;
+  /// Takes the end of a step onto the invariants, by less than the step's error, and gives the rate
+  /// there. The rate serves the error estimate and the next step.
+  std::function<void(double time_s, Vector& y, Vector& rate)> finish_step;
+  /// @param error  estimated error of y_end, in the units of y
+  std::function<ErrorEstimate(const Vector& y_begin, const Vector& y_end, const Vector& error)>
+      measure;
+  std::function<std::string(std::size_t component)> name_of_component;
+  /// Numbers that tell the smooth pieces of the right-hand side apart, where it was evaluated last.
+  /// Steps end where one of them changes. Without this function it is smooth.
+  std::function<const std::vector<int>&()> pieces = {};
+  std::function<std::string(std::size_t piece)> name_of_piece = {};
+};
+
+/// The explicit pair of orders 5(4) by Dormand and Prince (J. Comp. Appl. Math. 6, 1980) with
+/// Shampine's dense output of order 4 and PI step control (Hairer, Norsett and Wanner, Solving
+/// Ordinary Differential Equations I, II.4 to II.6).
+class DormandPrince final : public TimeIntegrator {
+ public:
+  /// @param y  at `time_s`
+  DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s, const Vector& y);
+
+  void restart() override;
+  void step(double limit_s) override;
+  /// A step of the given length, whatever its error.
+  void fixed_step(double length_s);
+  void interpolate(double time_s, Vector& y) const override;
+  std::string name_of(std::size_t component) const override {
+    return problem_.name_of_component(component);
+  }
+  std::string name_of_event(std::size_t event) const override {
+    return problem_.name_of_piece(event);
+  }
+
+ private:
+  static constexpr int kStages = 7;
+
+  void attempt(double length_s);
+  ErrorEstimate tried(double length_s);
+  void make_dense(double length_s);
+  void accept(double length_s);
+  double choose_first_step() const;
+  void start_on_pieces();
+  /// The share of the step tried at whose end the first piece changes, or 1 if none does before the
+  /// step's end.
+  double share_to_event(double length_s);
+  void interpolate_at(double s, Vector& y) const;
+  double adapted(double length_s, double error);
+
+  InitialValueProblem problem_;
+  double previous_time_s_;
+  Vector y_next_, y_stage_, error_;
+  std::array<Vector, kStages> rates_;
+  std::array<Vector, 5> dense_;
+  std::vector<int> pieces_, pieces_next_;  ///< at the beginning and the end of the step tried
+  double proposed_s_ = 0;                  ///< zero: to be chosen
+  double last_error_ = 1e-4;
+  bool fresh_ = false;  ///< rates_[0] belongs to the present state
+};
+
+}  // namespace flexneck::multibody

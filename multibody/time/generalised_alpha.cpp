@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/time/generalised_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kMostIterations = 8;
+/// Newton's method stops at this share of the positions' tolerance, and is given up if a correction
+/// is not smaller than this share of the last. Velocities are not asked for besides: over a short
+/// step rounding of the constraints leaves more of them than a tight tolerance allows
+/// (equations.md section 9).
+constexpr double kConverged = 1e-3;
+constexpr double kSlow = 0.6;
+/// Cut of a step over which it does not converge.
+constexpr double kCut = 0.25;
+/// Of a step: the difference that estimates V'' behind a restart.
+constexpr double kDifference = 1e-3;
+
+// Step control. The local error is of order 3. Within the dead band the step stays, and with it the
+// factors of Newton's matrix.
+constexpr double kSafety = 0.9;
+constexpr double kLargestGrowth = 2;
+constexpr double kLargestCut = 0.2;
+constexpr double kDeadBand = 1.2;
+
+}  // namespace
+
+AlphaParameters::AlphaParameters(double spectral_radius)
+    : alpha_m((2 * spectral_radius - 1) / (spectral_radius + 1)),
+      alpha_f(spectral_radius / (spectral_radius + 1)),
+      gamma(0.5 + alpha_f - alpha_m),
+      beta(0.25 * (gamma + 0.5) * (gamma + 0.5)),
+      shift(alpha_m - alpha_f),
+      quotient((1 - alpha_f) / (1 - alpha_m)),
+      error(beta + shift / 2 - 1. / 6) {}
+
+GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius, StepLimits limits,
+                                   double time_s, const Vector& y)
+    : TimeIntegrator(limits, time_s, y),
+      equations_(equations),
+      alpha_(spectral_radius),
+      nq_(equations.layout().positions),
+      nv_(equations.layout().velocities),
+      nc_(equations.layout().constraints),
+      matrix_(equations, y.size()),
+      now_{Vector::Zero(nv_), Vector::Zero(nc_), Vector::Zero(nv_)},
+      next_(now_),
+      before_(now_),
+      offset_rate_(Vector::Zero(nv_)),
+      residual_(Vector::Zero(nv_ + nc_)),
+      change_(Vector::Zero(nv_)),
+      error_(Vector::Zero(y.size())),
+      y_next_(y),
+      y_before_(y),
+      y_trial_(y),
+      rate_(Vector::Zero(y.size())),
+      rate_next_(rate_),
+      rate_before_(rate_),
+      previous_time_s_(time_s) {}
+
+/// Consistent V' and multipliers behind a jump, and V'' by a difference along the motion, without
+/// which a_n would be of first order only. Zero as length: the first of a run.
+void GeneralisedAlpha::begin(double length_s) {
+  equations_.derivative(time_s_, y_, rate_);
+  equations_.finish_step(time_s_, y_, rate_);
+  now_.V_rate = rate_.segment(nq_, nv_);
+  now_.lambda = equations_.multipliers();
+  if (!(rate_.allFinite() && y_.allFinite())) collapse(equations_.measure(y_, y_, rate_));
+  if (length_s == 0) length_s = proposed_s_ = first_step();
+  const double ahead = kDifference * length_s;
+  y_trial_ = y_ + ahead * rate_;
+  equations_.derivative(time_s_ + ahead, y_trial_, rate_next_);
+  offset_rate_ = (alpha_.shift / ahead) * (rate_next_.segment(nq_, nv_) - now_.V_rate);
+  last_length_s_ = 0;
+  fresh_ = true;
+}
+
+double GeneralisedAlpha::first_step() const {
+  const double rate = equations_.measure(y_, y_, rate_).value;
+  const double length = rate > 0 ? 1e-1 * std::pow(rate, -1. / 3) : limits_.largest_s;
+  return std::clamp(length, limits_.smallest_s, limits_.largest_s);
+}
+
+/// About the end of a step as it is predicted: on the way there the joints may have passed a
+/// singular configuration, on whose other side the rows of the beginning lead away.
+void GeneralisedAlpha::linearise(double length_s) {
+  predict(length_s);
+  update_end(length_s);
+  matrix_.linearise(equations_, time_s_ + length_s, y_next_, next_.V_rate, next_.lambda);
+  linearised_ = true;
+  factorised_for_s_ = 0;
+  ++linearisations_;
+}
+
+bool GeneralisedAlpha::attempt(double length_s) {
+  now_.a = now_.V_rate + length_s * offset_rate_;
+  const bool first = !linearised_;
+  if (first) linearise(length_s);
+  const auto succeeds = [&] {
+    return iterate(length_s) &&
+           matrix_.leaves_out_only_redundant(equations_, time_s_ + length_s, y_next_);
+  };
+  if (succeeds()) return true;
+  if (first) return false;
+  linearise(length_s);
+  return succeeds();
+}
+
+void GeneralisedAlpha::predict(double length_s) {
+  next_.V_rate = now_.V_rate;
+  next_.lambda = now_.lambda;
+  if (last_length_s_ == 0) return;
+  const double ratio = length_s / last_length_s_;
+  next_.V_rate += ratio * (now_.V_rate - before_.V_rate);
+  next_.lambda += ratio * (now_.lambda - before_.lambda);
+}
+
+/// The end of the step that goes with V' there.
+void GeneralisedAlpha::update_end(double length_s) {
+  const double h = length_s;
+  next_.a = alpha_.quotient * next_.V_rate +
+            (alpha_.alpha_f * now_.V_rate - alpha_.alpha_m * now_.a) / (1 - alpha_.alpha_m);
+  const auto V = y_.segment(nq_, nv_);
+  change_ = h * V + h * h * ((0.5 - alpha_.beta) * now_.a + alpha_.beta * next_.a);
+  y_next_.head(nq_) = y_.head(nq_);
+  equations_.retract(y_next_.head(nq_), change_);
+  y_next_.segment(nq_, nv_) = V + h * ((1 - alpha_.gamma) * now_.a + alpha_.gamma * next_.a);
+}
+
+ErrorEstimate GeneralisedAlpha::size_of(const Vector& d, double q) {
+  change_ = q * d.head(nv_);
+  y_trial_.head(nq_) = y_next_.head(nq_);
+  equations_.retract(y_trial_.head(nq_), change_);
+  error_.head(nq_) = y_trial_.head(nq_) - y_next_.head(nq_);
+  return equations_.measure(y_, y_next_, error_);
+}
+
+bool GeneralisedAlpha::iterate(double length_s) {
+  const double q = alpha_.quotient * alpha_.beta * length_s * length_s;
+  const double v = alpha_.quotient * alpha_.gamma * length_s;
+  if (factorised_for_s_ != length_s) matrix_.factorise(q, v);
+  factorised_for_s_ = length_s;
+  predict(length_s);
+  double last_size = 0;
+  for (int k = 0; k < kMostIterations; ++k) {
+    update_end(length_s);
+    equations_.residual(time_s_ + length_s, y_next_, next_.V_rate, next_.lambda, residual_);
+    matrix_.solve(residual_);
+    next_.V_rate += residual_.head(nv_);
+    next_.lambda += residual_.tail(nc_);
+    const ErrorEstimate size = size_of(residual_, q);
+    if (!std::isfinite(size.value)) {
+      last_estimate_ = size;
+      return false;
+    }
+    // What is left is a geometric series.
+    const double ratio = k == 0 ? kSlow : size.value / last_size;
+    const double left = ratio < 1 ? size.value * ratio / (1 - ratio) : size.value;
+    if (left <= kConverged) {
+      update_end(length_s);
+      return true;
+    }
+    if (k > 0 && ratio > kSlow) return false;
+    last_size = size.value;
+  }
+  return false;
+}
+
+ErrorEstimate GeneralisedAlpha::local_error(double length_s) {
+  residual_.head(nv_) = (alpha_.error * length_s * length_s) * (next_.a - now_.a);
+  change_ = residual_.head(nv_);
+  matrix_.filter(change_);
+  residual_.head(nv_) = change_;
+  return size_of(residual_, 1);
+}
+
+void GeneralisedAlpha::accept(double length_s) {
+  equations_.rate(y_next_, next_.V_rate, rate_next_);
+  const Index quadratures = y_.size() - nq_ - nv_;
+  y_next_.tail(quadratures) =
+      y_.tail(quadratures) +
+      length_s / 2 * (rate_.tail(quadratures) + rate_next_.tail(quadratures));
+  offset_rate_ = (next_.a - next_.V_rate) / length_s;
+  std::swap(before_, now_);
+  std::swap(now_, next_);
+  y_before_.swap(y_);
+  y_.swap(y_next_);
+  rate_before_.swap(rate_);
+  rate_.swap(rate_next_);
+  previous_time_s_ = time_s_;
+  time_s_ += length_s;
+  last_length_s_ = length_s;
+  ++accepted_;
+}
+
+void GeneralisedAlpha::give_up(double length_s) const {
+  std::ostringstream message;
+  message.precision(9);
+  message << "Newton's method does not converge over a step of " << length_s << " s at " << time_s_
+          << " s";
+  throw ComputationError(message.str());
+}
+
+void GeneralisedAlpha::fixed_step(double length_s) {
+  if (!fresh_) begin(length_s);
+  if (!attempt(length_s)) give_up(length_s);
+  accept(length_s);
+}
+
+void GeneralisedAlpha::step(double limit_s) {
+  if (!fresh_) begin(proposed_s_);
+  const double left = limit_s - time_s_;
+  bool rejected_before = false;
+  bool failed_before = false;
+  while (true) {
+    if (proposed_s_ < limits_.smallest_s && failed_before) give_up(limits_.smallest_s);
+    if (proposed_s_ < limits_.smallest_s) collapse(last_estimate_);
+    double length = std::min(proposed_s_, limits_.largest_s);
+    reason_ = length < proposed_s_ ? StepReason::largest_step : StepReason::error;
+    if (failed_before) reason_ = StepReason::iteration;
+    const bool truncated = length >= left * (1 - 1e-9);
+    if (truncated) {
+      length = left;
+      reason_ = StepReason::end;
+    }
+    if (!attempt(length)) {
+      ++rejected_;
+      rejected_before = failed_before = true;
+      proposed_s_ = kCut * length;
+      continue;
+    }
+    last_estimate_ = local_error(length);
+    const double error = last_estimate_.value;
+    const double factor = kSafety * std::pow(std::max(error, 1e-9), -1. / 3);
+    if (error <= 1) {
+      double next = length * std::min(factor, kLargestGrowth);
+      if (rejected_before) next = std::min(next, length);
+      if (factor >= 1 && factor < kDeadBand) next = length;
+      // A step cut short by the limit says nothing against the longer one.
+      proposed_s_ = truncated ? std::max(next, proposed_s_) : next;
+      accept(length);
+      if (truncated) time_s_ = limit_s;
+      return;
+    }
+    ++rejected_;
+    rejected_before = true;
+    failed_before = false;
+    proposed_s_ = length * (std::isfinite(error) ? std::max(factor, kLargestCut) : kLargestCut);
+  }
+}
+
+void GeneralisedAlpha::interpolate(double time_s, Vector& y) const {
+  const double h = time_s_ - previous_time_s_;
+  const double s = h > 0 ? (time_s - previous_time_s_) / h : 0;
+  const double r = 1 - s;
+  // Hermite's cubic.
+  y = r * y_before_ + s * y_ -
+      (s * r) * ((1 - 2 * s) * (y_ - y_before_) + (s * h) * rate_ - (r * h) * rate_before_);
+}
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "multibody/equations/equations.h"
+#include "multibody/time/iteration_matrix.h"
+#include "multibody/time/time_integrator.h"
+
+namespace flexneck::multibody {
+
+/// Parameters of the generalised-alpha method of order 2 by its spectral radius at infinite
+/// frequency (Chung and Hulbert, J. Appl. Mech. 60, 1993): 1 damps nothing, 0 annihilates in a step
+/// what the step does not resolve.
+struct AlphaParameters {
+  explicit AlphaParameters(double spectral_radius);
+
+  double alpha_m, alpha_f, gamma, beta;
+  double shift;     ///< the auxiliary a_n is V' at t_n + shift h, up to second order
+  double quotient;  ///< d a_n+1 / d V'_n+1
+  double error;     ///< local error of the positions over h^3 V''
+};
+
+/// The generalised-alpha method on a Lie group for equations of index 3 (Arnold and Bruels,
+/// Multibody Syst. Dyn. 18, 2007; Bruels, Cardona and Arnold, Mech. Mach. Theory 48, 2012), order
+/// 2:
+///   Q_n+1 = Q_n (+) (h V_n + h^2 ((1/2 - beta) a_n + beta a_n+1))
+///   V_n+1 = V_n + h ((1 - gamma) a_n + gamma a_n+1)
+///   (1 - alpha_m) a_n+1 + alpha_m a_n = (1 - alpha_f) V'_n+1 + alpha_f V'_n
+/// with equations of motion and constraints satisfied at the end of the step. Stable for stiff
+/// forces at any step; vibrations that a step does not resolve die out. Newton's matrix is kept
+/// while it serves. The local error of the positions, less what stiff modes resist, sets the step;
+/// inside a step the state is Hermite's cubic.
+class GeneralisedAlpha final : public TimeIntegrator {
+ public:
+  /// @param equations  must outlive this
+  /// @param y          keeps the joints
+  GeneralisedAlpha(Equations& equations, double spectral_radius, StepLimits limits, double time_s,
+                   const Vector& y);
+
+  void restart() override { fresh_ = false; }
+  void step(double limit_s) override;
+  /// A step of the given length, whatever its error.
+  /// @throws ComputationError if Newton's method does not converge.
+  void fixed_step(double length_s);
+  void interpolate(double time_s, Vector& y) const override;
+  /// Its steps go over kinks of loads as the error allows: there are no events.
+  std::string name_of_event(std::size_t /*event*/) const override { return {}; }
+  std::string name_of(std::size_t component) const override {
+    return equations_.name_of(component);
+  }
+  /// How often the equations were linearised.
+  int linearisations() const { return linearisations_; }
+
+ private:
+  /// V' and multipliers, and the auxiliary accelerations that go with them.
+  struct Accelerations {
+    Vector V_rate, lambda, a;
+  };
+
+  void begin(double length_s);
+  void linearise(double length_s);
+  /// @return whether Newton's method converged.
+  bool attempt(double length_s);
+  bool iterate(double length_s);
+  void predict(double length_s);
+  void update_end(double length_s);
+  /// Of a displacement q d at the end of the step, against the tolerance.
+  ErrorEstimate size_of(const Vector& d, double q);
+  ErrorEstimate local_error(double length_s);
+  void accept(double length_s);
+  double first_step() const;
+  [[noreturn]] void give_up(double length_s) const;
+
+  Equations& equations_;
+  AlphaParameters alpha_;
+  Eigen::Index nq_, nv_, nc_;
+  IterationMatrix matrix_;
+  Accelerations now_, next_, before_;
+  Vector offset_rate_;  ///< (a_n - V'_n) / h
+  Vector residual_, change_, error_;
+  Vector y_next_, y_before_, y_trial_;
+  Vector rate_, rate_next_, rate_before_;
+  double previous_time_s_;
+  double last_length_s_ = 0;  ///< zero behind a restart: nothing to extrapolate
+  double proposed_s_ = 0;     ///< zero: to be chosen
+  double factorised_for_s_ = 0;
+  bool fresh_ = false;       ///< `now_` and rate_ belong to the present state
+  bool linearised_ = false;  ///< ever
+  int linearisations_ = 0;
+};
+
+}  // namespace flexneck::multibody

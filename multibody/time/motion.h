@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "multibody/equations/equations.h"
+#include "multibody/equations/solver_options.h"
+#include "multibody/history/history.h"
+#include "multibody/history/output_options.h"
+#include "multibody/model/model.h"
+#include "multibody/time/time_integrator.h"
+
+namespace flexneck::multibody {
+
+/// Steps from a state at time zero as the options say. The equations must outlive it.
+std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const Eigen::VectorXd& state,
+                                                const SolverOptions& solver);
+
+/// Static equilibria at the output times, each sought from the one before.
+/// @param equations  with driven bodies held
+/// @throws IncompleteRun if one is not found.
+History settle_along(const Model& model, Equations& equations, const OutputOptions& output);
+
+/// Integrates from a state at time zero that keeps the joints, and records at the output times.
+/// @throws IncompleteRun as simulate().
+History integrate(const Model& model, Equations& equations, const Eigen::VectorXd& state,
+                  const SolverOptions& solver, const OutputOptions& output);
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/child_tasks.h"
+
+#include "pipeline/commands/make_mesh.h"
+#include "pipeline/isolation/result_files.h"
+
+namespace flexneck::pipeline {
+
+const std::vector<ChildTask>& child_tasks() {
+  static const std::vector<ChildTask> list = {{"mesh", mesh_task}, {"copy", copy_task}};
+  return list;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/console/console.h"
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <iostream>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/printable.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// What a user's file made long is shortened in the middle.
+std::string shortened(std::string line) {
+  constexpr std::size_t kLongest = 4000;
+  constexpr std::size_t kKept = kLongest / 2;
+  if (line.size() <= kLongest) return line;
+  const auto is_inside_character = [&](std::size_t place) {
+    return (static_cast<std::uint8_t>(line[place]) & 0xC0U) == 0x80;
+  };
+  std::size_t begin = kKept;
+  std::size_t end = line.size() - kKept;
+  while (is_inside_character(begin)) --begin;
+  while (is_inside_character(end)) --end;
+  return line.replace(begin, end - begin, " […] ");
+}
+
+std::string one_line(const std::string& text) { return shortened(printable(text)); }
+
+}  // namespace
+
+void keep_standard_streams() {
+  for (int stream = 0; stream <= 2; ++stream) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest number that is free
+  }
+}
+
+void require_written_output() {
+  std::cout.flush();
+  if (std::cout && std::ferror(stdout) == 0 && std::fflush(stdout) == 0) return;
+  throw ComputationError(std::string("standard output: cannot be written (") +
+                         std::strerror(errno) + ")");
+}
+
+Console::Console(Verbosity verbosity) : verbosity_(verbosity) {
+  auto logger = spdlog::stderr_color_mt("flexneck");
+  logger->set_pattern(verbosity == Verbosity::verbose ? "%^[%T.%e]%$ %v" : "%v");
+  logger->set_level(verbosity == Verbosity::quiet     ? spdlog::level::err
+                    : verbosity == Verbosity::verbose ? spdlog::level::debug
+                                                      : spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void Console::result(const std::string& text) const {
+  if (verbosity_ == Verbosity::quiet) return;
+  std::cout << printable(text, "\n") << '\n';
+  require_written_output();
+}
+
+void Console::step(const std::string& line) const { spdlog::info(one_line(line)); }
+
+void Console::warning(const std::string& line) const {
+  spdlog::error("Warning: {}", one_line(line));
+}
+
+void Console::error(const std::string& line) const {
+  spdlog::error("flexneck: {}", one_line(line));
+}
+
+Progress Console::detail() const {
+  return [](const std::string& line) { spdlog::debug("  {}", one_line(line)); };
+}
+
+Progress Console::warnings(const std::string& of) const {
+  return [console = *this, of](const std::string& line) { console.warning(of + ": " + line); };
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/document/toml_source.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/printable.h"
+#include "geometry/foundation/text_file.h"
+#include "pipeline/document/toml_limits.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostBytes = 4U << 20U;  ///< of a file; long lists belong into CSV files
+constexpr std::size_t kMostFiles = 100;
+constexpr std::size_t kDeepestInclude = 16;
+
+/// Moves what `over` holds into `base`; tables are merged key by key, everything else replaced.
+/// Nodes are moved because a copy would lose its line and column.
+void merge(toml::table& base, toml::table&& over) {
+  for (auto&& [name, node] : over) {
+    const std::string key(name.str());
+    toml::table* const below = base[key].as_table();
+    if (below != nullptr && node.is_table() && !node.as_table()->is_inline()) {
+      merge(*below, std::move(*node.as_table()));
+    } else {
+      node.visit([&](auto& value) { base.insert_or_assign(key, std::move(value)); });
+    }
+  }
+}
+
+toml::table parse(const fs::path& path, const std::string& text) {
+  try {
+    check_nesting(text, path.string());
+    toml::table table = toml::parse(text, path.string());
+    check_texts(table);
+    return table;
+  } catch (const toml::parse_error& error) {
+    std::ostringstream message;
+    message << path.string() << ":" << error.source().begin.line << ":"
+            << error.source().begin.column << ": this is not TOML: " << error.description();
+    throw InputError(message.str());
+  }
+}
+
+/// Reads a file and what it includes.
+class Reading {
+ public:
+  explicit Reading(std::vector<InputFile>& files) : files_(files) {}
+
+  toml::table merged(const fs::path& path) {
+    open(path);
+    const std::string text = read_text(path, kMostBytes);
+    toml::table own = parse(path, text);
+    toml::table table;
+    if (toml::node* const include = own.get("include")) {
+      if (!include->is_array() || !include->as_array()->is_homogeneous<std::string>()) {
+        throw InputError(location_of(*include) + "include: expected a list of file names");
+      }
+      for (const toml::node& name : *include->as_array()) {
+        merge(table, merged(path.parent_path() / name.value_or(std::string())));
+      }
+      own.erase("include");
+    }
+    merge(table, std::move(own));
+    files_.push_back({path.filename().string(), hash_of_text(text)});
+    open_.pop_back();
+    return table;
+  }
+
+ private:
+  void open(const fs::path& path) {
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(path, error);
+    if (error) throw InputError(path.string() + ": cannot be read (" + error.message() + ")");
+    if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+      throw InputError(path.string() + ": includes itself; remove one of the include lines");
+    }
+    if (open_.size() == kDeepestInclude || ++count_ > kMostFiles) {
+      throw InputError(path.string() + ": expected at most " + std::to_string(kMostFiles) +
+                       " files included, and " + std::to_string(kDeepestInclude) +
+                       " within one another; remove some of the include lines");
+    }
+    open_.push_back(canonical);
+  }
+
+  std::vector<InputFile>& files_;
+  std::vector<fs::path> open_;  ///< the file that is read and those that include it
+  std::size_t count_ = 0;
+};
+
+/// The value as TOML if it parses as such, else as a plain string: shells strip quotes.
+void assign(toml::table& table, const std::string& key, const std::string& text) {
+  try {
+    toml::table parsed = toml::parse("value = " + text);
+    check_texts(parsed);
+    parsed.get("value")->visit([&](auto& value) { table.insert_or_assign(key, std::move(value)); });
+  } catch (const toml::parse_error&) {
+    table.insert_or_assign(key, text);
+  }
+}
+
+/// The element of an array of tables whose name is given.
+toml::table* element_named(toml::array& array, const std::string& name) {
+  for (toml::node& node : array) {
+    toml::table* const table = node.as_table();
+    if (table != nullptr && (*table)["name"].value_or(std::string()) == name) return table;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+}  // namespace
+
+toml::table parse_with_includes(const fs::path& path, std::vector<InputFile>& files) {
+  return Reading(files).merged(path);
+}
+
+void apply_setting(toml::table& root, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const std::vector<std::string> path = split(setting.substr(0, equals), '.');
+  if (equals == std::string::npos || path.empty()) {
+    throw InputError("--set " + setting + ": expected key=value");
+  }
+  if (find_unprintable(setting) != std::string::npos || path.size() > kMostNested) {
+    throw InputError("--set " + setting + ": expected a key of at most " +
+                     std::to_string(kMostNested) + " parts and no control characters");
+  }
+  check_nesting(setting.substr(equals + 1), "--set " + setting);
+  toml::table* table = &root;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (toml::array* const array = (*table)[path[i]].as_array(); array != nullptr) {
+      table = element_named(*array, path[i + 1]);
+      if (table == nullptr || i + 2 >= path.size()) {
+        throw InputError("--set " + setting + ": there is no " + path[i] + " named '" +
+                         path[i + 1] + "', or no key after it");
+      }
+      ++i;
+      continue;
+    }
+    toml::table* next = (*table)[path[i]].as_table();
+    if (next == nullptr) {
+      table->insert_or_assign(path[i], toml::table());
+      next = (*table)[path[i]].as_table();
+    }
+    table = next;
+  }
+  // The old origin and note do not hold for a new value.
+  assign(*table, path.back(), setting.substr(equals + 1));
+}
+
+std::string location_of(const toml::node& node) {
+  const toml::source_region& source = node.source();
+  if (!source.path) return "command line: ";
+  std::ostringstream text;
+  text << *source.path << ":" << source.begin.line << ":" << source.begin.column << ": ";
+  return text.str();
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/folder/results_folder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/isolation/result_files.h"
+#include "pipeline/version.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What experiments know by the modes only, and what a case has to name to depend on it.
+constexpr std::array<const char*, 13> kNotOfEveryCase = {
+    "geometry.", "mesh.",    "modes.", "substructures.", "interface.",  "pendulum.",   "static.",
+    "case.",     "variant.", "force.", "pulse.",         "rigid_neck.", "head_spring."};
+
+/// Of those, what a case does name. A variant also has the values of the case it is made of.
+std::vector<std::string> used_by(const CaseSection& experiment) {
+  const std::string& own = experiment.variant_of.empty() ? experiment.name : experiment.variant_of;
+  std::vector<std::string> prefixes = {
+      experiment.kind == CaseSection::Kind::pendulum ? "pendulum." : "static.",
+      "case." + own + "."};
+  const auto add = [&](const std::string& section, const std::string& name) {
+    if (!name.empty()) prefixes.push_back(section + "." + name + ".");
+  };
+  add("variant", experiment.variant);
+  add("pulse", experiment.pulse);
+  add("rigid_neck", experiment.rigid_neck);
+  add("head_spring", experiment.head_spring);
+  for (const std::string& force : experiment.forces) add("force", force);
+  return prefixes;
+}
+
+/// Whether a value changes a result: not how it is computed, nor what is stored beside it.
+bool matters(const std::string& key) {
+  constexpr std::array<const char*, 4> kOfNoResult = {"modes.certify", "modes.solver",
+                                                      "mesh.partitions", "mesh.node_order"};
+  return std::find(kOfNoResult.begin(), kOfNoResult.end(), key) == kOfNoResult.end();
+}
+
+const Parameter* find(const std::vector<Parameter>& parameters, const std::string& key) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const Parameter& parameter) { return parameter.key == key; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+/// Empty if there is none: then no later stage could have used the file.
+Provenance provenance_in(const fs::path& file, const FileFormat& format) {
+  if (!fs::exists(file)) return {};
+  try {
+    const ReadableFile readable(file, format.name);
+    return read_provenance(Hdf5Reader(readable.path(), format));
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+template <typename Prefixes>
+bool begins_with_one_of(const std::string& key, const Prefixes& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const auto& prefix) { return key.starts_with(prefix); });
+}
+
+Provenance provenance_using(const Study& study, const std::vector<std::string>& used) {
+  Provenance provenance = provenance_of(study);
+  std::erase_if(provenance.parameters, [&](const Parameter& parameter) {
+    return begins_with_one_of(parameter.key, kNotOfEveryCase) &&
+           !begins_with_one_of(parameter.key, used);
+  });
+  return provenance;
+}
+
+}  // namespace
+
+void ResultsFolder::make() const {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error || !fs::is_directory(path_)) {
+    throw InputError(path_.string() + ": cannot be made a folder for results (" +
+                     (error ? error.message() : "it is a file") + "); choose another with -o");
+  }
+}
+
+fs::path ResultsFolder::history(const CaseSection& experiment) const {
+  const bool pendulum = experiment.kind == CaseSection::Kind::pendulum;
+  return path_ / ((pendulum ? "pendulum-" : "static-") + experiment.name + ".h5");
+}
+
+Provenance provenance_of(const std::vector<InputFile>& files,
+                         const std::vector<Parameter>& parameters) {
+  Provenance provenance;
+  provenance.program = std::string("flexneck ") + kVersion;
+  provenance.git_hash = kGitHash;
+  provenance.inputs = files;
+  provenance.parameters = parameters;
+  return provenance;
+}
+
+Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes) {
+  Provenance provenance = provenance_of(study.files, {});
+  if (prefixes.empty())
+    provenance.inputs.insert(provenance.inputs.end(), study.tables.begin(), study.tables.end());
+  const auto wanted = [&](const Parameter& parameter) {
+    return prefixes.empty() || begins_with_one_of(parameter.key, prefixes);
+  };
+  std::copy_if(study.parameters.begin(), study.parameters.end(),
+               std::back_inserter(provenance.parameters), wanted);
+  return provenance;
+}
+
+std::vector<Parameter> mesh_values(const Study& study) {
+  std::vector<Parameter> values = provenance_of(study, {"geometry.", "mesh."}).parameters;
+  std::erase_if(values, [](const Parameter& parameter) {
+    return parameter.key.starts_with("geometry.materials.") &&
+           (parameter.key.ends_with(".formulation") ||
+            parameter.key.ends_with(".static_modulus_ratio"));
+  });
+  return values;
+}
+
+Provenance mesh_provenance(const Study& study) {
+  Provenance provenance = provenance_of(study.files, mesh_values(study));
+  const fs::path& source = study.structure ? study.structure->file() : study.geometry->script;
+  provenance.inputs.push_back({source.filename().string(), hash_of_file(source.string())});
+  return provenance;
+}
+
+Provenance modes_provenance(const Study& study) {
+  return provenance_of(study, {"geometry.", "mesh.", "modes.", "substructures.", "interface.",
+                               "body." + study.modes.attached_body + "."});
+}
+
+Provenance experiment_provenance(const Study& study, CaseSection::Kind kind) {
+  std::vector<std::string> used;
+  for (const CaseSection& experiment : study.cases) {
+    if (experiment.kind != kind) continue;
+    const std::vector<std::string> more = used_by(experiment);
+    used.insert(used.end(), more.begin(), more.end());
+  }
+  return provenance_using(study, used);
+}
+
+Provenance case_provenance(const Study& study, const CaseSection& experiment) {
+  return provenance_using(study, used_by(experiment));
+}
+
+void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,
+                         const std::vector<Parameter>& expected, const std::string& made_by) {
+  if (made_from.program.empty() || study.parameters.empty()) return;
+  const auto refuse = [&](const std::string& difference) {
+    throw InputError(file.string() + ": was made " + difference + "; make it again with '" +
+                     made_by + "'");
+  };
+  for (const Parameter& then : made_from.parameters) {
+    if (!matters(then.key)) continue;
+    const std::string with = "with " + then.key + " = " + then.value + ", the study has ";
+    const Parameter* now = find(study.parameters, then.key);
+    if (now == nullptr) now = find(study.defaults, then.key);
+    if (now == nullptr) refuse(with + "none");
+    if (now->value != then.value) refuse(with + now->value);
+  }
+  for (const Parameter& now : expected) {
+    if (find(made_from.parameters, now.key) == nullptr && matters(now.key))
+      refuse("without " + now.key + ", the study has " + now.value);
+  }
+}
+
+namespace {
+
+/// Whether the folder of a file holds more than a mesh, with which nothing has to agree.
+bool has_more_than_mesh(const fs::path& file) {
+  std::error_code ignored;
+  const fs::directory_iterator entries(file.parent_path().empty() ? "." : file.parent_path(),
+                                       ignored);
+  return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    const std::string stem = entry.path().stem().string();
+    return entry.path().extension() == ".h5" && stem != "mesh" && stem != "mesh_view";
+  });
+}
+
+}  // namespace
+
+std::string replaced_values(const fs::path& file, const FileFormat& format, const Provenance& now) {
+  if (!has_more_than_mesh(file)) return {};
+  const Provenance then = provenance_in(file, format);
+  if (then.program.empty()) return {};
+  const auto text = [](const Parameter* parameter) {
+    return parameter == nullptr ? "none" : parameter->value;
+  };
+  const auto difference = [&](const std::string& key) -> std::string {
+    const Parameter* const before = find(then.parameters, key);
+    const Parameter* const after = find(now.parameters, key);
+    if (!matters(key) || text(before) == text(after)) return {};
+    return file.string() + ": was made with " + key + " = " + text(before) + ", now with " +
+           text(after) + ": other results in the folder are of the former; 'flexneck run' makes " +
+           "all of them of one study";
+  };
+  for (const auto* const parameters : {&then.parameters, &now.parameters}) {
+    for (const Parameter& parameter : *parameters) {
+      if (std::string found = difference(parameter.key); !found.empty()) return found;
+    }
+  }
+  return {};
+}
+
+}  // namespace flexneck::pipeline

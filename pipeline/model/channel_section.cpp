@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/model/channel_section.h"
+
+#include <array>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/document/table_values.h"
+#include "pipeline/model/model_sections.h"
+
+namespace flexneck::pipeline {
+
+using multibody::ChannelClass;
+using multibody::Model;
+
+namespace {
+
+/// In the order of Quantity.
+const std::vector<std::string> kQuantities = {
+    "position", "velocity",         "acceleration",         "rotation_vector", "quaternion",
+    "angle",    "angular_velocity", "angular_acceleration", "accelerometer",   "force",
+    "moment",   "load_cell_force",  "load_cell_moment",     "modal",           "energy"};
+
+std::optional<std::size_t> marker_or_none(const StudyTable& table, const std::string& key,
+                                          const Model& model) {
+  if (!table.has(key)) return std::nullopt;
+  return reference(table, key, names_of(model.markers), "marker");
+}
+
+void read_marker_channel(const StudyTable& table, const Model& model, ChannelSpec& spec) {
+  spec.source = reference(table, "marker", names_of(model.markers), "marker");
+  if (spec.quantity == Quantity::accelerometer) return;
+  spec.relative_to = marker_or_none(table, "relative_to", model);
+  if (spec.quantity == Quantity::angle) spec.axis = unit_vector(table, "axis");
+  const bool is_rotation = spec.quantity == Quantity::angle ||
+                           spec.quantity == Quantity::quaternion ||
+                           spec.quantity == Quantity::rotation_vector;
+  if (!is_rotation) spec.axes = marker_or_none(table, "axes", model);
+}
+
+std::size_t deformable_body(const StudyTable& table, const Model& model) {
+  std::vector<std::string> names;
+  for (const multibody::Body& body : model.bodies)
+    if (std::holds_alternative<multibody::DeformableBody>(body.kind)) names.push_back(body.name);
+  return reference(table, "body", names, "deformable body");
+}
+
+std::optional<ChannelClass> read_filter(const StudyTable& table, double interval_s) {
+  if (!table.has("filter")) return std::nullopt;
+  constexpr std::array kClasses = {ChannelClass::cfc60, ChannelClass::cfc180, ChannelClass::cfc600,
+                                   ChannelClass::cfc1000};
+  const ChannelClass cfc =
+      kClasses.at(choice(table, "filter", {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}));
+  try {  // The filter itself knows what it needs.
+    multibody::cfc_filtered(Eigen::Vector2d::Zero(), interval_s, cfc);
+  } catch (const InputError& error) {
+    table.refuse("filter", error.what());
+  }
+  return cfc;
+}
+
+}  // namespace
+
+ChannelSpec read_channel(const StudyTable& table, const Model& model, double interval_s) {
+  ChannelSpec spec;
+  spec.name = table.text("name");
+  spec.quantity = static_cast<Quantity>(choice(table, "quantity", kQuantities));
+  switch (spec.quantity) {
+    case Quantity::force:
+    case Quantity::moment:
+    case Quantity::load_cell_force:
+    case Quantity::load_cell_moment:
+      spec.source = reference(table, "joint", names_of(model.joints), "joint");
+      if (spec.quantity == Quantity::force || spec.quantity == Quantity::moment)
+        spec.axes = marker_or_none(table, "axes", model);
+      if (spec.axes) spec.relative_to = model.joints[spec.source].marker_i;
+      break;
+    case Quantity::modal:
+      spec.source = deformable_body(table, model);
+      break;
+    case Quantity::energy:
+      break;
+    default:
+      read_marker_channel(table, model, spec);
+  }
+  spec.filter = read_filter(table, interval_s);
+  table.finish();
+  return spec;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/plotting/gnuplot.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <spawn.h>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
+#include "geometry/foundation/signal_cleanup.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr const char* kComplaints = "gnuplot.err";
+
+/// What the new process does before it becomes gnuplot.
+class SpawnActions {
+ public:
+  explicit SpawnActions(const std::filesystem::path& folder) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+    posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions_, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions_, 2, kComplaints, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  }
+  ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
+  SpawnActions(const SpawnActions&) = delete;
+  SpawnActions& operator=(const SpawnActions&) = delete;
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+};
+
+/// What gnuplot needs of ours. Its own variables (GNUPLOT_LIB, GNUTERM, FIT_SCRIPT …) would have it
+/// read other files.
+std::vector<std::string> environment() {
+  std::vector<std::string> variables = {"LC_ALL=C.UTF-8"};
+  for (const char* const name : {"PATH", "LD_LIBRARY_PATH", "TMPDIR"})
+    if (const char* const value = std::getenv(name))
+      variables.push_back(std::string(name) + "=" + value);
+  return variables;
+}
+
+/// As exec takes them, the end included.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+}  // namespace
+
+void run_gnuplot(const std::filesystem::path& folder, const std::string& script_name) {
+  const SpawnActions actions(folder);
+  // -d: without the settings of the machine and of the user, which are programs.
+  std::vector<std::string> arguments = {"gnuplot", "-d", script_name};
+  std::vector<std::string> variables = environment();
+  pid_t process = 0;
+  const int failure = posix_spawnp(&process, arguments.front().c_str(), actions.get(), nullptr,
+                                   pointers_to(arguments).data(), pointers_to(variables).data());
+  if (failure == ENOENT) {
+    throw InputError(
+        "report: gnuplot draws the figures and is missing; install the package "
+        "gnuplot-nox");
+  }
+  int status = 0;
+  const SignalCleanup cleanup = failure == 0 ? SignalCleanup(process) : SignalCleanup();
+  if (failure != 0 || waitpid(process, &status, 0) != process || status != 0) {
+    throw ComputationError("report: gnuplot failed: " + text_of_file(folder / kComplaints));
+  }
+}
+
+}  // namespace flexneck::pipeline
