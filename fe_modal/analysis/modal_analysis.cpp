@@ -22,6 +22,7 @@
 #include "fe_modal/system/modal_options_check.h"
 #include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -237,11 +238,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   body.frequencies_Hz = frequencies_Hz(pairs.values);
   body.boundary = boundary_of(options);
   body.certificate = certificate;
-  body.nodes_m.resize(3, free_nodes.node_count());
-  for (Eigen::Index k = 0; k < free_nodes.node_count(); ++k) {
-    body.nodes_m.col(k) =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(k)].data());
-  }
+  body.nodes_m = mesher::positions_of(mesh);
   for (const auto& vector : pairs.vectors.colwise()) {
     body.shapes.push_back(free_nodes.expand(vector));
   }

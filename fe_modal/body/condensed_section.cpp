@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -14,12 +15,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
 constexpr double kDependent = 1e-9;
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
 
 /// Motion of the point `to` of a rigid body whose point `from` has a motion.
 Matrix6d carried(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {

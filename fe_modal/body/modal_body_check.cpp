@@ -14,6 +14,7 @@
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/identity.h"
 #include "fe_modal/body/invariants_check.h"
+#include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 
@@ -59,12 +60,6 @@ void check_modes(const ModalBody& body) {
   }
 }
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
 /// The rigid motions nearest to fields on nodes.
 class RigidFit {
  public:
@@ -99,9 +94,7 @@ class RigidFit {
 
  private:
   Eigen::Matrix<double, 3, 6> motion_of(const Eigen::Vector3d& from_center) const {
-    Eigen::Matrix<double, 3, 6> rows;
-    rows << Eigen::Matrix3d::Identity(), -cross_matrix(from_center) / length_;
-    return rows;
+    return rigid_motions_at(from_center / length_);
   }
 
   Eigen::Vector3d center_;

@@ -7,7 +7,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -92,15 +94,15 @@ void FreeNodes::tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> 
   free_count_ = first_tie_ + 2 * static_cast<Eigen::Index>(ties.size());
   tie_of_.assign(indices_.size(), -1);
   arms_m_ = Eigen::Matrix3Xd::Zero(3, node_count());
+  const auto positions = mesher::positions_of(mesh);
   for (std::size_t k = 0; k < indices_.size(); ++k) {
     if (indices_[k] < 0) continue;
     const auto number = static_cast<std::size_t>(indices_[k]);
     tie_of_[k] = tie_of_number[number];
     indices_[k] = new_number[number];
     if (tie_of_[k] < 0) continue;
-    arms_m_.col(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[k].data()) -
-        ties[static_cast<std::size_t>(tie_of_[k])].point_m;
+    arms_m_.col(static_cast<Eigen::Index>(k)) = positions.col(static_cast<Eigen::Index>(k)) -
+                                                ties[static_cast<std::size_t>(tie_of_[k])].point_m;
   }
 }
 
@@ -144,10 +146,7 @@ Eigen::VectorXd FreeNodes::restrict(const Eigen::Matrix3Xd& field) const {
   for (std::int32_t k = 0; k < node_count(); ++k) {
     if (index(k) >= 0) values.segment<3>(3 * static_cast<Eigen::Index>(index(k))) = field.col(k);
     if (tie(k) < 0) continue;
-    const Eigen::Vector3d arm = arm_m(k);
-    Eigen::Matrix<double, 3, 6> motion;  // of this node by the six of its tie
-    motion << 1, 0, 0, 0, arm.z(), -arm.y(), 0, 1, 0, -arm.z(), 0, arm.x(), 0, 0, 1, arm.y(),
-        -arm.x(), 0;
+    const Eigen::Matrix<double, 3, 6> motion = rigid_motions_at(arm_m(k));
     matrices[static_cast<std::size_t>(tie(k))] += motion.transpose() * motion;
     values.segment<6>(3 * static_cast<Eigen::Index>(translation(tie(k)))) +=
         motion.transpose() * field.col(k);

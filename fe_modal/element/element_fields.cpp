@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "mesher/mesh/positions.h"
+
 namespace flexneck::fe_modal {
 namespace {
 
@@ -35,10 +37,7 @@ void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formula
     Eigen::MatrixXd values(coordinates.size(), static_cast<Eigen::Index>(displacements.size()));
     for (std::size_t e = 0; e < block.size(); ++e) {
       const auto nodes = std::span(block.nodes).subspan(width * e, width);
-      for (std::size_t i = 0; i < width; ++i) {
-        coordinates.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::Vector3d>(
-            mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
-      }
+      mesher::copy_positions(mesh, nodes, coordinates);
       gather(nodes, displacements, values);
       kernel.evaluate(coordinates, material, values, fields);
       visit(fields, shear_modulus);

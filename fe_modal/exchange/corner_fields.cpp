@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::fe_modal {

@@ -2,6 +2,7 @@
 #include "fe_modal/exchange/exported_matrices.h"
 
 #include "fe_modal/system/assembly.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -19,11 +20,11 @@ ImportedBody export_matrices(const mesher::Mesh& mesh, const FreeNodes& free_nod
   SystemMatrices system = assemble(mesh, free_nodes, formulation);
   ImportedBody body{stiffness_of(system.stiffness), expand_mass(system.mass.between_nodes()), {}};
   body.nodes_m.resize(3, free_nodes.free_count());
+  const auto positions = mesher::positions_of(mesh);
   // From the last one on, so that the first of tied nodes stands.
   for (auto node = static_cast<std::int32_t>(free_nodes.node_count()); node-- > 0;) {
     if (free_nodes.index(node) < 0) continue;
-    body.nodes_m.col(free_nodes.index(node)) =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data());
+    body.nodes_m.col(free_nodes.index(node)) = positions.col(node);
   }
   return body;
 }

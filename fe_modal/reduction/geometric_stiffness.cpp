@@ -6,8 +6,10 @@
 #include <Eigen/Geometry>
 
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/body/skew.h"
 #include "fe_modal/element/element_fields.h"
 #include "fe_modal/reduction/static_response.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -86,21 +88,6 @@ class StressIntegral {
   Eigen::MatrixXd stresses_;  ///< workspace: (stresses, 6 points)
 };
 
-Eigen::Matrix3Xd positions_of(const mesher::Mesh& mesh) {
-  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
-    positions.col(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[k].data());
-  }
-  return positions;
-}
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
 /// Accelerations of the undeformed body: three of the frame, three angular ones, six products of
 /// angular velocities.
 std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positions) {
@@ -142,7 +129,7 @@ GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
                                        const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
                                        const std::vector<Eigen::Matrix3Xd>& modes) {
-  std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(positions_of(mesh));
+  std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(mesher::positions_of(mesh));
   accelerations.insert(accelerations.end(), modes.begin(), modes.end());
   const auto inertial = static_cast<Eigen::Index>(accelerations.size());
   Eigen::MatrixXd loads(free_nodes.dof_count(),

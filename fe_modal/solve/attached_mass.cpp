@@ -6,17 +6,16 @@
 #include <Eigen/Geometry>
 
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/body/skew.h"
 #include "fe_modal/solve/block_lanczos.h"
 
 namespace flexneck::fe_modal {
 Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
                            const Eigen::Matrix3d& inertia_kg_m2) {
-  Eigen::Matrix3d skew;
-  skew << 0, -center_m.z(), center_m.y(), center_m.z(), 0, -center_m.x(), -center_m.y(),
-      center_m.x(), 0;
+  const Eigen::Matrix3d crossed = skew(center_m);
   Matrix6d matrix;
-  matrix << mass_kg * Eigen::Matrix3d::Identity(), -mass_kg * skew, mass_kg * skew,
-      inertia_kg_m2 - mass_kg * skew * skew;
+  matrix << mass_kg * Eigen::Matrix3d::Identity(), -mass_kg * crossed, mass_kg * crossed,
+      inertia_kg_m2 - mass_kg * crossed * crossed;
   return matrix;
 }
 

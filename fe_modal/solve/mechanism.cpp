@@ -14,6 +14,7 @@
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/rigid_average.h"
 #include "mesher/mesh/bounding_box.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -88,11 +89,10 @@ Eigen::MatrixXd without_motion_as_a_whole(const std::vector<Part>& parts,
 double deformation(const mesher::Mesh& mesh, const Part& part, const Eigen::VectorXd& field) {
   const Eigen::Map<const Eigen::Matrix3Xd> displacement(field.data(), 3, field.size() / 3);
   const Vector6d motion = part.average.of(displacement);
+  const auto positions = mesher::positions_of(mesh);
   double deviation = 0;
   for (const std::int32_t node : part.nodes) {
-    const Eigen::Vector3d arm =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data()) -
-        part.average.point_m();
+    const Eigen::Vector3d arm = positions.col(node) - part.average.point_m();
     const Eigen::Vector3d rigid = motion.head<3>() + motion.tail<3>().cross(arm);
     deviation = std::max(deviation, (displacement.col(node) - rigid).norm());
   }

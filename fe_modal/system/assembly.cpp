@@ -10,6 +10,7 @@
 #include "fe_modal/dofs/constrained_element.h"
 #include "fe_modal/element/element_kernel.h"
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -105,10 +106,7 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
   SortedNodes sorted;
   for (std::size_t e = 0; e < block.size(); ++e) {
     const auto nodes = std::span(block.nodes).subspan(width * e, width);
-    for (std::size_t i = 0; i < width; ++i) {
-      coordinates.col(static_cast<Eigen::Index>(i)) =
-          Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
-    }
+    mesher::copy_positions(mesh, nodes, coordinates);
     try {
       kernel.compute(coordinates, material, element);
     } catch (const ComputationError& error) {

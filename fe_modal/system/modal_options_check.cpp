@@ -8,23 +8,19 @@
 #include "fe_modal/dofs/free_nodes.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 /// Three nodes that are not on a line keep a body from turning.
 void check_held(const mesher::Mesh& mesh, const std::string& set) {
-  const std::vector<std::int32_t>& nodes = mesh.node_set(set).nodes;
-  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(nodes.size()));
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    positions.col(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(nodes[k])].data());
-  }
+  Eigen::Matrix3Xd positions = mesher::positions_of(mesh, mesh.node_set(set).nodes);
   positions.colwise() -= positions.rowwise().mean().eval();
   Eigen::ColPivHouseholderQR<Eigen::Matrix3Xd> decomposition(positions);
   decomposition.setThreshold(1e-6);
   if (decomposition.rank() < 2) {
-    throw InputError("held set '" + set + "' has " + std::to_string(nodes.size()) +
+    throw InputError("held set '" + set + "' has " + std::to_string(positions.cols()) +
                      " nodes on one line: the body can turn about it; hold an area");
   }
 }

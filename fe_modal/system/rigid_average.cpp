@@ -7,19 +7,13 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-/// [I, -~r]: displacement at r from the point by its translation and rotation.
-Eigen::Matrix<double, 3, 6> rigid_field(const Eigen::Vector3d& r) {
-  Eigen::Matrix<double, 3, 6> field;
-  field.leftCols<3>().setIdentity();
-  field.rightCols<3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
-  return field;
-}
 
 /// Calls visit(nodes, shape_values, position, measure) for each quadrature point; measure is the
 /// volume or area that the point stands for.
@@ -32,10 +26,7 @@ void for_each_point(const mesher::Mesh& mesh, mesher::ElementKind kind,
   Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
   for (std::size_t first = 0; first < connectivity.size(); first += width) {
     const auto nodes = connectivity.subspan(first, width);
-    for (std::size_t i = 0; i < width; ++i) {
-      coordinates.col(static_cast<Eigen::Index>(i)) =
-          Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(nodes[i])].data());
-    }
+    mesher::copy_positions(mesh, nodes, coordinates);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       Eigen::Matrix3d jacobian;
       for (int b = 0; b < 3; ++b) {
@@ -96,7 +87,7 @@ void RigidAverage::average(const mesher::Mesh& mesh, const std::vector<Region>& 
     for_each_point(
         mesh, region.kind, region.connectivity,
         [&](auto nodes, const auto& values, const Eigen::Vector3d& position, double measure) {
-          const Eigen::Matrix<double, 3, 6> field = rigid_field(position - point_);
+          const Eigen::Matrix<double, 3, 6> field = rigid_motions_at(position - point_);
           gram_ += density * measure * field.transpose() * field;
           for (std::size_t i = 0; i < nodes.size(); ++i) {
             map_.middleCols<3>(column_of[static_cast<std::size_t>(nodes[i])]) +=

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "mesher/drawing/colours.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -15,16 +16,6 @@ const Colour kBackground(1, 1, 1);
 const Colour kEdges(0.13F, 0.15F, 0.18F);
 const Colour kGhost(0.68F, 0.70F, 0.74F);
 constexpr double kMargin = 0.05;  ///< of the picture, on each side
-
-/// Nodes as the surface's matrices take them: (n, 3).
-Eigen::MatrixX3d positions_of_nodes(const Mesh& mesh) {
-  Eigen::MatrixX3d positions(static_cast<Eigen::Index>(mesh.nodes.size()), 3);
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    positions.row(static_cast<Eigen::Index>(n)) =
-        Eigen::Map<const Eigen::RowVector3d>(mesh.nodes[n].data());
-  }
-  return positions;
-}
 
 /// Turns points of the body into points of the picture.
 class Projection {
@@ -96,7 +87,7 @@ void draw_chains(const std::vector<std::vector<std::int32_t>>& chains,
 Raster draw_body(const Mesh& mesh, const Surface& surface, const BodyPicture& what,
                  const View& view, int width, int height, double room_m) {
   Raster raster(width, height, kBackground);
-  const Eigen::MatrixX3d nodes = positions_of_nodes(mesh);
+  const Eigen::MatrixX3d nodes = positions_of(mesh).transpose();
   const Projection project(nodes, view, width, height, room_m);
   if (what.undeformed_outline) {
     // Far behind everything: where the body covers its former place, the body is seen.

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 #include "mesher/mesh/skin.h"
 

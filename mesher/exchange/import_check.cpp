@@ -11,7 +11,9 @@
 
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/bounding_box.h"
+#include "mesher/mesh/disjoint_sets.h"
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -67,19 +69,17 @@ void refuse_doubled_elements(const Mesh& mesh) {
 std::vector<std::int32_t> doubled_nodes(const Mesh& mesh) {
   const double tolerance = kSamePlace * bounding_box(mesh).extent_m().norm();
   const Eigen::Vector3d direction = Eigen::Vector3d(0.8191, 0.5013, 0.2789).normalized();
-  const auto at = [&](std::int32_t node) {
-    return Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(node)].data());
-  };
+  const auto positions = positions_of(mesh);
   std::vector<std::pair<double, std::int32_t>> along(mesh.nodes.size());
   for (std::size_t n = 0; n < along.size(); ++n) {
     const auto node = static_cast<std::int32_t>(n);
-    along[n] = {direction.dot(at(node)), node};
+    along[n] = {direction.dot(positions.col(node)), node};
   }
   std::sort(along.begin(), along.end());
   std::vector<std::int32_t> doubles;
   for (auto one = along.begin(); one != along.end(); ++one) {
     for (auto two = one + 1; two != along.end() && two->first - one->first <= tolerance; ++two) {
-      if ((at(one->second) - at(two->second)).norm() > tolerance) continue;
+      if ((positions.col(one->second) - positions.col(two->second)).norm() > tolerance) continue;
       doubles.push_back(std::max(one->second, two->second));
     }
   }
@@ -98,35 +98,16 @@ void refuse_doubled_nodes(const Mesh& mesh) {
                    "nodes, or say coincident_nodes = \"keep\" if a gap is meant");
 }
 
-/// Nodes that elements tie together.
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  std::int32_t root_of(std::int32_t node) {
-    while (parent(node) != node) {
-      parent(node) = parent(parent(node));
-      node = parent(node);
-    }
-    return node;
-  }
-  void join(std::int32_t a, std::int32_t b) { parent(root_of(b)) = root_of(a); }
-
- private:
-  std::int32_t& parent(std::int32_t node) { return parent_[static_cast<std::size_t>(node)]; }
-  std::vector<std::int32_t> parent_;
-};
-
 void refuse_unconnected(const Mesh& mesh) {
-  Components components(mesh.nodes.size());
+  DisjointSets pieces(mesh.nodes.size());
+  const auto member = [](std::int32_t node) { return static_cast<std::size_t>(node); };
   for_each_element(mesh, [&](const ElementBlock&, std::span<const std::int32_t> nodes) {
-    for (const std::int32_t node : nodes) components.join(nodes.front(), node);
+    for (const std::int32_t node : nodes) pieces.join(member(nodes.front()), member(node));
   });
-  std::set<std::int32_t> roots;
+  std::set<std::size_t> roots;
   std::string second;
   for_each_element(mesh, [&](const ElementBlock& block, std::span<const std::int32_t> nodes) {
-    if (!roots.insert(components.root_of(nodes.front())).second || roots.size() != 2) return;
+    if (!roots.insert(pieces.root(member(nodes.front()))).second || roots.size() != 2) return;
     second = "part '" + block.part + "' round " + place(centre_of(mesh, nodes));
   });
   if (roots.size() < 2) return;

@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::mesher {
@@ -119,15 +120,6 @@ double aspect_ratio(const Eigen::Matrix3Xd& x,
 }
 
 }  // namespace
-
-Eigen::Matrix3Xd positions_of(const Mesh& mesh, std::span<const std::int32_t> nodes) {
-  Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(nodes.size()));
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const auto& position = mesh.nodes[static_cast<std::size_t>(nodes[n])];
-    x.col(static_cast<Eigen::Index>(n)) = Eigen::Vector3d(position.data());
-  }
-  return x;
-}
 
 BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
   // The determinant of a triquadratic map has degree 5 in each direction, that of a quadratic one

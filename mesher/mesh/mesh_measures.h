@@ -9,9 +9,6 @@
 
 namespace flexneck::mesher {
 
-/// Positions of an element's nodes, (3, n) in m.
-Eigen::Matrix3Xd positions_of(const Mesh& mesh, std::span<const std::int32_t> nodes);
-
 /// Size and shape of the elements of a block, from the Jacobian dx/dxi at the points of the rule of
 /// strength three and at the nodes.
 struct BlockMeasure {

@@ -9,6 +9,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "mesher/mesh/bounding_box.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/skin.h"
 
 namespace flexneck::mesher {
@@ -21,9 +22,9 @@ constexpr double kOnPlane = 1e-6;
 std::pair<double, double> extent_along(const Mesh& mesh, const Eigen::Vector3d& normal,
                                        std::span<const std::int32_t> corners) {
   std::pair<double, double> extent = {HUGE_VAL, -HUGE_VAL};
+  const auto positions = positions_of(mesh);
   for (const std::int32_t node : corners) {
-    const double offset = normal.dot(
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data()));
+    const double offset = normal.dot(positions.col(node));
     extent = {std::min(extent.first, offset), std::max(extent.second, offset)};
   }
   return extent;

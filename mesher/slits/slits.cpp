@@ -11,6 +11,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 #include "mesher/slits/cut_surroundings.h"
 #include "mesher/slits/cut_topology.h"

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "multibody/model/forces_check.h"
@@ -107,11 +108,10 @@ void check_shapes(const std::string& who, const fe_modal::ModalBody& modes) {
 /// Mass matrix of the undeformed body at rest in its frame (equations.md section 2).
 Eigen::MatrixXd mass_matrix(const fe_modal::InertiaInvariants& inv) {
   const Eigen::Index m = inv.S2.cols();
-  Matrix3d skew;
-  skew << 0, -inv.S1[2], inv.S1[1], inv.S1[2], 0, -inv.S1[0], -inv.S1[1], inv.S1[0], 0;
+  const Matrix3d crossed = skew(inv.S1);
   Eigen::MatrixXd mass(6 + m, 6 + m);
-  mass << inv.mass * Matrix3d::Identity(), -skew, inv.S2,  //
-      skew, inv.J0, inv.N0,                                //
+  mass << inv.mass * Matrix3d::Identity(), -crossed, inv.S2,  //
+      crossed, inv.J0, inv.N0,                                //
       inv.S2.transpose(), inv.N0.transpose(), inv.Maa;
   return mass;
 }

@@ -6,14 +6,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace flexneck::multibody {
+#include "fe_modal/body/skew.h"
 
-/// Skew matrix: skew(v) w = v x w. Written ~v in equations.md.
-inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d result;
-  result << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return result;
-}
+namespace flexneck::multibody {
 
 /// Coefficients of a rotation vector's series, equations.md section 4, with t = |theta|:
 /// a = sin t / t, b = (1 - cos t) / t^2, c = (t - sin t) / t^3, and b' and c', the derivatives of b

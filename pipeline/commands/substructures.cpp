@@ -10,6 +10,7 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/mesh/positions.h"
 #include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
@@ -36,12 +37,7 @@ const mesher::FaceSet* face_set(const mesher::Mesh& mesh, const std::string& nam
 }
 
 Eigen::Vector3d middle_of(const mesher::Mesh& mesh, const mesher::FaceSet& faces) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const std::vector<std::int32_t> nodes = mesher::nodes_of(faces).nodes;
-  for (const std::int32_t node : nodes) {
-    sum += Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data());
-  }
-  return sum / static_cast<double>(nodes.size());
+  return mesher::positions_of(mesh, mesher::nodes_of(faces).nodes).rowwise().mean();
 }
 
 /// The whole's interfaces on the piece.

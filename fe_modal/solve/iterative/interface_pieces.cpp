@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fe_modal/body/skew.h"
+
 namespace flexneck::fe_modal {
 namespace {
 
@@ -52,14 +54,9 @@ Eigen::MatrixXd rigid_motions(const std::vector<std::int32_t>& nodes,
   Eigen::Matrix3Xd arms = positions.colwise() - positions.rowwise().mean();
   const double extent = arms.colwise().norm().maxCoeff();
   if (extent > 0) arms /= extent;
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * arms.cols(), 6);
-  for (Eigen::Index k = 0; k < arms.cols(); ++k) {
-    const Eigen::Vector3d arm = arms.col(k);
-    motions.block<3, 3>(3 * k, 0).setIdentity();
-    // Column b: the motion by a rotation about axis b.
-    motions.block<3, 3>(3 * k, 3) << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(),
-        0;
-  }
+  Eigen::MatrixXd motions(3 * arms.cols(), 6);
+  for (Eigen::Index k = 0; k < arms.cols(); ++k)
+    motions.middleRows<3>(3 * k) = rigid_motions_at(arms.col(k));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motions.transpose() * motions);
   const Eigen::VectorXd& squares = gram.eigenvalues();
   const Eigen::Index rank = (squares.array() > kNoMotion * squares[5]).count();

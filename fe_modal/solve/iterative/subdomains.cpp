@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "mesher/mesh/positions.h"
 #include "mesher/partition/element_partition.h"
 
 namespace flexneck::fe_modal {
@@ -95,11 +96,11 @@ std::vector<std::int32_t> widened(const NodeGraph& graph, const std::vector<std:
 }
 
 Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
+  const auto all = mesher::positions_of(mesh);
   Eigen::Matrix3Xd positions(3, free_nodes.free_count());
   for (std::int32_t node = 0; node < free_nodes.node_count(); ++node) {
     if (free_nodes.index(node) < 0) continue;
-    positions.col(free_nodes.index(node)) =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data());
+    positions.col(free_nodes.index(node)) = all.col(node);
   }
   return positions;
 }

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/skin.h"
 
 namespace flexneck::pipeline {
@@ -68,15 +69,6 @@ std::string csv_of(const Skin& skin, const Eigen::Matrix3Xd& positions_m, const 
   return csv;
 }
 
-Eigen::Matrix3Xd positions_of(const mesher::Mesh& mesh) {
-  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    positions.col(static_cast<Eigen::Index>(n)) =
-        Eigen::Map<const Eigen::Vector3d>(mesh.nodes[n].data());
-  }
-  return positions;
-}
-
 /// Axes of equal length about the middle: both figures have the same scale.
 std::string ranges(const Eigen::Matrix3Xd& positions_m) {
   const double inch = factor_from_si("m", "in");
@@ -111,12 +103,12 @@ Figure mesh_figure(const Skin& skin) {
       "has. "
       "Light: {}.",
       elements, skin.mesh.nodes.size(), skin.mesh.materials.front().name);
-  figure.csv = csv_of(skin, positions_of(skin.mesh), "material",
+  figure.csv = csv_of(skin, mesher::positions_of(skin.mesh), "material",
                       [&](std::int32_t, const mesher::ElementSide& side) {
                         return static_cast<double>(skin.mesh.blocks[side.block].material);
                       });
   figure.script = surface_script(
-      figure, positions_of(skin.mesh),
+      figure, mesher::positions_of(skin.mesh),
       "set palette defined (0 '#d5dbe0', 1 '#7d8794')\nset cbrange [0:1]\nunset colorbox\n");
   return figure;
 }
