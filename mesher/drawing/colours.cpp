@@ -15,13 +15,10 @@ Colour from_hex(std::uint32_t rgb) {
 }  // namespace
 
 Colour scale_colour(double share) {
-  // Lightness grows evenly along the scale.
-  static constexpr std::array<std::uint32_t, 6> kAnchors = {0x440154, 0x414487, 0x2A788E,
-                                                            0x22A884, 0x7AD151, 0xFDE725};
-  const double place = std::clamp(share, 0.0, 1.0) * (kAnchors.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), kAnchors.size() - 2);
+  const double place = std::clamp(share, 0.0, 1.0) * (kColourScale.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), kColourScale.size() - 2);
   const auto rest = static_cast<float>(place - static_cast<double>(below));
-  return (1 - rest) * from_hex(kAnchors[below]) + rest * from_hex(kAnchors[below + 1]);
+  return (1 - rest) * from_hex(kColourScale[below]) + rest * from_hex(kColourScale[below + 1]);
 }
 
 Colour category_colour(std::size_t index) {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "mesher/drawing/raster.h"
 
 namespace flexneck::mesher {
 
-/// From dark blue over green to yellow: ordered also without colour vision and in grey print.
+/// Viridis, as 0xRRGGBB from its lower to its upper end at equal distances: lightness grows evenly,
+/// so that it is ordered also without colour vision and in grey print.
+inline constexpr std::array<std::uint32_t, 6> kColourScale = {0x440154, 0x414487, 0x2A788E,
+                                                              0x22A884, 0x7AD151, 0xFDE725};
+
+/// A colour between those of kColourScale.
 /// @param share 0 … 1; values outside are taken to the nearest end
 Colour scale_colour(double share);
 

@@ -7,9 +7,11 @@
 #include <limits>
 #include <optional>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/names.h"
+#include "mesher/drawing/colours.h"
 #include "mesher/drawing/outer_surface.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/head_shape.h"
@@ -156,6 +158,9 @@ Json scene_of(const Results& results, const Study& study) {
   const fe_modal::ModalBody& body = *results.modes;
   if (body.nodes_m.cols() != static_cast<Eigen::Index>(results.mesh->nodes.size())) return nullptr;
   const mesher::Surface surface = mesher::surface_of(*results.mesh, kMostTriangles);
+  Json scale = Json::array();
+  for (const std::uint32_t colour : mesher::kColourScale)
+    scale.push_back(fmt::format("#{:06x}", colour));
   Json motions = Json::array();
   for (const Experiment& experiment : results.experiments) {
     Json motion = motion_json(experiment, body);
@@ -164,6 +169,7 @@ Json scene_of(const Results& results, const Study& study) {
   return {{"surface", surface_json(*results.mesh, surface, body.nodes_m)},
           {"modes", modes_json(surface, body)},
           {"motions", std::move(motions)},
+          {"scale", std::move(scale)},
           {"head", head_json(study)}};
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
+#include "mesher/drawing/colours.h"
 #include "mesher/mesh/positions.h"
 #include "mesher/mesh/skin.h"
 
@@ -94,6 +95,15 @@ std::string surface_script(const Figure& figure, const Eigen::Matrix3Xd& positio
              kTilt, kTurn, palette, stem_of(figure));
 }
 
+std::string displacement_palette() {
+  std::string colours;
+  for (std::size_t k = 0; k < mesher::kColourScale.size(); ++k)
+    colours += fmt::format("{}{} '#{:06x}'", k == 0 ? "" : ", ",
+                           static_cast<double>(k) / (mesher::kColourScale.size() - 1),
+                           mesher::kColourScale[k]);
+  return "set palette defined (" + colours + ")\nset cbrange [0:1]\nset colorbox size 0.02,0.4\n";
+}
+
 Figure mesh_figure(const Skin& skin) {
   Figure figure{3, "Hybrid III finite element mesh"};
   std::size_t elements = 0;
@@ -126,10 +136,7 @@ Figure mode_figure(const Skin& skin, const fe_modal::ModalBody& body) {
   figure.csv = csv_of(
       skin, moved, "displacement",
       [&](std::int32_t node, const mesher::ElementSide&) { return size[node] / size.maxCoeff(); });
-  figure.script = surface_script(
-      figure, moved,
-      "set palette defined (0 '#440154', 0.2 '#414487', 0.4 '#2a788e', 0.6 '#22a884', 0.8 "
-      "'#7ad151', 1 '#fde725')\nset cbrange [0:1]\nset colorbox size 0.02,0.4\n");
+  figure.script = surface_script(figure, moved, displacement_palette());
   return figure;
 }
 

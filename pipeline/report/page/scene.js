@@ -51,9 +51,10 @@ flexneck.startScene = (data, canvas) => {
 
   // --- colours ------------------------------------------------------------------------------------
 
-  /** Viridis: ordered in lightness, so that it needs no colour vision. Shares from 0 to 1. */
-  const ramp = [[68, 1, 84], [65, 68, 135], [42, 120, 142], [34, 168, 132], [122, 209, 81],
-                [253, 231, 37]].map((colour) => colour.map((part) => part / 255));
+  /** Red, green and blue from 0 to 1 along the scale. */
+  const ramp = data.scale.map(
+      (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255));
+  control('ramp').style.background = `linear-gradient(to top, ${data.scale.join(', ')})`;
   const paint = (share, target, at) => {
     const place = Math.min(Math.max(share, 0), 1) * (ramp.length - 1);
     const below = Math.min(Math.floor(place), ramp.length - 2);
