@@ -16,6 +16,7 @@ cmake --preset ci -DFLEXNECK_TESTS=ON >/dev/null
 cmake --build --preset ci
 
 echo '== clang-tidy on what the last commit changed'
+cmake --preset tidy -DFLEXNECK_TESTS=ON >/dev/null
 cmake --preset fuzz >/dev/null
 tidy() { # FOLDER OF THE BUILD, pathspecs
   build=$1
@@ -23,7 +24,7 @@ tidy() { # FOLDER OF THE BUILD, pathspecs
   changed=$(git diff --name-only --diff-filter=d HEAD~1 -- "$@" 2>/dev/null || true)
   [ -z "$changed" ] || echo "$changed" | xargs -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet
 }
-tidy build '*.cpp' ':!tests/reliability/fuzz'
+tidy build-tidy '*.cpp' ':!tests/reliability/fuzz'
 tidy build-fuzz 'tests/reliability/fuzz/*.cpp'
 
 echo '== tests'
