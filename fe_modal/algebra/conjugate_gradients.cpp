@@ -15,7 +15,7 @@ namespace {
 /// Of squares of the error in the energy norm. A compliance under the same load is wrong by the
 /// square itself, one between two loads by the root, 1e-10, which is asked for to 1e-8.
 constexpr double kTolerance = 1e-20;
-constexpr int kMostIterations = 2000;
+constexpr int kMaxIterations = 2000;
 /// Of squares of energy: combinations of the directions that have less are rounding. There are some
 /// when a column has converged, or two have come to the same.
 constexpr double kNoDirection = 1e-12;
@@ -56,7 +56,7 @@ Eigen::MatrixXd conjugate_gradients(const BlockOperator& matrix,
   Eigen::VectorXd energies = dots(residuals, directions);
   if (known_energies.size() > 0) energies += known_energies;
   bool converged = false;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     Eigen::MatrixXd forces = matrix(directions);
     const Eigen::MatrixXd combinations =
         orthonormal_combinations(inner_products(directions, forces));
@@ -73,7 +73,7 @@ Eigen::MatrixXd conjugate_gradients(const BlockOperator& matrix,
     directions = std::move(next);
   }
   throw ComputationError("conjugate gradients have not converged in " +
-                         std::to_string(kMostIterations) + " iterations");
+                         std::to_string(kMaxIterations) + " iterations");
 }
 
 }  // namespace flexneck::fe_modal

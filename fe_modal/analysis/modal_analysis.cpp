@@ -5,18 +5,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "fe_modal/analysis/convergence.h"
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/analysis/discretisation_error.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
 #include "fe_modal/reduction/mode_conventions.h"
 #include "fe_modal/reduction/mode_naming.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/solve/attached_mass.h"
-#include "fe_modal/solve/completeness.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/solve/make_system.h"
 #include "fe_modal/solve/mechanism.h"
+#include "fe_modal/solve/sturm_check.h"
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/memory_needs.h"
 #include "fe_modal/system/modal_options_check.h"
@@ -35,24 +35,24 @@ constexpr Eigen::Index kAttachedCount = 6;
 
 /// A stiffness that is not definite is that of a mechanism, or of elements that are none.
 std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
-                                                        const FreeNodes& free_nodes,
+                                                        const DofMap& dof_map,
                                                         const ModalSystem& system, double shift) {
   try {
     return system.shift_inverse(shift);
   } catch (const ComputationError&) {
     const auto motions =
-        shift == 0 ? describe_mechanism(mesh, free_nodes, system, true) : std::nullopt;
+        shift == 0 ? describe_mechanism(mesh, dof_map, system, true) : std::nullopt;
     if (!motions) throw;
     refuse_mechanism(*motions);
   }
 }
 
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
-void check_no_mechanism(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
-                        const ModalSystem& system, const Eigen::VectorXd& values, bool held) {
+void check_no_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
+                        const Eigen::VectorXd& values, bool held) {
   const Eigen::Index rigid = held ? 0 : 6;
   if (values.size() <= rigid || values[rigid] > kStrainless * eigenvalue_scale(mesh)) return;
-  if (const auto motions = describe_mechanism(mesh, free_nodes, system, held)) {
+  if (const auto motions = describe_mechanism(mesh, dof_map, system, held)) {
     refuse_mechanism(*motions);
   }
 }
@@ -108,13 +108,13 @@ std::size_t interface_index(const ModalOptions& options, const std::string& name
   return static_cast<std::size_t>(found - options.interfaces.begin());
 }
 
-std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FreeNodes& free_nodes,
+std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const DofMap& dof_map,
                                      const std::vector<RigidAverage>& averages) {
   const std::vector<std::string>& chosen = options.basis_interfaces;
   std::vector<InterfaceLoads> loads;
   for (std::size_t k = 0; k < averages.size(); ++k) {
     const std::string& name = options.interfaces[k].name;
-    loads.push_back(interface_loads(name, averages[k], free_nodes));
+    loads.push_back(interface_loads(name, averages[k], dof_map));
     loads.back().corrects_basis =
         chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end();
   }
@@ -122,10 +122,12 @@ std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FreeNode
 }
 
 /// The basis asked for and its certificate.
-std::pair<Reduction, std::string> reduced_basis(
-    const mesher::Mesh& mesh, const FreeNodes& free_nodes, const ModalSystem& system,
-    const ShiftInverse& inverse, const ModalOptions& options,
-    const std::vector<InterfaceLoads>& loads, const Progress& progress, const Progress& warn) {
+std::pair<Reduction, std::string> reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                                const ModalSystem& system,
+                                                const ShiftInverse& inverse,
+                                                const ModalOptions& options,
+                                                const std::vector<InterfaceLoads>& loads,
+                                                const Progress& progress, const Progress& warn) {
   const BodyOperators operators = operators_of(system, inverse);
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
@@ -138,7 +140,7 @@ std::pair<Reduction, std::string> reduced_basis(
   }
   auto [pairs, certificate] =
       lowest_modes(system, inverse, options.mode_count, options.certify, warn);
-  check_no_mechanism(mesh, free_nodes, system, pairs.values, options.is_held());
+  check_no_mechanism(mesh, dof_map, system, pairs.values, options.is_held());
   check_eigenvalues(pairs.values, inverse.shift());
   for (double& value : pairs.values) {
     if (value < kStrainless * -inverse.shift()) value = 0;
@@ -201,11 +203,11 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   check_options(mesh, options);
   check_memory(mesh, options);
   const bool held = options.is_held();
-  const FreeNodes free_nodes = free_nodes_of(mesh, options);
-  report("assembling stiffness and mass, " + std::to_string(free_nodes.dof_count()) +
+  const DofMap dof_map = dof_map_of(mesh, options);
+  report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
          " degrees of freedom");
   times.start("assemble");
-  const std::unique_ptr<const ModalSystem> owned_system = make_system(mesh, free_nodes, options);
+  const std::unique_ptr<const ModalSystem> owned_system = make_system(mesh, dof_map, options);
   const ModalSystem& system = *owned_system;
 
   times.start("order and factorise");
@@ -213,7 +215,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   // A held body has a definite stiffness; a free one is shifted below zero.
   const double shift = held ? 0 : -eigenvalue_scale(mesh);
   const std::unique_ptr<const ShiftInverse> inverse =
-      factorise_or_refuse(mesh, free_nodes, system, shift);
+      factorise_or_refuse(mesh, dof_map, system, shift);
   report(inverse->describe());
   times.start("iterate");
   report("solving for " + std::to_string(options.mode_count) + " modes");
@@ -221,14 +223,14 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   for (const InterfaceDefinition& interface : options.interfaces) {
     averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
   }
-  const std::vector<InterfaceLoads> loads = loads_of(options, free_nodes, averages);
+  const std::vector<InterfaceLoads> loads = loads_of(options, dof_map, averages);
   auto [basis, certificate] =
-      reduced_basis(mesh, free_nodes, system, *inverse, options, loads, progress, warn);
+      reduced_basis(mesh, dof_map, system, *inverse, options, loads, progress, warn);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
     apply_conventions(pairs);
   } else {
-    apply_conventions(pairs, free_nodes, averages[interface_index(options, options.sign_interface)],
+    apply_conventions(pairs, dof_map, averages[interface_index(options, options.sign_interface)],
                       options.length_m);
   }
 
@@ -240,7 +242,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
   for (const auto& vector : pairs.vectors.colwise()) {
-    body.shapes.push_back(free_nodes.expand(vector));
+    body.shapes.push_back(dof_map.expand(vector));
   }
   body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
                               relative_residuals(system.stiffness(), system.mass(), pairs, shift));
@@ -249,7 +251,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     times.start("refine and solve again");
     const EigenPairs normal = {pairs.values.head(eigenvectors),
                                pairs.vectors.leftCols(eigenvectors)};
-    const auto errors = mesh_errors({mesh, free_nodes, system.mass(), normal}, options, progress);
+    const auto errors = mesh_errors({mesh, dof_map, system.mass(), normal}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       body.modes[k].mesh_error = errors[k];
     }
@@ -265,7 +267,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   if (options.geometric_stiffness) {
     report("integrating the geometric stiffness");
     body.geometric_stiffness =
-        unit_load_stiffness(mesh, options.formulation, free_nodes, system.nodal_mass(),
+        unit_load_stiffness(mesh, options.formulation, dof_map, system.nodal_mass(),
                             operators_of(system, *inverse), loads, body.shapes);
   }
   if (!options.attachments.empty()) {

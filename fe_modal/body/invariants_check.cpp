@@ -87,8 +87,8 @@ void check_gram(const Eigen::MatrixXd& gram, double rounding) {
 
 double rounding_of_sums(Eigen::Index n) {
   constexpr double kCoupled = 100;
-  constexpr double kSides = 2;
-  return kSides * (static_cast<double>(n) + kCoupled) * std::numeric_limits<double>::epsilon();
+  constexpr double kFacets = 2;
+  return kFacets * (static_cast<double>(n) + kCoupled) * std::numeric_limits<double>::epsilon();
 }
 
 void check_invariants(const InertiaInvariants& inertia, double rounding) {

@@ -5,30 +5,29 @@
 
 namespace flexneck::fe_modal {
 
-ConstrainedElement::ConstrainedElement(std::span<const std::int32_t> nodes,
-                                       const FreeNodes& free_nodes) {
+ConstrainedElement::ConstrainedElement(std::span<const std::int32_t> nodes, const DofMap& dof_map) {
   std::vector<std::size_t> place(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (free_nodes.tie(nodes[i]) >= 0) continue;
+    if (dof_map.coupling(nodes[i]) >= 0) continue;
     place[i] = numbers_.size();
-    numbers_.push_back(free_nodes.index(nodes[i]));
+    numbers_.push_back(dof_map.index(nodes[i]));
   }
   const std::size_t own_count = numbers_.size();
   const bool has_held = std::any_of(numbers_.begin(), numbers_.end(), [&](std::int32_t number) {
-    return number >= 0 && (free_nodes.is_held(number, 0) || free_nodes.is_held(number, 1) ||
-                           free_nodes.is_held(number, 2));
+    return number >= 0 &&
+           (dof_map.is_held(number, 0) || dof_map.is_held(number, 1) || dof_map.is_held(number, 2));
   });
   if (own_count == nodes.size() && !has_held) return;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const std::int32_t tie = free_nodes.tie(nodes[i]);
-    if (tie < 0) continue;
-    const std::int32_t translation = free_nodes.translation(tie);
+    const std::int32_t coupling = dof_map.coupling(nodes[i]);
+    if (coupling < 0) continue;
+    const std::int32_t translation = dof_map.translation(coupling);
     const auto known = std::find(numbers_.begin() + static_cast<std::ptrdiff_t>(own_count),
                                  numbers_.end(), translation);
     place[i] = static_cast<std::size_t>(known - numbers_.begin());
     if (known != numbers_.end()) continue;
     numbers_.push_back(translation);
-    numbers_.push_back(free_nodes.rotation(tie));
+    numbers_.push_back(dof_map.rotation(coupling));
   }
   const auto n = static_cast<Eigen::Index>(nodes.size());
   const auto m = static_cast<Eigen::Index>(numbers_.size());
@@ -38,10 +37,10 @@ ConstrainedElement::ConstrainedElement(std::span<const std::int32_t> nodes,
     const auto column = static_cast<Eigen::Index>(place[static_cast<std::size_t>(i)]);
     const std::int32_t number = numbers_[static_cast<std::size_t>(column)];
     for (Eigen::Index a = 0; a < 3; ++a) {
-      if (number < 0 || !free_nodes.is_held(number, a)) motion_(a * n + i, a * m + column) = 1;
+      if (number < 0 || !dof_map.is_held(number, a)) motion_(a * n + i, a * m + column) = 1;
     }
-    if (free_nodes.tie(node) < 0) continue;
-    const Eigen::Vector3d arm = free_nodes.arm_m(node);
+    if (dof_map.coupling(node) < 0) continue;
+    const Eigen::Vector3d arm = dof_map.arm_m(node);
     for (Eigen::Index a = 0; a < 3; ++a) {  // theta x arm
       const Eigen::Index b = (a + 1) % 3;
       const Eigen::Index c = (a + 2) % 3;

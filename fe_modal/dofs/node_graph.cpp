@@ -86,18 +86,18 @@ NodeGraph::NodeGraph(const mesher::Mesh& mesh) {
   connect(nodes_of_elements(mesh, itself), mesh.nodes.size(), offsets_, columns_);
 }
 
-NodeGraph::NodeGraph(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
+NodeGraph::NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map) {
   const auto free = [&](std::int32_t node, const auto& emit) {
-    const std::int32_t tie = free_nodes.tie(node);
-    if (tie >= 0) {
-      emit(free_nodes.translation(tie));
-      emit(free_nodes.rotation(tie));
-    } else if (free_nodes.index(node) >= 0) {
-      emit(free_nodes.index(node));
+    const std::int32_t coupling = dof_map.coupling(node);
+    if (coupling >= 0) {
+      emit(dof_map.translation(coupling));
+      emit(dof_map.rotation(coupling));
+    } else if (dof_map.index(node) >= 0) {
+      emit(dof_map.index(node));
     }
   };
-  connect(nodes_of_elements(mesh, free), static_cast<std::size_t>(free_nodes.free_count()),
-          offsets_, columns_);
+  connect(nodes_of_elements(mesh, free), static_cast<std::size_t>(dof_map.free_count()), offsets_,
+          columns_);
 }
 
 }  // namespace flexneck::fe_modal

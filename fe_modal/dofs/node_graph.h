@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
@@ -17,7 +17,7 @@ class NodeGraph {
   /// Of all nodes of the mesh.
   explicit NodeGraph(const mesher::Mesh& mesh);
   /// Of the free nodes, by their indices.
-  NodeGraph(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+  NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map);
 
   /// As found elsewhere.
   NodeGraph(std::vector<std::int32_t> offsets, std::vector<std::int32_t> columns)

@@ -14,13 +14,13 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr std::size_t kMostNodes = 4000;
-constexpr std::size_t kMostModes = 4;
+constexpr std::size_t kMaxNodes = 4000;
+constexpr std::size_t kMaxModes = 4;
 
 /// The lowest modes that are eigenvectors and no rigid motions.
 std::vector<std::size_t> modes_to_write(const ModalBody& body) {
   std::vector<std::size_t> modes;
-  for (std::size_t k = 0; k < body.modes.size() && modes.size() < kMostModes; ++k) {
+  for (std::size_t k = 0; k < body.modes.size() && modes.size() < kMaxModes; ++k) {
     if (body.modes[k].kind == "normal") modes.push_back(k);
   }
   if (modes.empty()) throw InputError("the ATB takes normal modes; this body has none");
@@ -68,8 +68,8 @@ std::string list_of_modes(const ModalBody& body, const std::vector<std::size_t>&
 void write_atb_modal_file(const std::filesystem::path& path, const mesher::Mesh& mesh,
                           const ModalBody& body) {
   const CornerMasses corners = lump_at_corners(mesh);
-  if (corners.nodes.size() > kMostNodes) {
-    throw InputError("the ATB takes " + std::to_string(kMostNodes) + " nodes; this mesh has " +
+  if (corners.nodes.size() > kMaxNodes) {
+    throw InputError("the ATB takes " + std::to_string(kMaxNodes) + " nodes; this mesh has " +
                      std::to_string(corners.nodes.size()) + " corners: make a coarser one");
   }
   const std::vector<std::size_t> modes = modes_to_write(body);

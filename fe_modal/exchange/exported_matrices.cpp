@@ -15,16 +15,16 @@ UpperMatrix stiffness_of(SymmetricMatrix& matrix) {
 
 }  // namespace
 
-ImportedBody export_matrices(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                              const FormulationChoice& formulation) {
-  SystemMatrices system = assemble(mesh, free_nodes, formulation);
+  SystemMatrices system = assemble(mesh, dof_map, formulation);
   ImportedBody body{stiffness_of(system.stiffness), expand_mass(system.mass.between_nodes()), {}};
-  body.nodes_m.resize(3, free_nodes.free_count());
+  body.nodes_m.resize(3, dof_map.free_count());
   const auto positions = mesher::positions_of(mesh);
   // From the last one on, so that the first of tied nodes stands.
-  for (auto node = static_cast<std::int32_t>(free_nodes.node_count()); node-- > 0;) {
-    if (free_nodes.index(node) < 0) continue;
-    body.nodes_m.col(free_nodes.index(node)) = positions.col(node);
+  for (auto node = static_cast<std::int32_t>(dof_map.node_count()); node-- > 0;) {
+    if (dof_map.index(node) < 0) continue;
+    body.nodes_m.col(dof_map.index(node)) = positions.col(node);
   }
   return body;
 }

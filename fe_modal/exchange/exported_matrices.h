@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/exchange/imported_body.h"
 
@@ -10,7 +10,7 @@ namespace flexneck::fe_modal {
 /// K and M of a mesh for other programs, without what is held; of nodes that are tied the first one
 /// stands for all.
 /// @throws what assemble() throws.
-ImportedBody export_matrices(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                              const FormulationChoice& formulation);
 
 }  // namespace flexneck::fe_modal

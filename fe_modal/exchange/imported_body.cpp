@@ -11,9 +11,9 @@
 #include "fe_modal/reduction/invariants.h"
 #include "fe_modal/reduction/mode_conventions.h"
 #include "fe_modal/reduction/mode_naming.h"
-#include "fe_modal/solve/completeness.h"
 #include "fe_modal/solve/eigensolver.h"
-#include "fe_modal/solve/inertia.h"
+#include "fe_modal/solve/sturm_check.h"
+#include "fe_modal/solve/sturm_count.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {

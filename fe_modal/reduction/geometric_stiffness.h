@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/reduction/operators.h"
 #include "fe_modal/reduction/reduction.h"
@@ -28,9 +28,8 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
 /// velocities, modal accelerations and interface loads of a held body, from static solutions.
 /// @param nodal_mass of all nodes
 GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
-                                       const FormulationChoice& formulation,
-                                       const FreeNodes& free_nodes, const NodalMass& nodal_mass,
-                                       const BodyOperators& body,
+                                       const FormulationChoice& formulation, const DofMap& dof_map,
+                                       const NodalMass& nodal_mass, const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
                                        const std::vector<Eigen::Matrix3Xd>& modes);
 

@@ -14,11 +14,11 @@ constexpr double kSameFrequency = 1e-6;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// Translations and length x rotations at the observed region, one column a mode.
-Motions observe(const EigenPairs& pairs, const FreeNodes& free_nodes, const RigidAverage& seen,
+Motions observe(const EigenPairs& pairs, const DofMap& dof_map, const RigidAverage& seen,
                 double length_m) {
   Motions motions(6, pairs.values.size());
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
-    motions.col(k) = seen.of(free_nodes.expand(pairs.vectors.col(k)));
+    motions.col(k) = seen.of(dof_map.expand(pairs.vectors.col(k)));
   }
   motions.bottomRows<3>() *= length_m;
   return motions;
@@ -50,9 +50,9 @@ double sign_of_largest(const Eigen::VectorXd& values) {
 
 }  // namespace
 
-void apply_conventions(EigenPairs& pairs, const FreeNodes& free_nodes, const RigidAverage& seen,
+void apply_conventions(EigenPairs& pairs, const DofMap& dof_map, const RigidAverage& seen,
                        double length_m) {
-  Motions motions = observe(pairs, free_nodes, seen, length_m);
+  Motions motions = observe(pairs, dof_map, seen, length_m);
   for (Eigen::Index first = 0; first < pairs.values.size();) {
     const Eigen::Index count = end_of_group(pairs.values, first) - first;
     if (count > 1 && pairs.values[first] > 0) {

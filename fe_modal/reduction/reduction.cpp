@@ -81,11 +81,11 @@ EigenPairs joined(const EigenPairs& lower, const EigenPairs& upper) {
 }  // namespace
 
 InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
-                               const FreeNodes& free_nodes) {
-  InterfaceLoads loads{name, Eigen::MatrixXd(free_nodes.dof_count(), 6)};
-  const auto weights = average.weights(free_nodes.node_count());
+                               const DofMap& dof_map) {
+  InterfaceLoads loads{name, Eigen::MatrixXd(dof_map.dof_count(), 6)};
+  const auto weights = average.weights(dof_map.node_count());
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    loads.forces.col(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]);
+    loads.forces.col(static_cast<Eigen::Index>(i)) = dof_map.gather(weights[i]);
   }
   return loads;
 }

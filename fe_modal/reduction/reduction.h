@@ -9,7 +9,7 @@
 
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/operators.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/rigid_average.h"
@@ -27,7 +27,7 @@ struct InterfaceLoads {
 
 /// Loads of an interface on the free degrees of freedom.
 InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
-                               const FreeNodes& free_nodes);
+                               const DofMap& dof_map);
 
 struct Reduction {
   EigenPairs pairs;                ///< M-orthonormal, ascending

@@ -16,7 +16,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr Eigen::Index kBlocksOfBasis = 10;  ///< when the basis is that wide, it is cut back
-constexpr int kMostBlocks = 500;
+constexpr int kMaxBlocks = 500;
 /// Columns of which orthogonalisation leaves less than this share have nothing new.
 constexpr double kNothingNew = 1e-12;
 
@@ -130,7 +130,7 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs
   block.momenta = block_product(mass, block.vectors);
   orthogonalise(mass, basis, block);
   RitzState state;
-  for (int blocks = 0; blocks < kMostBlocks; ++blocks) {
+  for (int blocks = 0; blocks < kMaxBlocks; ++blocks) {
     const Eigen::Index last = block.vectors.cols();
     basis.append(block.vectors);
     block.vectors.resize(0, 0);  // frees it before the solution comes
@@ -159,7 +159,7 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs
       basis.cut_back(vectors.leftCols(kept), theta.head(kept));
     }
   }
-  throw ComputationError("the eigensolver has not converged in " + std::to_string(kMostBlocks) +
+  throw ComputationError("the eigensolver has not converged in " + std::to_string(kMaxBlocks) +
                          " blocks");
 }
 

@@ -2,7 +2,7 @@
 #include "fe_modal/solve/local_system.h"
 
 #include "fe_modal/algebra/cholesky_factor.h"
-#include "fe_modal/solve/inertia.h"
+#include "fe_modal/solve/sturm_count.h"
 #include "mesher/partition/node_order.h"
 
 namespace flexneck::fe_modal {

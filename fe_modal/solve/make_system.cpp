@@ -16,16 +16,16 @@ namespace {
 
 /// The order of all nodes as one of the free ones; of tied nodes the first one counts.
 std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_order,
-                                        const FreeNodes& free_nodes) {
+                                        const DofMap& dof_map) {
   std::vector<std::int32_t> order;
-  std::vector<bool> has_come(static_cast<std::size_t>(free_nodes.free_count()));
+  std::vector<bool> has_come(static_cast<std::size_t>(dof_map.free_count()));
   for (const std::int32_t node : node_order) {
-    const std::int32_t index = free_nodes.index(node);
+    const std::int32_t index = dof_map.index(node);
     if (index < 0 || has_come[static_cast<std::size_t>(index)]) continue;
     has_come[static_cast<std::size_t>(index)] = true;
     order.push_back(index);
   }
-  // Rigid ties last: they couple all of a face.
+  // Rigid couplings last: they couple all of a face.
   for (std::size_t k = 0; !order.empty() && k < has_come.size(); ++k) {
     if (!has_come[k]) order.push_back(static_cast<std::int32_t>(k));
   }
@@ -34,11 +34,11 @@ std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_or
 
 }  // namespace
 
-std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const DofMap& dof_map,
                                          const ModalOptions& options) {
-  std::vector<std::int32_t> order = order_of_free(options.node_order, free_nodes);
+  std::vector<std::int32_t> order = order_of_free(options.node_order, dof_map);
   const bool alone = options.ranks == nullptr || options.ranks->count() == 1;
-  if (free_nodes.is_constrained() && (options.solver == Solver::iterative || !alone)) {
+  if (dof_map.is_constrained() && (options.solver == Solver::iterative || !alone)) {
     throw InputError(
         "rigid interfaces and held directions are for the direct solver in one process: take "
         "averages and hold sets as a whole, or leave out --solver iterative and mpirun");
@@ -47,18 +47,18 @@ std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNod
     if (!alone) {
       throw InputError("the iterative solver works in one process: start it without mpirun");
     }
-    return std::make_unique<IterativeSystem>(assemble(mesh, free_nodes, options.formulation), mesh,
-                                             free_nodes);
+    return std::make_unique<IterativeSystem>(assemble(mesh, dof_map, options.formulation), mesh,
+                                             dof_map);
   }
   if (alone) {
-    return std::make_unique<LocalSystem>(assemble(mesh, free_nodes, options.formulation),
+    return std::make_unique<LocalSystem>(assemble(mesh, dof_map, options.formulation),
                                          std::move(order));
   }
   const int count = options.ranks->count();
   const mesher::ElementPartition partition =
       options.element_ranks.empty() ? mesher::partition_elements(mesh, count)
                                     : mesher::ElementPartition{count, options.element_ranks};
-  return std::make_unique<DistributedSystem>(*options.ranks, mesh, free_nodes, options.formulation,
+  return std::make_unique<DistributedSystem>(*options.ranks, mesh, dof_map, options.formulation,
                                              partition, std::move(order));
 }
 

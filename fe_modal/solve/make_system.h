@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/system/modal_options.h"
 #include "fe_modal/system/modal_system.h"
 
@@ -11,7 +11,7 @@ namespace flexneck::fe_modal {
 
 /// K and M of a mesh, assembled where the options want them.
 /// @throws what assemble() throws.
-std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const DofMap& dof_map,
                                          const ModalOptions& options);
 
 }  // namespace flexneck::fe_modal

@@ -20,22 +20,21 @@ namespace flexneck::fe_modal {
 namespace {
 
 /// Motions without strain are looked for in this number: two bodies that nothing holds have twelve.
-constexpr Eigen::Index kMostMotions = 12;
+constexpr Eigen::Index kMaxMotions = 12;
 /// A singular value, or a deviation from a rigid motion, below this share of the largest is none.
 constexpr double kNone = 1e-3;
 
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
-Eigen::MatrixXd strainless_fields(const FreeNodes& free_nodes, const ModalSystem& system,
-                                  double scale) {
+Eigen::MatrixXd strainless_fields(const DofMap& dof_map, const ModalSystem& system, double scale) {
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), system.mass(), *inverse,
-                                             std::min(kMostMotions, free_nodes.dof_count()));
+                                             std::min(kMaxMotions, dof_map.dof_count()));
   const Eigen::Index count = (pairs.values.array() < kStrainless * scale).count();
-  Eigen::MatrixXd fields(3 * free_nodes.node_count(), count);
+  Eigen::MatrixXd fields(3 * dof_map.node_count(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Matrix3Xd field = free_nodes.expand(pairs.vectors.col(k));
+    const Eigen::Matrix3Xd field = dof_map.expand(pairs.vectors.col(k));
     fields.col(k) = Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
   }
   return fields;
@@ -156,11 +155,11 @@ double eigenvalue_scale(const mesher::Mesh& mesh) {
   return slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
 }
 
-std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map,
                                               const ModalSystem& system, bool is_held) {
   const double length_m = mesher::bounding_box(mesh).extent_m().norm();
   const std::vector<Part> parts = rigid_parts_of(mesh);
-  Eigen::MatrixXd fields = strainless_fields(free_nodes, system, eigenvalue_scale(mesh));
+  Eigen::MatrixXd fields = strainless_fields(dof_map, system, eigenvalue_scale(mesh));
   if (!is_held && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
   std::string text;
   for (const Part& part : parts) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/system/modal_system.h"
 #include "mesher/mesh/mesh.h"
 
@@ -22,7 +22,7 @@ inline constexpr double kStrainless = 1e-6;
 /// @param is_held whether a node set is held
 /// @return nothing if every such motion is too large for parts as rigid bodies: then it bends
 /// @throws ComputationError if the motions cannot be computed.
-std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map,
                                               const ModalSystem& system, bool is_held);
 
 }  // namespace flexneck::fe_modal

@@ -85,18 +85,17 @@ void add_mass(const SortedNodes& nodes, const Eigen::MatrixXd& element, NodalMas
 }
 
 /// The same where there are constraints, with which the mass is not the same in each direction.
-void add_constrained(std::span<const std::int32_t> nodes, const FreeNodes& free_nodes,
+void add_constrained(std::span<const std::int32_t> nodes, const DofMap& dof_map,
                      const ElementMatrices& element, SortedNodes& sorted,
                      SymmetricMatrix& stiffness, SymmetricMatrix& mass) {
-  const ConstrainedElement constrained(nodes, free_nodes);
+  const ConstrainedElement constrained(nodes, dof_map);
   sorted.assign(constrained.numbers(), [](std::int32_t number) { return number; });
   add_stiffness(sorted, constrained.reduced(element.stiffness), stiffness);
   add_stiffness(sorted, constrained.reduced(in_three_directions(element.mass)), mass);
 }
 
-void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
-               const FreeNodes& free_nodes, const FormulationChoice& formulation,
-               SymmetricMatrix& stiffness, NodalMass& mass,
+void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, const DofMap& dof_map,
+               const FormulationChoice& formulation, SymmetricMatrix& stiffness, NodalMass& mass,
                std::optional<SymmetricMatrix>& constrained_mass) {
   const mesher::Material& material = mesh.materials.at(block.material);
   ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
@@ -115,9 +114,9 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
                              error.what());
     }
     if (constrained_mass) {
-      add_constrained(nodes, free_nodes, element, sorted, stiffness, *constrained_mass);
+      add_constrained(nodes, dof_map, element, sorted, stiffness, *constrained_mass);
     } else {
-      sorted.assign(nodes, [&](std::int32_t node) { return free_nodes.index(node); });
+      sorted.assign(nodes, [&](std::int32_t node) { return dof_map.index(node); });
       add_stiffness(sorted, element.stiffness, stiffness);
     }
     sorted.assign(nodes, [](std::int32_t node) { return node; });
@@ -126,34 +125,34 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block,
 }
 
 /// What is held has a stiffness of its own, of the others' size, and no mass: it stays still.
-void stiffen_held(const FreeNodes& free_nodes, SymmetricMatrix& stiffness) {
+void stiffen_held(const DofMap& dof_map, SymmetricMatrix& stiffness) {
   double sum = 0;
   const auto for_each = [&](const auto& action) {
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(free_nodes.free_count()); ++k) {
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(dof_map.free_count()); ++k) {
       for (int a = 0; a < 3; ++a) action(k, a, stiffness.entry(k, a, -1, a));
     }
   };
   for_each([&](std::int32_t /*k*/, int /*a*/, double entry) { sum += entry; });
-  const double mean = sum / static_cast<double>(free_nodes.dof_count());
+  const double mean = sum / static_cast<double>(dof_map.dof_count());
   for_each([&](std::int32_t k, int a, double& entry) {
-    if (free_nodes.is_held(k, a)) entry = mean;
+    if (dof_map.is_held(k, a)) entry = mean;
   });
 }
 
 }  // namespace
 
-SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
                         const FormulationChoice& formulation) {
-  NodeGraph graph(mesh, free_nodes);
+  NodeGraph graph(mesh, dof_map);
   SymmetricMatrix stiffness(graph);
   NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));
   std::optional<SymmetricMatrix> constrained_mass;
-  if (free_nodes.is_constrained()) constrained_mass.emplace(graph);
+  if (dof_map.is_constrained()) constrained_mass.emplace(graph);
   for (const mesher::ElementBlock& block : mesh.blocks) {
-    add_block(mesh, block, free_nodes, formulation, stiffness, nodal_mass, constrained_mass);
+    add_block(mesh, block, dof_map, formulation, stiffness, nodal_mass, constrained_mass);
   }
-  if (free_nodes.held_direction_count() > 0) stiffen_held(free_nodes, stiffness);
-  MassMatrix mass(nodal_mass, graph, free_nodes);
+  if (dof_map.held_direction_count() > 0) stiffen_held(dof_map, stiffness);
+  MassMatrix mass(nodal_mass, graph, dof_map);
   SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass),
                         std::move(constrained_mass)};
   system.nodal_mass.swap(nodal_mass);  // this version of Eigen moves by copying

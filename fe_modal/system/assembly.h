@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "fe_modal/algebra/symmetric_matrix.h"
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/dofs/node_graph.h"
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/system/mass_matrix.h"
@@ -18,8 +18,8 @@ struct SystemMatrices {
   SymmetricMatrix stiffness;  ///< of the free degrees of freedom, N/m
   NodalMass nodal_mass;       ///< of all nodes, kg
   MassMatrix mass;            ///< of the free degrees of freedom, kg; void with constraints
-  /// Where there are rigid ties or held directions: of the free degrees of freedom, the ties'
-  /// included; zero where a direction is held.
+  /// Where there are rigid couplings or held directions: of the free degrees of freedom, the
+  /// couplings' included; zero where a direction is held.
   std::optional<SymmetricMatrix> constrained_mass;
 
   Mat mass_operator() const { return constrained_mass ? constrained_mass->get() : mass.get(); }
@@ -27,7 +27,7 @@ struct SystemMatrices {
 
 /// @throws InputError if a part's kind of element has no such formulation.
 /// @throws ComputationError if an element is inverted, or PETSc fails, e.g. for want of memory.
-SystemMatrices assemble(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
                         const FormulationChoice& formulation = {});
 
 /// K - shift M.

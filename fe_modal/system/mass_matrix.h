@@ -15,7 +15,7 @@ class MassMatrix {
  public:
   /// @param all_nodes mass of all nodes of the mesh
   /// @param graph of the free nodes
-  MassMatrix(const NodalMass& all_nodes, const NodeGraph& graph, const FreeNodes& free_nodes);
+  MassMatrix(const NodalMass& all_nodes, const NodeGraph& graph, const DofMap& dof_map);
 
   Mat get() const { return operator_.get(); }
   /// Between the free nodes, by their indices; tied nodes are one.

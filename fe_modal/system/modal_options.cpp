@@ -3,12 +3,12 @@
 
 namespace flexneck::fe_modal {
 
-FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
-  std::vector<RigidTie> ties;
+DofMap dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options) {
+  std::vector<RigidCoupling> couplings;
   for (const InterfaceDefinition& interface : options.interfaces) {
     if (!interface.is_rigid) continue;
-    ties.push_back({interface.name, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
-                    interface.position_m});
+    couplings.push_back({interface.name, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
+                         interface.position_m});
   }
   std::vector<HeldDirections> directions;
   for (const auto& [set, is_held] : options.held_directions) {
@@ -17,7 +17,7 @@ FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options) {
   return {mesh,
           options.held_set.empty() ? std::vector<std::int32_t>{}
                                    : mesh.node_set(options.held_set).nodes,
-          ties, directions};
+          couplings, directions};
 }
 
 }  // namespace flexneck::fe_modal

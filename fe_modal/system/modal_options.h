@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/basis_kind.h"
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/system/solver.h"
 #include "mesher/mesh/mesh.h"
@@ -66,7 +66,7 @@ struct ModalOptions {
   bool is_held() const { return !held_set.empty() || !held_directions.empty(); }
 };
 
-/// The nodes that the options leave free. @throws InputError for unknown sets, and as FreeNodes.
-FreeNodes free_nodes_of(const mesher::Mesh& mesh, const ModalOptions& options);
+/// The nodes that the options leave free. @throws InputError for unknown sets, and as DofMap.
+DofMap dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options);
 
 }  // namespace flexneck::fe_modal

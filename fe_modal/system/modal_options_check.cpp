@@ -5,7 +5,7 @@
 
 #include <Eigen/QR>
 
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "mesher/mesh/positions.h"
@@ -120,8 +120,8 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   if (!options.held_set.empty() && options.held_directions.empty()) {
     check_held(mesh, options.held_set);
   }
-  const FreeNodes free_nodes = free_nodes_of(mesh, options);
-  const Eigen::Index dofs = free_nodes.dof_count() - free_nodes.held_direction_count();
+  const DofMap dof_map = dof_map_of(mesh, options);
+  const Eigen::Index dofs = dof_map.dof_count() - dof_map.held_direction_count();
   // Static shapes alone make a basis too.
   const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
   if (options.mode_count < least || options.mode_count > dofs) {

@@ -10,7 +10,7 @@
 namespace flexneck::fe_modal {
 
 /// K and M of a body and what is done with them, wherever their entries are: in this process,
-/// shared among ranks, or read from files. Vectors are sequential, by FreeNodes' degrees of
+/// shared among ranks, or read from files. Vectors are sequential, by DofMap' degrees of
 /// freedom.
 class ModalSystem {
  public:

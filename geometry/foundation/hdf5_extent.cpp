@@ -53,11 +53,11 @@ double chunk_count(const std::vector<double>& extents, const Hdf5Handle& creatio
 std::optional<std::string> extent_problem(const Hdf5Handle& dataset, std::uintmax_t file_size) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset.get()), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(creation.get());
-  const int outside_files = H5Pget_external_count(creation.get());
+  const int foreign_files = H5Pget_external_count(creation.get());
   const int filters = H5Pget_nfilters(creation.get());
-  if (layout < 0 || outside_files < 0 || filters < 0) return {};
+  if (layout < 0 || foreign_files < 0 || filters < 0) return {};
   // Before anything is asked for which HDF5 would open another file.
-  if (layout == H5D_VIRTUAL || outside_files > 0) {
+  if (layout == H5D_VIRTUAL || foreign_files > 0) {
     return "expected data in this file, found them in another one";
   }
   if (std::string problem = filter_problem(creation, filters); !problem.empty()) return problem;

@@ -12,15 +12,15 @@ namespace flexneck {
 
 namespace {
 
-std::string contents_of(const std::filesystem::path& path, std::size_t most_bytes) {
+std::string contents_of(const std::filesystem::path& path, std::size_t max_bytes) {
   const FileDescriptor file = open_to_read(path);
   std::array<char, 1 << 16> block{};
   std::string text;
   for (;;) {
     const std::size_t count = read_at(file, text.size(), block, path);
     text.append(block.data(), count);
-    if (text.size() > most_bytes) {
-      throw InputError(path.string() + ": expected at most " + std::to_string(most_bytes >> 10U) +
+    if (text.size() > max_bytes) {
+      throw InputError(path.string() + ": expected at most " + std::to_string(max_bytes >> 10U) +
                        " KiB of text, found more");
     }
     if (count < block.size()) return text;
@@ -29,8 +29,8 @@ std::string contents_of(const std::filesystem::path& path, std::size_t most_byte
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path, std::size_t most_bytes) {
-  std::string text = contents_of(path, most_bytes);
+std::string read_text(const std::filesystem::path& path, std::size_t max_bytes) {
+  std::string text = contents_of(path, max_bytes);
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   const std::size_t place = find_unprintable(text, "\t\n\r");
   if (place == std::string::npos) return text;

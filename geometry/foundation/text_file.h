@@ -10,7 +10,7 @@ namespace flexneck {
 /// A file that people write: UTF-8, whose mark at the beginning is taken away, with tabs and line
 /// ends as the only control characters.
 /// @throws InputError for a file that cannot be read, is no regular one or has more than
-/// `most_bytes`, and with the line of the first character that does not belong there.
-std::string read_text(const std::filesystem::path& path, std::size_t most_bytes);
+/// `max_bytes`, and with the line of the first character that does not belong there.
+std::string read_text(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace flexneck

@@ -45,13 +45,13 @@ const ut_system& unit_system() {
 /// ("kg 2", "kg^2.5" and "m/2" are 2 kg, 5 kg^2 and 0.5 m), origins and logarithms: all of them
 /// would change the number that stands before the unit without a word.
 bool is_plain_unit(const std::string& text) {
-  constexpr std::size_t kMostCharacters = 80;  // std::regex takes stack for each
+  constexpr std::size_t kMaxCharacters = 80;  // std::regex takes stack for each
   static const std::regex kPattern = [] {
     const std::string power = "((\\^|\\*\\*)?[+-]?[0-9]+)?";
     const std::string factor = "(\\( *)*((\u00b5)?[A-Za-z_]+|%)" + power + "( *\\)" + power + ")*";
     return std::regex("1|(1 */ *)?" + factor + "(( *[*./] *| +)" + factor + ")*");
   }();
-  return text.size() <= kMostCharacters && std::regex_match(text, kPattern);
+  return text.size() <= kMaxCharacters && std::regex_match(text, kPattern);
 }
 
 Unit parse_unit(std::string_view text) {

@@ -12,7 +12,7 @@ namespace flexneck::geometry {
 namespace {
 
 constexpr double kWidestColumns = 44;
-constexpr double kMostRows = 50;
+constexpr double kMaxRows = 50;
 constexpr double kCharacterHeight = 2;  ///< in widths
 
 struct Slice {
@@ -53,7 +53,7 @@ std::string label_of(const NeckLayer& layer) {
 std::string drawn_section(const NeckParameters& neck, const NeckSlits& slits) {
   const std::vector<NeckLayer> layers = layers_of(neck);
   const double column_m =
-      std::max(neck.plate_diameter / kWidestColumns, neck.length / (kMostRows * kCharacterHeight));
+      std::max(neck.plate_diameter / kWidestColumns, neck.length / (kMaxRows * kCharacterHeight));
   const auto columns = static_cast<int>(std::lround(neck.plate_diameter / column_m));
   const auto rows =
       std::max(1, static_cast<int>(std::lround(neck.length / (column_m * kCharacterHeight))));

@@ -23,7 +23,7 @@ struct BodyPicture {
   bool undeformed_outline = false;
 };
 
-/// Draws the skin of a mesh into a picture of the given size.
+/// Draws the boundary of a mesh into a picture of the given size.
 /// @param surface of this mesh
 /// @param room_m left for displacements, beyond the bounding box of the mesh
 Raster draw_body(const Mesh& mesh, const Surface& surface, const BodyPicture& what,

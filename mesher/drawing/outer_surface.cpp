@@ -9,10 +9,10 @@
 
 #include <Eigen/Geometry>
 
+#include "mesher/mesh/boundary.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
-#include "mesher/mesh/skin.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -78,7 +78,7 @@ struct DividedKind {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-void append(const Eigen::MatrixXd& values, const ElementSide& side, std::int32_t first_vertex,
+void append(const Eigen::MatrixXd& values, const Facet& side, std::int32_t first_vertex,
             Triplets& triplets) {
   for (Eigen::Index v = 0; v < values.cols(); ++v) {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
@@ -99,7 +99,7 @@ struct EdgeOwner {
   Eigen::Vector3d normal;
 };
 
-Eigen::Vector3d centre_normal(const Mesh& mesh, const ElementSide& side) {
+Eigen::Vector3d centre_normal(const Mesh& mesh, const Facet& side) {
   const bool triangle = shape_of(side.kind) == ReferenceShape::triangle;
   const Eigen::Vector3d centre =
       triangle ? Eigen::Vector3d(1.0 / 3, 1.0 / 3, 0) : Eigen::Vector3d(0, 0, 0);
@@ -116,7 +116,7 @@ class OutlineFinder {
   /// Faces whose normals differ by more than 40 degrees meet at an edge that one sees.
   static constexpr double kSharpCosine = 0.77;
 
-  void add(const Mesh& mesh, const ElementSide& side,
+  void add(const Mesh& mesh, const Facet& side,
            const std::vector<std::vector<std::int32_t>>& chains, Surface& surface) {
     const Eigen::Vector3d normal = centre_normal(mesh, side);
     for (std::size_t e = 0; e < chains.size(); ++e) {
@@ -144,15 +144,15 @@ int division_for(std::size_t sides, std::size_t most) {
 
 }  // namespace
 
-Surface surface_of(const Mesh& mesh, std::size_t most_triangles) {
-  const std::vector<ElementSide> sides = outer_sides(mesh);
-  const int n = division_for(sides.size(), most_triangles);
+Surface surface_of(const Mesh& mesh, std::size_t max_triangles) {
+  const std::vector<Facet> sides = boundary_facets(mesh);
+  const int n = division_for(sides.size(), max_triangles);
   std::map<ElementKind, DividedKind> kinds;
   Surface surface;
   OutlineFinder outlines;
   Triplets value, along_xi, along_eta;
   std::int32_t vertices = 0;
-  for (const ElementSide& side : sides) {
+  for (const Facet& side : sides) {
     const DividedKind& kind = kinds.try_emplace(side.kind, side.kind, n).first->second;
     append(kind.table.values, side, vertices, value);
     append(kind.table.derivatives[0], side, vertices, along_xi);

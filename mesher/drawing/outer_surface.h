@@ -11,8 +11,8 @@
 
 namespace flexneck::mesher {
 
-/// The skin as triangles, fine enough to show curved faces. Fields on the nodes, (n) rows, come to
-/// the vertices by the shape functions: `value * field`.
+/// The boundary as triangles, fine enough to show curved faces. Fields on the nodes, (n) rows, come
+/// to the vertices by the shape functions: `value * field`.
 struct Surface {
   Eigen::SparseMatrix<double, Eigen::RowMajor> value;                ///< (vertices, nodes)
   Eigen::SparseMatrix<double, Eigen::RowMajor> along_xi, along_eta;  ///< derivatives on the face
@@ -22,7 +22,7 @@ struct Surface {
   std::vector<std::vector<std::int32_t>> outlines;  ///< those between parts and at sharp bends
 };
 
-/// @param most_triangles bounds the subdivision of the sides
-Surface surface_of(const Mesh& mesh, std::size_t most_triangles = 200'000);
+/// @param max_triangles bounds the subdivision of the sides
+Surface surface_of(const Mesh& mesh, std::size_t max_triangles = 200'000);
 
 }  // namespace flexneck::mesher

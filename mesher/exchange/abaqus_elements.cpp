@@ -47,7 +47,7 @@ std::string abaqus_type_of(ElementKind kind, bool is_reduced) {
                    "; mesh with the 20-node one instead (mesh.element = \"hex20\")");
 }
 
-std::span<const std::vector<std::size_t>> abaqus_sides(ElementKind kind) {
+std::span<const std::vector<std::size_t>> abaqus_facets(ElementKind kind) {
   using Sides = std::vector<std::vector<std::size_t>>;
   static const Sides kHexahedron = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
                                     {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};

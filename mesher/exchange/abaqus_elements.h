@@ -22,6 +22,6 @@ std::string abaqus_type_of(ElementKind kind, bool is_reduced);
 
 /// Corners, as local nodes of ours, of the side that Abaqus calls S1, S2, … (the CalculiX manual
 /// numbers them alike).
-std::span<const std::vector<std::size_t>> abaqus_sides(ElementKind kind);
+std::span<const std::vector<std::size_t>> abaqus_facets(ElementKind kind);
 
 }  // namespace flexneck::mesher

@@ -155,19 +155,19 @@ std::string inp_problem(std::string_view contents) {
 
 }  // namespace
 
-std::string signature_problem(OutsideFormat format, std::string_view contents) {
+std::string signature_problem(ForeignFormat format, std::string_view contents) {
   switch (format) {
-    case OutsideFormat::msh:
+    case ForeignFormat::msh:
       return msh_problem(contents);
-    case OutsideFormat::unv:
+    case ForeignFormat::unv:
       return unv_problem(contents);
-    case OutsideFormat::bdf:
+    case ForeignFormat::bdf:
       return bdf_problem(contents);
-    case OutsideFormat::inp:
+    case ForeignFormat::inp:
       return inp_problem(contents);
-    case OutsideFormat::step:
+    case ForeignFormat::step:
       return step_problem(contents);
-    case OutsideFormat::brep:
+    case ForeignFormat::brep:
       return brep_problem(contents);
   }
   return "it is of no known format";

@@ -9,8 +9,8 @@
 
 #include "geometry/foundation/error.h"
 #include "mesher/gmsh/gmsh_groups.h"
+#include "mesher/gmsh/gmsh_mesh_import.h"
 #include "mesher/gmsh/gmsh_session.h"
-#include "mesher/gmsh/gmsh_take_over.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -61,7 +61,7 @@ void name_groups(const std::map<int, std::string>& volumes) {
 }
 
 void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double size) {
-  const bool is_step = copy.format() == OutsideFormat::step;
+  const bool is_step = copy.format() == ForeignFormat::step;
   if (is_step) gmsh::option::setString("Geometry.OCCTargetUnit", "M");
   gmsh::vectorpair shapes;
   gmsh::model::occ::importShapes(copy.path().string(), shapes, true, is_step ? "step" : "brep");
@@ -89,8 +89,8 @@ void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double si
 
 Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, LeftOut& left_out) {
   GmshSession session;
-  const bool is_step = copy.format() == OutsideFormat::step;
-  const bool is_shape = is_step || copy.format() == OutsideFormat::brep;
+  const bool is_step = copy.format() == ForeignFormat::step;
+  const bool is_shape = is_step || copy.format() == ForeignFormat::brep;
   const double scale = is_step ? 1 : options.length_unit_m;
   const std::string errors = session.errors_of([&] {
     if (is_shape) {
@@ -102,13 +102,13 @@ Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, Lef
   if (!errors.empty()) {
     throw InputError("gmsh cannot " + std::string(is_shape ? "mesh" : "read") + " it: " + errors);
   }
-  Mesh mesh = take_over_gmsh_mesh(options.materials, options.material_of_part,
-                                  is_shape ? GmshSource::script : GmshSource::outside_file);
+  Mesh mesh = import_gmsh_mesh(options.materials, options.material_of_part,
+                               is_shape ? GmshSource::script : GmshSource::foreign_file);
   for (auto& node : mesh.nodes) {
     for (double& x : node) x *= scale;
   }
   if (is_shape) return mesh;
-  if (copy.format() != OutsideFormat::bdf) {  // whose cards are counted
+  if (copy.format() != ForeignFormat::bdf) {  // whose cards are counted
     for (const auto& [kind, count] : gmsh_elements_off_volumes()) left_out.add(kind, count);
   }
   return mesh;

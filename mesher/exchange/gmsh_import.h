@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "mesher/exchange/foreign_file.h"
 #include "mesher/exchange/left_out.h"
 #include "mesher/exchange/mesh_import.h"
-#include "mesher/exchange/outside_file.h"
 
 namespace flexneck::mesher {
 
 /// Lets gmsh read a checked mesh, or mesh a checked shape. Lengths in m. What a mesh has beside its
 /// solids is added to `left_out`.
-/// @throws InputError if gmsh cannot read or mesh it, or as take_over_gmsh_mesh.
+/// @throws InputError if gmsh cannot read or mesh it, or as import_gmsh_mesh.
 Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, LeftOut& left_out);
 
 }  // namespace flexneck::mesher

@@ -105,7 +105,7 @@ class Reader {
 
   void include(const InpCard& card) {
     constexpr std::size_t kDeepest = 8;
-    constexpr std::size_t kMostFiles = 1000;
+    constexpr std::size_t kMaxFiles = 1000;
     const std::string name = card.parameter("INPUT");
     std::error_code error;
     const fs::path file = fs::weakly_canonical(folder_ / name, error);
@@ -117,7 +117,7 @@ class Reader {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) card.refuse("there is no file " + name);
     if (++depth_ > kDeepest) card.refuse("files include each other more than 8 deep");
-    if (++count_ > kMostFiles) card.refuse("more than 1000 files are included");
+    if (++count_ > kMaxFiles) card.refuse("more than 1000 files are included");
     read(folder_ / relative, text_of(file));
     --depth_;
   }

@@ -7,9 +7,9 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "mesher/exchange/abaqus_elements.h"
+#include "mesher/exchange/foreign_file.h"
 #include "mesher/exchange/inp_model.h"
-#include "mesher/exchange/outside_file.h"
-#include "mesher/mesh/skin.h"
+#include "mesher/mesh/boundary.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -185,13 +185,14 @@ NodeSet node_set_of(const std::string& name, const std::vector<std::int64_t>& nu
 
 void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int32_t>& index_of,
                    Mesh& mesh) {
-  const std::vector<ElementSide> skin = outer_sides(mesh);
+  const std::vector<Facet> boundary = boundary_facets(mesh);
   const auto add = [&](NodeSet set) {
     if (set.nodes.empty()) return;  // of nodes without elements
     std::vector<bool> is_in(mesh.nodes.size(), false);
     for (const std::int32_t node : set.nodes) is_in[static_cast<std::size_t>(node)] = true;
-    FaceSet faces = faces_among(
-        skin, set.name, [&](std::int32_t node) { return is_in[static_cast<std::size_t>(node)]; });
+    FaceSet faces = faces_among(boundary, set.name, [&](std::int32_t node) {
+      return is_in[static_cast<std::size_t>(node)];
+    });
     if (!faces.blocks.empty()) mesh.face_sets.push_back(std::move(faces));
     mesh.node_sets.push_back(std::move(set));
   };
@@ -202,13 +203,13 @@ void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int3
 /// Nodes of side S<n> of an element in the order of its kind of face, outwards.
 FaceBlock face_of(const InpElement& element, std::size_t side,
                   const std::map<std::int64_t, std::int32_t>& index_of) {
-  const auto abaqus = abaqus_sides(element.kind);
+  const auto abaqus = abaqus_facets(element.kind);
   if (side >= abaqus.size()) {
     throw InputError("element " + std::to_string(element.number) + " has no side S" +
                      std::to_string(side + 1));
   }
   const std::vector<std::size_t>& corners = abaqus[side];
-  for (const Side& ours : sides_of(element.kind)) {
+  for (const ReferenceFacet& ours : facets_of(element.kind)) {
     const auto begin = ours.nodes.begin();
     if (!std::is_permutation(corners.begin(), corners.end(), begin,
                              begin + static_cast<std::ptrdiff_t>(corners_per_element(ours.kind)))) {

@@ -10,14 +10,14 @@
 namespace flexneck::mesher {
 namespace {
 
-constexpr std::size_t kMostOfRanges = 10'000'000;  ///< numbers of one range
-constexpr std::size_t kMostInSets = 20'000'000;    ///< where there are ranges: 160 MB
+constexpr std::size_t kMaxOfRanges = 10'000'000;  ///< numbers of one range
+constexpr std::size_t kMaxInSets = 20'000'000;    ///< where there are ranges: 160 MB
 
 std::vector<std::int64_t> range_of(const InpData& line) {
   const std::int64_t first = inp_integer(line, 0);
   const std::int64_t last = line.fields.size() > 1 ? inp_integer(line, 1) : first;
   const std::int64_t step = line.fields.size() > 2 ? inp_integer(line, 2) : 1;
-  constexpr auto kMost = static_cast<std::int64_t>(kMostOfRanges);
+  constexpr auto kMost = static_cast<std::int64_t>(kMaxOfRanges);
   if (step < 1 || last < first || (last - first) / step > kMost) {
     throw InputError(line.place.text() + "expected first, last and step of a range");
   }
@@ -67,8 +67,8 @@ void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& se
   for (const InpData& line : card.data) {
     if (card.has("GENERATE")) {
       const std::vector<std::int64_t> range = range_of(line);
-      if (all + members.size() + range.size() > kMostInSets) {
-        throw InputError(line.place.text() + "expected at most " + std::to_string(kMostInSets) +
+      if (all + members.size() + range.size() > kMaxInSets) {
+        throw InputError(line.place.text() + "expected at most " + std::to_string(kMaxInSets) +
                          " numbers in all sets, found more");
       }
       members.insert(members.end(), range.begin(), range.end());

@@ -14,7 +14,7 @@
 #include "mesher/exchange/abaqus_elements.h"
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/inp_cards.h"
-#include "mesher/mesh/side_key.h"
+#include "mesher/mesh/facet_key.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -91,14 +91,14 @@ void write_node_sets(OutputFile& out, const Mesh& mesh) {
 }
 
 /// "<element>,S<n>" of the first element with a side on these nodes, by their key.
-using SideNames = std::map<SideKey, std::string>;
+using SideNames = std::map<FacetKey, std::string>;
 
 SideNames side_names(const Mesh& mesh) {
   SideNames names;
   std::size_t next = 0;
   for (const ElementBlock& block : mesh.blocks) {
     const std::size_t n = nodes_per_element(block.kind);
-    const auto sides = abaqus_sides(block.kind);
+    const auto sides = abaqus_facets(block.kind);
     for (std::size_t first = 0; first < block.nodes.size(); first += n) {
       ++next;
       for (std::size_t s = 0; s < sides.size(); ++s) {

@@ -8,12 +8,12 @@ void LeftOut::add(const std::string& kind, std::size_t count) {
 }
 
 std::string LeftOut::text() const {
-  constexpr std::size_t kMostKinds = 30;
+  constexpr std::size_t kMaxKinds = 30;
   std::string text;
   std::size_t kinds = 0;
   for (const auto& [kind, count] : counts_) {
-    if (kinds++ == kMostKinds) {
-      text += ", " + std::to_string(counts_.size() - kMostKinds) + " more kinds";
+    if (kinds++ == kMaxKinds) {
+      text += ", " + std::to_string(counts_.size() - kMaxKinds) + " more kinds";
       break;
     }
     text += (text.empty() ? "not carried over: " : ", ") + std::to_string(count) + " " + kind;

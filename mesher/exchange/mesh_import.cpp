@@ -6,11 +6,11 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "mesher/exchange/file_survey.h"
+#include "mesher/exchange/foreign_file.h"
 #include "mesher/exchange/gmsh_import.h"
 #include "mesher/exchange/import_check.h"
 #include "mesher/exchange/inp_import.h"
-#include "mesher/exchange/outside_file.h"
-#include "mesher/mesh/skin.h"
+#include "mesher/mesh/boundary.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -24,9 +24,9 @@ bool is_inside(const std::array<double, 3>& x, const BoxSet& box) {
 
 void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
   if (boxes.empty()) return;
-  const std::vector<ElementSide> skin = outer_sides(mesh);
+  const std::vector<Facet> boundary = boundary_facets(mesh);
   for (const BoxSet& box : boxes) {
-    FaceSet faces = faces_among(skin, box.name, [&](std::int32_t node) {
+    FaceSet faces = faces_among(boundary, box.name, [&](std::int32_t node) {
       return is_inside(mesh.nodes[static_cast<std::size_t>(node)], box);
     });
     if (faces.blocks.empty()) {
@@ -41,9 +41,9 @@ void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
 Mesh read_with_gmsh(const ImportOptions& options, LeftOut& left_out) {
   const CheckedCopy copy(options.file);
   FileSurvey survey;
-  if (copy.format() == OutsideFormat::bdf) {
+  if (copy.format() == ForeignFormat::bdf) {
     survey = survey_nastran(checked_contents(copy.path()), left_out);
-  } else if (copy.format() == OutsideFormat::unv) {
+  } else if (copy.format() == ForeignFormat::unv) {
     survey = survey_unv(checked_contents(copy.path()), options.length_unit_m, left_out);
   }
   Mesh mesh = import_with_gmsh(copy, options, left_out);
@@ -52,7 +52,7 @@ Mesh read_with_gmsh(const ImportOptions& options, LeftOut& left_out) {
 }
 
 Mesh read(const ImportOptions& options, const Progress& progress, LeftOut& left_out) {
-  return outside_format_of(options.file) == OutsideFormat::inp
+  return foreign_format_of(options.file) == ForeignFormat::inp
              ? import_inp(options, progress, left_out)
              : read_with_gmsh(options, left_out);
 }

@@ -22,7 +22,7 @@ struct BoxSet {
 
 /// A geometry or mesh that the user brings, and what is made of it.
 struct ImportOptions {
-  std::filesystem::path file;  ///< its ending says what it is, see outside_file.h
+  std::filesystem::path file;  ///< its ending says what it is, see foreign_file.h
   double length_unit_m = 1;    ///< what the number 1 in the file means; a STEP file knows it itself
   double force_unit_N = 1;     ///< the same for the materials of an .inp, with the second as time
   std::vector<Material> materials;  ///< in SI units

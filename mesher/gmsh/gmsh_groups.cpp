@@ -121,7 +121,7 @@ std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source) {
   gmsh::vectorpair tags;
   gmsh::model::getPhysicalGroups(tags, dimension);
   std::sort(tags.begin(), tags.end());
-  const bool outside = source == GmshSource::outside_file;
+  const bool outside = source == GmshSource::foreign_file;
   if (tags.empty() && outside && dimension >= 2) return groups_by_entity(dimension);
   std::vector<GmshGroup> groups;
   for (const auto& [dim, tag] : tags) {

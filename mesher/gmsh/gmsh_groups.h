@@ -11,7 +11,7 @@ namespace flexneck::mesher {
 
 /// Where gmsh's current model comes from. The author of a script names groups; a mesh from outside
 /// may have none, or groups without names.
-enum class GmshSource { script, outside_file };
+enum class GmshSource { script, foreign_file };
 
 /// Entities of gmsh's model under one name.
 struct GmshGroup {

@@ -12,8 +12,8 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/gmsh/gmsh_mesh_import.h"
 #include "mesher/gmsh/gmsh_session.h"
-#include "mesher/gmsh/gmsh_take_over.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/slits/slits.h"
 
@@ -125,9 +125,9 @@ void require_wanted_kind(const Mesh& mesh, const ScriptMeshOptions& options) {
                    "; whether there are hexahedra is up to the script (Recombine Surface)");
 }
 
-Mesh take_over(const ScriptMeshOptions& options) {
+Mesh imported_mesh(const ScriptMeshOptions& options) {
   try {
-    Mesh mesh = take_over_gmsh_mesh(options.materials, options.material_of_part);
+    Mesh mesh = import_gmsh_mesh(options.materials, options.material_of_part);
     for (auto& node : mesh.nodes) {
       for (double& x : node) x *= options.length_unit_m;
     }
@@ -186,7 +186,7 @@ Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress, con
     for (const std::string& failure : session.failures())
       report(warn, options.script.string() + ": gmsh: " + failure + "; is there memory left?");
     report(progress, "gmsh is done, taking the mesh over");
-    mesh = take_over(options);
+    mesh = imported_mesh(options);
   }
   require_wanted_kind(mesh, options);
   open_slits(mesh, options.slits, options.slits_tied);

@@ -143,7 +143,7 @@ const KindRecord& record_of(ElementKind kind) { return kKinds.at(static_cast<std
 using Corners = std::vector<std::size_t>;
 
 /// Corners of the sides, counter-clockwise from outside.
-std::vector<Corners> side_corners(ReferenceShape shape) {
+std::vector<Corners> facet_corners(ReferenceShape shape) {
   switch (shape) {
     case ReferenceShape::hexahedron:
       return {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 6, 7}};
@@ -168,20 +168,20 @@ void append_middle(std::span<const Point> nodes, const Corners& of, Corners& sid
   if (found != nodes.end()) side.push_back(static_cast<std::size_t>(found - nodes.begin()));
 }
 
-ElementKind side_kind(std::size_t corners, std::size_t nodes) {
+ElementKind facet_kind(std::size_t corners, std::size_t nodes) {
   if (corners == 3) return ElementKind::tri6;
   return nodes == 4 ? ElementKind::quad4 : nodes == 8 ? ElementKind::quad8 : ElementKind::quad9;
 }
 
-std::vector<Side> make_sides(const KindRecord& record) {
-  std::vector<Side> sides;
-  for (const Corners& corners : side_corners(record.shape)) {
+std::vector<ReferenceFacet> make_facets(const KindRecord& record) {
+  std::vector<ReferenceFacet> sides;
+  for (const Corners& corners : facet_corners(record.shape)) {
     Corners side = corners;
     for (std::size_t c = 0; c < corners.size(); ++c) {
       append_middle(record.nodes, {corners[c], corners[(c + 1) % corners.size()]}, side);
     }
     if (corners.size() == 4) append_middle(record.nodes, corners, side);
-    sides.push_back({side_kind(corners.size(), side.size()), side});
+    sides.push_back({facet_kind(corners.size(), side.size()), side});
   }
   return sides;
 }
@@ -234,14 +234,14 @@ int dimension(ElementKind kind) {
 
 int order_of(ElementKind kind) { return record_of(kind).order; }
 
-std::span<const Side> sides_of(ElementKind kind) {
-  static const std::vector<std::vector<Side>> kSides = [] {
-    std::vector<std::vector<Side>> all;
+std::span<const ReferenceFacet> facets_of(ElementKind kind) {
+  static const std::vector<std::vector<ReferenceFacet>> kFacets = [] {
+    std::vector<std::vector<ReferenceFacet>> all;
     all.reserve(kKinds.size());
-    for (const KindRecord& record : kKinds) all.push_back(make_sides(record));
+    for (const KindRecord& record : kKinds) all.push_back(make_facets(record));
     return all;
   }();
-  return kSides.at(static_cast<std::size_t>(kind));
+  return kFacets.at(static_cast<std::size_t>(kind));
 }
 
 }  // namespace flexneck::mesher

@@ -47,11 +47,11 @@ int order_of(ElementKind kind);
 
 /// A side of a volume element: its kind and its local nodes in the order of that kind, so that
 /// dx/dxi x dx/deta points outwards.
-struct Side {
+struct ReferenceFacet {
   ElementKind kind;
   std::vector<std::size_t> nodes;
 };
 /// The sides of a volume element; none of a surface element.
-std::span<const Side> sides_of(ElementKind kind);
+std::span<const ReferenceFacet> facets_of(ElementKind kind);
 
 }  // namespace flexneck::mesher

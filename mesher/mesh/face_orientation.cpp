@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "mesher/mesh/side_key.h"
+#include "mesher/mesh/facet_key.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -20,7 +20,7 @@ class FaceIndex {
   FaceIndex(const FaceBlock& faces, std::size_t node_count) : on_faces_(node_count, false) {
     const std::size_t n = nodes_per_element(faces.kind);
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      const SideKey key = key_of_face(faces.kind, std::span(faces.nodes).subspan(f * n, n));
+      const FacetKey key = key_of_face(faces.kind, std::span(faces.nodes).subspan(f * n, n));
       faces_.emplace_back(key, f);
       for (const std::int32_t node : key) {
         if (node >= 0) on_faces_[static_cast<std::size_t>(node)] = true;
@@ -30,13 +30,13 @@ class FaceIndex {
   }
 
   /// Faces with the corners of this side; empty for nearly every side of a mesh, at once.
-  std::span<const std::pair<SideKey, std::size_t>> find(
-      const Side& side, std::span<const std::int32_t> element) const {
+  std::span<const std::pair<FacetKey, std::size_t>> find(
+      const ReferenceFacet& side, std::span<const std::int32_t> element) const {
     const std::size_t corners = corners_per_element(side.kind);
     for (std::size_t c = 0; c < corners; ++c) {
       if (!on_faces_[static_cast<std::size_t>(element[side.nodes[c]])]) return {};
     }
-    const SideKey key = key_of_side(side, element);
+    const FacetKey key = key_of_facet(side, element);
     const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
     const auto [first, last] =
         std::equal_range(faces_.begin(), faces_.end(), std::pair(key, std::size_t{0}), less);
@@ -45,7 +45,7 @@ class FaceIndex {
 
  private:
   std::vector<bool> on_faces_;  ///< by node: is it a corner of a face
-  std::vector<std::pair<SideKey, std::size_t>> faces_;
+  std::vector<std::pair<FacetKey, std::size_t>> faces_;
 };
 
 /// Each face as the first volume element with such a side sees it, in the order that makes the
@@ -55,10 +55,10 @@ std::vector<NodeList> outward_faces(const Mesh& mesh, const FaceBlock& faces) {
   std::vector<NodeList> outward(faces.size());
   for (const ElementBlock& block : mesh.blocks) {
     const std::size_t n = nodes_per_element(block.kind);
-    const std::span<const Side> sides = sides_of(block.kind);
+    const std::span<const ReferenceFacet> sides = facets_of(block.kind);
     for (std::size_t first = 0; first < block.nodes.size(); first += n) {
       const auto element = std::span(block.nodes).subspan(first, n);
-      for (const Side& side : sides) {
+      for (const ReferenceFacet& side : sides) {
         if (side.kind != faces.kind) continue;
         for (const auto& [key, face] : index.find(side, element)) {
           if (!outward[face].empty()) continue;

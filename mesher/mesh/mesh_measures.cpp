@@ -95,7 +95,7 @@ std::span<const std::int32_t> nodes_of(std::span<const std::int32_t> all, Elemen
 /// Pairs of local corners that an edge joins.
 std::vector<std::pair<Eigen::Index, Eigen::Index>> edges_of(ElementKind kind) {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> edges;
-  for (const Side& side : sides_of(kind)) {
+  for (const ReferenceFacet& side : facets_of(kind)) {
     const std::size_t corners = corners_per_element(side.kind);
     for (std::size_t c = 0; c < corners; ++c) {
       const std::size_t a = side.nodes[c];
@@ -139,7 +139,7 @@ BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
     }
     const double scaled =
         std::min(smallest_scaled(x, at_rule, corners), smallest_scaled(x, at_nodes, corners));
-    result.largest_aspect_ratio = std::max(result.largest_aspect_ratio, aspect_ratio(x, edges));
+    result.max_aspect_ratio = std::max(result.max_aspect_ratio, aspect_ratio(x, edges));
     if (scaled < result.smallest_scaled_jacobian) {
       result.smallest_scaled_jacobian = scaled;
       result.worst_element = e;

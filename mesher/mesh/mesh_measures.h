@@ -19,7 +19,7 @@ struct BlockMeasure {
   double smallest_scaled_jacobian = 0;
   std::size_t worst_element = 0;  ///< where it occurs
   /// Largest ratio of an element's longest edge to its shortest, corner to corner.
-  double largest_aspect_ratio = 0;
+  double max_aspect_ratio = 0;
 };
 
 BlockMeasure measure(const Mesh& mesh, const ElementBlock& block);

@@ -23,7 +23,7 @@ MeshSummary summarise(const Mesh& mesh) {
                              .volume_m3 = measured.volume_m3,
                              .mass_kg = measured.volume_m3 * material.density_kg_m3,
                              .smallest_scaled_jacobian = measured.smallest_scaled_jacobian,
-                             .largest_aspect_ratio = measured.largest_aspect_ratio});
+                             .max_aspect_ratio = measured.max_aspect_ratio});
     const PartSummary& part = summary.parts.back();
     summary.elements += part.elements;
     summary.volume_m3 += part.volume_m3;

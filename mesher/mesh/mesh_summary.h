@@ -17,7 +17,7 @@ struct PartSummary {
   double volume_m3 = 0;
   double mass_kg = 0;
   double smallest_scaled_jacobian = 0;  ///< as in mesh_measures.h
-  double largest_aspect_ratio = 0;      ///< likewise
+  double max_aspect_ratio = 0;          ///< likewise
 };
 
 struct MeshSummary {

@@ -8,9 +8,9 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/mesh/boundary.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/positions.h"
-#include "mesher/mesh/skin.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -97,17 +97,17 @@ FaceSet faces_of_piece(const FaceSet& set, const PieceBuilder& piece) {
 }
 
 /// Pairs of pieces with the faces between them; normals out of the first.
-using CommonFaces = std::map<std::pair<std::int32_t, std::int32_t>, std::vector<ElementSide>>;
+using CommonFaces = std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Facet>>;
 
 CommonFaces common_faces(const Mesh& mesh, const PieceOfElement& piece_of_element) {
   CommonFaces common;
-  const std::vector<SidePlace> sides = sides_by_key(mesh);
+  const std::vector<FacetPlace> sides = facets_by_key(mesh);
   for (std::size_t s = 1; s < sides.size(); ++s) {
     const std::int32_t a = piece_of_element[sides[s - 1].number];
     const std::int32_t b = piece_of_element[sides[s].number];
     if (sides[s].key != sides[s - 1].key || a == b) continue;
-    common[{a, b}].push_back(side_at(mesh, sides[s - 1]));
-    common[{b, a}].push_back(side_at(mesh, sides[s]));
+    common[{a, b}].push_back(facet_at(mesh, sides[s - 1]));
+    common[{b, a}].push_back(facet_at(mesh, sides[s]));
   }
   return common;
 }

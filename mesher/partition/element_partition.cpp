@@ -5,7 +5,7 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
-#include "mesher/mesh/skin.h"
+#include "mesher/mesh/boundary.h"
 #include "mesher/partition/corner_lists.h"
 #include "mesher/partition/metis.h"
 
@@ -13,7 +13,7 @@ namespace flexneck::mesher {
 namespace {
 
 /// Elements with three common corners have a common side.
-constexpr idx_t kCornersOfASide = 3;
+constexpr idx_t kCornersOfAFacet = 3;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ ElementPartition partition_elements(const Mesh& mesh, int count) {
 
   MetisOptions options = metis_options();
   auto node_count = static_cast<idx_t>(mesh.nodes.size());
-  idx_t common = kCornersOfASide;
+  idx_t common = kCornersOfAFacet;
   idx_t parts = count;
   idx_t cut = 0;
   std::vector<idx_t> process_of_node(mesh.nodes.size());
@@ -44,8 +44,8 @@ ElementPartition partition_elements(const Mesh& mesh, int count) {
 
 PartitionQuality quality_of(const Mesh& mesh, const ElementPartition& partition) {
   PartitionQuality quality;
-  const std::vector<SidePlace> sides = sides_by_key(mesh);
-  const auto process_of = [&](const SidePlace& side) { return partition.processes[side.number]; };
+  const std::vector<FacetPlace> sides = facets_by_key(mesh);
+  const auto process_of = [&](const FacetPlace& side) { return partition.processes[side.number]; };
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s].key == sides[s - 1].key && process_of(sides[s]) != process_of(sides[s - 1])) {
       ++quality.edge_cut;

@@ -100,7 +100,7 @@ std::vector<std::vector<std::size_t>> defining_corners(ElementKind kind) {
   for (std::size_t node = 0; node < result.size(); ++node) {
     // The corners that lie on every side on which the node lies.
     std::vector<bool> on_all(corner_count, true);
-    for (const Side& side : sides_of(kind)) {
+    for (const ReferenceFacet& side : facets_of(kind)) {
       const auto has = [&](std::size_t other) {
         return std::find(side.nodes.begin(), side.nodes.end(), other) != side.nodes.end();
       };

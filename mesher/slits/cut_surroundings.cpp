@@ -8,7 +8,7 @@ namespace flexneck::mesher {
 
 CutSurroundings::CutSurroundings(const Mesh& m, const std::vector<const FaceSet*>& cuts) : mesh(m) {
   collect_elements(nodes_on(cuts));
-  collect_sides();
+  collect_facets();
 }
 
 std::vector<bool> CutSurroundings::nodes_on(const std::vector<const FaceSet*>& cuts) {
@@ -44,29 +44,29 @@ void CutSurroundings::collect_elements(const std::vector<bool>& on_cut) {
   }
 }
 
-void CutSurroundings::collect_sides() {
+void CutSurroundings::collect_facets() {
   for (std::size_t t = 0; t < elements.size(); ++t) {
     const Element& element = elements[t];
     const ElementBlock& block = mesh.blocks[element.block];
     const std::size_t n = nodes_per_element(block.kind);
     const auto nodes = std::span(block.nodes).subspan(element.number * n, n);
-    const std::span<const Side> all = sides_of(block.kind);
+    const std::span<const ReferenceFacet> all = facets_of(block.kind);
     for (std::size_t s = 0; s < all.size(); ++s) {
       const auto on_cut = [&](std::size_t local) {
         return incidence_at(t, local) < incidences.size();
       };
       if (std::none_of(all[s].nodes.begin(), all[s].nodes.end(), on_cut)) continue;
-      sides.push_back({key_of_side(all[s], nodes), static_cast<std::uint32_t>(t),
+      sides.push_back({key_of_facet(all[s], nodes), static_cast<std::uint32_t>(t),
                        static_cast<std::uint32_t>(s)});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const KnownSide& a, const KnownSide& b) {
+  std::sort(sides.begin(), sides.end(), [](const KnownFacet& a, const KnownFacet& b) {
     return std::tie(a.key, a.element, a.side) < std::tie(b.key, b.element, b.side);
   });
 }
 
-const Side& CutSurroundings::side_of(const KnownSide& side) const {
-  return sides_of(mesh.blocks[elements[side.element].block].kind)[side.side];
+const ReferenceFacet& CutSurroundings::side_of(const KnownFacet& side) const {
+  return facets_of(mesh.blocks[elements[side.element].block].kind)[side.side];
 }
 
 std::span<const CutSurroundings::Incidence> CutSurroundings::incidences_of(
@@ -86,10 +86,10 @@ std::size_t CutSurroundings::incidence_at(std::size_t element, std::size_t local
   return elements[element].first_incidence + static_cast<std::size_t>(found - own.begin());
 }
 
-const CutSurroundings::Face* CutSurroundings::face_with(const SideKey& key) const {
+const CutSurroundings::Face* CutSurroundings::face_with(const FacetKey& key) const {
   const auto found =
       std::lower_bound(faces.begin(), faces.end(), key,
-                       [](const Face& face, const SideKey& wanted) { return face.key < wanted; });
+                       [](const Face& face, const FacetKey& wanted) { return face.key < wanted; });
   return found != faces.end() && found->key == key ? &*found : nullptr;
 }
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "mesher/mesh/facet_key.h"
 #include "mesher/mesh/mesh.h"
-#include "mesher/mesh/side_key.h"
 
 namespace flexneck::mesher {
 
@@ -23,37 +23,37 @@ struct CutSurroundings {
     std::size_t first_incidence;  ///< its incidences end where those of the next element begin
   };
   /// A side with at least one node on a cut.
-  struct KnownSide {
-    SideKey key;
+  struct KnownFacet {
+    FacetKey key;
     std::uint32_t element;  ///< of `elements`
-    std::uint32_t side;     ///< of sides_of()
+    std::uint32_t side;     ///< of facets_of()
   };
   /// A face of a cut.
   struct Face {
-    SideKey key;
+    FacetKey key;
     std::size_t cut;
   };
 
   CutSurroundings(const Mesh& mesh, const std::vector<const FaceSet*>& cuts);
 
-  const Side& side_of(const KnownSide& side) const;
+  const ReferenceFacet& side_of(const KnownFacet& side) const;
   /// Incidences of an element's nodes on cuts.
   std::span<const Incidence> incidences_of(std::size_t element) const;
   /// Index of the incidence of a local node; incidences.size() if the node is on no cut.
   std::size_t incidence_at(std::size_t element, std::size_t local) const;
   /// The cut that has this face, or null.
-  const Face* face_with(const SideKey& key) const;
+  const Face* face_with(const FacetKey& key) const;
 
   const Mesh& mesh;
   std::vector<Face> faces;            ///< ascending by key
   std::vector<Element> elements;      ///< in the order of the mesh
   std::vector<Incidence> incidences;  ///< by element, then by local node
-  std::vector<KnownSide> sides;       ///< ascending by key, then in the order of the mesh
+  std::vector<KnownFacet> sides;      ///< ascending by key, then in the order of the mesh
 
  private:
   std::vector<bool> nodes_on(const std::vector<const FaceSet*>& cuts);
   void collect_elements(const std::vector<bool>& on_cut);
-  void collect_sides();
+  void collect_facets();
 };
 
 }  // namespace flexneck::mesher

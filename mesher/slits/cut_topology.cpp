@@ -18,7 +18,8 @@ constexpr std::int8_t kUpper = 1;
 
 /// Calls what(side, next) for sides that two elements share.
 template <class What>
-void for_each_shared_side(const std::vector<CutSurroundings::KnownSide>& sides, const What& what) {
+void for_each_shared_facet(const std::vector<CutSurroundings::KnownFacet>& sides,
+                           const What& what) {
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s - 1].key == sides[s].key) what(sides[s - 1], sides[s]);
   }
@@ -53,9 +54,9 @@ void CutTopology::find_faces() {
     if (f > 0 && near_.faces[f - 1].key == face.key) {
       refuse(face.cut, "one of its faces occurs twice", corner);
     }
-    const auto first =
-        std::lower_bound(near_.sides.begin(), near_.sides.end(), face.key,
-                         [](const auto& side, const SideKey& wanted) { return side.key < wanted; });
+    const auto first = std::lower_bound(
+        near_.sides.begin(), near_.sides.end(), face.key,
+        [](const auto& side, const FacetKey& wanted) { return side.key < wanted; });
     const auto second = first == near_.sides.end() ? first : first + 1;
     if (second == near_.sides.end() || second->key != face.key) {
       refuse(face.cut, "a slit needs an element on either side of its faces, found a face with one",
@@ -66,7 +67,7 @@ void CutTopology::find_faces() {
 }
 
 void CutTopology::link_elements_round_nodes() {
-  for_each_shared_side(near_.sides, [&](const auto& a, const auto& b) {
+  for_each_shared_facet(near_.sides, [&](const auto& a, const auto& b) {
     if (near_.face_with(a.key) != nullptr) return;
     const auto of_b = near_.incidences_of(b.element);
     for (const std::size_t local : near_.side_of(a).nodes) {
@@ -138,7 +139,7 @@ void CutTopology::link_doubled_nodes_of_elements() {
   }
 }
 
-std::size_t CutTopology::lip_of(const CutSurroundings::KnownSide& side) {
+std::size_t CutTopology::lip_of(const CutSurroundings::KnownFacet& side) {
   for (const std::size_t local : near_.side_of(side).nodes) {
     const std::size_t incidence = near_.incidence_at(side.element, local);
     if (is_doubled_[incidence]) return sets_.root(incidence);

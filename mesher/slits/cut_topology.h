@@ -21,8 +21,8 @@ struct DoubledNode {
 /// A face of a cut as the elements below and above it have it.
 struct CutFace {
   std::size_t cut = 0;
-  const CutSurroundings::KnownSide* lower = nullptr;
-  const CutSurroundings::KnownSide* upper = nullptr;
+  const CutSurroundings::KnownFacet* lower = nullptr;
+  const CutSurroundings::KnownFacet* upper = nullptr;
 };
 
 /// How cuts part the elements round them. Around each node on a cut, elements hang together through
@@ -53,7 +53,7 @@ class CutTopology {
   std::vector<Across> lips_across_faces();
   void colour_from(std::size_t start, const std::vector<Across>& across);
   void tell_lips_apart();
-  std::size_t lip_of(const CutSurroundings::KnownSide& side);
+  std::size_t lip_of(const CutSurroundings::KnownFacet& side);
   [[noreturn]] void refuse(std::size_t cut, const std::string& problem, std::int32_t node) const;
 
   const CutSurroundings& near_;

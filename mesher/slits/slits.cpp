@@ -37,8 +37,8 @@ class Copies {
   std::vector<std::int32_t> copy_of_;
 };
 
-std::vector<std::int32_t> nodes_of_side(const CutSurroundings& near,
-                                        const CutSurroundings::KnownSide& side) {
+std::vector<std::int32_t> nodes_of_facet(const CutSurroundings& near,
+                                         const CutSurroundings::KnownFacet& side) {
   const CutSurroundings::Element& element = near.elements[side.element];
   const ElementBlock& block = near.mesh.blocks[element.block];
   const std::size_t first = element.number * nodes_per_element(block.kind);
@@ -68,9 +68,10 @@ std::vector<ElementBlock> opened_blocks(const CutSurroundings& near, CutTopology
 }
 
 /// The side that a face with doubled nodes belongs to: below a cut, or of the first element.
-const CutSurroundings::KnownSide& owner_of(const CutSurroundings& near, const CutTopology& topology,
-                                           const SideKey& key, const std::string& set) {
-  const auto has_key = [](const auto& side, const SideKey& wanted) { return side.key < wanted; };
+const CutSurroundings::KnownFacet& owner_of(const CutSurroundings& near,
+                                            const CutTopology& topology, const FacetKey& key,
+                                            const std::string& set) {
+  const auto has_key = [](const auto& side, const FacetKey& wanted) { return side.key < wanted; };
   const auto side = std::lower_bound(near.sides.begin(), near.sides.end(), key, has_key);
   if (side == near.sides.end() || side->key != key) {
     throw InputError("face set '" + set + "' has a face that bounds no part");
@@ -92,10 +93,10 @@ FaceSet opened_faces(const CutSurroundings& near, CutTopology& topology, const C
                        [&](std::int32_t node) { return copies.of(node) != kNone; })) {
         continue;
       }
-      const CutSurroundings::KnownSide& owner =
+      const CutSurroundings::KnownFacet& owner =
           owner_of(near, topology, key_of_face(block.kind, face), set.name);
       const std::vector<std::size_t>& locals = near.side_of(owner).nodes;
-      std::vector<std::int32_t> nodes = nodes_of_side(near, owner);
+      std::vector<std::int32_t> nodes = nodes_of_facet(near, owner);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::size_t incidence = near.incidence_at(owner.element, locals[i]);
         if (incidence < near.incidences.size() && topology.takes_copy(incidence)) {
@@ -179,7 +180,7 @@ std::vector<Slit> slits_of(const CutSurroundings& near, const CutTopology& topol
   Eigen::VectorXd areas_m2 = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(doubled.size()));
   Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, areas_m2.size());
   for (const CutFace& face : topology.faces()) {
-    const std::vector<std::int32_t> nodes = nodes_of_side(near, *face.lower);
+    const std::vector<std::int32_t> nodes = nodes_of_facet(near, *face.lower);
     const FaceWeights weights =
         weights_of(near.side_of(*face.lower).kind, positions_of(near.mesh, nodes));
     for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 /// Directions, axes and rates that rounded input gives are the same within this share.
 constexpr double kSame = 1e-9;
 
-constexpr int kMostIterations = 100;
+constexpr int kMaxIterations = 100;
 /// As in the search for an equilibrium at rest: extents of the longest step and of the one that
 /// ends the search, and the share of the largest stiffness below which there is none.
 constexpr double kLargestStep = 0.5;
@@ -177,7 +177,7 @@ std::optional<TurningFrame> steady_rotation(const Model& model) {
 VectorXd rotating_positions(EquationsOfMotion& equations, const TurningFrame& frame,
                             const VectorXd& positions) {
   VectorXd at = positions;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     ReducedDynamics reduced(equations, at, 0, frame);
     const VectorXd still = VectorXd::Zero(reduced.count());
     const VectorXd accelerations = reduced.accelerations_at(still);

@@ -53,12 +53,12 @@ void Projection::apply_behind_step(double time_s, Segment state) {
 }
 
 double Projection::converge_positions(double time_s, Segment positions) {
-  constexpr int kMostSteps = 10;
+  constexpr int kMaxSteps = 10;
   equations_.system().normalise(positions);
   equations_.set_positions(time_s, positions);
   if (equations_.system().constraint_count == 0) return 0;
   double residual = equations_.position_residual().lpNorm<Eigen::Infinity>();
-  for (int step = 0; step < kMostSteps && residual > 0; ++step) {
+  for (int step = 0; step < kMaxSteps && residual > 0; ++step) {
     const VectorXd before = positions;
     correct_positions(positions);
     equations_.set_positions(time_s, positions);

@@ -19,10 +19,10 @@ enum class Integrator {
 struct SolverOptions {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-9;
-  double largest_step_s = 0.05;
-  double smallest_step_s = 1e-10;
+  double max_step_s = 0.05;
+  double min_step_s = 1e-10;
   Formulation formulation = Formulation::automatic;
-  int most_steps = 10'000'000;  ///< tried; a run that needs more is given up
+  int max_steps = 10'000'000;  ///< tried; a run that needs more is given up
   Integrator integrator = Integrator::dormand_prince;
   /// Of the generalised-alpha method, in [0, 1]: by what a step multiplies vibrations that it does
   /// not resolve.

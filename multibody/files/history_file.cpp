@@ -108,9 +108,9 @@ StepStatistics read_statistics(const Hdf5Reader& file) {
   statistics.accepted = count("accepted");
   statistics.rejected = count("rejected");
   statistics.evaluations = count("evaluations");
-  statistics.largest_position_residual =
+  statistics.max_position_residual =
       file.double_attribute(kStatistics, "largest_position_residual");
-  statistics.largest_velocity_residual =
+  statistics.max_velocity_residual =
       file.double_attribute(kStatistics, "largest_velocity_residual");
   if (!file.has(kLimits)) return statistics;
   const std::vector<std::string> limits = file.read_strings(kLimits);

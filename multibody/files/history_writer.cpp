@@ -116,10 +116,8 @@ void write_statistics(Hdf5Writer& file, const StepStatistics& statistics) {
   file.write_attribute(kStatistics, "accepted", std::int64_t{statistics.accepted});
   file.write_attribute(kStatistics, "rejected", std::int64_t{statistics.rejected});
   file.write_attribute(kStatistics, "evaluations", std::int64_t{statistics.evaluations});
-  file.write_attribute(kStatistics, "largest_position_residual",
-                       statistics.largest_position_residual);
-  file.write_attribute(kStatistics, "largest_velocity_residual",
-                       statistics.largest_velocity_residual);
+  file.write_attribute(kStatistics, "largest_position_residual", statistics.max_position_residual);
+  file.write_attribute(kStatistics, "largest_velocity_residual", statistics.max_velocity_residual);
   if (statistics.limits.empty()) return;
   std::vector<std::string> limits;
   Eigen::VectorXd steps(static_cast<Eigen::Index>(statistics.limits.size()));

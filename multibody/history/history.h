@@ -62,9 +62,9 @@ struct StepLimit {
 struct StepStatistics {
   int accepted = 0;
   int rejected = 0;
-  int evaluations = 0;                   ///< of the equations of motion
-  double largest_position_residual = 0;  ///< of the constraints, m and rad
-  double largest_velocity_residual = 0;
+  int evaluations = 0;               ///< of the equations of motion
+  double max_position_residual = 0;  ///< of the constraints, m and rad
+  double max_velocity_residual = 0;
   std::vector<StepLimit> limits;  ///< the most frequent first
 };
 

@@ -144,8 +144,8 @@ void Recorder::residuals(Index column, const Violation& position, const Violatio
   keep(constraints.velocity_m_s[column], velocity.translation);
   keep(constraints.angular_velocity_rad_s[column], velocity.rotation);
   StepStatistics& statistics = history_.statistics;
-  keep(statistics.largest_position_residual, std::max(position.translation, position.rotation));
-  keep(statistics.largest_velocity_residual, std::max(velocity.translation, velocity.rotation));
+  keep(statistics.max_position_residual, std::max(position.translation, position.rotation));
+  keep(statistics.max_velocity_residual, std::max(velocity.translation, velocity.rotation));
 }
 
 void Recorder::undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& components) {

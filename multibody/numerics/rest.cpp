@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostIterations = 200;
+constexpr int kMaxIterations = 200;
 /// Extent (see RestProblem) of the largest step, and of the one that ends the search: Newton's
 /// convergence is quadratic, so what is left behind the last is rounding.
 constexpr double kLargestStep = 0.5;
@@ -45,7 +45,7 @@ VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
 
 void find_equilibrium(RestProblem& rest) {
   if (rest.count() == 0) return;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const VectorXd force = rest.forces_at(VectorXd::Zero(rest.count()));
     const double energy = rest.energy();
     if (!(force.allFinite() && std::isfinite(energy))) break;
@@ -64,7 +64,7 @@ void find_equilibrium(RestProblem& rest) {
     rest.move_to(step);
   }
   throw ComputationError("no static equilibrium was found from the poses given, after " +
-                         std::to_string(kMostIterations) + " steps");
+                         std::to_string(kMaxIterations) + " steps");
 }
 
 }  // namespace flexneck::multibody

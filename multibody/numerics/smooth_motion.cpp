@@ -19,7 +19,7 @@ constexpr std::size_t kTerms = SmoothMotion::kTerms;
 constexpr double kResolution = 1e-13;
 /// A piece of this length that is not resolved holds a kink or a jump.
 constexpr double kShortest_s = 1e-8;
-constexpr std::size_t kMostBreakpoints = 200;
+constexpr std::size_t kMaxBreakpoints = 200;
 
 [[noreturn]] void refuse(double time_s, const std::string& problem) {
   std::ostringstream text;
@@ -122,7 +122,7 @@ class Fit {
     sample(end_s);
     // Again from the start whenever a cut is found: its neighbours then end exactly there.
     while (!cover_all()) {
-      if (cuts_.size() > kMostBreakpoints) refuse(cuts_.back(), "is not piecewise smooth, e.g.");
+      if (cuts_.size() > kMaxBreakpoints) refuse(cuts_.back(), "is not piecewise smooth, e.g.");
       std::sort(cuts_.begin(), cuts_.end());
     }
     find_hidden_cuts();

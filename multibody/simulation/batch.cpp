@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "multibody/history/incomplete_run.h"
 
 namespace flexneck::multibody {
 namespace {

@@ -25,14 +25,14 @@ void check_positive(double value, const std::string& what) {
 void check_options(const SolverOptions& solver, const OutputOptions& output) {
   check_positive(solver.relative_tolerance, "the relative tolerance");
   check_positive(solver.absolute_tolerance, "the absolute tolerance");
-  check_positive(solver.smallest_step_s, "the smallest step");
-  check_positive(solver.largest_step_s, "the largest step");
-  if (solver.largest_step_s < solver.smallest_step_s)
+  check_positive(solver.min_step_s, "the smallest step");
+  check_positive(solver.max_step_s, "the largest step");
+  if (solver.max_step_s < solver.min_step_s)
     throw InputError("the largest step must not be below the smallest");
   if (!(solver.spectral_radius >= 0 && solver.spectral_radius <= 1))
     throw InputError("the spectral radius must be from 0 to 1, not " +
                      std::to_string(solver.spectral_radius));
-  if (solver.most_steps < 1) throw InputError("the largest number of steps must be positive");
+  if (solver.max_steps < 1) throw InputError("the largest number of steps must be positive");
   check_positive(output.end_time_s, "the end time");
   check_positive(output.interval_s, "the output interval");
   if (output.end_time_s / output.interval_s > 1e8)

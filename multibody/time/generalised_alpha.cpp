@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kMostIterations = 8;
+constexpr int kMaxIterations = 8;
 /// Newton's method stops at this share of the positions' tolerance, and is given up if a correction
 /// is not smaller than this share of the last. Velocities are not asked for besides: over a short
 /// step rounding of the constraints leaves more of them than a tight tolerance allows
@@ -151,7 +151,7 @@ bool GeneralisedAlpha::iterate(double length_s) {
   factorised_for_s_ = length_s;
   predict(length_s);
   double last_size = 0;
-  for (int k = 0; k < kMostIterations; ++k) {
+  for (int k = 0; k < kMaxIterations; ++k) {
     update_end(length_s);
     equations_.residual(time_s_ + length_s, y_next_, next_.V_rate, next_.lambda, residual_);
     matrix_.solve(residual_);

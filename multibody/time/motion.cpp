@@ -84,7 +84,7 @@ class Run {
   Run(const Model& model, Equations& equations, const VectorXd& state, const SolverOptions& solver,
       const OutputOptions& output)
       : equations_(equations),
-        most_steps_(solver.most_steps),
+        max_steps_(solver.max_steps),
         recorder_(model, output),
         integrator_(time_integrator(equations, state, solver)),
         output_state_(state) {}
@@ -94,7 +94,7 @@ class Run {
     equations_.set_interval(begin_s, end_s);
     integrator_->restart();
     while (integrator_->time_s() < end_s) {
-      if (integrator_->accepted() + integrator_->rejected() >= most_steps_) give_up();
+      if (integrator_->accepted() + integrator_->rejected() >= max_steps_) give_up();
       integrator_->step(end_s);
       limits_.count(*integrator_);
       record_until(integrator_->time_s());
@@ -120,7 +120,7 @@ class Run {
   }
   [[noreturn]] void give_up() const {
     throw ComputationError("the run was given up at " + std::to_string(integrator_->time_s()) +
-                           " s after " + std::to_string(most_steps_) +
+                           " s after " + std::to_string(max_steps_) +
                            " steps; what limits them is the " +
                            integrator_->name_of(integrator_->limiting_component()));
   }
@@ -137,7 +137,7 @@ class Run {
   }
 
   Equations& equations_;
-  int most_steps_;
+  int max_steps_;
   Recorder recorder_;
   std::unique_ptr<TimeIntegrator> integrator_;
   LimitCounter limits_;
@@ -149,7 +149,7 @@ class Run {
 
 std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const VectorXd& state,
                                                 const SolverOptions& solver) {
-  const StepLimits limits{solver.largest_step_s, solver.smallest_step_s};
+  const StepLimits limits{solver.max_step_s, solver.min_step_s};
   if (solver.integrator == Integrator::generalised_alpha)
     return std::make_unique<GeneralisedAlpha>(equations, solver.spectral_radius, limits, 0, state);
   InitialValueProblem problem{

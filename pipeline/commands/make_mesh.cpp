@@ -10,9 +10,9 @@
 #include "geometry/foundation/regular_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "geometry/neck/neck_measures.h"
+#include "mesher/exchange/foreign_file.h"
 #include "mesher/exchange/import_check.h"
 #include "mesher/exchange/mesh_import.h"
-#include "mesher/exchange/outside_file.h"
 #include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/mesh_file.h"
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using mesher::OutsideFormat;
+using mesher::ForeignFormat;
 
 /// It reads what it can of a damaged shape, and complains of the rest on standard output.
 constexpr const char* kShapeReader = "OpenCASCADE";
@@ -84,9 +84,9 @@ std::optional<IsolatedTask> task_of(const Study& study) {
   const std::uint64_t size = size_of_file(task.file);
   if (!study.structure) return is_shipped(task.file) ? std::nullopt : std::optional(task);
   if (std::holds_alternative<mesher::ScriptMeshOptions>(study.structure->source)) return task;
-  const OutsideFormat format = mesher::outside_format_of(task.file);
-  if (format == OutsideFormat::inp) return std::nullopt;  // read by us, not by gmsh
-  const bool is_shape = format == OutsideFormat::step || format == OutsideFormat::brep;
+  const ForeignFormat format = mesher::foreign_format_of(task.file);
+  if (format == ForeignFormat::inp) return std::nullopt;  // read by us, not by gmsh
+  const bool is_shape = format == ForeignFormat::step || format == ForeignFormat::brep;
   task.advice = "if it is not damaged, write it anew or in another format";
   task.limits.processor_s = static_cast<unsigned>(10 + (is_shape ? 10 : 1) * (size >> 20U));
   task.limits.clock_s = 20 * task.limits.processor_s;

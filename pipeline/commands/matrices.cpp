@@ -60,12 +60,12 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
   }
   const std::string held =
       study.structure ? structure_options(study, mesh).held_set : std::string("bolts");
-  const fe_modal::FreeNodes free_nodes(
+  const fe_modal::DofMap dof_map(
       mesh, held.empty() ? std::vector<std::int32_t>{} : mesh.node_set(held).nodes);
   std::optional<fe_modal::PetscSession> session;
   if (input.ranks == nullptr) session.emplace();
   const fe_modal::ImportedBody body =
-      fe_modal::export_matrices(mesh, free_nodes, formulation_of(study));
+      fe_modal::export_matrices(mesh, dof_map, formulation_of(study));
   const auto named = [&](const std::string& what) {
     std::filesystem::path path = input.target;
     path.replace_filename(path.stem().string() + what + path.extension().string());

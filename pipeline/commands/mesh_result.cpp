@@ -26,7 +26,7 @@ std::string parts_table(const mesher::MeshSummary& summary, const ExactVolumes& 
                     std::to_string(part.elements), fmt::format("{:.4g}", part.volume_m3),
                     fmt::format("{:.4g}", part.mass_kg),
                     fmt::format("{:.3f}", part.smallest_scaled_jacobian),
-                    fmt::format("{:.1f}", part.largest_aspect_ratio)});
+                    fmt::format("{:.1f}", part.max_aspect_ratio)});
     if (exact.empty()) continue;
     const double volume_m3 = exact.at(part.part);
     rows.back().push_back(fmt::format("{:+.1e}", (part.volume_m3 - volume_m3) / volume_m3));

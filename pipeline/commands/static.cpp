@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "geometry/foundation/error.h"
+#include "multibody/history/incomplete_run.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/experiments/static_chain.h"
 #include "pipeline/experiments/static_tables.h"

@@ -6,8 +6,8 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/exchange/foreign_file.h"
 #include "mesher/exchange/inp_cards.h"
-#include "mesher/exchange/outside_file.h"
 #include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::pipeline {
@@ -94,7 +94,7 @@ fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh)
 
 std::string free_boundary(const Study& study, const mesher::Mesh& mesh) {
   const auto* const file = std::get_if<mesher::ImportOptions>(&study.structure->source);
-  if (file == nullptr || mesher::outside_format_of(file->file) != mesher::OutsideFormat::inp) {
+  if (file == nullptr || mesher::foreign_format_of(file->file) != mesher::ForeignFormat::inp) {
     return {};
   }
   std::set<std::int32_t> held;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"

@@ -66,11 +66,11 @@ void check_nesting(const std::string& text, const std::string& place) {
     if (c == '[' || c == '{') ++brackets;
     if ((c == ']' || c == '}') && brackets > 0) --brackets;
     if (std::string_view("[]{}=,\n#").find(c) != std::string_view::npos) dots = 0;
-    if (std::max(brackets, dots) <= kMostNested) continue;
+    if (std::max(brackets, dots) <= kMaxNested) continue;
     const auto line =
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(k), '\n');
     throw InputError(place + ":" + std::to_string(line) + ": expected at most " +
-                     std::to_string(kMostNested) +
+                     std::to_string(kMaxNested) +
                      " brackets within one another and parts of a dotted key, found more");
   }
 }

@@ -8,9 +8,9 @@
 
 namespace flexneck::pipeline {
 
-inline constexpr std::size_t kMostNested = 32;  ///< brackets within brackets, parts of a dotted key
+inline constexpr std::size_t kMaxNested = 32;  ///< brackets within brackets, parts of a dotted key
 
-/// Refuses what nests deeper than kMostNested before it is parsed: each level takes stack in the
+/// Refuses what nests deeper than kMaxNested before it is parsed: each level takes stack in the
 /// parser, in every walk over its tables and when they are destroyed.
 /// @param place  what stands before the line in the message, such as the file's name
 /// @throws InputError

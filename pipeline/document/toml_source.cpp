@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostBytes = 4U << 20U;  ///< of a file; long lists belong into CSV files
-constexpr std::size_t kMostFiles = 100;
+constexpr std::size_t kMaxBytes = 4U << 20U;  ///< of a file; long lists belong into CSV files
+constexpr std::size_t kMaxFiles = 100;
 constexpr std::size_t kDeepestInclude = 16;
 
 /// Moves what `over` holds into `base`; tables are merged key by key, everything else replaced.
@@ -54,7 +54,7 @@ class Reading {
 
   toml::table merged(const fs::path& path) {
     open(path);
-    const std::string text = read_text(path, kMostBytes);
+    const std::string text = read_text(path, kMaxBytes);
     toml::table own = parse(path, text);
     toml::table table;
     if (toml::node* const include = own.get("include")) {
@@ -80,8 +80,8 @@ class Reading {
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
       throw InputError(path.string() + ": includes itself; remove one of the include lines");
     }
-    if (open_.size() == kDeepestInclude || ++count_ > kMostFiles) {
-      throw InputError(path.string() + ": expected at most " + std::to_string(kMostFiles) +
+    if (open_.size() == kDeepestInclude || ++count_ > kMaxFiles) {
+      throw InputError(path.string() + ": expected at most " + std::to_string(kMaxFiles) +
                        " files included, and " + std::to_string(kDeepestInclude) +
                        " within one another; remove some of the include lines");
     }
@@ -132,9 +132,9 @@ void apply_setting(toml::table& root, const std::string& setting) {
   if (equals == std::string::npos || path.empty()) {
     throw InputError("--set " + setting + ": expected key=value");
   }
-  if (find_unprintable(setting) != std::string::npos || path.size() > kMostNested) {
+  if (find_unprintable(setting) != std::string::npos || path.size() > kMaxNested) {
     throw InputError("--set " + setting + ": expected a key of at most " +
-                     std::to_string(kMostNested) + " parts and no control characters");
+                     std::to_string(kMaxNested) + " parts and no control characters");
   }
   check_nesting(setting.substr(equals + 1), "--set " + setting);
   toml::table* table = &root;

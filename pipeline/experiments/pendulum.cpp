@@ -6,6 +6,8 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "multibody/analysis/linearisation.h"
+#include "multibody/history/incomplete_run.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum_signals.h"

@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "multibody/analysis/linearisation.h"
 #include "multibody/files/history_file.h"
 #include "multibody/history/history.h"
+#include "multibody/history/incomplete_run.h"
 #include "multibody/signals/response.h"
 #include "multibody/simulation/simulation.h"
 #include "pipeline/model/pulse.h"

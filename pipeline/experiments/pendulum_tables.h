@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "multibody/analysis/linearisation.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/output/result_table.h"
 

@@ -15,7 +15,7 @@
 namespace flexneck::pipeline {
 namespace {
 
-constexpr std::size_t kMostBytes = 64U << 20U;
+constexpr std::size_t kMaxBytes = 64U << 20U;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -38,7 +38,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 class CsvFile {
  public:
   explicit CsvFile(const std::filesystem::path& path)
-      : path_(path), stream_(read_text(path, kMostBytes)) {}
+      : path_(path), stream_(read_text(path, kMaxBytes)) {}
 
   bool next(std::vector<std::string>& cells) {
     for (std::string line; std::getline(stream_, line);) {

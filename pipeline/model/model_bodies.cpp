@@ -6,6 +6,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/rigid_body.h"
 
 namespace flexneck::pipeline {
 

@@ -7,6 +7,7 @@
 #include "pipeline/model/channel_section.h"
 #include "pipeline/model/model_check.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/solver_steps.h"
 #include "pipeline/model/start_check.h"
 
 namespace flexneck::pipeline {
@@ -24,7 +25,7 @@ constexpr std::pair<const char*, Read> kSections[] = {
 
 void read_solver(const StudyTable& table, ModelFile& file) {
   read_steps(table, file.solver);
-  file.solver.most_steps = table.count_or("most_steps", 1, file.solver.most_steps);
+  file.solver.max_steps = table.count_or("most_steps", 1, file.solver.max_steps);
   if (table.has("formulation"))
     file.solver.formulation = static_cast<multibody::Formulation>(
         choice(table, "formulation", {"descriptor", "recursive", "automatic"}));

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "multibody/equations/solver_options.h"
 #include "multibody/model/model.h"
 #include "pipeline/document/study_document.h"
 #include "pipeline/model/csv_table.h"
@@ -31,11 +30,6 @@ void read_torque(const StudyTable& table, Assembly& assembly);      ///< [[torqu
 void read_spring(const StudyTable& table, Assembly& assembly);      ///< [[spring]]
 void read_bushing(const StudyTable& table, Assembly& assembly);     ///< [[bushing]]
 void read_resistance(const StudyTable& table, Assembly& assembly);  ///< [[resistance]]
-
-/// Mass, centre and inertia of a rigid body: the keys mass, center, inertia.
-multibody::RigidBody read_rigid(const StudyTable& body);
-/// Tolerances and steps; keys that are not there keep their values.
-void read_steps(const StudyTable& solver, multibody::SolverOptions& options);
 
 /// Position of the thing that a key names. @throws InputError with the nearest name.
 std::size_t reference(const StudyTable& table, const std::string& key,

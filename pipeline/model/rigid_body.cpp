@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/model/rigid_body.h"
+
 #include "pipeline/document/table_values.h"
-#include "pipeline/model/model_sections.h"
 
 namespace flexneck::pipeline {
 namespace {

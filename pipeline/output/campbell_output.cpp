@@ -9,6 +9,7 @@
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "multibody/analysis/linearisation.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/plotting/curve_figure.h"
 #include "pipeline/plotting/embedding.h"

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include "multibody/analysis/linearisation.h"
 #include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
@@ -17,10 +18,10 @@ std::string run_summary(const multibody::History& history) {
   for (const multibody::StepLimit& limit : steps.limits)
     text += fmt::format("\n  {} of the steps limited by {}", limit.steps, limit.what);
   // Joint coordinates have no constraints.
-  if (steps.largest_position_residual > 0 || steps.largest_velocity_residual > 0)
+  if (steps.max_position_residual > 0 || steps.max_velocity_residual > 0)
     text += fmt::format(
         "\n  constraints hold to {:.1e} in position (m, rad) and {:.1e} in velocity (per s)",
-        steps.largest_position_residual, steps.largest_velocity_residual);
+        steps.max_position_residual, steps.max_velocity_residual);
   if (!history.redundant_constraints.empty()) {
     text += fmt::format("\n  {} constraints say what others hold already and were left out:",
                         history.redundant_constraints.size());

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 /// Of a run: a screen has hardly more points in a row. Every value shown is one of the file's.
-constexpr Eigen::Index kMostSamples = 1001;
+constexpr Eigen::Index kMaxSamples = 1001;
 
 const char* name_of(Experiment::Kind kind) {
   return kind == Experiment::Kind::pendulum ? "pendulum" : "static";
@@ -39,7 +39,7 @@ Json channels_json(const Experiment& experiment, Eigen::Index stride) {
 
 Json run_json(const Experiment& experiment) {
   const Eigen::VectorXd& time_s = experiment.file.history.time_s;
-  const Eigen::Index stride = (time_s.size() + kMostSamples - 1) / kMostSamples;
+  const Eigen::Index stride = (time_s.size() + kMaxSamples - 1) / kMaxSamples;
   const Eigen::VectorXd shown = time_s(Eigen::seq(0, time_s.size() - 1, stride));
   return {{"name", experiment.name},
           {"kind", name_of(experiment.kind)},

@@ -22,9 +22,9 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t kMostTriangles = 10'000;
+constexpr std::size_t kMaxTriangles = 10'000;
 /// Of a motion: more than a screen shows at a tenth of the real speed.
-constexpr Eigen::Index kMostFrames = 400;
+constexpr Eigen::Index kMaxFrames = 400;
 
 using Chains = std::vector<std::vector<std::int32_t>>;
 
@@ -129,7 +129,7 @@ Json motion_json(const Experiment& experiment, const fe_modal::ModalBody& body) 
   const auto places = places_of(*modal, body);
   if (!places) return nullptr;
 
-  const Eigen::Index stride = (history.time_s.size() + kMostFrames - 1) / kMostFrames;
+  const Eigen::Index stride = (history.time_s.size() + kMaxFrames - 1) / kMaxFrames;
   const bool is_pendulum = experiment.kind == Experiment::Kind::pendulum;
   Json motion = {{"name", experiment.name},
                  {"kind", is_pendulum ? "pendulum" : "static"},
@@ -157,7 +157,7 @@ Json scene_of(const Results& results, const Study& study) {
   if (!results.mesh || !results.modes || results.modes->modes.empty()) return nullptr;
   const fe_modal::ModalBody& body = *results.modes;
   if (body.nodes_m.cols() != static_cast<Eigen::Index>(results.mesh->nodes.size())) return nullptr;
-  const mesher::Surface surface = mesher::surface_of(*results.mesh, kMostTriangles);
+  const mesher::Surface surface = mesher::surface_of(*results.mesh, kMaxTriangles);
   Json scale = Json::array();
   for (const std::uint32_t colour : mesher::kColourScale)
     scale.push_back(fmt::format("#{:06x}", colour));

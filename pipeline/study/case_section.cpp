@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/foundation/names.h"
+#include "pipeline/document/table_values.h"
 #include "pipeline/study/drop.h"
 #include "pipeline/study/sections.h"
 

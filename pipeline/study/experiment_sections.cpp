@@ -4,6 +4,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/resistance_law.h"
+#include "pipeline/model/rigid_body.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {

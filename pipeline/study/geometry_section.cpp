@@ -2,6 +2,7 @@
 #include <array>
 
 #include "geometry/foundation/error.h"
+#include "pipeline/document/table_values.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {

@@ -10,7 +10,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/document/table_values.h"
-#include "pipeline/model/model_sections.h"
+#include "pipeline/model/solver_steps.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {

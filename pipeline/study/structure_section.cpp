@@ -7,7 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
-#include "mesher/exchange/outside_file.h"
+#include "mesher/exchange/foreign_file.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
@@ -67,21 +67,21 @@ mesher::ScriptMeshOptions read_script(const StudyTable& geometry) {
 }
 
 mesher::ImportOptions read_file(const StudyTable& geometry, const StudyTable& mesh) {
-  using mesher::OutsideFormat;
+  using mesher::ForeignFormat;
   mesher::ImportOptions options;
   options.file = geometry.folder_of("file") / geometry.text("file");
-  OutsideFormat format{};
+  ForeignFormat format{};
   try {
-    format = mesher::outside_format_of(options.file);
+    format = mesher::foreign_format_of(options.file);
   } catch (const InputError& error) {
     geometry.refuse("file", error.what());
   }
-  if (format == OutsideFormat::step && geometry.has("unit")) {
+  if (format == ForeignFormat::step && geometry.has("unit")) {
     geometry.refuse("unit", "a STEP file says its unit itself; take this key away");
   }
   options.length_unit_m = unit_or(geometry, "unit", "m");
-  if (format == OutsideFormat::inp) options.force_unit_N = unit_or(geometry, "force_unit", "N");
-  if (format == OutsideFormat::step || format == OutsideFormat::brep) {
+  if (format == ForeignFormat::inp) options.force_unit_N = unit_or(geometry, "force_unit", "N");
+  if (format == ForeignFormat::step || format == ForeignFormat::brep) {
     options.element_size_m = mesh.quantity_or("size", "m", 0);
   }
   const std::string doubles = geometry.text_or("coincident_nodes", "refuse");

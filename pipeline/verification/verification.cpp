@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
+#include "multibody/analysis/linearisation.h"
 #include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {

@@ -8,6 +8,7 @@
 
 #include "fe_modal/body/modal_body.h"
 #include "geometry/foundation/provenance.h"
+#include "multibody/analysis/linearisation.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/study/study.h"
 #include "pipeline/verification/reference.h"

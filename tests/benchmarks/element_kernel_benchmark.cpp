@@ -11,6 +11,7 @@
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/element/element_kernel.h"
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/benchmarks/timing.h"
 #include "tests/support/block_mesh.h"

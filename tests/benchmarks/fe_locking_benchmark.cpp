@@ -39,8 +39,8 @@ void print_row(ElementKind kind, Formulation formulation, double poissons_ratio,
               std::string(name_of(formulation)).c_str());
   for (int refinement = 1; refinement <= finest; ++refinement) {
     const mesher::Mesh mesh = testing::with_kind(pad(refinement, poissons_ratio), kind);
-    const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-    const SystemMatrices system = assemble(mesh, free_nodes, {formulation});
+    const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+    const SystemMatrices system = assemble(mesh, dof_map, {formulation});
     const CholeskyFactor factor(
         system.stiffness.get(), 0,
         mesher::nested_dissection(system.graph.offsets(), system.graph.columns()));
@@ -48,7 +48,7 @@ void print_row(ElementKind kind, Formulation formulation, double poissons_ratio,
         lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 4);
     const Eigen::VectorXd hertz = pairs.values.cwiseSqrt() / (2 * std::numbers::pi);
     // The first two are one pair: rocking in x and in y.
-    std::printf(" |%7ld %8.2f %8.2f %8.2f", static_cast<long>(free_nodes.dof_count()), hertz[0],
+    std::printf(" |%7ld %8.2f %8.2f %8.2f", static_cast<long>(dof_map.dof_count()), hertz[0],
                 hertz[2], hertz[3]);
   }
   std::printf("\n");

@@ -30,10 +30,10 @@ void compare(int refinement) {
   geometry::NeckDivisions divisions;
   divisions.refine = refinement;
   const mesher::Mesh mesh = testing::neck_mesh("C", divisions);
-  const FreeNodes free_nodes(mesh, mesh.node_set("bolts").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, mesh.node_set("bolts").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map);
   std::printf("neck C, hex27, %ld degrees of freedom, %zu nodal couplings\n",
-              static_cast<long>(free_nodes.dof_count()), system.graph.columns().size());
+              static_cast<long>(dof_map.dof_count()), system.graph.columns().size());
   std::printf("%-36s %9s %12s %16s\n", "order of elimination", "order s", "factorise s", "entries");
   {
     const auto start = std::chrono::steady_clock::now();

@@ -15,12 +15,12 @@ namespace flexneck::fe_modal {
 /// The average motion of a face set, three translations and three rotations about a point, as rows
 /// over the degrees of freedom of the free nodes.
 inline Eigen::MatrixXd average_motion(const mesher::Mesh& mesh, const std::string& face_set,
-                                      const Eigen::Vector3d& point_m, const FreeNodes& free_nodes) {
-  Eigen::MatrixXd average(6, free_nodes.dof_count());
+                                      const Eigen::Vector3d& point_m, const DofMap& dof_map) {
+  Eigen::MatrixXd average(6, dof_map.dof_count());
   const auto weights =
-      RigidAverage(mesh, mesh.face_set(face_set), point_m).weights(free_nodes.node_count());
+      RigidAverage(mesh, mesh.face_set(face_set), point_m).weights(dof_map.node_count());
   for (std::size_t i = 0; i < 6; ++i)
-    average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
+    average.row(static_cast<Eigen::Index>(i)) = dof_map.gather(weights[i]).transpose();
   return average;
 }
 

@@ -27,7 +27,7 @@ mesher::Mesh bent_sandwich() {
 TEST_CASE("assembled matrices are symmetric, and a free body resists no rigid motion") {
   constexpr double kRounding = 1e-12;
   const mesher::Mesh mesh = bent_sandwich();
-  const FreeNodes all(mesh, {});
+  const DofMap all(mesh, {});
   const SystemMatrices system = assemble(mesh, all);
   const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
   const Eigen::MatrixXd mass = dense(system.mass.get());
@@ -47,23 +47,23 @@ TEST_CASE("assembled matrices are symmetric, and a free body resists no rigid mo
 TEST_CASE("holding nodes takes their rows and columns out and leaves the others as they were") {
   const mesher::Mesh mesh = bent_sandwich();
   const std::vector<std::int32_t> held = {0, 3, 17, 40};
-  const SystemMatrices free_system = assemble(mesh, FreeNodes(mesh, {}));
-  const FreeNodes free_nodes(mesh, held);
-  const SystemMatrices held_system = assemble(mesh, free_nodes);
+  const SystemMatrices free_system = assemble(mesh, DofMap(mesh, {}));
+  const DofMap dof_map(mesh, held);
+  const SystemMatrices held_system = assemble(mesh, dof_map);
   std::vector<Eigen::Index> kept;
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes.size()); ++node) {
-    if (free_nodes.index(node) < 0) continue;
+    if (dof_map.index(node) < 0) continue;
     for (int a = 0; a < 3; ++a) kept.push_back(3 * node + a);
   }
-  REQUIRE(static_cast<Eigen::Index>(kept.size()) == free_nodes.dof_count());
-  CHECK(free_nodes.dof_count() == static_cast<Eigen::Index>(3 * (mesh.nodes.size() - 4)));
+  REQUIRE(static_cast<Eigen::Index>(kept.size()) == dof_map.dof_count());
+  CHECK(dof_map.dof_count() == static_cast<Eigen::Index>(3 * (mesh.nodes.size() - 4)));
   CHECK(dense(held_system.stiffness.get()) == dense(free_system.stiffness.get())(kept, kept));
   CHECK(dense(held_system.mass.get()) == dense(free_system.mass.get())(kept, kept));
 }
 
 TEST_CASE("the mass acts alike in each direction and equals the nodal mass") {
   const mesher::Mesh mesh = bent_sandwich();
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
   const Eigen::MatrixXd mass = dense(system.mass.get());
   const Eigen::MatrixXd nodal(system.nodal_mass);
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
@@ -77,7 +77,7 @@ TEST_CASE("the mass acts alike in each direction and equals the nodal mass") {
 
 TEST_CASE("a shift takes the mass off the stiffness") {
   const mesher::Mesh mesh = bent_sandwich();
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
   constexpr double kShift = -3e5;
   const Eigen::MatrixXd expected =
       dense(system.stiffness.get()) - kShift * dense(system.mass.get());
@@ -95,10 +95,10 @@ TEST_CASE("a field comes back from its free values, and forces do the same work 
   slits[1].tied = true;
   slits[1].lower = {6};
   slits[1].upper = {0};
-  const FreeNodes free_nodes(9, held, slits);
-  REQUIRE(free_nodes.free_count() == 4);  // {0, 6, 7}, {2, 5}, 3, 8
+  const DofMap dof_map(9, held, slits);
+  REQUIRE(dof_map.free_count() == 4);  // {0, 6, 7}, {2, 5}, 3, 8
   const Eigen::VectorXd values = Eigen::VectorXd::Random(12);
-  const Eigen::Matrix3Xd field = free_nodes.expand(values);
+  const Eigen::Matrix3Xd field = dof_map.expand(values);
   CHECK(field.col(1).isZero());
   CHECK(field.col(4).isZero());
   CHECK(field.col(2) == field.col(5));
@@ -106,7 +106,7 @@ TEST_CASE("a field comes back from its free values, and forces do the same work 
   CHECK(field.col(0) == field.col(7));
   CHECK(field.col(8) == values.tail<3>());
   const Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Random(3, 9);
-  CHECK(free_nodes.gather(forces).dot(values) ==
+  CHECK(dof_map.gather(forces).dot(values) ==
         Approx(forces.cwiseProduct(field).sum()).epsilon(1e-14));
 }
 
@@ -115,11 +115,11 @@ TEST_CASE("a node tied to a held one is held, an open slit ties nothing") {
   mesher::Slit slit;
   slit.lower = {0};
   slit.upper = {3};
-  CHECK(FreeNodes(4, held, std::span(&slit, 1)).free_count() == 3);
+  CHECK(DofMap(4, held, std::span(&slit, 1)).free_count() == 3);
   slit.tied = true;
-  const FreeNodes free_nodes(4, held, std::span(&slit, 1));
-  CHECK(free_nodes.free_count() == 2);
-  CHECK(free_nodes.index(0) == -1);
+  const DofMap dof_map(4, held, std::span(&slit, 1));
+  CHECK(dof_map.free_count() == 2);
+  CHECK(dof_map.index(0) == -1);
 }
 
 }  // namespace flexneck::fe_modal

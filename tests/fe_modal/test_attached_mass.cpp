@@ -56,13 +56,13 @@ TEST_CASE("frequencies with a body attached agree with a dense solution") {
   options.interfaces = {{"tip", "top", point}};
   options.attachments = {{"head", "tip", 4.5, center, full_inertia()}};
 
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map);
   const auto weights =
-      RigidAverage(mesh, mesh.face_set("top"), point).weights(free_nodes.node_count());
-  Eigen::MatrixXd average(6, free_nodes.dof_count());
+      RigidAverage(mesh, mesh.face_set("top"), point).weights(dof_map.node_count());
+  Eigen::MatrixXd average(6, dof_map.dof_count());
   for (std::size_t i = 0; i < 6; ++i) {
-    average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
+    average.row(static_cast<Eigen::Index>(i)) = dof_map.gather(weights[i]).transpose();
   }
   const Eigen::MatrixXd mass =
       dense(system.mass.get()) +
@@ -71,7 +71,7 @@ TEST_CASE("frequencies with a body attached agree with a dense solution") {
       testing::dense_pairs(dense(system.stiffness.get()), mass).values.head(6).cwiseSqrt() /
       (2 * std::numbers::pi);
   // Few modes: a search of its own; enough: from their span; all: a span with nothing beside it.
-  for (const int count : {3, 6, 10, static_cast<int>(free_nodes.dof_count())}) {
+  for (const int count : {3, 6, 10, static_cast<int>(dof_map.dof_count())}) {
     options.mode_count = count;
     const ModalBody body = analyse_modes(mesh, options, {});
     REQUIRE(body.attached.size() == 1);

@@ -16,7 +16,7 @@ namespace flexneck::fe_modal {
 TEST_CASE("many columns at once are multiplied as by the dense matrix") {
   const mesher::Mesh mesh =
       testing::box({2, 2, 3}, {0.05, 0.05, 0.1}, {"metal", 2.1e11, 0.3, 7850}).make();
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
   const NodalMass& nodal_mass = system.mass.between_nodes();
   const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
   const Eigen::MatrixXd mass =

@@ -44,8 +44,8 @@ double fill(const NodeGraph& graph, const std::vector<std::int32_t>& order) {
 
 TEST_CASE("the factor is that of the order given, whichever it is") {
   const mesher::Mesh mesh = testing::box({3, 3, 8}, {0.1, 0.1, 0.3}, kSteel).make();
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map);
   const std::vector<std::int32_t> dissection =
       mesher::nested_dissection(system.graph.offsets(), system.graph.columns());
   std::vector<std::int32_t> as_numbered(dissection.size());
@@ -71,7 +71,7 @@ TEST_CASE("the factor is that of the order given, whichever it is") {
 
 TEST_CASE("solutions do not depend on the order of elimination") {
   const mesher::Mesh mesh = testing::box({2, 2, 3}, {0.1, 0.1, 0.3}, kSteel).make();
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
   const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
   const Eigen::VectorXd force = Eigen::VectorXd::Random(stiffness.rows());
   const Eigen::VectorXd expected = testing::symmetric_solution(stiffness, force);

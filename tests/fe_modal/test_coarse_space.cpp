@@ -17,9 +17,9 @@ namespace {
 struct FourSubdomains {
   mesher::Mesh mesh =
       testing::box({2, 2, 1}, {0.05, 0.05, 0.03}, {"rubber", 1e6, 0.4995, 1100}).make();
-  FreeNodes free_nodes{mesh, {}};
+  DofMap dof_map{mesh, {}};
   NodeLists nodes;
-  Eigen::Matrix3Xd positions_m = free_positions(mesh, free_nodes);
+  Eigen::Matrix3Xd positions_m = free_positions(mesh, dof_map);
 
   FourSubdomains() {
     const std::vector<std::int32_t>& all = mesh.blocks.front().nodes;
@@ -53,7 +53,7 @@ TEST_CASE("the interface of four subdomains around a line is four faces and the 
 
 TEST_CASE("the coarse correction is a projection onto fields without force inside of subdomains") {
   const FourSubdomains body;
-  SystemMatrices system = assemble(body.mesh, body.free_nodes);
+  SystemMatrices system = assemble(body.mesh, body.dof_map);
   const SymmetricMatrix shifted = shifted_stiffness(system, -1e5);
   const Eigen::MatrixXd matrix = dense(shifted.get());
   const CoarseSpace coarse(shifted, system.graph, body.nodes, body.positions_m);

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/exchange/corner_fields.h"
+#include "mesher/mesh/positions.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
@@ -16,14 +17,6 @@ constexpr double kRounding = 1e-12;
 
 mesher::Mesh block_of(mesher::ElementKind kind) {
   return testing::with_kind(testing::box({2, 2, 2}, {0.2, 0.3, 0.4}, kSteel).make(), kind);
-}
-
-Eigen::Matrix3Xd positions_of(const mesher::Mesh& mesh) {
-  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
-    positions.col(static_cast<Eigen::Index>(k)) = Eigen::Vector3d(mesh.nodes[k].data());
-  }
-  return positions;
 }
 
 }  // namespace

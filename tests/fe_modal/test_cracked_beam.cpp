@@ -37,7 +37,7 @@ mesher::FaceSet crack_faces(const mesher::Mesh& mesh, double depth) {
   constexpr double kNear = 1e-9;
   mesher::FaceBlock faces;
   const mesher::ElementBlock& block = mesh.blocks[0];
-  const mesher::Side& below = mesher::sides_of(block.kind)[0];
+  const mesher::ReferenceFacet& below = mesher::facets_of(block.kind)[0];
   for (std::size_t first = 0; first < block.nodes.size(); first += 27) {
     std::vector<std::int32_t> side;
     bool in_crack = true;
@@ -52,13 +52,13 @@ mesher::FaceSet crack_faces(const mesher::Mesh& mesh, double depth) {
 }
 
 double first_frequency(const mesher::Mesh& mesh) {
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map);
   const CholeskyFactor factor(system.stiffness.get(), 0);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 2);
   // Bending across the depth: the crack opens. The other mode bends across the width.
-  const Eigen::Index mode = std::abs(free_nodes.expand(pairs.vectors.col(0)).row(0).sum()) >
-                                    std::abs(free_nodes.expand(pairs.vectors.col(0)).row(1).sum())
+  const Eigen::Index mode = std::abs(dof_map.expand(pairs.vectors.col(0)).row(0).sum()) >
+                                    std::abs(dof_map.expand(pairs.vectors.col(0)).row(1).sum())
                                 ? 0
                                 : 1;
   return std::sqrt(pairs.values[mode]) / (2 * std::numbers::pi);

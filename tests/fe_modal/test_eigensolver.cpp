@@ -44,8 +44,8 @@ TEST_CASE("modes of a held body agree with a dense solution, exactly double ones
   // A square bar of 2 x 2 x 3 elements: bending comes in pairs.
   constexpr double kTolerance = 1e-9;
   const mesher::Mesh mesh = testing::box({2, 2, 3}, {0.1, 0.1, 0.4}, kSteel).make();
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map);
   const CholeskyFactor factor(system.stiffness.get(), 0);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 12);
   const Eigen::VectorXd expected = dense_eigenvalues(system).head(12);
@@ -62,8 +62,8 @@ TEST_CASE("modes of a held body agree with a dense solution, exactly double ones
 
 TEST_CASE("a free body has six eigenvalues of zero and the elastic ones of a dense solution") {
   const mesher::Mesh mesh = testing::box({2, 1, 3}, {0.15, 0.1, 0.4}, kSteel).make();
-  const FreeNodes free_nodes(mesh, {});
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, {});
+  const SystemMatrices system = assemble(mesh, dof_map);
   const double shift = -1e7;
   const CholeskyFactor factor(shifted_stiffness(system, shift).get(), shift);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 9);
@@ -135,10 +135,10 @@ TEST_CASE("a start that is orthogonal to one of two partners does not hide it") 
   }
   // The same of a bar that bends in two planes: a start in one of them.
   const mesher::Mesh mesh = testing::box({2, 2, 3}, {0.1, 0.1, 0.4}, kSteel).make();
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map);
   const CholeskyFactor inverse(system.stiffness.get(), 0);
-  Eigen::VectorXd in_plane = Eigen::VectorXd::Zero(free_nodes.dof_count());
+  Eigen::VectorXd in_plane = Eigen::VectorXd::Zero(dof_map.dof_count());
   for (Eigen::Index k = 0; k < in_plane.size(); k += 3) in_plane[k] = 1;
   const EigenPairs pairs =
       lowest_eigenpairs(system.stiffness.get(), system.mass.get(), inverse, 4, in_plane);
@@ -157,8 +157,8 @@ TEST_CASE("every mode of a small system can be asked for") {
 
 TEST_CASE("a stiffness that is not positive definite is refused") {
   const mesher::Mesh mesh = testing::box({1, 1, 2}, {0.1, 0.1, 0.4}, kSteel).make();
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes);
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map);
   const double above_the_first = 2 * dense_eigenvalues(system)[0];
   CHECK_THROWS_WITH(
       CholeskyFactor(shifted_stiffness(system, above_the_first).get(), above_the_first),

@@ -30,8 +30,8 @@ struct Row {
 
 double lowest_frequency(const mesher::Mesh& hexahedra, const Row& row) {
   const mesher::Mesh mesh = testing::with_kind(hexahedra, row.kind);
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes, {row.formulation});
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map, {row.formulation});
   const CholeskyFactor factor(system.stiffness.get(), 0);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 1);
   return std::sqrt(pairs.values[0]) / (2 * std::numbers::pi);

@@ -15,7 +15,7 @@ mesher::Mesh column() {
 }
 
 ImportedBody matrices(const mesher::Mesh& mesh) {
-  return export_matrices(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes),
+  return export_matrices(mesh, DofMap(mesh, mesh.node_set("bottom").nodes),
                          {Formulation::mixed_pressure});
 }
 

@@ -50,7 +50,7 @@ mesher::Mesh block_with_left() {
 
 /// The degrees of freedom of a free body that the options leave.
 std::vector<Eigen::Index> free_directions(const mesher::Mesh& mesh, const ModalOptions& options) {
-  const FreeNodes all(mesh, {});
+  const DofMap all(mesh, {});
   std::vector<bool> is_held(static_cast<std::size_t>(all.dof_count()));
   for (const auto& [set, directions] : options.held_directions) {
     for (const std::int32_t node : mesh.node_set(set).nodes) {
@@ -77,7 +77,7 @@ TEST_CASE("with held directions the modes are those of the matrices without them
   ModalOptions options = on_rollers(BasisKind::normal, 6);
   options.certify = true;
   const ModalBody body = analyse_modes(mesh, options, {});
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
   const std::vector<Eigen::Index> kept = free_directions(mesh, options);
   const Eigen::VectorXd expected =
       testing::dense_pairs(rows_and_columns(system.stiffness.get(), kept),
@@ -106,7 +106,7 @@ TEST_CASE("residual modes carry the compliance of a body with held directions") 
   const mesher::Mesh mesh = block_with_left();
   const ModalOptions options = on_rollers(BasisKind::residual, 3);
   const ModalBody body = analyse_modes(mesh, options, {});
-  const FreeNodes all(mesh, {});
+  const DofMap all(mesh, {});
   const SystemMatrices system = assemble(mesh, all);
   const std::vector<Eigen::Index> kept = free_directions(mesh, options);
   const Eigen::MatrixXd motions = average_motion(mesh, "top", kTip, all)(Eigen::all, kept);

@@ -91,7 +91,7 @@ TEST_CASE("invariants give the mass matrix of the deformed body") {
   const mesher::Mesh mesh = sandwich();
   const std::vector<Eigen::Matrix3Xd> shapes =
       random_shapes(static_cast<Eigen::Index>(mesh.nodes.size()));
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
   const InertiaInvariants found = inertia_invariants(system.nodal_mass, mesh.nodes, shapes);
   for (const Eigen::Vector3d& a :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.03, -0.07, 0.05), Eigen::Vector3d(0, 0.1, 0)}) {
@@ -123,7 +123,7 @@ TEST_CASE("the gradients of the inertia, which act as forces, are those of the d
   const mesher::Mesh mesh = sandwich();
   const std::vector<Eigen::Matrix3Xd> shapes =
       random_shapes(static_cast<Eigen::Index>(mesh.nodes.size()));
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
   const InertiaInvariants found = inertia_invariants(system.nodal_mass, mesh.nodes, shapes);
   for (std::size_t j = 0; j < kModes; ++j) {
     for (std::size_t l = 0; l < kModes; ++l) {
@@ -144,7 +144,7 @@ TEST_CASE("the gradients of the inertia, which act as forces, are those of the d
 TEST_CASE("a box without modes has the mass properties of a box") {
   const Eigen::Vector3d size(0.2, 0.1, 0.3);
   const mesher::Mesh mesh = testing::box({1, 2, 2}, size, {"steel", 2.1e11, 0.3, 7850}).make();
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
   const InertiaInvariants found = inertia_invariants(system.nodal_mass, mesh.nodes, {});
   const double mass = 7850 * size.prod();
   CHECK(found.mass == Approx(mass).epsilon(kRounding));

@@ -91,7 +91,7 @@ Eigen::ArrayXi inner_dofs(const mesher::Mesh& mesh) {
 double patch_error(const mesher::Mesh& mesh, Formulation formulation, const Field& field) {
   const Eigen::ArrayXi inner = inner_dofs(mesh);
   REQUIRE(inner.size() > 0);
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}), {formulation});
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}), {formulation});
   const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
   const Eigen::VectorXd exact = sample(mesh, field);
   Eigen::VectorXd surface = exact;
@@ -125,7 +125,7 @@ Eigen::Vector3d straight_edged(const Eigen::Vector3d& p) {
 }
 
 int zero_energy_motions(const mesher::Mesh& mesh, Formulation formulation) {
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}), {formulation});
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}), {formulation});
   const Eigen::VectorXd values = testing::symmetric_eigenvalues(dense(system.stiffness.get()));
   return static_cast<int>((values.array() < 1e-12 * values.maxCoeff()).count());
 }
@@ -226,7 +226,7 @@ TEST_CASE("a part of several kinds has the mass, centre and inertia of its volum
   }
   CHECK(part.gram()(4, 4) == Approx(inertia).epsilon(kRounding));
 
-  const SystemMatrices system = assemble(mesh, FreeNodes(mesh, {}));
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
   CHECK(system.nodal_mass.sum() == Approx(0.75 * rho).epsilon(kRounding));
 }
 

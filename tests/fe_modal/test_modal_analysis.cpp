@@ -43,8 +43,8 @@ double euler_cantilever(double young, double density, double side, double length
 
 /// Lowest frequency of a bar held at the bottom, in either formulation.
 double lowest_frequency(const mesher::Mesh& mesh, Formulation formulation) {
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, free_nodes, {formulation});
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const SystemMatrices system = assemble(mesh, dof_map, {formulation});
   const CholeskyFactor factor(system.stiffness.get(), 0);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 1);
   return std::sqrt(pairs.values[0]) / (2 * std::numbers::pi);

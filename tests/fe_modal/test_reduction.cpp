@@ -63,14 +63,14 @@ struct Dense {
 
 Dense dense_model(const std::vector<std::int32_t>& held_nodes, const std::string& set,
                   const Eigen::Vector3d& point) {
-  const FreeNodes free_nodes(block(), held_nodes);
-  const SystemMatrices system = assemble(block(), free_nodes);
+  const DofMap dof_map(block(), held_nodes);
+  const SystemMatrices system = assemble(block(), dof_map);
   Dense model{dense(system.stiffness.get()), dense(system.mass.get()),
-              Eigen::MatrixXd(6, free_nodes.dof_count())};
+              Eigen::MatrixXd(6, dof_map.dof_count())};
   const auto weights =
-      RigidAverage(block(), block().face_set(set), point).weights(free_nodes.node_count());
+      RigidAverage(block(), block().face_set(set), point).weights(dof_map.node_count());
   for (std::size_t i = 0; i < 6; ++i) {
-    model.average.row(static_cast<Eigen::Index>(i)) = free_nodes.gather(weights[i]).transpose();
+    model.average.row(static_cast<Eigen::Index>(i)) = dof_map.gather(weights[i]).transpose();
   }
   return model;
 }

@@ -17,7 +17,7 @@ namespace {
 SystemMatrices clamped_column(double youngs_modulus_Pa) {
   const mesher::Mesh mesh =
       testing::box({2, 2, 5}, {0.05, 0.05, 0.1}, {"metal", youngs_modulus_Pa, 0.3, 7850}).make();
-  return assemble(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes));
+  return assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
 }
 
 SubdomainFactor factor_of(const SystemMatrices& system) {

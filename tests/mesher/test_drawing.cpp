@@ -11,7 +11,7 @@
 #include "mesher/drawing/body_picture.h"
 #include "mesher/drawing/colours.h"
 #include "mesher/drawing/picture_sheet.h"
-#include "mesher/mesh/skin.h"
+#include "mesher/mesh/boundary.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/files.h"
 
@@ -45,7 +45,7 @@ std::uint32_t pixel_at(const Raster& picture, int x, int y) {
 
 TEST_CASE("the skin of a box has its outer sides and the box's area") {
   const Mesh mesh = box_of(2, 3, 4);
-  const std::vector<ElementSide> sides = outer_sides(mesh);
+  const std::vector<Facet> sides = boundary_facets(mesh);
   CHECK(sides.size() == 2 * (2 * 3 + 3 * 4 + 4 * 2));
 
   const Surface surface = surface_of(mesh);

@@ -196,10 +196,10 @@ TEST_CASE("ideal elements of every shape have the scaled Jacobian one, stretched
       const BlockMeasure measured = measure(mesh, mesh.blocks[0]);
       if (stretch == 1) {
         CHECK(measured.smallest_scaled_jacobian == Approx(1).epsilon(kRounding));
-        CHECK(measured.largest_aspect_ratio == Approx(1).epsilon(kRounding));
+        CHECK(measured.max_aspect_ratio == Approx(1).epsilon(kRounding));
       } else if (shape_of(kind) == ReferenceShape::hexahedron) {
         CHECK(measured.smallest_scaled_jacobian == Approx(1).epsilon(kRounding));
-        CHECK(measured.largest_aspect_ratio == Approx(3).epsilon(kRounding));
+        CHECK(measured.max_aspect_ratio == Approx(3).epsilon(kRounding));
       } else {
         CHECK(measured.smallest_scaled_jacobian < 0.8);
         CHECK(measured.smallest_scaled_jacobian > 0.3);

@@ -10,6 +10,7 @@
 #include "geometry/neck/neck_measures.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/mesh_summary.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/support/neck_mesh.h"
 

@@ -11,6 +11,7 @@
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/mesh_summary.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/support/files.h"
 #include "tests/support/neck_mesh.h"

@@ -6,6 +6,7 @@
 #include "mesher/gmsh/gmsh_session.h"
 #include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 #include "tests/mesher/scripts.h"
 

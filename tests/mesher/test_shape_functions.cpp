@@ -71,7 +71,7 @@ TEST_CASE("the sides of an element close it, and their normals point outwards") 
     // Divergence theorem: int x . n dA / 3 is the volume, and int n dA vanishes.
     double volume = 0;
     Eigen::Vector3d closure = Eigen::Vector3d::Zero();
-    for (const Side& side : sides_of(kind)) {
+    for (const ReferenceFacet& side : facets_of(kind)) {
       CHECK(dimension(side.kind) == 2);
       REQUIRE(side.nodes.size() == nodes_per_element(side.kind));
       Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(side.nodes.size()));
@@ -90,7 +90,7 @@ TEST_CASE("the sides of an element close it, and their normals point outwards") 
     }
     CHECK(closure.norm() < kRounding);
     if (dimension(kind) == 3) CHECK(std::abs(volume - moment(shape_of(kind), 0, 0, 0)) < kRounding);
-    CHECK(sides_of(kind).empty() == (dimension(kind) == 2));
+    CHECK(facets_of(kind).empty() == (dimension(kind) == 2));
   }
 }
 

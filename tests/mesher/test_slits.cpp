@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/facet_key.h"
 #include "mesher/mesh/mesh_measures.h"
-#include "mesher/mesh/side_key.h"
 #include "mesher/slits/slits.h"
 #include "tests/mesher/scripts.h"
 
@@ -108,10 +108,10 @@ void for_each_element(const Mesh& mesh, const What& what) {
   }
 }
 
-std::map<SideKey, int> owners_of_sides(const Mesh& mesh) {
-  std::map<SideKey, int> owners;
+std::map<FacetKey, int> owners_of_sides(const Mesh& mesh) {
+  std::map<FacetKey, int> owners;
   for_each_element(mesh, [&](std::span<const std::int32_t> nodes, const ElementBlock& block) {
-    for (const Side& side : sides_of(block.kind)) ++owners[key_of_side(side, nodes)];
+    for (const ReferenceFacet& side : facets_of(block.kind)) ++owners[key_of_facet(side, nodes)];
   });
   return owners;
 }
@@ -253,7 +253,7 @@ TEST_CASE("faces follow their elements and node sets hold what they held") {
       for (const FaceBlock& block : mesh.face_set(name).blocks) {
         const std::size_t n = nodes_per_element(block.kind);
         for (std::size_t f = 0; f < block.size(); ++f) {
-          const SideKey key = key_of_face(block.kind, std::span(block.nodes).subspan(f * n, n));
+          const FacetKey key = key_of_face(block.kind, std::span(block.nodes).subspan(f * n, n));
           REQUIRE(owners.count(key) == 1);
           CHECK(owners.at(key) == count);
         }

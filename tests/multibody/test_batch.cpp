@@ -52,7 +52,7 @@ TEST_CASE("a run that fails stops no other run of its batch") {
   Model bad = good;
   std::get<RigidBody>(bad.bodies[2].kind).mass_kg = -1;
   SolverOptions hurried;
-  hurried.most_steps = 3;
+  hurried.max_steps = 3;
   const OutputOptions output{.end_time_s = 0.05, .interval_s = 0.001};
   const auto results = simulate_batch(
       {{&good, {}, output}, {&bad, {}, output}, {&good, hurried, output}, {&good, {}, output}}, 2);

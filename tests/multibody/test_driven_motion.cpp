@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "multibody/analysis/linearisation.h"
 #include "multibody/model/driven_path.h"
 #include "multibody/numerics/rotation.h"
 #include "multibody/simulation/simulation.h"
@@ -12,6 +13,7 @@
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
+using flexneck::skew;
 using namespace flexneck::testing;
 using Catch::Matchers::Contains;
 using Eigen::Matrix3d;
@@ -53,7 +55,7 @@ constexpr double kInertia_kg_m2 = 0.05;
 /// summed.
 SolverOptions short_steps() {
   SolverOptions solver = solver_of(1e-9, 1e-12);
-  solver.largest_step_s = 5e-3;
+  solver.max_step_s = 5e-3;
   return solver;
 }
 

@@ -123,7 +123,7 @@ TEST_CASE("An undamped flexible chain keeps its energy, and better so the finer 
   CHECK(largest_imbalance(fine) < 1e-8 * exchanged);
   CHECK(largest_imbalance(coarse) > 100 * largest_imbalance(fine));
   CHECK(coarse.energy.dissipated_J.isZero(0));
-  CHECK(fine.statistics.largest_position_residual < 1e-11);
+  CHECK(fine.statistics.max_position_residual < 1e-11);
 }
 
 TEST_CASE("What damping takes and forces and a driven base give closes the balance of energy") {

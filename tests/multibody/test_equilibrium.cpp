@@ -6,6 +6,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/descriptor/equilibrium.h"
+#include "multibody/history/incomplete_run.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/point_mass_body.h"
 

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "multibody/analysis/linearisation.h"
 #include "multibody/equations/force_set.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/finite_differences.h"

@@ -99,8 +99,8 @@ TEST_CASE("A history comes back from its file to the last bit and in its order")
   CHECK(read.statistics.accepted == 311);
   CHECK(read.statistics.rejected == 4);
   CHECK(read.statistics.evaluations == 2196);
-  CHECK(read.statistics.largest_position_residual == 1.5e-16);
-  CHECK(read.statistics.largest_velocity_residual == 2.5e-15);
+  CHECK(read.statistics.max_position_residual == 1.5e-16);
+  CHECK(read.statistics.max_velocity_residual == 2.5e-15);
   CHECK(read_history(folder / "h.h5").provenance.program == "flexneck 0.1.0");
 }
 

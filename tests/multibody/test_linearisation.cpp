@@ -23,6 +23,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using flexneck::testing::make_point_mass_body;
 using namespace flexneck::multibody;
+using flexneck::skew;
 
 namespace {
 

@@ -49,7 +49,7 @@ double drift(Formulation formulation, double tolerance) {
   const VectorXd total = energy.kinetic_J + energy.gravitational_J + energy.strain_J;
   CHECK(energy.strain_J.maxCoeff() > 2e-3 * energy.kinetic_J.maxCoeff());
   CHECK(energy.dissipated_J.isZero(0));
-  CHECK(history.statistics.largest_position_residual < 1e-12);
+  CHECK(history.statistics.max_position_residual < 1e-12);
   return (total.array() - total[0]).abs().maxCoeff() / energy.kinetic_J.maxCoeff();
 }
 

@@ -103,7 +103,7 @@ TEST_CASE(
   const OutputOptions output{3, 0.1};
   const History found = simulate(build.model, tight(Formulation::descriptor), output);
   CHECK(found.redundant_constraints.size() == 3);
-  CHECK(found.statistics.largest_position_residual < 1e-9);
+  CHECK(found.statistics.max_position_residual < 1e-9);
 
   // The bar only translates: a moment of 200 kg m, an inertia of 150 kg m^2 about the pivot.
   ModelBuilder single;

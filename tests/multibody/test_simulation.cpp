@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "multibody/history/incomplete_run.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/point_mass_body.h"
 
@@ -67,8 +68,8 @@ TEST_CASE("the energies of a braked sled balance to the tolerance") {
     CHECK(drift < 10 * relative * e.kinetic_J.maxCoeff());
     CHECK(e.dissipated_J.tail(1)[0] > 1);
     CHECK(e.work_J.tail(1)[0] < -10);
-    CHECK(history.statistics.largest_position_residual < 1e-12);
-    CHECK(history.statistics.largest_velocity_residual < 1e-12);
+    CHECK(history.statistics.max_position_residual < 1e-12);
+    CHECK(history.statistics.max_velocity_residual < 1e-12);
   }
 }
 
@@ -255,7 +256,7 @@ TEST_CASE("a run that cannot go on says when and why and keeps what it has") {
 
 TEST_CASE("a run that needs more steps than allowed is given up") {
   SolverOptions solver = tolerance(1e-9);
-  solver.most_steps = 5;
+  solver.max_steps = 5;
   CHECK_THROWS_WITH(simulate(sled(), solver, kShort),
                     Contains("after 5 steps") && Contains("what limits them"));
 }

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/analysis/linearisation.h"
 #include "multibody/signals/load_cell.h"
 #include "multibody/signals/response.h"
 #include "multibody/simulation/simulation.h"

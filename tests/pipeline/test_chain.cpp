@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
+#include "multibody/analysis/linearisation.h"
 #include "multibody/simulation/simulation.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/coarse_neck.h"

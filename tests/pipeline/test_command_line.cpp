@@ -125,7 +125,7 @@ effective_damping = 1
                                Contains("Writing the report"));
   CHECK(bytes_of(folder / "first/modes.h5") == bytes_of(folder / "second/modes.h5"));
 
-  // Side by side they differ in that value and nothing else that they were made with.
+  // ReferenceFacet by side they differ in that value and nothing else that they were made with.
   const std::string both = (folder / "both").string();
   const CommandOutcome compared = run_flexneck("compare " + first + " " + second + " -o " + both);
   CHECK(compared.exit_code == 0);

@@ -5,7 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "fe_modal/body/skew.h"
 #include "geometry/foundation/names.h"
+#include "multibody/analysis/linearisation.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/pendulum_signals.h"
 #include "pipeline/experiments/rigid_neck.h"
@@ -23,12 +25,6 @@ using Direction = CaseSection::Direction;
 using Experiment = testing::BeamExperiment;
 
 namespace {
-
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 /// Small motions of beam and head on an arm that is accelerated along x, by modal superposition:
 /// M q'' + C q' + K q = -p a(t), in complex modes of first order because C does not follow M and K.

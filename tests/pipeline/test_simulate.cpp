@@ -6,6 +6,7 @@
 
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "multibody/analysis/linearisation.h"
 #include "multibody/files/history_file.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/files.h"

@@ -122,7 +122,7 @@ TEST_CASE("Andrews' squeezing mechanism is where it must be after 30 ms") {
     CHECK(std::abs(q[k] - kPublished[k]) < kRelative * std::abs(kPublished[k]));
   }
   CHECK(history.redundant_constraints.size() == 9);
-  CHECK(history.statistics.largest_position_residual < 1e-14);
+  CHECK(history.statistics.max_position_residual < 1e-14);
 
   // What acts in the plane is determined, what acts across it is not.
   for (const JointHistory& joint : history.joints) {

@@ -10,6 +10,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "multibody/analysis/linearisation.h"
+#include "multibody/history/incomplete_run.h"
 #include "multibody/signals/response.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"

@@ -73,7 +73,7 @@ std::vector<mesher::FaceBlock> sides_within(const mesher::Mesh& mesh,
   for (const mesher::ElementBlock& block : mesh.blocks) {
     const std::size_t width = mesher::nodes_per_element(block.kind);
     for (std::size_t e = 0; e < block.size(); ++e) {
-      for (const mesher::Side& side : mesher::sides_of(block.kind)) {
+      for (const mesher::ReferenceFacet& side : mesher::facets_of(block.kind)) {
         std::vector<std::int32_t> nodes;
         for (const std::size_t i : side.nodes) nodes.push_back(block.nodes[width * e + i]);
         if (!std::all_of(nodes.begin(), nodes.end(), [&](auto n) { return region.contains(n); })) {
@@ -161,7 +161,7 @@ std::vector<bool> outside_nodes(const mesher::Mesh& mesh) {
     for (const mesher::ElementBlock& block : mesh.blocks) {
       const std::size_t width = mesher::nodes_per_element(block.kind);
       for (std::size_t e = 0; e < block.size(); ++e) {
-        for (const mesher::Side& side : mesher::sides_of(block.kind)) {
+        for (const mesher::ReferenceFacet& side : mesher::facets_of(block.kind)) {
           std::set<std::int32_t> nodes;
           for (const std::size_t i : side.nodes) nodes.insert(block.nodes[width * e + i]);
           visit(nodes);

@@ -87,13 +87,12 @@ class DistributedSystem::Inverse : public ShiftInverse {
 };
 
 DistributedSystem::DistributedSystem(const Ranks& team, const mesher::Mesh& mesh,
-                                     const FreeNodes& free_nodes,
-                                     const FormulationChoice& formulation,
+                                     const DofMap& dof_map, const FormulationChoice& formulation,
                                      const mesher::ElementPartition& partition,
                                      std::vector<std::int32_t> node_order)
     : team_(team),
       node_order_(std::move(node_order)),
-      stiffness_(free_nodes.dof_count(), [this](const Eigen::MatrixXd& columns) {
+      stiffness_(dof_map.dof_count(), [this](const Eigen::MatrixXd& columns) {
         Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
         team_.in_step([&] {
           for (Eigen::Index k = 0; k < columns.cols(); ++k) {
@@ -102,7 +101,7 @@ DistributedSystem::DistributedSystem(const Ranks& team, const mesher::Mesh& mesh
         });
         return forces;
       }) {
-  std::vector<Share> shares = share_out(mesh, free_nodes, partition);
+  std::vector<Share> shares = share_out(mesh, dof_map, partition);
   for (Share& share : shares) {
     share.formulation = formulation;
     nodes_of_.push_back(share.free_global);
@@ -111,8 +110,8 @@ DistributedSystem::DistributedSystem(const Ranks& team, const mesher::Mesh& mesh
     assemble_shares(shares);
     gather_mass(mesh, shares);
   });
-  const NodeGraph graph(mesh, free_nodes);
-  mass_ = std::make_unique<MassMatrix>(nodal_mass_, graph, free_nodes);
+  const NodeGraph graph(mesh, dof_map);
+  mass_ = std::make_unique<MassMatrix>(nodal_mass_, graph, dof_map);
   if (node_order_.empty()) {
     node_order_ = mesher::nested_dissection(graph.offsets(), graph.columns());
   }

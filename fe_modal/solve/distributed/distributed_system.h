@@ -18,7 +18,7 @@ class DistributedSystem : public ModalSystem {
   /// @param partition one process for each rank
   /// @param node_order of all free nodes, or empty: by nested dissection
   /// @throws what assemble() throws on any rank.
-  DistributedSystem(const Ranks& team, const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+  DistributedSystem(const Ranks& team, const mesher::Mesh& mesh, const DofMap& dof_map,
                     const FormulationChoice& formulation, const mesher::ElementPartition& partition,
                     std::vector<std::int32_t> node_order);
 

@@ -22,7 +22,7 @@ constexpr int kSolve = 3;
 
 constexpr int kRelaxation = 14;  ///< workspace beyond the estimate, per cent
 constexpr int kFirstRelaxation = 10;
-constexpr int kMostRelaxation = 200;
+constexpr int kMaxRelaxation = 200;
 constexpr int kMemoryRefused = -13;
 constexpr int kRootNotDefinite = -40;
 
@@ -129,7 +129,7 @@ struct MumpsFactor::Instance {
   }
 
   void factorise() {
-    for (int relaxation = kFirstRelaxation; relaxation <= kMostRelaxation; relaxation *= 2) {
+    for (int relaxation = kFirstRelaxation; relaxation <= kMaxRelaxation; relaxation *= 2) {
       set(kRelaxation, relaxation);
       call(kFactorise);
       if (!wants_more_workspace(status())) break;

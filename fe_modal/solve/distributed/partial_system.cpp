@@ -14,8 +14,8 @@ constexpr const char* kMultiplying = "multiplying with a rank's stiffness";
 
 PartialSystem::PartialSystem(const Share& share)
     : nodes_(share.free_global),
-      matrices_(assemble(share.mesh, FreeNodes(share.free_index, share.free_count()),
-                         share.formulation)) {}
+      matrices_(
+          assemble(share.mesh, DofMap(share.free_index, share.free_count()), share.formulation)) {}
 
 void PartialSystem::multiply_stiffness(std::span<const double> x, std::span<double> y) const {
   const VecHandle in = vector_on(x);

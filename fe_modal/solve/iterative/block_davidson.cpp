@@ -19,7 +19,7 @@ namespace {
 
 constexpr Eigen::Index kGuards = 4;         ///< columns beyond those wanted
 constexpr Eigen::Index kBlocksOfBasis = 4;  ///< when the basis is that wide, it is cut back
-constexpr int kMostIterations = 500;
+constexpr int kMaxIterations = 500;
 /// Of r^T P r / lambda, which estimates the relative error of lambda if P is near K^-1. That of
 /// shapes is its root, and static compliances, which are asked for to 1e-8, take shapes as exact.
 constexpr double kTolerance = 1e-15;
@@ -128,7 +128,7 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
   Basis basis(size, std::min(kBlocksOfBasis * width, size + width));
   Eigen::MatrixXd block = preconditioner(mass(random_block(size, width)));
   Eigen::MatrixXd before;
-  for (int iteration = 1; iteration <= kMostIterations; ++iteration) {
+  for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
     block = orthonormal(basis, std::move(block), mass);
     if (block.cols() == 0) break;
     basis.append(block, stiffness(block));
@@ -161,7 +161,7 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
     block.conservativeResize(Eigen::NoChange, open);
   }
   throw ComputationError("the iterative eigensolver has not converged in " +
-                         std::to_string(kMostIterations) + " iterations");
+                         std::to_string(kMaxIterations) + " iterations");
 }
 
 }  // namespace flexneck::fe_modal

@@ -81,8 +81,8 @@ class IterativeSystem::Inverse : public ShiftInverse {
 };
 
 std::unique_ptr<ShiftInverse> IterativeSystem::shift_inverse(double shift) const {
-  return std::make_unique<Inverse>(matrices(), shift, find_subdomains(mesh_, free_nodes_),
-                                   free_positions(mesh_, free_nodes_));
+  return std::make_unique<Inverse>(matrices(), shift, find_subdomains(mesh_, dof_map_),
+                                   free_positions(mesh_, dof_map_));
 }
 
 Eigen::Index IterativeSystem::eigenvalues_below(double) const {

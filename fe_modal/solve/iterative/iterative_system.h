@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/solve/local_system.h"
 
 namespace flexneck::fe_modal {
@@ -10,9 +10,9 @@ namespace flexneck::fe_modal {
 /// than subdomains of some ten thousand nodes are factorised.
 class IterativeSystem : public LocalSystem {
  public:
-  /// @param mesh, free_nodes must outlive this
-  IterativeSystem(SystemMatrices matrices, const mesher::Mesh& mesh, const FreeNodes& free_nodes)
-      : LocalSystem(std::move(matrices)), mesh_(mesh), free_nodes_(free_nodes) {}
+  /// @param mesh, dof_map must outlive this
+  IterativeSystem(SystemMatrices matrices, const mesher::Mesh& mesh, const DofMap& dof_map)
+      : LocalSystem(std::move(matrices)), mesh_(mesh), dof_map_(dof_map) {}
 
   std::unique_ptr<ShiftInverse> shift_inverse(double shift) const override;
   /// @throws InputError: inertia takes a factorisation.
@@ -22,7 +22,7 @@ class IterativeSystem : public LocalSystem {
   class Inverse;
 
   const mesher::Mesh& mesh_;
-  const FreeNodes& free_nodes_;
+  const DofMap& dof_map_;
 };
 
 }  // namespace flexneck::fe_modal

@@ -23,7 +23,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(const SymmetricMatrix& stiffness,
                                              const Eigen::Matrix3Xd& positions_m)
     : coarse_(stiffness, graph, subdomains, positions_m) {
   for (const std::vector<std::int32_t>& subdomain : subdomains) {
-    std::vector<std::int32_t> nodes = widened(graph, subdomain);
+    std::vector<std::int32_t> nodes = extended(graph, subdomain);
     const NodeGraph part = restrict_to(graph, nodes);
     SubdomainFactor factor(principal_part(stiffness, part, nodes),
                            mesher::nested_dissection(part.offsets(), part.columns()));

@@ -22,7 +22,7 @@ class SchwarzPreconditioner {
  public:
   /// @param stiffness positive definite
   /// @param graph its sparsity
-  /// @param subdomains before they are widened; together they have all nodes
+  /// @param subdomains before they are extended; together they have all nodes
   /// @param positions_m (3, nodes)
   SchwarzPreconditioner(const SymmetricMatrix& stiffness, const NodeGraph& graph,
                         const NodeLists& subdomains, const Eigen::Matrix3Xd& positions_m);

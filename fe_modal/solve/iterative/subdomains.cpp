@@ -11,7 +11,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Nodes of a subdomain before it is widened; up to twice as many where a part is not cut. Smaller
+/// Nodes of a subdomain before it is extended; up to twice as many where a part is not cut. Smaller
 /// ones hardly save memory, for they overlap more, and take more iterations: every cut through a
 /// thin layer of rubber or a plate costs some.
 constexpr std::size_t kNodesOfSubdomain = 10000;
@@ -38,11 +38,11 @@ mesher::Mesh part_of(const mesher::Mesh& mesh, const std::string& name) {
 }
 
 /// Free nodes of the elements of one part by subdomains.
-NodeLists cut(const mesher::Mesh& part, const FreeNodes& free_nodes, std::size_t least_count) {
+NodeLists cut(const mesher::Mesh& part, const DofMap& dof_map, std::size_t least_count) {
   std::vector<std::int32_t> all;
   std::size_t elements = 0;
   for (const mesher::ElementBlock& block : part.blocks) {
-    for (const std::int32_t node : block.nodes) all.push_back(free_nodes.index(node));
+    for (const std::int32_t node : block.nodes) all.push_back(dof_map.index(node));
     elements += block.size();
   }
   sort_out_copies_and_held(all);
@@ -57,7 +57,7 @@ NodeLists cut(const mesher::Mesh& part, const FreeNodes& free_nodes, std::size_t
     for (std::size_t first = 0; first < block.nodes.size(); first += width, ++element) {
       auto& own = subdomains[static_cast<std::size_t>(partition.processes[element])];
       for (const std::int32_t node : std::span(block.nodes).subspan(first, width)) {
-        own.push_back(free_nodes.index(node));
+        own.push_back(dof_map.index(node));
       }
     }
   }
@@ -67,20 +67,20 @@ NodeLists cut(const mesher::Mesh& part, const FreeNodes& free_nodes, std::size_t
 
 }  // namespace
 
-NodeLists find_subdomains(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
+NodeLists find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map) {
   const std::vector<std::string> parts = mesher::parts_of(mesh);
   NodeLists subdomains;
   for (const std::string& part : parts) {
     // One alone would be the whole.
     const std::size_t least_count = parts.size() == 1 ? 2 : 1;
-    for (std::vector<std::int32_t>& nodes : cut(part_of(mesh, part), free_nodes, least_count)) {
+    for (std::vector<std::int32_t>& nodes : cut(part_of(mesh, part), dof_map, least_count)) {
       if (!nodes.empty()) subdomains.push_back(std::move(nodes));
     }
   }
   return subdomains;
 }
 
-std::vector<std::int32_t> widened(const NodeGraph& graph, const std::vector<std::int32_t>& nodes) {
+std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes) {
   std::vector<std::int32_t> layer;
   for (const std::int32_t node : nodes) {
     const auto neighbours = graph.neighbours(node);
@@ -95,12 +95,12 @@ std::vector<std::int32_t> widened(const NodeGraph& graph, const std::vector<std:
   return result;
 }
 
-Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
+Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const DofMap& dof_map) {
   const auto all = mesher::positions_of(mesh);
-  Eigen::Matrix3Xd positions(3, free_nodes.free_count());
-  for (std::int32_t node = 0; node < free_nodes.node_count(); ++node) {
-    if (free_nodes.index(node) < 0) continue;
-    positions.col(free_nodes.index(node)) = all.col(node);
+  Eigen::Matrix3Xd positions(3, dof_map.free_count());
+  for (std::int32_t node = 0; node < dof_map.node_count(); ++node) {
+    if (dof_map.index(node) < 0) continue;
+    positions.col(dof_map.index(node)) = all.col(node);
   }
   return positions;
 }

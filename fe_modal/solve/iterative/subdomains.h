@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/dofs/node_graph.h"
 #include "mesher/mesh/mesh.h"
 
@@ -19,13 +19,13 @@ using NodeLists = std::vector<std::vector<std::int32_t>>;
 /// where there are two elements. Elements belong to one each, nodes between them to several. None
 /// goes across parts: the stiffness may jump by thousands there, and a coarse space follows a jump
 /// only along the interface of subdomains.
-NodeLists find_subdomains(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+NodeLists find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map);
 
 /// What moves when nothing does but in a layer of elements around the nodes: the nodes all of whose
 /// elements are in the layer.
-std::vector<std::int32_t> widened(const NodeGraph& graph, const std::vector<std::int32_t>& nodes);
+std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes);
 
 /// m, (3, free nodes)
-Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const FreeNodes& free_nodes);
+Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const DofMap& dof_map);
 
 }  // namespace flexneck::fe_modal

@@ -10,15 +10,15 @@
 
 #include "geometry/foundation/units.h"
 #include "mesher/drawing/colours.h"
+#include "mesher/mesh/boundary.h"
 #include "mesher/mesh/positions.h"
-#include "mesher/mesh/skin.h"
 
 namespace flexneck::pipeline {
 
 namespace {
 
 /// More sides than this make a picture for papers too large; mesh.png shows them.
-constexpr std::size_t kMostSides = 6000;
+constexpr std::size_t kMaxFacets = 6000;
 /// Largest displacement of a mode as it is drawn, over the length of the body.
 constexpr double kAmplitude = 0.2;
 /// gnuplot's "set view": about the picture's horizontal, then about z, degrees.
@@ -33,27 +33,27 @@ Eigen::Vector3d towards_eye() {
 
 /// The corners of a side as gnuplot's surfaces want them, two rows of two; a triangle has one
 /// twice.
-std::array<std::int32_t, 4> grid_corners(const mesher::ElementSide& side) {
+std::array<std::int32_t, 4> grid_corners(const mesher::Facet& side) {
   const bool is_triangle = mesher::shape_of(side.kind) == mesher::ReferenceShape::triangle;
   const auto& n = side.nodes;
   return {n[0], n[1], is_triangle ? n[2] : n[3], n[2]};
 }
 
-struct Skin {
+struct Boundary {
   const mesher::Mesh& mesh;
-  std::vector<mesher::ElementSide> sides;
+  std::vector<mesher::Facet> sides;
 };
 
-/// Sides of the skin that the eye sees, moved, each with a value at its corners.
+/// Sides of the boundary that the eye sees, moved, each with a value at its corners.
 /// @param value_of  of a node on a side
 template <class ValueOf>
-std::string csv_of(const Skin& skin, const Eigen::Matrix3Xd& positions_m, const std::string& what,
-                   const ValueOf& value_of) {
+std::string csv_of(const Boundary& boundary, const Eigen::Matrix3Xd& positions_m,
+                   const std::string& what, const ValueOf& value_of) {
   const double inch = factor_from_si("m", "in");
   const Eigen::Vector3d eye = towards_eye();
   std::string csv = "x [in],y [in],z [in]," + what + "\n";
   bool is_first = true;
-  for (const mesher::ElementSide& side : skin.sides) {
+  for (const mesher::Facet& side : boundary.sides) {
     const std::array<std::int32_t, 4> corners = grid_corners(side);
     const Eigen::Vector3d along = positions_m.col(corners[3]) - positions_m.col(corners[0]);
     const Eigen::Vector3d across = positions_m.col(corners[2]) - positions_m.col(corners[1]);
@@ -104,26 +104,26 @@ std::string displacement_palette() {
   return "set palette defined (" + colours + ")\nset cbrange [0:1]\nset colorbox size 0.02,0.4\n";
 }
 
-Figure mesh_figure(const Skin& skin) {
+Figure mesh_figure(const Boundary& boundary) {
   Figure figure{3, "Hybrid III finite element mesh"};
   std::size_t elements = 0;
-  for (const mesher::ElementBlock& block : skin.mesh.blocks) elements += block.size();
+  for (const mesher::ElementBlock& block : boundary.mesh.blocks) elements += block.size();
   figure.remark = fmt::format(
       "{} elements and {} nodes; 'flexneck mesh --preset paper' makes about as many as the paper "
       "has. "
       "Light: {}.",
-      elements, skin.mesh.nodes.size(), skin.mesh.materials.front().name);
-  figure.csv = csv_of(skin, mesher::positions_of(skin.mesh), "material",
-                      [&](std::int32_t, const mesher::ElementSide& side) {
-                        return static_cast<double>(skin.mesh.blocks[side.block].material);
+      elements, boundary.mesh.nodes.size(), boundary.mesh.materials.front().name);
+  figure.csv = csv_of(boundary, mesher::positions_of(boundary.mesh), "material",
+                      [&](std::int32_t, const mesher::Facet& side) {
+                        return static_cast<double>(boundary.mesh.blocks[side.block].material);
                       });
   figure.script = surface_script(
-      figure, mesher::positions_of(skin.mesh),
+      figure, mesher::positions_of(boundary.mesh),
       "set palette defined (0 '#d5dbe0', 1 '#7d8794')\nset cbrange [0:1]\nunset colorbox\n");
   return figure;
 }
 
-Figure mode_figure(const Skin& skin, const fe_modal::ModalBody& body) {
+Figure mode_figure(const Boundary& boundary, const fe_modal::ModalBody& body) {
   Figure figure{4, "Hybrid III first mode shape (36.1 Hz)"};
   const Eigen::Matrix3Xd& shape = body.shapes.front();
   const Eigen::VectorXd size = shape.colwise().norm();
@@ -133,9 +133,9 @@ Figure mode_figure(const Skin& skin, const fe_modal::ModalBody& body) {
       body.nodes_m + kAmplitude * extent.maxCoeff() / size.maxCoeff() * shape;
   figure.remark = fmt::format("Here {:.2f} Hz, {}. Colour: displacement, its largest 1.",
                               body.frequencies_Hz[0], body.modes.front().name);
-  figure.csv = csv_of(
-      skin, moved, "displacement",
-      [&](std::int32_t node, const mesher::ElementSide&) { return size[node] / size.maxCoeff(); });
+  figure.csv =
+      csv_of(boundary, moved, "displacement",
+             [&](std::int32_t node, const mesher::Facet&) { return size[node] / size.maxCoeff(); });
   figure.script = surface_script(figure, moved, displacement_palette());
   return figure;
 }
@@ -149,19 +149,19 @@ std::vector<Figure> mesh_figures(const Results& results) {
     for (Figure& figure : figures) figure.missing = "the mesh";
     return figures;
   }
-  const Skin skin{*results.mesh, mesher::outer_sides(*results.mesh)};
-  if (skin.sides.size() > kMostSides) {
+  const Boundary boundary{*results.mesh, mesher::boundary_facets(*results.mesh)};
+  if (boundary.sides.size() > kMaxFacets) {
     for (Figure& figure : figures) {
       figure.missing = "a coarser mesh: this one is too fine for lines; see mesh.png and modes.png";
     }
     return figures;
   }
-  figures[0] = mesh_figure(skin);
+  figures[0] = mesh_figure(boundary);
   const bool has_modes =
       results.modes && !results.modes->shapes.empty() &&
-      results.modes->nodes_m.cols() == static_cast<Eigen::Index>(skin.mesh.nodes.size());
+      results.modes->nodes_m.cols() == static_cast<Eigen::Index>(boundary.mesh.nodes.size());
   if (has_modes) {
-    figures[1] = mode_figure(skin, *results.modes);
+    figures[1] = mode_figure(boundary, *results.modes);
   } else {
     figures[1].missing = "the modes of this mesh";
   }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "mesher/mesh/mesh_measures.h"
+#include "mesher/mesh/positions.h"
 #include "tests/mesher/exchange/files.h"
 
 namespace flexneck::mesher {

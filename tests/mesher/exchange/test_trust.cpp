@@ -6,7 +6,7 @@
 #include <gmsh.h>
 
 #include "geometry/foundation/temporary_folder.h"
-#include "mesher/exchange/outside_file.h"
+#include "mesher/exchange/foreign_file.h"
 #include "mesher/gmsh/gmsh_session.h"
 #include "tests/mesher/exchange/files.h"
 

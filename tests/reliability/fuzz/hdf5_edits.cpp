@@ -12,7 +12,7 @@ namespace {
 
 using Handle = Hdf5Handle;
 
-constexpr hsize_t kMostValues = 4096;  ///< of a dataset that an edit makes
+constexpr hsize_t kMaxValues = 4096;  ///< of a dataset that an edit makes
 
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
 std::string last_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
@@ -28,7 +28,7 @@ struct Kept {
     if (is_number) type = Handle(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
     size = H5Tget_size(type.get());
     if ((!is_number && kind != H5T_STRING) || H5Tis_variable_str(type.get()) > 0 ||
-        count_of(extents) > kMostValues) {
+        count_of(extents) > kMaxValues) {
       return;
     }
     bytes.resize(size * count_of(extents));
@@ -70,7 +70,7 @@ struct Edit {
 /// Makes a dataset anew with its values and attributes.
 void make_anew(const Edit& edit, const std::string& path, const Handle& dataset, const Handle& type,
                const Extents& extents, const Handle& creation, bool is_written) {
-  if (count_of(extents) > kMostValues) return;
+  if (count_of(extents) > kMaxValues) return;
   const Kept kept(dataset);
   const std::string old = path + " before";
   if (H5Lmove(edit.file, path.c_str(), edit.file, old.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
@@ -338,10 +338,10 @@ Hdf5Edits::Hdf5Edits(const std::string& sound) {
 }
 
 std::string Hdf5Edits::edited(EditScript& script) const {
-  constexpr int kMostEdits = 12;
+  constexpr int kMaxEdits = 12;
   const Handle file = opened_image(image_);
   const Edit edit{file.get(), objects_, names_, script};
-  for (int k = 0; k < kMostEdits && !script.is_done(); ++k) script.among(kEdits)(edit);
+  for (int k = 0; k < kMaxEdits && !script.is_done(); ++k) script.among(kEdits)(edit);
   return image_of(file);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Histories, see hdf5_edits.h.
+#include "multibody/analysis/linearisation.h"
 #include "multibody/files/history_file.h"
 #include "tests/reliability/fuzz/hdf5_target.h"
 #include "tests/support/point_mass_body.h"

@@ -10,14 +10,14 @@ using namespace flexneck;
 using namespace flexneck::mesher;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr std::array kFormats = {OutsideFormat::msh, OutsideFormat::unv,  OutsideFormat::bdf,
-                                   OutsideFormat::inp, OutsideFormat::step, OutsideFormat::brep};
+  constexpr std::array kFormats = {ForeignFormat::msh, ForeignFormat::unv,  ForeignFormat::bdf,
+                                   ForeignFormat::inp, ForeignFormat::step, ForeignFormat::brep};
   if (size == 0) return 0;
   const std::string text = fuzz::text_of(data + 1, size - 1);
-  const OutsideFormat format = kFormats[data[0] % kFormats.size()];
+  const ForeignFormat format = kFormats[data[0] % kFormats.size()];
   const std::string problem = signature_problem(format, text);
   fuzz::require(problem.find('\n') == std::string::npos, "a problem is told in one line");
-  if (!problem.empty() || format != OutsideFormat::msh) return 0;
+  if (!problem.empty() || format != ForeignFormat::msh) return 0;
   // gmsh takes anything but a section for the name of a file to be merged, or for a script.
   fuzz::require(text.starts_with("$MeshFormat"), "a .msh begins with its first section");
   return 0;

@@ -9,8 +9,8 @@ using namespace flexneck::mesher;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text = fuzz::text_of(data, size);
-  const bool is_unv = signature_problem(OutsideFormat::unv, text).empty();
-  if (!is_unv && !signature_problem(OutsideFormat::bdf, text).empty()) return 0;
+  const bool is_unv = signature_problem(ForeignFormat::unv, text).empty();
+  if (!is_unv && !signature_problem(ForeignFormat::bdf, text).empty()) return 0;
   return fuzz::try_reader([&] {
     LeftOut left_out;
     const FileSurvey survey =

@@ -9,7 +9,7 @@
 
 namespace flexneck::mesher {
 
-/// Takes the mesh over from gmsh's current model: blocks per physical volume in the order of their
+/// Imports the mesh of gmsh's current model: blocks per physical volume in the order of their
 /// tags, one for each kind; a face set and a node set per physical surface; a node set per physical
 /// curve or point, unless there is a face set of that name. Nodes are those of the volume elements,
 /// in the order of gmsh's tags. Faces point out of the part that they bound. A script's positions
@@ -17,8 +17,8 @@ namespace flexneck::mesher {
 /// @throws InputError if a script's physical group has no name, a group has no elements or elements
 /// of a kind that a mesh cannot hold, a volume is in no or several physical volumes, a part has no
 /// material, or a surface, curve or point lies on no part.
-Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
-                         const std::map<std::string, std::string>& material_of_part,
-                         GmshSource source = GmshSource::script);
+Mesh import_gmsh_mesh(const std::vector<Material>& materials,
+                      const std::map<std::string, std::string>& material_of_part,
+                      GmshSource source = GmshSource::script);
 
 }  // namespace flexneck::mesher

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/dofs/free_nodes.h"
+#include "fe_modal/dofs/dof_map.h"
 
 #include <algorithm>
 #include <numeric>
@@ -22,7 +22,7 @@ class TiedNodes {
     std::iota(next_.begin(), next_.end(), 0);
   }
 
-  void tie(std::int32_t one, std::int32_t other) {
+  void coupling(std::int32_t one, std::int32_t other) {
     const std::int32_t a = lowest(one);
     const std::int32_t b = lowest(other);
     next_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
@@ -41,13 +41,13 @@ class TiedNodes {
 
 }  // namespace
 
-FreeNodes::FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
-                     std::span<const mesher::Slit> slits)
+DofMap::DofMap(std::size_t node_count, std::span<const std::int32_t> held,
+               std::span<const mesher::Slit> slits)
     : indices_(node_count, 0) {
   TiedNodes tied(node_count);
   for (const mesher::Slit& slit : slits) {
     if (!slit.tied) continue;
-    for (std::size_t p = 0; p < slit.lower.size(); ++p) tied.tie(slit.lower[p], slit.upper[p]);
+    for (std::size_t p = 0; p < slit.lower.size(); ++p) tied.coupling(slit.lower[p], slit.upper[p]);
   }
   for (const std::int32_t node : held) {
     indices_.at(static_cast<std::size_t>(tied.lowest(node))) = -1;
@@ -64,54 +64,57 @@ FreeNodes::FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
   free_count_ = next;
 }
 
-FreeNodes::FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
-                     std::span<const RigidTie> ties, std::span<const HeldDirections> directions)
-    : FreeNodes(mesh.nodes.size(), held, mesh.slits) {
-  if (!ties.empty()) tie_rigidly(mesh, ties);
-  if (!directions.empty()) hold(directions, ties);
+DofMap::DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
+               std::span<const RigidCoupling> couplings, std::span<const HeldDirections> directions)
+    : DofMap(mesh.nodes.size(), held, mesh.slits) {
+  if (!couplings.empty()) couple_rigidly(mesh, couplings);
+  if (!directions.empty()) hold(directions, couplings);
 }
 
-void FreeNodes::tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> ties) {
+void DofMap::couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupling> couplings) {
   // By the numbers that nodes have so far, which slits may have given to several.
-  std::vector<std::int32_t> tie_of_number(static_cast<std::size_t>(free_count_), -1);
-  for (std::size_t t = 0; t < ties.size(); ++t) {
-    for (const std::int32_t node : ties[t].nodes) {
+  std::vector<std::int32_t> coupling_of_number(static_cast<std::size_t>(free_count_), -1);
+  for (std::size_t t = 0; t < couplings.size(); ++t) {
+    for (const std::int32_t node : couplings[t].nodes) {
       if (index(node) < 0) {
-        throw InputError("rigid interface '" + ties[t].name + "' has nodes that are held");
+        throw InputError("rigid interface '" + couplings[t].name + "' has nodes that are held");
       }
-      std::int32_t& tie = tie_of_number[static_cast<std::size_t>(index(node))];
-      if (tie >= 0 && tie != static_cast<std::int32_t>(t)) {
-        throw InputError("rigid interfaces '" + ties[static_cast<std::size_t>(tie)].name +
-                         "' and '" + ties[t].name + "' share nodes");
+      std::int32_t& coupling = coupling_of_number[static_cast<std::size_t>(index(node))];
+      if (coupling >= 0 && coupling != static_cast<std::int32_t>(t)) {
+        throw InputError("rigid interfaces '" + couplings[static_cast<std::size_t>(coupling)].name +
+                         "' and '" + couplings[t].name + "' share nodes");
       }
-      tie = static_cast<std::int32_t>(t);
+      coupling = static_cast<std::int32_t>(t);
     }
   }
-  std::vector<std::int32_t> new_number(tie_of_number.size());
+  std::vector<std::int32_t> new_number(coupling_of_number.size());
   for (std::size_t k = 0; k < new_number.size(); ++k) {
-    new_number[k] = tie_of_number[k] < 0 ? first_tie_++ : -1;
+    new_number[k] = coupling_of_number[k] < 0 ? first_coupling_++ : -1;
   }
-  free_count_ = first_tie_ + 2 * static_cast<Eigen::Index>(ties.size());
-  tie_of_.assign(indices_.size(), -1);
+  free_count_ = first_coupling_ + 2 * static_cast<Eigen::Index>(couplings.size());
+  coupling_of_.assign(indices_.size(), -1);
   arms_m_ = Eigen::Matrix3Xd::Zero(3, node_count());
   const auto positions = mesher::positions_of(mesh);
   for (std::size_t k = 0; k < indices_.size(); ++k) {
     if (indices_[k] < 0) continue;
     const auto number = static_cast<std::size_t>(indices_[k]);
-    tie_of_[k] = tie_of_number[number];
+    coupling_of_[k] = coupling_of_number[number];
     indices_[k] = new_number[number];
-    if (tie_of_[k] < 0) continue;
-    arms_m_.col(static_cast<Eigen::Index>(k)) = positions.col(static_cast<Eigen::Index>(k)) -
-                                                ties[static_cast<std::size_t>(tie_of_[k])].point_m;
+    if (coupling_of_[k] < 0) continue;
+    arms_m_.col(static_cast<Eigen::Index>(k)) =
+        positions.col(static_cast<Eigen::Index>(k)) -
+        couplings[static_cast<std::size_t>(coupling_of_[k])].point_m;
   }
 }
 
-void FreeNodes::hold(std::span<const HeldDirections> directions, std::span<const RigidTie> ties) {
+void DofMap::hold(std::span<const HeldDirections> directions,
+                  std::span<const RigidCoupling> couplings) {
   held_.assign(static_cast<std::size_t>(free_count_), {});
   for (const HeldDirections& held : directions) {
     for (const std::int32_t node : held.nodes) {
-      if (tie(node) >= 0) {
-        throw InputError("rigid interface '" + ties[static_cast<std::size_t>(tie(node))].name +
+      if (coupling(node) >= 0) {
+        throw InputError("rigid interface '" +
+                         couplings[static_cast<std::size_t>(coupling(node))].name +
                          "' has nodes that are held");
       }
       if (index(node) < 0) continue;
@@ -123,13 +126,13 @@ void FreeNodes::hold(std::span<const HeldDirections> directions, std::span<const
   }
 }
 
-Eigen::Index FreeNodes::held_direction_count() const {
+Eigen::Index DofMap::held_direction_count() const {
   Eigen::Index count = 0;
   for (const std::array<bool, 3>& held : held_) count += std::count(held.begin(), held.end(), true);
   return count;
 }
 
-void FreeNodes::clear_held(Eigen::VectorXd& values) const {
+void DofMap::clear_held(Eigen::VectorXd& values) const {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (held_[k][a]) values[static_cast<Eigen::Index>(3 * k + a)] = 0;
@@ -137,18 +140,19 @@ void FreeNodes::clear_held(Eigen::VectorXd& values) const {
   }
 }
 
-Eigen::VectorXd FreeNodes::restrict(const Eigen::Matrix3Xd& field) const {
+Eigen::VectorXd DofMap::restrict(const Eigen::Matrix3Xd& field) const {
   Eigen::VectorXd values(dof_count());
-  const Eigen::Index ties = (free_count_ - first_tie_) / 2;
+  const Eigen::Index couplings = (free_count_ - first_coupling_) / 2;
   using Six = Eigen::Matrix<double, 6, 6>;
-  std::vector<Six> matrices(has_rigid_ties() ? static_cast<std::size_t>(ties) : 0, Six::Zero());
-  if (has_rigid_ties()) values.tail(6 * ties).setZero();
+  std::vector<Six> matrices(has_rigid_couplings() ? static_cast<std::size_t>(couplings) : 0,
+                            Six::Zero());
+  if (has_rigid_couplings()) values.tail(6 * couplings).setZero();
   for (std::int32_t k = 0; k < node_count(); ++k) {
     if (index(k) >= 0) values.segment<3>(3 * static_cast<Eigen::Index>(index(k))) = field.col(k);
-    if (tie(k) < 0) continue;
+    if (coupling(k) < 0) continue;
     const Eigen::Matrix<double, 3, 6> motion = rigid_motions_at(arm_m(k));
-    matrices[static_cast<std::size_t>(tie(k))] += motion.transpose() * motion;
-    values.segment<6>(3 * static_cast<Eigen::Index>(translation(tie(k)))) +=
+    matrices[static_cast<std::size_t>(coupling(k))] += motion.transpose() * motion;
+    values.segment<6>(3 * static_cast<Eigen::Index>(translation(coupling(k)))) +=
         motion.transpose() * field.col(k);
   }
   for (std::size_t t = 0; t < matrices.size(); ++t) {
@@ -160,7 +164,7 @@ Eigen::VectorXd FreeNodes::restrict(const Eigen::Matrix3Xd& field) const {
   return values;
 }
 
-Eigen::Matrix3Xd FreeNodes::expand(const Eigen::VectorXd& free_values) const {
+Eigen::Matrix3Xd DofMap::expand(const Eigen::VectorXd& free_values) const {
   Eigen::Matrix3Xd field = Eigen::Matrix3Xd::Zero(3, node_count());
   for (std::size_t k = 0; k < indices_.size(); ++k) {
     if (indices_[k] < 0) continue;
@@ -170,25 +174,25 @@ Eigen::Matrix3Xd FreeNodes::expand(const Eigen::VectorXd& free_values) const {
       if (is_held(indices_[k], a)) displacement[a] = 0;
     }
   }
-  for (std::int32_t k = 0; has_rigid_ties() && k < node_count(); ++k) {
-    if (tie(k) < 0) continue;
-    const Eigen::Vector3d turn = free_values.segment<3>(3 * rotation(tie(k)));
-    field.col(k) = free_values.segment<3>(3 * translation(tie(k))) + turn.cross(arm_m(k));
+  for (std::int32_t k = 0; has_rigid_couplings() && k < node_count(); ++k) {
+    if (coupling(k) < 0) continue;
+    const Eigen::Vector3d turn = free_values.segment<3>(3 * rotation(coupling(k)));
+    field.col(k) = free_values.segment<3>(3 * translation(coupling(k))) + turn.cross(arm_m(k));
   }
   return field;
 }
 
-Eigen::VectorXd FreeNodes::gather(const Eigen::Matrix3Xd& forces) const {
+Eigen::VectorXd DofMap::gather(const Eigen::Matrix3Xd& forces) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(dof_count());
   for (std::size_t k = 0; k < indices_.size(); ++k) {
     if (indices_[k] < 0) continue;
     values.segment<3>(3 * indices_[k]) += forces.col(static_cast<Eigen::Index>(k));
   }
-  for (std::int32_t k = 0; has_rigid_ties() && k < node_count(); ++k) {
-    if (tie(k) < 0) continue;
+  for (std::int32_t k = 0; has_rigid_couplings() && k < node_count(); ++k) {
+    if (coupling(k) < 0) continue;
     const Eigen::Vector3d force = forces.col(k);
-    values.segment<3>(3 * translation(tie(k))) += force;
-    values.segment<3>(3 * rotation(tie(k))) += arm_m(k).cross(force);
+    values.segment<3>(3 * translation(coupling(k))) += force;
+    values.segment<3>(3 * rotation(coupling(k))) += arm_m(k).cross(force);
   }
   clear_held(values);
   return values;

@@ -45,15 +45,15 @@ ModalOptions held_with_rigid_tip(BasisKind basis, int count) {
 
 /// A basis of all motions of the free nodes that move those of a set rigidly: each degree of
 /// freedom outside of the set, and six motions about the origin.
-Eigen::MatrixXd motions_with_rigid(const mesher::Mesh& mesh, const FreeNodes& free_nodes,
+Eigen::MatrixXd motions_with_rigid(const mesher::Mesh& mesh, const DofMap& dof_map,
                                    const std::vector<std::int32_t>& nodes) {
-  const Eigen::Index size = free_nodes.dof_count();
+  const Eigen::Index size = dof_map.dof_count();
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(size, 6);
   std::vector<bool> is_tied(static_cast<std::size_t>(size));
   for (const std::int32_t node : nodes) {
     const Eigen::Vector3d x =
         Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data());
-    const Eigen::Index row = 3 * static_cast<Eigen::Index>(free_nodes.index(node));
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(dof_map.index(node));
     for (Eigen::Index a = 0; a < 3; ++a) {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(a);
       rigid.block<3, 1>(row, a) = axis;
@@ -74,10 +74,10 @@ struct Dense {
   Eigen::MatrixXd basis, stiffness, mass;
 };
 
-Dense dense_with_rigid_tip(const mesher::Mesh& mesh, const FreeNodes& free_nodes) {
-  const SystemMatrices system = assemble(mesh, free_nodes);
+Dense dense_with_rigid_tip(const mesher::Mesh& mesh, const DofMap& dof_map) {
+  const SystemMatrices system = assemble(mesh, dof_map);
   Dense model;
-  model.basis = motions_with_rigid(mesh, free_nodes, mesh.node_set("top").nodes);
+  model.basis = motions_with_rigid(mesh, dof_map, mesh.node_set("top").nodes);
   model.stiffness = model.basis.transpose() * dense(system.stiffness.get()) * model.basis;
   model.mass = model.basis.transpose() * dense(system.mass.get()) * model.basis;
   return model;
@@ -88,7 +88,7 @@ Dense dense_with_rigid_tip(const mesher::Mesh& mesh, const FreeNodes& free_nodes
 TEST_CASE("with a rigid interface the modes are those of the constrained matrices") {
   const mesher::Mesh mesh = block();
   const ModalBody body = analyse_modes(mesh, held_with_rigid_tip(BasisKind::normal, 8), {});
-  const Dense model = dense_with_rigid_tip(mesh, FreeNodes(mesh, mesh.node_set("bottom").nodes));
+  const Dense model = dense_with_rigid_tip(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
   const Eigen::VectorXd expected =
       testing::dense_pairs(model.stiffness, model.mass).values.head(8).cwiseSqrt() /
       (2 * std::numbers::pi);
@@ -114,13 +114,13 @@ TEST_CASE("a free body with a rigid interface has six rigid motions and the cons
   options.certify = true;
   options.interfaces = {{"tip", "top", kTip, true}, {"root", "bottom", kRoot}};
   const ModalBody body = analyse_modes(mesh, options, {});
-  const Dense model = dense_with_rigid_tip(mesh, FreeNodes(mesh, {}));
+  const Dense model = dense_with_rigid_tip(mesh, DofMap(mesh, {}));
   const Eigen::VectorXd expected =
       testing::dense_pairs(model.stiffness, model.mass).values.segment(6, 4).cwiseSqrt() /
       (2 * std::numbers::pi);
   CHECK(body.frequencies_Hz.head(6).maxCoeff() == 0);
   CHECK((body.frequencies_Hz.tail(4).array() / expected.array() - 1).abs().maxCoeff() < kSame);
-  // Inertia counts as many with the ties, and the finer mesh has the same modes.
+  // Inertia counts as many with the couplings, and the finer mesh has the same modes.
   CHECK_THAT(body.certificate, Contains("certified: no mode is missing"));
   for (std::size_t l = 6; l < 10; ++l) {
     REQUIRE(body.modes[l].mesh_error);
@@ -131,9 +131,9 @@ TEST_CASE("a free body with a rigid interface has six rigid motions and the cons
 TEST_CASE("residual modes carry the compliance of a rigid interface") {
   const mesher::Mesh mesh = block();
   const ModalBody body = analyse_modes(mesh, held_with_rigid_tip(BasisKind::residual, 3), {});
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const Dense model = dense_with_rigid_tip(mesh, free_nodes);
-  const Eigen::MatrixXd motions = average_motion(mesh, "top", kTip, free_nodes) * model.basis;
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const Dense model = dense_with_rigid_tip(mesh, dof_map);
+  const Eigen::MatrixXd motions = average_motion(mesh, "top", kTip, dof_map) * model.basis;
   const Eigen::MatrixXd expected =
       motions * testing::symmetric_solution(model.stiffness, motions.transpose());
   CHECK(difference(modal_compliance(body, "tip"), expected) < 1e-8);

@@ -9,7 +9,7 @@
 namespace flexneck::mesher {
 
 /// Kinds of files that a mesh or a geometry may come from. Each is data, none a program.
-enum class OutsideFormat {
+enum class ForeignFormat {
   msh,   ///< gmsh's mesh, version 2 or 4
   unv,   ///< I-deas universal file
   bdf,   ///< Nastran bulk data
@@ -20,7 +20,7 @@ enum class OutsideFormat {
 
 /// By the ending of the name.
 /// @throws InputError listing the known endings, or saying that a .geo file is a script.
-OutsideFormat outside_format_of(const std::filesystem::path& file);
+ForeignFormat foreign_format_of(const std::filesystem::path& file);
 
 /// The contents of a file that is what its ending says.
 /// @throws InputError if it cannot be read or is something else.
@@ -41,11 +41,11 @@ class CheckedCopy {
   /// @throws InputError if the file cannot be read or is something else than its ending says.
   explicit CheckedCopy(const std::filesystem::path& file);
 
-  OutsideFormat format() const { return format_; }
+  ForeignFormat format() const { return format_; }
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  OutsideFormat format_;
+  ForeignFormat format_;
   TemporaryFolder folder_;
   std::filesystem::path path_;
 };

@@ -6,37 +6,37 @@
 #include <string>
 #include <vector>
 
+#include "mesher/mesh/facet_key.h"
 #include "mesher/mesh/mesh.h"
-#include "mesher/mesh/side_key.h"
 
 namespace flexneck::mesher {
 
 /// Where an element has a side.
-struct SidePlace {
-  SideKey key{};
+struct FacetPlace {
+  FacetKey key{};
   std::size_t block = 0;
   std::size_t element = 0;  ///< of the block
-  std::size_t side = 0;     ///< of sides_of(the block's kind)
+  std::size_t side = 0;     ///< of facets_of(the block's kind)
   std::size_t number = 0;   ///< of the element among those of all blocks
 };
 
 /// The sides of all elements in the order of their keys, so that those that meet are neighbours.
-std::vector<SidePlace> sides_by_key(const Mesh& mesh);
+std::vector<FacetPlace> facets_by_key(const Mesh& mesh);
 
 /// A side of one volume element, its normal outwards.
-struct ElementSide {
+struct Facet {
   std::size_t block = 0;
   ElementKind kind = ElementKind::quad9;
   std::vector<std::int32_t> nodes;
 };
-ElementSide side_at(const Mesh& mesh, const SidePlace& place);
+Facet facet_at(const Mesh& mesh, const FacetPlace& place);
 
-/// The sides that belong to one element only, in the order of the elements: the skin of the body,
-/// open slits included.
-std::vector<ElementSide> outer_sides(const Mesh& mesh);
+/// The sides that belong to one element only, in the order of the elements: the boundary of the
+/// body, open slits included.
+std::vector<Facet> boundary_facets(const Mesh& mesh);
 
 /// The sides whose nodes all satisfy `is_wanted`, in their order. Without any, no blocks.
-FaceSet faces_among(const std::vector<ElementSide>& sides, const std::string& name,
+FaceSet faces_among(const std::vector<Facet>& sides, const std::string& name,
                     const std::function<bool(std::int32_t)>& is_wanted);
 
 }  // namespace flexneck::mesher

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/analysis/convergence.h"
+#include "fe_modal/analysis/discretisation_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,12 +60,12 @@ MeshError compare(double coarse_Hz, const Eigen::VectorXd& fine_Hz,
 }
 
 /// Modal assurance criteria (coarse, fine) in the mass of the coarse mesh, whose nodes come first.
-Eigen::MatrixXd similarities(const SolvedMesh& coarse, const FreeNodes& fine_nodes,
+Eigen::MatrixXd similarities(const SolvedMesh& coarse, const DofMap& fine_nodes,
                              const Eigen::MatrixXd& fine) {
   Eigen::MatrixXd seen(coarse.pairs.vectors.rows(), fine.cols());
   for (Eigen::Index j = 0; j < fine.cols(); ++j) {
     const Eigen::Matrix3Xd field = fine_nodes.expand(fine.col(j));
-    seen.col(j) = coarse.free_nodes.restrict(field.leftCols(coarse.free_nodes.node_count()));
+    seen.col(j) = coarse.dof_map.restrict(field.leftCols(coarse.dof_map.node_count()));
   }
   const Eigen::MatrixXd momentum = block_product(coarse.mass, seen);
   const Eigen::ArrayXd norms = seen.cwiseProduct(momentum).colwise().sum();
@@ -79,24 +79,23 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
                                    const Progress& progress) {
   const mesher::RefinedMesh fine = mesher::refine(solved.mesh);
   const bool held = options.is_held();
-  const FreeNodes free_nodes = free_nodes_of(fine.mesh, options);
+  const DofMap dof_map = dof_map_of(fine.mesh, options);
   if (progress) {
-    progress("refining for the error of the mesh, " + std::to_string(free_nodes.dof_count()) +
+    progress("refining for the error of the mesh, " + std::to_string(dof_map.dof_count()) +
              " degrees of freedom");
   }
   ModalOptions fine_options = options;
   fine_options.ranks = nullptr;  // which keep the coarse problem
   fine_options.element_ranks.clear();
   fine_options.node_order = mesher::nested_dissection(fine.mesh);
-  const std::unique_ptr<const ModalSystem> system =
-      make_system(fine.mesh, free_nodes, fine_options);
+  const std::unique_ptr<const ModalSystem> system = make_system(fine.mesh, dof_map, fine_options);
   const std::unique_ptr<const ShiftInverse> inverse =
       system->shift_inverse(held ? 0 : -eigenvalue_scale(solved.mesh));
 
-  Eigen::MatrixXd start(free_nodes.dof_count(), solved.pairs.vectors.cols());
+  Eigen::MatrixXd start(dof_map.dof_count(), solved.pairs.vectors.cols());
   for (Eigen::Index k = 0; k < start.cols(); ++k) {
-    const Eigen::Matrix3Xd field = solved.free_nodes.expand(solved.pairs.vectors.col(k));
-    start.col(k) = free_nodes.restrict((fine.prolongation * field.transpose()).transpose());
+    const Eigen::Matrix3Xd field = solved.dof_map.expand(solved.pairs.vectors.col(k));
+    start.col(k) = dof_map.restrict((fine.prolongation * field.transpose()).transpose());
   }
   const Eigen::ArrayXd coarse = solved.pairs.values;
   const Settled settled = [&](const RitzState& state) {
@@ -110,7 +109,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   const EigenPairs pairs =
       block_lanczos(system->mass(), *inverse, EigenPairs(), std::move(start), count, settled);
 
-  const Eigen::MatrixXd similarity = similarities(solved, free_nodes, pairs.vectors);
+  const Eigen::MatrixXd similarity = similarities(solved, dof_map, pairs.vectors);
   const Eigen::VectorXd fine_Hz = pairs.values.unaryExpr(&hertz);
   std::vector<MeshError> errors;
   for (Eigen::Index k = 0; k < similarity.rows(); ++k) {

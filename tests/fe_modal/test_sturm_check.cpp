@@ -8,9 +8,9 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/analysis/modal_analysis.h"
-#include "fe_modal/solve/completeness.h"
-#include "fe_modal/solve/inertia.h"
 #include "fe_modal/solve/local_system.h"
+#include "fe_modal/solve/sturm_check.h"
+#include "fe_modal/solve/sturm_count.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
@@ -22,9 +22,8 @@ TEST_CASE("inertia counts the eigenvalues of a dense solution, double ones twice
   const mesher::Material steel{"steel", 2.1e11, 0.3, 7850};
   for (const bool held : {true, false}) {
     const mesher::Mesh mesh = testing::box({2, 2, 2}, {0.1, 0.1, 0.3}, steel).make();
-    const FreeNodes free_nodes(mesh,
-                               held ? mesh.node_set("bottom").nodes : std::vector<std::int32_t>{});
-    const SystemMatrices system = assemble(mesh, free_nodes);
+    const DofMap dof_map(mesh, held ? mesh.node_set("bottom").nodes : std::vector<std::int32_t>{});
+    const SystemMatrices system = assemble(mesh, dof_map);
     const Eigen::VectorXd values =
         testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get())).values;
     if (held) REQUIRE(values[1] < values[0] * (1 + 1e-8));  // bending in both directions
@@ -41,8 +40,8 @@ TEST_CASE("inertia counts the eigenvalues of a dense solution, double ones twice
 TEST_CASE("a mode withheld is missed, wherever it stood") {
   const mesher::Mesh mesh =
       testing::box({2, 2, 4}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
-  const FreeNodes free_nodes(mesh, mesh.node_set("bottom").nodes);
-  const LocalSystem system(assemble(mesh, free_nodes));
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const LocalSystem system(assemble(mesh, dof_map));
   const Eigen::VectorXd values =
       lowest_eigenpairs(system.stiffness(), system.mass(), *system.shift_inverse(0), 7).values;
   CHECK(prove_complete(system, values, 5, 0).has_value());
@@ -60,8 +59,8 @@ TEST_CASE("a certificate is true of the modes that the body has, whatever the co
   options.certify = true;
   for (const bool held : {true, false}) {
     options.held_set = held ? "bottom" : "";
-    const FreeNodes free_nodes = free_nodes_of(mesh, options);
-    const SystemMatrices system = assemble(mesh, free_nodes);
+    const DofMap dof_map = dof_map_of(mesh, options);
+    const SystemMatrices system = assemble(mesh, dof_map);
     const Eigen::VectorXd truth_Hz =
         testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get()))
             .values.cwiseMax(0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/solve/completeness.h"
+#include "fe_modal/solve/sturm_check.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/exchange/outside_file.h"
+#include "mesher/exchange/foreign_file.h"
 
 #include <algorithm>
 #include <array>
@@ -19,19 +19,19 @@ namespace fs = std::filesystem;
 
 struct FormatRecord {
   std::string_view ending;
-  OutsideFormat format;
+  ForeignFormat format;
   const char* safe_name;  ///< decides which reader gmsh takes
 };
 
 constexpr std::array<FormatRecord, 8> kFormats = {{
-    {".msh", OutsideFormat::msh, "mesh.msh"},
-    {".unv", OutsideFormat::unv, "mesh.unv"},
-    {".bdf", OutsideFormat::bdf, "mesh.bdf"},
-    {".nas", OutsideFormat::bdf, "mesh.bdf"},
-    {".inp", OutsideFormat::inp, "mesh.inp"},
-    {".step", OutsideFormat::step, "shape.step"},
-    {".stp", OutsideFormat::step, "shape.step"},
-    {".brep", OutsideFormat::brep, "shape.brep"},
+    {".msh", ForeignFormat::msh, "mesh.msh"},
+    {".unv", ForeignFormat::unv, "mesh.unv"},
+    {".bdf", ForeignFormat::bdf, "mesh.bdf"},
+    {".nas", ForeignFormat::bdf, "mesh.bdf"},
+    {".inp", ForeignFormat::inp, "mesh.inp"},
+    {".step", ForeignFormat::step, "shape.step"},
+    {".stp", ForeignFormat::step, "shape.step"},
+    {".brep", ForeignFormat::brep, "shape.brep"},
 }};
 
 const FormatRecord& record_of(const fs::path& file) {
@@ -63,10 +63,10 @@ std::string contents_of(const fs::path& file) {
 
 }  // namespace
 
-OutsideFormat outside_format_of(const fs::path& file) { return record_of(file).format; }
+ForeignFormat foreign_format_of(const fs::path& file) { return record_of(file).format; }
 
 std::string checked_contents(const fs::path& file) {
-  const OutsideFormat format = outside_format_of(file);
+  const ForeignFormat format = foreign_format_of(file);
   std::string contents = contents_of(file);
   const std::string problem = signature_problem(format, contents);
   if (!problem.empty()) {
@@ -77,7 +77,7 @@ std::string checked_contents(const fs::path& file) {
 }
 
 CheckedCopy::CheckedCopy(const fs::path& file)
-    : format_(outside_format_of(file)), path_(folder_ / record_of(file).safe_name) {
+    : format_(foreign_format_of(file)), path_(folder_ / record_of(file).safe_name) {
   const std::string contents = checked_contents(file);
   std::ofstream copy(path_, std::ios::binary);
   copy << contents;

@@ -12,11 +12,11 @@ namespace flexneck::mesher {
 
 /// Corner nodes of a side in ascending order, which is the same for the elements on either side of
 /// it. A triangle's key begins with -1.
-using SideKey = std::array<std::int32_t, 4>;
+using FacetKey = std::array<std::int32_t, 4>;
 
 /// @param corners three or four, in any order
-inline SideKey key_of_corners(std::span<const std::int32_t> corners) {
-  SideKey key;
+inline FacetKey key_of_corners(std::span<const std::int32_t> corners) {
+  FacetKey key;
   key.fill(-1);
   std::copy(corners.begin(), corners.end(), key.begin());
   std::sort(key.begin(), key.end());
@@ -24,12 +24,12 @@ inline SideKey key_of_corners(std::span<const std::int32_t> corners) {
 }
 
 /// @param nodes of the face, the corners first
-inline SideKey key_of_face(ElementKind face_kind, std::span<const std::int32_t> nodes) {
+inline FacetKey key_of_face(ElementKind face_kind, std::span<const std::int32_t> nodes) {
   return key_of_corners(nodes.first(corners_per_element(face_kind)));
 }
 
 /// @param nodes of the whole element
-inline SideKey key_of_side(const Side& side, std::span<const std::int32_t> nodes) {
+inline FacetKey key_of_facet(const ReferenceFacet& side, std::span<const std::int32_t> nodes) {
   std::array<std::int32_t, 4> corners{};
   const std::size_t count = corners_per_element(side.kind);
   for (std::size_t c = 0; c < count; ++c) corners[c] = nodes[side.nodes[c]];

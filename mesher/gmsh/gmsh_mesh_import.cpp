@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/gmsh/gmsh_take_over.h"
+#include "mesher/gmsh/gmsh_mesh_import.h"
 
 #include <algorithm>
 #include <array>
@@ -126,9 +126,9 @@ void add_node_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source
 
 }  // namespace
 
-Mesh take_over_gmsh_mesh(const std::vector<Material>& materials,
-                         const std::map<std::string, std::string>& material_of_part,
-                         GmshSource source) {
+Mesh import_gmsh_mesh(const std::vector<Material>& materials,
+                      const std::map<std::string, std::string>& material_of_part,
+                      GmshSource source) {
   const std::vector<GmshGroup> volumes = gmsh_groups(3, source);
   if (volumes.empty()) {
     throw InputError(source == GmshSource::script

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/solve/inertia.h"
+#include "fe_modal/solve/sturm_count.h"
 
 #include "fe_modal/algebra/petsc_handles.h"
 #include "geometry/foundation/available_memory.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/mesh/skin.h"
+#include "mesher/mesh/boundary.h"
 
 #include <algorithm>
 #include <span>
@@ -18,58 +18,58 @@ FaceBlock& block_of(FaceSet& set, ElementKind kind) {
 
 }  // namespace
 
-std::vector<SidePlace> sides_by_key(const Mesh& mesh) {
-  std::vector<SidePlace> places;
+std::vector<FacetPlace> facets_by_key(const Mesh& mesh) {
+  std::vector<FacetPlace> places;
   std::size_t number = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const ElementBlock& block = mesh.blocks[b];
     const std::size_t width = nodes_per_element(block.kind);
-    const auto sides = sides_of(block.kind);
+    const auto sides = facets_of(block.kind);
     for (std::size_t e = 0; e < block.size(); ++e, ++number) {
       const auto nodes = std::span(block.nodes).subspan(e * width, width);
       for (std::size_t s = 0; s < sides.size(); ++s) {
-        places.push_back({key_of_side(sides[s], nodes), b, e, s, number});
+        places.push_back({key_of_facet(sides[s], nodes), b, e, s, number});
       }
     }
   }
-  std::sort(places.begin(), places.end(), [](const SidePlace& a, const SidePlace& b) {
+  std::sort(places.begin(), places.end(), [](const FacetPlace& a, const FacetPlace& b) {
     return std::tie(a.key, a.block, a.element, a.side) <
            std::tie(b.key, b.block, b.element, b.side);
   });
   return places;
 }
 
-ElementSide side_at(const Mesh& mesh, const SidePlace& place) {
+Facet facet_at(const Mesh& mesh, const FacetPlace& place) {
   const ElementBlock& block = mesh.blocks[place.block];
-  const Side& side = sides_of(block.kind)[place.side];
-  ElementSide result{place.block, side.kind, {}};
+  const ReferenceFacet& side = facets_of(block.kind)[place.side];
+  Facet result{place.block, side.kind, {}};
   for (const std::size_t local : side.nodes) {
     result.nodes.push_back(block.nodes[place.element * nodes_per_element(block.kind) + local]);
   }
   return result;
 }
 
-std::vector<ElementSide> outer_sides(const Mesh& mesh) {
-  const std::vector<SidePlace> places = sides_by_key(mesh);
-  std::vector<SidePlace> single;
+std::vector<Facet> boundary_facets(const Mesh& mesh) {
+  const std::vector<FacetPlace> places = facets_by_key(mesh);
+  std::vector<FacetPlace> single;
   for (std::size_t p = 0; p < places.size(); ++p) {
     const bool as_before = p > 0 && places[p].key == places[p - 1].key;
     const bool as_after = p + 1 < places.size() && places[p].key == places[p + 1].key;
     if (!as_before && !as_after) single.push_back(places[p]);
   }
-  std::sort(single.begin(), single.end(), [](const SidePlace& a, const SidePlace& b) {
+  std::sort(single.begin(), single.end(), [](const FacetPlace& a, const FacetPlace& b) {
     return std::tie(a.block, a.element, a.side) < std::tie(b.block, b.element, b.side);
   });
-  std::vector<ElementSide> result;
+  std::vector<Facet> result;
   result.reserve(single.size());
-  for (const SidePlace& place : single) result.push_back(side_at(mesh, place));
+  for (const FacetPlace& place : single) result.push_back(facet_at(mesh, place));
   return result;
 }
 
-FaceSet faces_among(const std::vector<ElementSide>& sides, const std::string& name,
+FaceSet faces_among(const std::vector<Facet>& sides, const std::string& name,
                     const std::function<bool(std::int32_t)>& is_wanted) {
   FaceSet set{.name = name, .blocks = {}};
-  for (const ElementSide& side : sides) {
+  for (const Facet& side : sides) {
     if (!std::all_of(side.nodes.begin(), side.nodes.end(), is_wanted)) continue;
     std::vector<std::int32_t>& nodes = block_of(set, side.kind).nodes;
     nodes.insert(nodes.end(), side.nodes.begin(), side.nodes.end());

@@ -15,7 +15,7 @@
 namespace flexneck::fe_modal {
 
 /// Nodes that move as one rigid body, u = t + theta x (x - point).
-struct RigidTie {
+struct RigidCoupling {
   std::string name;  ///< for messages
   std::vector<std::int32_t> nodes;
   Eigen::Vector3d point_m;
@@ -29,51 +29,52 @@ struct HeldDirections {
 
 /// Numbers the nodes that may move; held ones have no degrees of freedom, and nodes tied to one
 /// another share theirs. Degree of freedom 3 index(k) + a is direction a of node k. Keeps the order
-/// of the nodes. After them come two numbers for each rigid tie: its translation t and its rotation
-/// theta take the places of two nodes. A direction that is held alone keeps its number, and is
-/// zero.
-class FreeNodes {
+/// of the nodes. After them come two numbers for each rigid coupling: its translation t and its
+/// rotation theta take the places of two nodes. A direction that is held alone keeps its number,
+/// and is zero.
+class DofMap {
  public:
   /// @param held nodes held in all directions, in range; a node tied to one of them is held too
-  /// @param slits those that are tied tie their pairs
-  FreeNodes(std::size_t node_count, std::span<const std::int32_t> held,
-            std::span<const mesher::Slit> slits = {});
-  /// @param ties a node tied to one of theirs, by a slit, is in the tie too
-  /// @throws InputError if a rigid tie has a node that is held, in any direction, or shares one
-  /// with another.
-  FreeNodes(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
-            std::span<const RigidTie> ties = {}, std::span<const HeldDirections> directions = {});
+  /// @param slits those that are tied couple their pairs
+  DofMap(std::size_t node_count, std::span<const std::int32_t> held,
+         std::span<const mesher::Slit> slits = {});
+  /// @param couplings a node tied to one of theirs, by a slit, is in the coupling too
+  /// @throws InputError if a rigid coupling has a node that is held, in any direction, or shares
+  /// one with another.
+  DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
+         std::span<const RigidCoupling> couplings = {},
+         std::span<const HeldDirections> directions = {});
 
   /// As numbered elsewhere.
   /// @param indices what index() is to return
-  FreeNodes(std::vector<std::int32_t> indices, std::int32_t free_count)
+  DofMap(std::vector<std::int32_t> indices, std::int32_t free_count)
       : indices_(std::move(indices)), free_count_(free_count) {}
 
   Eigen::Index node_count() const { return static_cast<Eigen::Index>(indices_.size()); }
   Eigen::Index free_count() const { return free_count_; }
   Eigen::Index dof_count() const { return 3 * free_count_; }
 
-  /// Number of a node among the free ones, -1 if it is held or in a rigid tie.
+  /// Number of a node among the free ones, -1 if it is held or in a rigid coupling.
   std::int32_t index(std::int32_t node) const { return indices_[static_cast<std::size_t>(node)]; }
-  bool has_rigid_ties() const { return !tie_of_.empty(); }
-  /// Number of a node's rigid tie, -1 if it is in none.
-  std::int32_t tie(std::int32_t node) const {
-    return has_rigid_ties() ? tie_of_[static_cast<std::size_t>(node)] : -1;
+  bool has_rigid_couplings() const { return !coupling_of_.empty(); }
+  /// Number of a node's rigid coupling, -1 if it is in none.
+  std::int32_t coupling(std::int32_t node) const {
+    return has_rigid_couplings() ? coupling_of_[static_cast<std::size_t>(node)] : -1;
   }
-  /// Numbers of a rigid tie's translation, m, and rotation, rad.
-  std::int32_t translation(std::int32_t tie) const { return first_tie_ + 2 * tie; }
-  std::int32_t rotation(std::int32_t tie) const { return first_tie_ + 2 * tie + 1; }
+  /// Numbers of a rigid coupling's translation, m, and rotation, rad.
+  std::int32_t translation(std::int32_t coupling) const { return first_coupling_ + 2 * coupling; }
+  std::int32_t rotation(std::int32_t coupling) const { return first_coupling_ + 2 * coupling + 1; }
   /// Whether a node, by its number, is held in direction a.
   bool is_held(std::int32_t number, Eigen::Index a) const {
     return !held_.empty() && held_[static_cast<std::size_t>(number)][static_cast<std::size_t>(a)];
   }
   Eigen::Index held_direction_count() const;
   /// Whether some degrees of freedom are not those of a node that moves freely.
-  bool is_constrained() const { return has_rigid_ties() || !held_.empty(); }
-  /// From the point of its rigid tie to a node.
+  bool is_constrained() const { return has_rigid_couplings() || !held_.empty(); }
+  /// From the point of its rigid coupling to a node.
   Eigen::Vector3d arm_m(std::int32_t node) const { return arms_m_.col(node); }
-  /// What a field on all nodes, (3, n), has as free values: of a tie, whose nodes need not quite
-  /// move rigidly in it, the least-squares motion.
+  /// What a field on all nodes, (3, n), has as free values: of a coupling, whose nodes need not
+  /// quite move rigidly in it, the least-squares motion.
   Eigen::VectorXd restrict(const Eigen::Matrix3Xd& field) const;
 
   /// Field on all nodes, (3, n), from its free values (dof_count()); zero on held nodes.
@@ -83,15 +84,15 @@ class FreeNodes {
   Eigen::VectorXd gather(const Eigen::Matrix3Xd& forces) const;
 
  private:
-  void tie_rigidly(const mesher::Mesh& mesh, std::span<const RigidTie> ties);
-  void hold(std::span<const HeldDirections> directions, std::span<const RigidTie> ties);
+  void couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupling> couplings);
+  void hold(std::span<const HeldDirections> directions, std::span<const RigidCoupling> couplings);
   /// Zero in the directions that are held, (dof_count()).
   void clear_held(Eigen::VectorXd& values) const;
 
   std::vector<std::int32_t> indices_;
   Eigen::Index free_count_ = 0;
-  std::int32_t first_tie_ = 0;
-  std::vector<std::int32_t> tie_of_;       ///< (n), empty without rigid ties
+  std::int32_t first_coupling_ = 0;
+  std::vector<std::int32_t> coupling_of_;  ///< (n), empty without rigid couplings
   Eigen::Matrix3Xd arms_m_;                ///< (3, n), likewise
   std::vector<std::array<bool, 3>> held_;  ///< (free_count), empty without held directions
 };
