@@ -15,8 +15,8 @@ namespace flexneck::fe_modal {
 
 namespace {
 
-/// A process that no mpirun or batch system has started takes Open MPI a third of a second to set
-/// up for others, none of whom come: a daemon and the network.
+/// In a process that neither mpirun nor a batch system has started, Open MPI would spend a third of
+/// a second on a daemon and on network connections that are never used.
 void stay_alone() {
   for (const char* const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
     if (std::getenv(launched) != nullptr) return;

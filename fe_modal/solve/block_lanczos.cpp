@@ -78,7 +78,7 @@ class Basis {
     projected_.topLeftCorner(count_, count_) =
         (known.values.array() - shift).inverse().matrix().asDiagonal();
   }
-  /// Keeps Ritz vectors.
+  /// Restarts with the Ritz vectors V combination, whose Ritz values are given.
   void cut_back(const Eigen::MatrixXd& combination, const Eigen::VectorXd& values) {
     constexpr Eigen::Index kRows = 4096;
     for (Eigen::Index first = 0; first < vectors_.rows(); first += kRows) {
@@ -96,8 +96,8 @@ class Basis {
   Eigen::Index count_ = 0;
 };
 
-/// Takes out of the block what lies in the basis, twice, for the first time leaves rounding. M X is
-/// made anew each time: where little is left of X it would not be M times that.
+/// M-orthogonalises the block against the basis, twice, since once leaves rounding errors. M X is
+/// computed anew each time: where little of X remains, an updated M X would be inaccurate.
 /// @return {S, R} with the old block = V S + the new block R
 std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(Mat mass, const Basis& basis,
                                                           Columns& block) {

@@ -124,7 +124,7 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, cons
   }
 }
 
-/// What is held has a stiffness of its own, of the others' size, and no mass: it stays still.
+/// Each fixed degree of freedom gets the mean diagonal entry as its only stiffness, and no mass.
 void stiffen_held(const DofMap& dof_map, SymmetricMatrix& stiffness) {
   double sum = 0;
   const auto for_each = [&](const auto& action) {

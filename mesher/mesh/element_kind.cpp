@@ -11,7 +11,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// The tables of the richest kinds; those of poorer ones are their beginnings.
+// Nodes of the kinds with most nodes. Kinds with fewer have the first of them, in the same order.
 
 constexpr std::array<Point, 27> kHexahedronNodes = {{
     // corners

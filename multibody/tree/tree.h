@@ -35,11 +35,11 @@ struct TreeBody {
   TreeNode outer;         ///< M, on this body
   Eigen::Index position;  ///< of the joint's coordinates, then the modes', in the positions
   Eigen::Index velocity;  ///< of their rates in the velocities
-  /// Rigid, fixed to its carrier, and nothing hangs on it: its inertia stays
-  /// what it is.
+  /// Rigid, fixed to its carrier and without outer bodies: its articulated inertia is its own, and
+  /// constant.
   bool is_rigid_end = false;
-  /// Held by a driven body that never turns: its own frame's inertia makes no more than moments in
-  /// that joint.
+  /// Fixed to a prescribed body that never turns: the inertia of its own frame acts on nothing but
+  /// the reaction of that joint.
   bool rides = false;
 
   bool is_fixed() const { return joint.kind == TreeJoint::Kind::fixed; }

@@ -22,7 +22,7 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
   // Where M is the origin, the bias of its acceleration is zero.
   if (shifts) work.bias.noalias() -= work.inertia * work.outer_bias;
   if (m == 0) return;
-  // Nobody asks what is left of a body that a driven one holds.
+  // The articulated inertia of a body that a prescribed one holds is not needed.
   const bool is_held = body.carrier.body == kNone && body.is_fixed();
   Matrix6Xd& coupling = work.coupling;
   for (Index l = 0; l < m; ++l) {

@@ -34,13 +34,13 @@ class CoarseSpace {
   void add_correction(const Eigen::MatrixXf& residuals, Eigen::MatrixXf& result) const;
 
  private:
-  /// Interface nodes that the same subdomains share and that hang together.
+  /// A connected set of interface nodes that the same subdomains share: a face, edge or vertex.
   struct Piece {
     std::vector<std::int32_t> nodes;
     Eigen::MatrixXd motions;  ///< (3 nodes, up to 6), orthonormal
     Eigen::Index first = 0;   ///< number of its first function
   };
-  /// What follows inside of a subdomain.
+  /// Values of the coarse functions at the nodes inside a subdomain.
   struct Inside {
     std::vector<std::int32_t> nodes;
     std::vector<std::int32_t> functions;

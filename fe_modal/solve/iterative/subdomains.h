@@ -21,8 +21,8 @@ using NodeLists = std::vector<std::vector<std::int32_t>>;
 /// only along the interface of subdomains.
 NodeLists find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map);
 
-/// What moves when nothing does but in a layer of elements around the nodes: the nodes all of whose
-/// elements are in the layer.
+/// An overlap extended by one layer of elements: of the nodes and their neighbours, those all of
+/// whose neighbours are among these.
 std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes);
 
 /// m, (3, free nodes)
