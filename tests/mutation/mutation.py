@@ -72,6 +72,7 @@ class Campaign:
         (self.work / "switch.h").write_text(SWITCH)
         done = run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DFLEXNECK_TESTS=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
+                    "-DFLEXNECK_PRECOMPILED_HEADERS=OFF",  # the switch comes first
                     f"-DCMAKE_CXX_FLAGS=-w -include {self.work / 'switch.h'}"])
         if done.returncode != 0:
             sys.exit(done.stdout + done.stderr)
