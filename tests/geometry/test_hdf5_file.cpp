@@ -51,6 +51,16 @@ TEST_CASE("what was written comes back, and the same writes give the same bytes"
   CHECK_FALSE(file.has("/group/values/deeper"));
 }
 
+TEST_CASE("a text that begins as our HDF5 files do is hashed as a whole") {
+  const TemporaryFolder folder;
+  const std::string text = "flexneck, XXH3-128 of all after 512 bytes: " + std::string(600, '1');
+  for (const std::string& contents : {std::string("flexneck,s\n1,2\n"), text}) {
+    std::ofstream(folder / "a.csv", std::ios::binary) << contents;
+    CHECK(hash_of_file(folder / "a.csv") == hash_of_text(contents));
+    CHECK(computed_hash_of_file(folder / "a.csv") == hash_of_text(contents));
+  }
+}
+
 TEST_CASE("one flipped bit anywhere in a file of ours is found before HDF5 reads it") {
   const TemporaryFolder folder;
   write_example(folder / "a.h5");
