@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -61,8 +62,14 @@ class Hdf5Writer {
   void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   void commit(Durability durability = Durability::content);
+  /// With work, if any, that is done while the disk takes the content. If it throws, nothing is
+  /// left.
+  void commit(const std::function<void()>& meanwhile);
 
  private:
+  /// Completes the content; only its place is left to be taken.
+  void complete(Durability durability);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -260,13 +260,23 @@ void Hdf5Writer::write_attribute(const std::string& object, const std::string& n
   impl_->write_attribute(object, name, H5T_NATIVE_INT64, &value);
 }
 
-void Hdf5Writer::commit(Durability durability) {
+void Hdf5Writer::complete(Durability durability) {
   for (auto& [name, rows] : impl_->appended) impl_->finish(name, rows);
   impl_->require(impl_->file.close(), "the file");
   AtomicFile& bytes = impl_->bytes;
   if (durability == Durability::content) bytes.start_sync();
   bytes.write_at(0, hash_block_of(bytes.descriptor(), bytes.path()));
-  bytes.commit(durability);
+}
+
+void Hdf5Writer::commit(Durability durability) {
+  complete(durability);
+  impl_->bytes.commit(durability);
+}
+
+void Hdf5Writer::commit(const std::function<void()>& meanwhile) {
+  complete(Durability::content);
+  if (meanwhile) meanwhile();
+  impl_->bytes.commit(Durability::content);
 }
 
 }  // namespace flexneck

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,8 +42,10 @@ struct HistoryFile {
   std::optional<LinearisationRecord> linearisation = {};
 };
 
-/// A history that memory holds whole; HistoryWriter takes it in blocks. @throws as that.
-void write_history(const std::filesystem::path& path, const HistoryFile& file);
+/// A history that memory holds whole; HistoryWriter takes it in blocks. `meanwhile` and what is
+/// thrown: as there.
+void write_history(const std::filesystem::path& path, const HistoryFile& file,
+                   const std::function<void()>& meanwhile = {});
 /// @throws InputError if the file is missing, truncated, foreign or inconsistent.
 HistoryFile read_history(const std::filesystem::path& path);
 

@@ -173,7 +173,7 @@ void HistoryWriter::append(const History& outputs, const std::vector<Channel>& c
   has_begun_ = true;
 }
 
-void HistoryWriter::finish(const HistoryFile& last) {
+void HistoryWriter::finish(const HistoryFile& last, const std::function<void()>& meanwhile) {
   check_group_names(last.history);
   check_names(names_of(last.channels), "channel");
   if (has_begun_) {
@@ -184,11 +184,12 @@ void HistoryWriter::finish(const HistoryFile& last) {
   }
   write_groups(file_, last.history, last.channels);
   write_run(file_, last);
-  file_.commit();
+  file_.commit(meanwhile);
 }
 
-void write_history(const std::filesystem::path& path, const HistoryFile& file) {
-  HistoryWriter(path).finish(file);
+void write_history(const std::filesystem::path& path, const HistoryFile& file,
+                   const std::function<void()>& meanwhile) {
+  HistoryWriter(path).finish(file, meanwhile);
 }
 
 }  // namespace flexneck::multibody

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "geometry/foundation/hdf5_file.h"
@@ -20,8 +21,9 @@ class HistoryWriter {
   void append(const History& outputs, const std::vector<Channel>& channels);
   /// The last outputs, which may be none, with what is known at the end of the run: statistics,
   /// warnings, linearisation, provenance.
+  /// @param meanwhile work that is done while the disk takes the file, which then gets its name
   /// @throws InputError if a name cannot be that of a group.
-  void finish(const HistoryFile& last);
+  void finish(const HistoryFile& last, const std::function<void()>& meanwhile = {});
 
  private:
   Hdf5Writer file_;

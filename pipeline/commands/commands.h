@@ -53,8 +53,6 @@ bool pictures_command(const CommandInput& input);
 bool static_command(const CommandInput& input);
 /// All cases, and their tables.
 bool pendulum_command(const CommandInput& input);
-/// The tables of cases that have been run.
-bool pendulum_tables_command(const CommandInput& input);
 bool verify_command(const CommandInput& input);
 bool report_command(const CommandInput& input);
 bool study_command(const CommandInput& input);

@@ -13,19 +13,25 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Figures of a case from its file, and those that take no run.
-PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
-                       const fe_modal::ModalBody& body) {
+PendulumResult result_from_file(const CommandInput& input, const CaseSection& experiment) {
   const Study& study = input.study;
   const std::filesystem::path path = input.folder.history(experiment);
   const multibody::HistoryFile file = read_history(path);
   require_same_inputs(path, file.provenance, study, case_provenance(study, experiment).parameters,
                       "flexneck pendulum");
   require_whole_run(path, file.history);
+  return pendulum_result(study, experiment, file.history.time_s, file.channels);
+}
+
+/// The figures of a case's run, and those that take no run.
+PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
+                       const PendulumResults& known, const fe_modal::ModalBody& body) {
+  const Study& study = input.study;
   PendulumEntry entry;
   entry.experiment = experiment;
   entry.pulse = case_pulse(study, experiment);
-  entry.result = pendulum_result(study, experiment, file.history.time_s, file.channels);
+  const auto run = known.find(experiment.name);
+  entry.result = run != known.end() ? run->second : result_from_file(input, experiment);
   entry.hanging = first_system_mode(study, experiment, body, true);
   entry.weightless = first_system_mode(study, experiment, body, false);
   if (experiment.variant_of.empty() || !experiment.rigid_neck.empty())
@@ -63,14 +69,15 @@ bool pendulum_command(const CommandInput& input) {
   const std::vector<const CaseSection*> all = pendulum_cases(input.study);
   PendulumCases cases(input, all);
   for (std::size_t k = 0; k < all.size(); ++k) cases.write_next();
-  return pendulum_tables_command(input);
+  write_pendulum_tables(input, cases.results());
+  return true;
 }
 
-bool pendulum_tables_command(const CommandInput& input) {
+void write_pendulum_tables(const CommandInput& input, const PendulumResults& known) {
   const NeckModes modes = read_neck_modes(input);
   std::vector<PendulumEntry> entries;
   for (const CaseSection* const experiment : pendulum_cases(input.study))
-    entries.push_back(entry_of(input, *experiment, modes.body));
+    entries.push_back(entry_of(input, *experiment, known, modes.body));
   const std::vector<ResultTable> variants = variant_tables(input.study, entries);
   std::vector<ResultTable> tables = {peak_table(input.study, entries), oscillation_table(entries),
                                      velocity_table(entries),
@@ -88,7 +95,6 @@ bool pendulum_tables_command(const CommandInput& input) {
   write_tables(input.folder.file("timing.json"), measured, provenance);
   write_spectrum(input);
   print(input, entries, variants, measured);
-  return true;
 }
 
 }  // namespace flexneck::pipeline

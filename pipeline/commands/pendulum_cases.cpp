@@ -50,18 +50,21 @@ void PendulumCases::write_next() {
   write(experiment, std::move(run));
 }
 
-void PendulumCases::write(const CaseSection& experiment, PendulumRun&& run) const {
+void PendulumCases::write(const CaseSection& experiment, PendulumRun&& run) {
   const ResultsFolder& folder = input_.folder;
-  write_csv(folder.curves(experiment), run.history.time_s, in_customary_units(run.channels));
   multibody::HistoryFile file;
   file.history = std::move(run.history);
   file.channels = std::move(run.channels);
   file.provenance = case_provenance(input_.study, experiment);
   file.provenance.inputs.push_back(modes_.file);
-  multibody::write_history(folder.history(experiment), file);
+  multibody::write_history(folder.history(experiment), file, [&] {
+    write_csv(folder.curves(experiment), file.history.time_s, in_customary_units(file.channels));
+  });
   for (const std::string& warning : file.history.warnings)
     input_.console.warning(experiment.name + ": " + warning);
   require_whole_run(folder.history(experiment), file.history);
+  results_[experiment.name] =
+      pendulum_result(input_.study, experiment, file.history.time_s, file.channels);
 }
 
 }  // namespace flexneck::pipeline

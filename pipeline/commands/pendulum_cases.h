@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <deque>
 #include <future>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "fe_modal/body/modal_body_file.h"
@@ -23,6 +25,15 @@ struct NeckModes {
 /// @throws InputError if they are missing or were made with other values than the study has now.
 NeckModes read_neck_modes(const CommandInput& input);
 
+/// By the name of the case.
+using PendulumResults = std::map<std::string, PendulumResult>;
+
+/// The tables of all cases of the pendulum.
+/// @param known results of cases that this process has just run; the others are read from the
+/// cases' files, whose hash takes time
+/// @throws InputError if such a file is missing, stems from other values or is incomplete.
+void write_pendulum_tables(const CommandInput& input, const PendulumResults& known);
+
 /// Runs cases of the pendulum: all processors compute ahead, files are written in order.
 class PendulumCases {
  public:
@@ -30,15 +41,18 @@ class PendulumCases {
   /// Waits for the next case and writes its files. @throws std::logic_error if there is none,
   /// ComputationError if the run has ended early, with what there is of it in the files.
   void write_next();
+  /// Of the cases that have been written.
+  const PendulumResults& results() const { return results_; }
 
  private:
   void compute_ahead();
-  void write(const CaseSection& experiment, PendulumRun&& run) const;
+  void write(const CaseSection& experiment, PendulumRun&& run);
 
   const CommandInput& input_;
   std::vector<const CaseSection*> cases_;
   NeckModes modes_;
   std::size_t written_ = 0;
+  PendulumResults results_;
   std::deque<std::future<PendulumRun>> running_;  ///< last: they end before what they read
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <functional>
 
 #include <fmt/core.h>
 
@@ -46,7 +47,7 @@ struct Stage {
   std::string name;
   Provenance from;
   std::vector<std::string> after;
-  bool (*command)(const CommandInput&);
+  std::function<bool(const CommandInput&)> command;
 };
 
 /// Less the study's own files: they change with every value, which do not all matter to a stage.
@@ -75,7 +76,8 @@ std::vector<Stage> stages_before_cases(const Study& study) {
 std::string stage_of(const CaseSection& experiment) { return "pendulum-" + experiment.name; }
 
 /// What follows once every case of the pendulum was run.
-std::vector<Stage> stages_after_cases(const Study& study) {
+/// @param known results of those that were run just now
+std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults& known) {
   Provenance everything = provenance_of(study);
   if (!study.verification.empty()) {
     everything.inputs.push_back(
@@ -87,7 +89,10 @@ std::vector<Stage> stages_after_cases(const Study& study) {
   std::vector<std::string> results = runs;
   results.insert(results.end(), {"mesh", "pictures", "static", "pendulum", "verify"});
   return {{"pendulum", experiment_provenance(study, CaseSection::Kind::pendulum), runs,
-           pendulum_tables_command},
+           [&known](const CommandInput& input) {
+             write_pendulum_tables(input, known);
+             return true;
+           }},
           {"verify", everything, runs, verify_command},
           {"report", everything, results, report_command}};
 }
@@ -113,7 +118,8 @@ void make(const CommandInput& input, Stages& records, const Stage& stage) {
 
 /// Each case of the pendulum is a stage. Which of them are due is found before the first one is
 /// made, so that they can be computed ahead of their turn.
-void make_cases(const CommandInput& input, Stages& records) {
+/// @return results of those that were made
+PendulumResults make_cases(const CommandInput& input, Stages& records) {
   const std::vector<const CaseSection*> all = pendulum_cases(input.study);
   const auto from = [&](const CaseSection& experiment) {
     return without_studies(case_provenance(input.study, experiment), input.study);
@@ -125,10 +131,11 @@ void make_cases(const CommandInput& input, Stages& records) {
   if (due.size() < all.size())
     input.console.step(fmt::format("Nothing has changed for {} of {} pendulum cases: kept",
                                    all.size() - due.size(), all.size()));
-  if (due.empty()) return;
+  if (due.empty()) return {};
   PendulumCases cases(input, due);
   for (const CaseSection* const experiment : due)
     records.make(stage_of(*experiment), from(*experiment), {"modes"}, [&] { cases.write_next(); });
+  return cases.results();
 }
 
 bool run_stages(const CommandInput& input, StepTimes& times) {
@@ -148,8 +155,8 @@ bool run_stages(const CommandInput& input, StepTimes& times) {
   make_all(stages_before_cases(study));
   if (!study.geometry) return true;
   times.start("pendulum cases");
-  make_cases(input, records);
-  make_all(stages_after_cases(study));
+  const PendulumResults known = make_cases(input, records);
+  make_all(stages_after_cases(study, known));
   return read_verification(input.folder.verification()).table.passed();
 }
 

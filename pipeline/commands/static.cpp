@@ -38,14 +38,15 @@ StaticTestSignals write(const CommandInput& input, const CaseSection& experiment
                         const Provenance& provenance) {
   if (history.time_s.size() == 0)
     throw ComputationError(experiment.name + ": " + history.incomplete);
-  const StaticTestSignals signals = static_test_signals(model, history, experiment);
+  StaticTestSignals signals = static_test_signals(model, history, experiment);
   multibody::HistoryFile file;
   file.history = std::move(history);
   file.channels = static_test_channels(signals);
   file.provenance = provenance;
-  multibody::write_history(input.folder.history(experiment), file);
-  write_csv(input.folder.curves(experiment), file.history.time_s,
-            in_customary_units(file.channels, "in*lbf"));
+  multibody::write_history(input.folder.history(experiment), file, [&] {
+    write_csv(input.folder.curves(experiment), file.history.time_s,
+              in_customary_units(file.channels, "in*lbf"));
+  });
   for (const std::string& warning : file.history.warnings)
     input.console.warning(experiment.name + ": " + warning);
   require_whole_run(input.folder.history(experiment), file.history);

@@ -169,6 +169,22 @@ TEST_CASE("missing, foreign and truncated files and values that are not finite a
   CHECK_THROWS_WITH(file.read_doubles("/values", {2}, "m"), Contains("finite"));
 }
 
+TEST_CASE("a file takes its place after the work beside its commit, and not if that fails") {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.h5";
+  const std::vector<double> values = {1, 2};
+  Hdf5Writer failing(path, kFormat);
+  failing.write("/values", values, {2}, "m");
+  CHECK_THROWS_AS(failing.commit([] { throw ComputationError("no space"); }), ComputationError);
+  CHECK(testing::names_in(folder.path()).empty());
+  Hdf5Writer file(path, kFormat);
+  file.write("/values", values, {2}, "m");
+  bool was_there = true;
+  file.commit([&] { was_there = std::filesystem::exists(path); });
+  CHECK_FALSE(was_there);
+  CHECK(Hdf5Reader(path, kFormat).read_doubles("/values", {2}, "m") == values);
+}
+
 TEST_CASE("provenance survives the file") {
   const TemporaryFolder folder;
   Provenance written;
