@@ -169,10 +169,10 @@ TEST_CASE("a model that is not sound ends in one line, exit code 2 and no file")
 
 TEST_CASE("what a terminal would obey reaches it spelt out, in one line of bounded length") {
   const TemporaryFolder folder;
-  const std::string flexneck = testing::flexneck_program() + " ";
+  const std::string simulate = "simulate -o " + (folder / "out").string() + " ";
   const fs::path evil = folder / "a\x1b]0;title\a\nb.toml";
   const auto check_refused = [&](const std::string& line, const std::string& shown) {
-    const CommandOutcome outcome = testing::run_shell(flexneck + line);
+    const CommandOutcome outcome = testing::run_flexneck(line);
     INFO(outcome.text);
     CHECK(outcome.exit_code == 2);
     CHECK_THAT(outcome.text, Contains(shown));
@@ -180,19 +180,19 @@ TEST_CASE("what a terminal would obey reaches it spelt out, in one line of bound
     CHECK(outcome.text.size() < 5000);
     CHECK(find_unprintable(outcome.text, "\n") == std::string::npos);
   };
-  check_refused("simulate '" + evil.string() + "'", "a\\x1b]0;title\\x07\\nb.toml: no such file");
+  check_refused(simulate + "'" + evil.string() + "'", "a\\x1b]0;title\\x07\\nb.toml: no such file");
   write_text(evil, double_pendulum_text() + "\n[[body]]\n");
-  check_refused("simulate '" + evil.string() + "'", "a\\x1b]0;title\\x07\\nb.toml:");
+  check_refused(simulate + "'" + evil.string() + "'", "a\\x1b]0;title\\x07\\nb.toml:");
   check_refused("'\x1b[2J'", "there is no command '\\x1b[2J'");
   check_refused("--'\x1b[2J'", "\\x1b[2J");
   check_refused("study --set 'a\x1b=1'", "--set a\\x1b=1");
   const fs::path named = write_text(
       folder / "named.toml", with(double_pendulum_text(), "\"shoulder\"", "\"\\u001b[31m\""));
-  check_refused("simulate " + named.string(), "found \"\\x1b[31m\"");
+  check_refused(simulate + named.string(), "found \"\\x1b[31m\"");
   const fs::path wide = write_text(
       folder / "wide.toml",
       with(double_pendulum_text(), "\"upper.top\"", "\"" + std::string(1'000'000, 'x') + "\""));
-  check_refused("simulate " + wide.string(), "[…]");
+  check_refused(simulate + wide.string(), "[…]");
 }
 
 TEST_CASE("a run that cannot go on says when and why and keeps what it has, marked incomplete") {
