@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/descriptor/joints.h"
 
-#include "geometry/foundation/error.h"
+#include <stdexcept>
+
 #include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody {
@@ -9,15 +10,6 @@ namespace flexneck::multibody {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-struct JointLaw {
-  Index translation_rows;
-  Index angular_rows;
-  /// Sets T and returns the orientation's residual, T's rows used.
-  Vector3d (*orientation)(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
-  /// What T's rows of gamma have besides T (gr_j - gr_i).
-  Vector3d (*bias)(const NodeKinematics& i, const NodeKinematics& j, const JointRows& joint);
-};
 
 namespace {
 
@@ -33,17 +25,6 @@ Vector3d no_bias(const NodeKinematics&, const NodeKinematics&, const JointRows&)
 Vector3d same_orientation(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
   joint.T.setIdentity();
   return rotation_log(i.R * j.R.transpose());
-}
-
-/// Two unit vectors that make a right-handed frame with the unit vector h, as rows.
-TwoRows across(const Vector3d& h) {
-  Index smallest = 0;
-  h.cwiseAbs().minCoeff(&smallest);
-  const Vector3d first = h.cross(Vector3d::Unit(smallest)).normalized();
-  TwoRows rows;
-  rows.row(0) = first.transpose();
-  rows.row(1) = h.cross(first).transpose();
-  return rows;
 }
 
 /// Phi = T (h_j x h_i) with T perpendicular to h_j, fixed in j; equivalent to eq. (12).
@@ -77,32 +58,30 @@ Vector3d crossed_axes_bias(const NodeKinematics& i, const NodeKinematics& j,
   return {-turning.dot(i.Om - j.Om), 0, 0};
 }
 
-constexpr JointLaw kBall{3, 0, no_orientation, no_bias};
-constexpr JointLaw kPin{3, 2, common_axis, common_axis_bias};
-constexpr JointLaw kFixed{3, 3, same_orientation, no_bias};
-constexpr JointLaw kUniversal{3, 1, crossed_axes, crossed_axes_bias};
-constexpr JointLaw kCylindrical{2, 2, common_axis, common_axis_bias};
-constexpr JointLaw kSlider{2, 3, same_orientation, no_bias};
-constexpr JointLaw kFree{0, 0, no_orientation, no_bias};
-
-const JointLaw& law_of(JointKind kind) {
-  switch (kind) {
-    case JointKind::ball:
-      return kBall;
-    case JointKind::pin:
-      return kPin;
-    case JointKind::fixed:
-      return kFixed;
-    case JointKind::universal:
-      return kUniversal;
-    case JointKind::cylindrical:
-      return kCylindrical;
-    case JointKind::slider:
-      return kSlider;
-    case JointKind::free:
-      return kFree;
+RotationRows rotation_rows(HeldRotation held) {
+  switch (held) {
+    case HeldRotation::none:
+      return {0, no_orientation, no_bias};
+    case HeldRotation::all:
+      return {3, same_orientation, no_bias};
+    case HeldRotation::common_axis:
+      return {2, common_axis, common_axis_bias};
+    case HeldRotation::crossed_axes:
+      return {1, crossed_axes, crossed_axes_bias};
   }
-  throw InputError("unknown kind of joint");
+  throw std::logic_error("unknown rows of an orientation");
+}
+
+Index translation_row_count(HeldTranslation held) {
+  switch (held) {
+    case HeldTranslation::none:
+      return 0;
+    case HeldTranslation::all:
+      return 3;
+    case HeldTranslation::across_axis:
+      return 2;
+  }
+  throw std::logic_error("unknown rows of a position");
 }
 
 /// Marker j may slide along an axis of i.
@@ -115,7 +94,7 @@ void fill_rows(const NodeKinematics& node, const JointRows& joint, double sign, 
         node.P.transpose().lazyProduct(sign * joint.D.topRows<2>().transpose());
   else if (joint.translation_rows == 3)
     B.leftCols<3>() = sign * node.P.transpose();
-  if (joint.law->angular_rows == 0) return;
+  if (joint.rotation.count == 0) return;
   const Matrix3d T_transposed = sign * joint.T.transpose();
   B.middleCols<3>(joint.translation_rows).noalias() = node.W.transpose().lazyProduct(T_transposed);
 }
@@ -123,13 +102,13 @@ void fill_rows(const NodeKinematics& node, const JointRows& joint, double sign, 
 }  // namespace
 
 JointRows::JointRows(const Joint& joint, Index velocity_count_i, Index velocity_count_j)
-    : law(&law_of(joint.kind)),
-      axis_i(joint.axis),
-      axis_j(joint.kind == JointKind::universal ? joint.second_axis : joint.axis),
+    : axis_i(joint.axis),
+      axis_j(joint.kind->axes == JointAxes::two ? joint.second_axis : joint.axis),
       across_i(across(axis_i)),
       across_j(across(axis_j)),
-      translation_rows(law->translation_rows),
-      rows(law->translation_rows + law->angular_rows),
+      rotation(rotation_rows(joint.kind->rotation)),
+      translation_rows(translation_row_count(joint.kind->translation)),
+      rows(translation_rows + rotation.count),
       B_i(TransposedRows::Zero(velocity_count_i, kMaxRows)),
       B_j(TransposedRows::Zero(velocity_count_j, kMaxRows)) {}
 
@@ -142,8 +121,8 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
     for (Index r = 0; r < 2; ++r) joint.L.row(r) = Vector3d(joint.D.row(r)).cross(gap).transpose();
   }
   joint.position_residual.head(n) = joint.D.topRows(n) * gap;
-  if (joint.law->angular_rows > 0)
-    joint.position_residual.segment<3>(n) = joint.law->orientation(i, j, joint);
+  if (joint.rotation.count > 0)
+    joint.position_residual.segment<3>(n) = joint.rotation.orientation(i, j, joint);
   fill_rows(i, joint, 1, joint.B_i);
   fill_rows(j, joint, -1, joint.B_j);
   if (slides(joint) && joint.B_i.rows() > 0)
@@ -156,7 +135,7 @@ void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, 
   joint.velocity_residual.head(n) = joint.D.topRows(n) * (i.pd - j.pd);
   if (slides(joint))
     for (Index r = 0; r < n; ++r) joint.velocity_residual[r] += joint.L.row(r).dot(i.Om);
-  if (joint.law->angular_rows > 0) joint.velocity_residual.segment<3>(n) = joint.T * (i.Om - j.Om);
+  if (joint.rotation.count > 0) joint.velocity_residual.segment<3>(n) = joint.T * (i.Om - j.Om);
 }
 
 void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
@@ -173,13 +152,13 @@ void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRo
           joint.L.row(r).dot(i.gr) + 2 * turning.dot(parting) + i.Om.cross(turning).dot(gap);
     }
   }
-  if (joint.law->angular_rows > 0)
-    joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.law->bias(i, j, joint);
+  if (joint.rotation.count > 0)
+    joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.rotation.bias(i, j, joint);
 }
 
 Violation violation(const JointRows& joint, const RowVector& residual) {
   return {residual.head(joint.translation_rows).norm(),
-          residual.segment(joint.translation_rows, joint.law->angular_rows).norm()};
+          residual.segment(joint.translation_rows, joint.rotation.count).norm()};
 }
 
 Reaction reaction(const JointRows& joint, const RowVector& multipliers) {

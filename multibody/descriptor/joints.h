@@ -19,9 +19,17 @@ using TransposedRows = Eigen::Matrix<double, Eigen::Dynamic, kMaxRows, Eigen::Ro
 
 using TwoRows = Eigen::Matrix<double, 2, 3>;
 
-/// What tells one kind of joint from another: how many rows hold the positions together, and how
-/// orientations are held.
-struct JointLaw;
+struct JointRows;
+
+/// How orientations are held.
+struct RotationRows {
+  Eigen::Index count;
+  /// Sets T and returns the orientation's residual, T's rows used.
+  Eigen::Vector3d (*orientation)(const NodeKinematics& i, const NodeKinematics& j,
+                                 JointRows& joint);
+  /// What T's rows of gamma have besides T (gr_j - gr_i).
+  Eigen::Vector3d (*bias)(const NodeKinematics& i, const NodeKinematics& j, const JointRows& joint);
+};
 
 /// Constraint rows of a joint, "rows i minus j" (equations.md section 4): first those along the
 /// directions D (none, 2 or 3) that hold the positions together, then those of T (none, 1, 2 or 3)
@@ -31,10 +39,10 @@ struct JointLaw;
 struct JointRows {
   JointRows(const Joint& joint, Eigen::Index velocity_count_i, Eigen::Index velocity_count_j);
 
-  const JointLaw* law;            ///< of static storage
-  Eigen::Vector3d axis_i;         ///< in the axes of marker i
-  Eigen::Vector3d axis_j;         ///< in the axes of marker j
-  TwoRows across_i, across_j;     ///< unit vectors across these axes, in the same axes
+  Eigen::Vector3d axis_i;      ///< in the axes of marker i
+  Eigen::Vector3d axis_j;      ///< in the axes of marker j
+  TwoRows across_i, across_j;  ///< unit vectors across these axes, in the same axes
+  RotationRows rotation;
   Eigen::Index translation_rows;  ///< of D
   Eigen::Index rows;
   Eigen::Matrix3d D = Eigen::Matrix3d::Identity();  ///< world; unused rows do not count

@@ -8,6 +8,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "multibody/joints/joint_kinds.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -75,15 +76,16 @@ void check_matrix(const std::string& who, const std::string& what,
 
 void check_coordinate(const std::string& who, const JointResistance& resistance,
                       const Joint& joint) {
-  const JointKind kind = joint.kind;
-  const bool slides = kind == JointKind::cylindrical || kind == JointKind::slider;
-  const bool turns = kind == JointKind::pin || kind == JointKind::cylindrical;
-  if (resistance.coordinate == JointCoordinate::distance && !slides)
-    refuse(who, "only a cylindrical or slider joint has a distance; joint '" + joint.name +
-                    "' is of another kind");
-  if (resistance.coordinate == JointCoordinate::angle && !turns)
-    refuse(who, "only a pin or cylindrical joint has an angle; joint '" + joint.name +
-                    "' is of another kind");
+  const auto demand = [&](JointCoordinate coordinate, bool JointKind::*has, const char* name) {
+    if (resistance.coordinate != coordinate || joint.kind->*has) return;
+    std::string kinds;
+    for (const JointKind* const kind : kJointKinds)
+      if (kind->*has) kinds += (kinds.empty() ? "" : ", ") + std::string(kind->name);
+    refuse(who, "joint '" + joint.name + "' is " + std::string(joint.kind->name) + " and has no " +
+                    name + "; the kinds that have one are: " + kinds);
+  };
+  demand(JointCoordinate::distance, &JointKind::has_distance, "distance");
+  demand(JointCoordinate::angle, &JointKind::has_angle, "angle");
 }
 
 }  // namespace

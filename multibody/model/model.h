@@ -10,6 +10,7 @@
 
 #include "fe_modal/body/modal_body.h"
 #include "multibody/forces/forces.h"
+#include "multibody/joints/joint.h"
 #include "multibody/numerics/smooth_motion.h"
 #include "multibody/numerics/time_table.h"
 
@@ -74,31 +75,6 @@ struct Marker {
   std::string interface;                                 ///< of a deformable body; else empty
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< body frame; unused at an interface
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< marker axes to body axes
-};
-
-/// What two markers have in common. "free" joins nothing: its bodies move as if it were not there,
-/// and it carries no load.
-enum class JointKind {
-  ball,         ///< their origins
-  pin,          ///< their origins and an axis
-  fixed,        ///< all
-  universal,    ///< their origins; an axis of i stays perpendicular to one of j (ATB's Euler joint)
-  cylindrical,  ///< an axis, along which j slides and about which it turns
-  slider,       ///< their orientations and an axis, along which j slides (ATB's slip joint)
-  free
-};
-
-/// Joins two markers. Its reaction is what body i exerts on body j, so let i be the lower one.
-/// Where the markers' origins may part, its moment is about that of marker j.
-struct Joint {
-  std::string name;
-  JointKind kind = JointKind::fixed;
-  std::size_t marker_i = 0;
-  std::size_t marker_j = 0;
-  /// Unit vector of a pin, cylindrical or slider joint in the axes of both markers, of a universal
-  /// joint in those of marker i.
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
-  Eigen::Vector3d second_axis = Eigen::Vector3d::UnitX();  ///< universal: axes of marker j
 };
 
 struct Model {

@@ -35,7 +35,7 @@ struct Walk {
 Walk walk(const Model& model) {
   std::vector<std::vector<std::size_t>> joints_on(model.bodies.size());
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    if (model.joints[k].kind == JointKind::free) continue;
+    if (model.joints[k].kind->motion == nullptr) continue;
     for (const std::size_t marker : {model.joints[k].marker_i, model.joints[k].marker_j})
       joints_on[model.markers[marker].body].push_back(k);
   }

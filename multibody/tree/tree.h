@@ -42,7 +42,7 @@ struct TreeBody {
   /// the reaction of that joint.
   bool rides = false;
 
-  bool is_fixed() const { return joint.kind == TreeJoint::Kind::fixed; }
+  bool is_fixed() const { return joint.is_fixed(); }
 };
 
 struct TreeMarker {

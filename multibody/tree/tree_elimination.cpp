@@ -104,8 +104,7 @@ void TreeDynamics::pass_inwards(const TreeBody& body, Work& work) {
   load.noalias() += work.inertia * work.joint_bias;
   Matrix6d inertia = rotated(work.R, work.inertia);
   load = rotated(work.R, load);
-  if (body.joint.kind == TreeJoint::Kind::slider ||
-      body.joint.kind == TreeJoint::Kind::cylindrical) {
+  if (body.joint.law->translates) {
     inertia = shifted(inertia, work.d);
     load = shifted(load, work.d);
   }

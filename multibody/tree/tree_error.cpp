@@ -15,23 +15,6 @@ constexpr std::size_t kParts = 4;
 constexpr std::array<const char*, kParts> kNames = {"position", "rate", "deformation",
                                                     "rate of deformation"};
 
-/// How many of a joint's coordinates, the first, are distances.
-Index distances(const TreeJoint& joint) {
-  switch (joint.kind) {
-    case TreeJoint::Kind::slider:
-    case TreeJoint::Kind::cylindrical:
-      return 1;
-    case TreeJoint::Kind::floating:
-      return 3;
-    default:
-      return 0;
-  }
-}
-
-bool has_quaternion(const TreeJoint& joint) {
-  return joint.position_count() > joint.velocity_count();
-}
-
 }  // namespace
 
 TreeError::TreeError(const Tree& tree, double relative, double absolute)
@@ -41,7 +24,7 @@ double TreeError::fastest_joint(const VectorXd& state) const {
   double squared = 0;
   const double size = tree_.size_m * tree_.size_m;
   for (const TreeBody& body : tree_.bodies) {
-    const Index n = distances(body.joint);
+    const Index n = body.joint.law->distances;
     const Index nu = body.joint.velocity_count();
     const Index first = tree_.position_count + body.velocity;
     squared = std::max({squared, state.segment(first, n).squaredNorm(),
@@ -59,7 +42,7 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
   const double speed = std::max(fastest_joint(begin), fastest_joint(end));
   for (std::size_t b = 0; b < tree_.bodies.size(); ++b) {
     const TreeBody& body = tree_.bodies[b];
-    const Index n = distances(body.joint);
+    const Index n = body.joint.law->distances;
     const Index nq = body.joint.position_count();
     const Index nu = body.joint.velocity_count();
     const Index m = body.inertia.mode_count();
@@ -67,7 +50,7 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
     const Index u = tree_.position_count + body.velocity;
     const std::size_t first = b * kParts;
     // A quaternion changes by half the angle.
-    const double turn = has_quaternion(body.joint) ? 2 : 1;
+    const double turn = body.joint.law->has_quaternion ? 2 : 1;
     if (n > 0) {
       consider(first, error.segment(q, n).norm(), tree_.size_m);
       consider(first + 1, error.segment(u, n).norm(), speed);

@@ -7,6 +7,7 @@
 #include "fe_modal/body/basis_kind.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "multibody/joints/joint_kinds.h"
 #include "pipeline/experiments/rigid_neck.h"
 #include "pipeline/model/placement.h"
 
@@ -105,7 +106,7 @@ void put_head_spring(const HeadSpringSection& spring, Model& model) {
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     multibody::Joint& joint = model.joints[k];
     if (model.markers[joint.marker_j].name != "head.condyles") continue;
-    joint.kind = multibody::JointKind::pin;
+    joint.kind = &multibody::kRevoluteJoint;
     joint.axis = spring.axis;
     model.resistances.push_back(
         {spring.name, k, multibody::JointCoordinate::angle, spring.resistance});

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "geometry/foundation/error.h"
+#include "multibody/joints/joint_kinds.h"
 #include "pipeline/experiments/bending_plane.h"
 
 namespace flexneck::pipeline {
@@ -103,7 +104,7 @@ void put_rigid_neck(const RigidNeckSection& neck, CaseSection::Direction directi
     return model.markers.size() - 1;
   };
   const auto add_pin = [&](std::size_t joint, const RigidNeckSection::Pivot& pivot) {
-    model.joints[joint].kind = multibody::JointKind::pin;
+    model.joints[joint].kind = &multibody::kRevoluteJoint;
     model.joints[joint].axis = plane.axis;
     model.resistances.push_back({"pivot of " + model.joints[joint].name, joint,
                                  multibody::JointCoordinate::angle,

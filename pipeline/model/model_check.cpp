@@ -2,12 +2,12 @@
 #include "pipeline/model/model_check.h"
 
 #include "geometry/foundation/error.h"
+#include "multibody/joints/fixed_joint.h"
 
 namespace flexneck::pipeline {
 
 using multibody::DrivenBody;
 using multibody::Joint;
-using multibody::JointKind;
 using multibody::Model;
 
 namespace {
@@ -20,7 +20,7 @@ void check_drives(const Model& model, std::size_t body) {
   const Joint* first = nullptr;
   std::size_t drive = 0;
   for (const Joint& joint : model.joints) {
-    if (joint.kind != JointKind::fixed) continue;
+    if (joint.kind->motion != &multibody::kFixedMotion) continue;
     const std::size_t i = model.markers[joint.marker_i].body;
     const std::size_t j = model.markers[joint.marker_j].body;
     if (i != body && j != body) continue;

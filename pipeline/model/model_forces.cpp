@@ -8,15 +8,9 @@
 namespace flexneck::pipeline {
 
 using multibody::JointCoordinate;
-using multibody::JointKind;
 using multibody::TimeTable;
 
 namespace {
-
-std::size_t marker_named(const StudyTable& table, const std::string& key,
-                         const Assembly& assembly) {
-  return reference(table, key, names_of(assembly.model.markers), "marker");
-}
 
 // --------------------------------------------------------------------------- loads over time
 
@@ -65,36 +59,6 @@ Eigen::Matrix<double, 6, 6> bushing_matrix(const StudyTable& table, const std::s
 }
 
 }  // namespace
-
-void read_joint(const StudyTable& table, Assembly& assembly) {
-  multibody::Joint joint;
-  joint.name = table.text("name");
-  joint.kind = static_cast<JointKind>(choice(
-      table, "kind", {"ball", "pin", "fixed", "universal", "cylindrical", "slider", "free"}));
-  joint.marker_i = marker_named(table, "lower", assembly);
-  joint.marker_j = marker_named(table, "upper", assembly);
-  const bool turns = joint.kind == JointKind::pin || joint.kind == JointKind::cylindrical;
-  const bool slides = joint.kind == JointKind::slider || joint.kind == JointKind::cylindrical;
-  if (turns || slides || joint.kind == JointKind::universal)
-    joint.axis = unit_vector(table, "axis");
-  if (joint.kind == JointKind::universal) joint.second_axis = unit_vector(table, "second_axis");
-  JointStart start;
-  const auto read = [&](const char* key, const char* unit, std::optional<double>& value) {
-    const double found = table.quantity_or(key, unit, 0);
-    if (table.has(key)) value = found;
-  };
-  if (turns) {
-    read("angle", "rad", start.angle_rad);
-    read("rate", "rad/s", start.rate_rad_s);
-  }
-  if (slides) {
-    read("distance", "m", start.distance_m);
-    read("speed", "m/s", start.speed_m_s);
-  }
-  assembly.model.joints.push_back(std::move(joint));
-  assembly.starts.push_back(start);
-  table.finish();
-}
 
 void read_force(const StudyTable& table, Assembly& assembly) {
   multibody::PointForce force;

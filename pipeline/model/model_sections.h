@@ -34,6 +34,7 @@ void read_resistance(const StudyTable& table, Assembly& assembly);  ///< [[resis
 /// Position of the thing that a key names. @throws InputError with the nearest name.
 std::size_t reference(const StudyTable& table, const std::string& key,
                       const std::vector<std::string>& names, const std::string& kind);
+std::size_t marker_named(const StudyTable& table, const std::string& key, const Assembly& assembly);
 /// A rotation vector, axis times angle; none if the key is not there.
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key);
 

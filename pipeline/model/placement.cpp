@@ -13,7 +13,6 @@ using multibody::Body;
 using multibody::DeformableBody;
 using multibody::DrivenBody;
 using multibody::Joint;
-using multibody::JointKind;
 using multibody::Marker;
 using multibody::Model;
 using multibody::Pose;
@@ -67,7 +66,7 @@ void walk(const Model& model, std::vector<bool>& done, const Visit& visit) {
     progress = false;
     for (std::size_t k = 0; k < model.joints.size(); ++k) {
       const Joint& joint = model.joints[k];
-      if (joint.kind == JointKind::free) continue;
+      if (joint.kind->motion == nullptr) continue;
       const Marker* from = &model.markers[joint.marker_i];
       const Marker* to = &model.markers[joint.marker_j];
       if (done[to->body]) std::swap(from, to);

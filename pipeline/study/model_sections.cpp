@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 
+#include "multibody/joints/joint_kinds.h"
 #include "pipeline/document/table_values.h"
+#include "pipeline/model/joint_kind.h"
 #include "pipeline/model/rigid_body.h"
 #include "pipeline/study/sections.h"
 
@@ -41,10 +44,12 @@ MarkerSection read_marker(const StudyTable& table) {
 JointSection read_joint(const StudyTable& table) {
   JointSection joint;
   joint.name = table.text("name");
-  joint.kind = static_cast<multibody::JointKind>(choice(table, "kind", {"ball", "pin", "fixed"}));
+  constexpr std::array kKinds = {&multibody::kSphericalJoint, &multibody::kRevoluteJoint,
+                                 &multibody::kFixedJoint};
+  joint.kind = joint_kind(table, kKinds);
   joint.marker_i = table.text("lower");
   joint.marker_j = table.text("upper");
-  if (joint.kind == multibody::JointKind::pin) joint.axis = unit_vector(table, "axis");
+  if (joint.kind == &multibody::kRevoluteJoint) joint.axis = unit_vector(table, "axis");
   table.finish();
   return joint;
 }

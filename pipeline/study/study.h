@@ -17,6 +17,7 @@
 #include "geometry/foundation/units.h"
 #include "geometry/neck/neck_slits.h"
 #include "mesher/mesh/mesh.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/model/model.h"
 #include "multibody/simulation/simulation.h"
 #include "pipeline/model/pulse.h"
@@ -91,7 +92,7 @@ struct MarkerSection {
 /// [[joint]]: the lower body's marker first.
 struct JointSection {
   std::string name;
-  multibody::JointKind kind = multibody::JointKind::fixed;
+  const multibody::JointKind* kind = &multibody::kFixedJoint;
   std::string marker_i, marker_j;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
 };

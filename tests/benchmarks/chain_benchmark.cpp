@@ -6,6 +6,7 @@
 #include <string>
 
 #include "multibody/equations/equations.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/benchmarks/chain_models.h"
 #include "tests/benchmarks/simbody_chain.h"
@@ -46,7 +47,7 @@ Model hanging_chain(int links) {
     const std::string name = std::to_string(k);
     const auto link = build.body("link " + name, rod(0.2, kLength_m, {2e-4, 2e-4, 2e-5}),
                                  {{0, 0, -kLength_m * k}});
-    build.joint("pin " + name, JointKind::pin, above, build.marker("top " + name, link),
+    build.joint("pin " + name, &kRevoluteJoint, above, build.marker("top " + name, link),
                 k % 2 == 0 ? Vector3d::UnitX() : Vector3d::UnitY());
     above = build.marker("bottom " + name, link, {0, 0, -kLength_m});
   }
@@ -111,10 +112,10 @@ Model flexible_chain() {
       build.body("bar", deformable(make_beam_body(bar), 0), {{0, 0, -kArm_m}, down});
   const auto head =
       build.body("head", rod(1, 0, {2e-3, 2e-3, 2e-3}), {{0, 0, -kArm_m - bar.length_m}, down});
-  build.joint("pivot", JointKind::pin, build.marker("ground", base), build.marker("eye", arm));
-  build.joint("root", JointKind::fixed, build.marker("arm end", arm, {0, 0, -kArm_m}, down),
+  build.joint("pivot", &kRevoluteJoint, build.marker("ground", base), build.marker("eye", arm));
+  build.joint("root", &kFixedJoint, build.marker("arm end", arm, {0, 0, -kArm_m}, down),
               build.interface_marker("bar base", flexible, "base"));
-  build.joint("tip", JointKind::fixed, build.interface_marker("bar top", flexible, "top"),
+  build.joint("tip", &kFixedJoint, build.interface_marker("bar top", flexible, "top"),
               build.marker("head cg", head));
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   return build.model;

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "multibody/joints/joint_kinds.h"
 #include "tests/support/test_models.h"
 
 namespace flexneck::benchmarks {
@@ -31,11 +32,11 @@ inline multibody::Model rigid_chain() {
       "head",
       multibody::RigidBody{4.5, head_center, Eigen::Vector3d(0.016, 0.024, 0.022).asDiagonal()},
       {neck_end, turn});
-  build.joint("pivot", multibody::JointKind::pin, build.marker("ground", ground),
+  build.joint("pivot", &multibody::kRevoluteJoint, build.marker("ground", ground),
               build.marker("eye", arm));
-  build.joint("shoulder", multibody::JointKind::ball, build.marker("arm end", arm, {0, 0, -kArm_m}),
-              build.marker("neck base", neck));
-  build.joint("OC", multibody::JointKind::fixed, build.marker("neck top", neck, {0, 0, -kNeck_m}),
+  build.joint("shoulder", &multibody::kSphericalJoint,
+              build.marker("arm end", arm, {0, 0, -kArm_m}), build.marker("neck base", neck));
+  build.joint("OC", &multibody::kFixedJoint, build.marker("neck top", neck, {0, 0, -kNeck_m}),
               build.marker("head joint", head));
   build.marker("head cg", head, head_center);
   build.model.gravity_m_s2 = {0, 0.5, -9.81};

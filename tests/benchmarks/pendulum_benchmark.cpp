@@ -7,6 +7,7 @@
 #include <ctime>
 #include <vector>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/batch.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/benchmarks/timing.h"
@@ -52,7 +53,7 @@ Model rigid_neck() {
     if (!marker.interface.empty()) marker.position_m = beam.interface(marker.interface).position_m;
     marker.interface.clear();
   }
-  model.joints[0].kind = JointKind::ball;
+  model.joints[0].kind = &kSphericalJoint;
   return model;
 }
 

@@ -11,6 +11,7 @@
 #include "multibody/descriptor/projection.h"
 #include "multibody/descriptor/state_error.h"
 #include "multibody/equations/equations.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/time/dormand_prince.h"
 #include "multibody/time/generalised_alpha.h"
 #include "multibody/time/motion.h"
@@ -86,7 +87,7 @@ Model neck_and_head(bool stiffens) {
   head.inertia_kg_m2 = Vector3d(0.016, 0.024, 0.022).asDiagonal();
   model.bodies.push_back({"head", head, {body.interface("tip").position_m}});
   model.markers = {{"wall", 0, ""}, {"root", 1, "root"}, {"tip", 1, "tip"}, {"head", 2, ""}};
-  model.joints = {{"base", JointKind::fixed, 0, 1}, {"top", JointKind::pin, 2, 3}};
+  model.joints = {{"base", &kFixedJoint, 0, 1}, {"top", &kRevoluteJoint, 2, 3}};
   model.forces.push_back(
       {"push", 3, Vector3d::UnitX(), TimeTable({0, 1}, {0, 9}, TimeTable::Outside::constant)});
   add_springs(model);

@@ -10,6 +10,7 @@
 
 #include "multibody/descriptor/system.h"
 #include "multibody/equations/equations.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/time/dormand_prince.h"
 #include "multibody/time/motion.h"
 #include "multibody/tree/tree_dynamics.h"
@@ -36,7 +37,7 @@ ModelBuilder flying_chain(bool stiffens) {
       build.body("root", random_rigid_body(random), {place}, spin.cross(place), spin);
   std::size_t inner = build.marker("root end", first, {0.2, 0, 0.1});
   place += Vector3d(0.2, 0, 0.1);
-  const auto join = [&](JointKind kind, std::size_t outer) {
+  const auto join = [&](const JointKind* kind, std::size_t outer) {
     build.joint("joint " + std::to_string(build.model.joints.size()), kind, inner, outer, axis);
   };
   const auto lump = make_point_mass_body(61, 3).body;
@@ -45,11 +46,11 @@ ModelBuilder flying_chain(bool stiffens) {
   DeformableBody elastic = deformable(lump, 0.1);
   elastic.stress_stiffening = stiffens;
   const auto soft = build.body("soft", elastic, {origin}, spin.cross(origin), spin);
-  join(JointKind::ball, build.interface_marker("soft side", soft, "side"));
+  join(&kSphericalJoint, build.interface_marker("soft side", soft, "side"));
   inner = build.interface_marker("soft tip", soft, "tip");
   place = origin + lump.interface("tip").position_m;
-  for (const JointKind kind : {JointKind::universal, JointKind::cylindrical, JointKind::slider,
-                               JointKind::pin, JointKind::fixed}) {
+  for (const JointKind* const kind :
+       {&kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint, &kRevoluteJoint, &kFixedJoint}) {
     const std::string name = std::to_string(build.model.bodies.size());
     const auto body =
         build.body("body " + name, random_rigid_body(random), {place}, spin.cross(place), spin);
@@ -77,7 +78,7 @@ Resistance make_resistance() {
 /// One kind of force between bodies.
 void add_force(Model& model, int kind) {
   const auto marker = [&](const char* name) { return model.marker_index(name); };
-  const auto resist = [&](JointKind of, JointCoordinate coordinate) {
+  const auto resist = [&](const JointKind* of, JointCoordinate coordinate) {
     for (std::size_t k = 0; k < model.joints.size(); ++k)
       if (model.joints[k].kind == of)
         model.resistances.push_back(
@@ -105,15 +106,15 @@ void add_force(Model& model, int kind) {
       return;
     }
     case 3:
-      resist(JointKind::cylindrical, JointCoordinate::distance);
-      resist(JointKind::slider, JointCoordinate::distance);
+      resist(&kCylindricalJoint, JointCoordinate::distance);
+      resist(&kPrismaticJoint, JointCoordinate::distance);
       return;
     case 4:
-      resist(JointKind::pin, JointCoordinate::angle);
+      resist(&kRevoluteJoint, JointCoordinate::angle);
       return;
     default:
-      resist(JointKind::ball, JointCoordinate::flexion);
-      resist(JointKind::universal, JointCoordinate::flexion);
+      resist(&kSphericalJoint, JointCoordinate::flexion);
+      resist(&kUniversalJoint, JointCoordinate::flexion);
   }
 }
 constexpr int kForceKinds = 6;

@@ -5,6 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/analysis/linearisation.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/model/driven_path.h"
 #include "multibody/numerics/rotation.h"
 #include "multibody/simulation/simulation.h"
@@ -70,8 +71,7 @@ ModelBuilder on_turntable() {
   const auto rod = build.body(
       "rod", RigidBody{kMass_kg, Vector3d::Zero(), kInertia_kg_m2 * Matrix3d::Identity()}, {at},
       w.cross(at), w);
-  build.joint("clamp", JointKind::fixed, build.marker("seat", driven),
-              build.marker("foot", rod, -at));
+  build.joint("clamp", &kFixedJoint, build.marker("seat", driven), build.marker("foot", rod, -at));
   build.marker("rim", driven, at);
   build.marker("centre", rod);
   return build;
@@ -145,7 +145,7 @@ TEST_CASE("a pendulum on the axis of a wheel does not feel the wheel turn") {
     const auto driven = build.body("wheel", wheel);
     const auto bob =
         build.body("bob", RigidBody{1, {0.3, 0, 0}, 0.01 * Matrix3d::Identity()}, {{0.2, 0, 1}});
-    build.joint("axle", JointKind::pin, build.marker("hub", driven, {0.2, 0, 1}),
+    build.joint("axle", &kRevoluteJoint, build.marker("hub", driven, {0.2, 0, 1}),
                 build.marker("eye", bob));
     build.marker("cg", bob, {0.3, 0, 0});
     return simulate(build.model, solver, {kEnd_s, 0.01});
@@ -192,7 +192,7 @@ TEST_CASE(
                  w.cross(seat), w);
   const auto on_wheel = build.marker("seat", wheel, seat);
   const auto on_bead = build.marker("hole", bead);
-  build.joint("slider", JointKind::slider, wheel_first ? on_wheel : on_bead,
+  build.joint("slider", &kPrismaticJoint, wheel_first ? on_wheel : on_bead,
               wheel_first ? on_bead : on_wheel, Vector3d::UnitX());
   const SolverOptions solver = short_steps();
   const History history = simulate(build.model, solver, {0.3, 0.03});

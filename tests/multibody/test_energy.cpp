@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/point_mass_body.h"
@@ -64,12 +65,12 @@ ModelBuilder mixed_chain(const DrivenBody& base, double zeta, const Quaterniond&
   const auto bar = build.body("bar", deformable(make_beam_body(beam), zeta), pose(joint3),
                               rate_of(joint3), spin);
   const auto head = build.body("head", make_head(), pose(joint4), rate_of(joint4), spin);
-  build.joint("pivot", JointKind::pin, build.marker("ground", ground), build.marker("eye", arm));
-  build.joint("ball", JointKind::ball, build.marker("arm end", arm, joint2),
+  build.joint("pivot", &kRevoluteJoint, build.marker("ground", ground), build.marker("eye", arm));
+  build.joint("ball", &kSphericalJoint, build.marker("arm end", arm, joint2),
               build.interface_marker("lump side", middle, "side"));
-  build.joint("weld", JointKind::fixed, build.interface_marker("lump tip", middle, "tip"),
+  build.joint("weld", &kFixedJoint, build.interface_marker("lump tip", middle, "tip"),
               build.interface_marker("bar base", bar, "base"));
-  build.joint("OC", JointKind::fixed, build.interface_marker("bar top", bar, "top"),
+  build.joint("OC", &kFixedJoint, build.interface_marker("bar top", bar, "top"),
               build.marker("head joint", head));
   build.marker("head cg", head, make_head().center_m);
   build.model.gravity_m_s2 = world * Vector3d(1, 0.5, -kGravity);

@@ -7,6 +7,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/descriptor/equilibrium.h"
 #include "multibody/history/incomplete_run.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/point_mass_body.h"
 
@@ -40,7 +41,7 @@ Model pendulum(double angle) {
   Marker bottom{"bottom", 1, ""};
   bottom.position_m = {0, 0, -kLength};
   model.markers.push_back(bottom);
-  model.joints.push_back({"pin", JointKind::pin, 0, 1});
+  model.joints.push_back({"pin", &kRevoluteJoint, 0, 1});
   return model;
 }
 
@@ -80,7 +81,7 @@ TEST_CASE("a modal body sags until elastic and gravity forces balance") {
   model.bodies.push_back({"ground", DrivenBody{}, {}});
   model.bodies.push_back({"flexible", DeformableBody{body, VectorXd::Constant(3, 0.1)}, {}});
   model.markers = {{"wall", 0, ""}, {"root", 1, "root"}};
-  model.joints.push_back({"clamp", JointKind::fixed, 0, 1});
+  model.joints.push_back({"clamp", &kFixedJoint, 0, 1});
   const VectorXd Q = equilibrium_of(model);
   // The clamp holds the body frame: omega^2 a = S2^T g, without approximation.
   for (int l = 0; l < 3; ++l) {
@@ -105,7 +106,7 @@ TEST_CASE("a run from equilibrium stays there while nothing is driven") {
   head.inertia_kg_m2 = Vector3d(0.016, 0.024, 0.022).asDiagonal();
   model.bodies.push_back({"head", head, {body.interface("tip").position_m}});
   model.markers = {{"sled", 0, ""}, {"root", 1, "root"}, {"tip", 1, "tip"}, {"head", 2, ""}};
-  model.joints = {{"base", JointKind::fixed, 0, 1}, {"top", JointKind::fixed, 2, 3}};
+  model.joints = {{"base", &kFixedJoint, 0, 1}, {"top", &kFixedJoint, 2, 3}};
   OutputOptions output;
   output.end_time_s = 0.3;
   output.interval_s = 0.1;
@@ -160,7 +161,7 @@ TEST_CASE("a quasi-static ramp carries bodies along with what is driven") {
 TEST_CASE("a quasi-static ramp ends where nothing holds any more, and keeps what was before") {
   Model model = pendulum(0);
   model.gravity_m_s2.setZero();
-  model.joints[0].kind = JointKind::slider;
+  model.joints[0].kind = &kPrismaticJoint;
   model.joints[0].axis = Vector3d::UnitX();
   model.forces.push_back({"pull", 2, Vector3d::UnitX(),
                           TimeTable({0, 0.5, 1}, {0, 0, 5}, TimeTable::Outside::constant)});
@@ -184,6 +185,6 @@ TEST_CASE("what has no equilibrium is refused") {
   sled.initial_velocity_m_s = 1;
   torn.bodies.push_back({"sled", sled, {{0, 0, -kLength}}});
   torn.markers.push_back({"on sled", 2, ""});
-  torn.joints.push_back({"hook", JointKind::ball, 3, 2});
+  torn.joints.push_back({"hook", &kSphericalJoint, 3, 2});
   CHECK_THROWS_AS(equilibrium_of(torn), flexneck::InputError);
 }

@@ -8,6 +8,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/analysis/linearisation.h"
 #include "multibody/equations/force_set.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/formulations.h"
@@ -80,7 +81,7 @@ ModelBuilder sliding_block(double speed_m_s) {
   const auto ground = build.ground();
   const auto block = build.body("block", RigidBody{2, Vector3d::Zero(), Matrix3d::Identity()}, {},
                                 {speed_m_s, 0, 0});
-  build.joint("rail", JointKind::slider, build.marker("rail", ground), build.marker("block", block),
+  build.joint("rail", &kPrismaticJoint, build.marker("rail", ground), build.marker("block", block),
               Vector3d::UnitX());
   return build;
 }
@@ -285,7 +286,7 @@ TEST_CASE("a body on a bushing has the frequencies of its springs") {
   const Vector3d moments(0.02, 0.03, 0.04);
   const auto body = build.body("body", RigidBody{2, Vector3d::Zero(), moments.asDiagonal()});
   // The equilibrium needs a joint that carries; a ball and a bushing's rotations.
-  build.joint("ball", JointKind::ball, build.marker("ground", ground), build.marker("body", body));
+  build.joint("ball", &kSphericalJoint, build.marker("ground", ground), build.marker("body", body));
   Bushing bushing{"bushing", 0, 1, {}, {}};
   bushing.stiffness.setZero();
   bushing.damping.setZero();
@@ -326,7 +327,7 @@ TEST_CASE("a permanent set is where a body rests") {
                         beam.modes.interface("top").translation * beam.offset;
   const auto ground = build.ground();
   const auto body = build.body("beam", beam);
-  build.joint("root", JointKind::fixed, build.marker("ground", ground),
+  build.joint("root", &kFixedJoint, build.marker("ground", ground),
               build.interface_marker("base", body, "base"));
   build.interface_marker("top", body, "top");
   const OutputOptions output{.end_time_s = 0.1, .interval_s = 0.05};
@@ -361,7 +362,7 @@ TEST_CASE("forces that make no sense are refused by name") {
   CHECK_THAT(refusal([](Model& m) {
                m.resistances.push_back({"r", 0, JointCoordinate::angle, {}});
              }),
-             Contains("resistance 'r'") && Contains("pin"));
+             Contains("resistance 'r'") && Contains("revolute"));
   CHECK_THAT(refusal([](Model& m) {
                m.resistances.push_back({"r", 0, JointCoordinate::distance, {}});
                m.resistances.back().resistance.friction = 1;

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "multibody/time/generalised_alpha.h"
 #include "tests/support/formulations.h"
@@ -50,7 +51,7 @@ Model heavy_top() {
   body.inertia_kg_m2 = Vector3d(0.234375, 0.46875, 0.234375).asDiagonal();
   const auto ground = build.ground();
   const auto top = build.body("top", body, {}, Vector3d::Zero(), {0, 150, -4.61538});
-  build.joint("ball", JointKind::ball, build.marker("pivot", ground), build.marker("tip", top));
+  build.joint("ball", &kSphericalJoint, build.marker("pivot", ground), build.marker("tip", top));
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   return build.model;
 }
@@ -73,9 +74,9 @@ Model stiff_pendulum() {
   const auto ground = build.ground();
   const auto bar = build.body("bar", deformable(make_beam_body(beam), 0), {Vector3d::Zero(), tilt});
   const auto head = build.body("head", make_head(), {tilt * Vector3d(0, 0, beam.length_m), tilt});
-  build.joint("pin", JointKind::pin, build.marker("pivot", ground, Vector3d::Zero(), tilt),
+  build.joint("pin", &kRevoluteJoint, build.marker("pivot", ground, Vector3d::Zero(), tilt),
               build.interface_marker("root", bar, "base"));
-  build.joint("weld", JointKind::fixed, build.interface_marker("top", bar, "top"),
+  build.joint("weld", &kFixedJoint, build.interface_marker("top", bar, "top"),
               build.marker("head", head));
   build.marker("head cg", head, make_head().center_m);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
@@ -92,7 +93,7 @@ Model hanging_rods(int count, double length, double inertia, const Vector3d& fro
     const std::string name = std::to_string(k);
     const RigidBody rod{1, {0, 0, -length / 2}, inertia * Eigen::Matrix3d::Identity()};
     const auto body = build.body("rod " + name, rod, {at, tilt});
-    build.joint("pin " + name, JointKind::pin, before, build.marker("top " + name, body));
+    build.joint("pin " + name, &kRevoluteJoint, before, build.marker("top " + name, body));
     before = build.marker("end " + name, body, {0, 0, -length});
     at += tilt * Vector3d(0, 0, -length);
   }
@@ -119,12 +120,12 @@ Model parallelogram(double inertia) {
   const auto left = build.body("left", bar(1), {Vector3d::Zero(), turn}, Vector3d::Zero(), rate);
   const auto coupler = build.body("coupler", bar(2), {crank}, rate.cross(crank));
   const auto right = build.body("right", bar(1), {across, turn}, Vector3d::Zero(), rate);
-  build.joint("A", JointKind::pin, build.marker("a", ground), build.marker("left a", left));
-  build.joint("B", JointKind::pin, build.marker("left b", left, {1, 0, 0}),
+  build.joint("A", &kRevoluteJoint, build.marker("a", ground), build.marker("left a", left));
+  build.joint("B", &kRevoluteJoint, build.marker("left b", left, {1, 0, 0}),
               build.marker("b", coupler));
-  build.joint("C", JointKind::pin, build.marker("c", coupler, across),
+  build.joint("C", &kRevoluteJoint, build.marker("c", coupler, across),
               build.marker("right c", right, {1, 0, 0}));
-  build.joint("D", JointKind::pin, build.marker("d", ground, across),
+  build.joint("D", &kRevoluteJoint, build.marker("d", ground, across),
               build.marker("right d", right));
   return build.model;
 }
@@ -212,7 +213,7 @@ TEST_CASE("generalised-alpha keeps the books of energy, damped and not, in close
                  {{kFree_m + kStart_m, 0, 0}});
   const auto wall = build.marker("wall", ground);
   const auto hook = build.marker("hook", block);
-  build.joint("rail", JointKind::slider, wall, hook, Vector3d::UnitX());
+  build.joint("rail", &kPrismaticJoint, wall, hook, Vector3d::UnitX());
   Resistance stretch;
   stretch.positive.curve = stretch.negative.curve = LoadCurve::cubic(kStiffness);
   stretch.damping = 2 * zeta * omega * kMass_kg;
@@ -253,7 +254,7 @@ TEST_CASE("generalised-alpha closes loops whose joints repeat each other") {
       build.body("door", RigidBody{10, {0.4, 0, 0}, Vector3d(0.5, 0.9, 0.6).asDiagonal()});
   for (const double z : {0.0, 1.0}) {
     const std::string name = "hinge " + std::to_string(z);
-    build.joint(name, JointKind::pin, build.marker("frame " + name, ground, {0, 0, z}),
+    build.joint(name, &kRevoluteJoint, build.marker("frame " + name, ground, {0, 0, z}),
                 build.marker("door " + name, door, {0, 0, z}), Vector3d::UnitZ());
   }
   build.marker("edge", door, {0.8, 0, 0});

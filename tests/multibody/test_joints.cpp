@@ -7,6 +7,7 @@
 #include "multibody/descriptor/initial_state.h"
 #include "multibody/descriptor/joints.h"
 #include "multibody/descriptor/projection.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/numerics/rotation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/marker_motion.h"
@@ -45,12 +46,12 @@ constexpr double kSlide_m = 0.3;
 
 enum class Driven { none, body_i, body_j };
 
-bool is_sliding(JointKind kind) {
-  return kind == JointKind::cylindrical || kind == JointKind::slider;
+bool is_sliding(const JointKind* kind) {
+  return kind == &kCylindricalJoint || kind == &kPrismaticJoint;
 }
 
 /// Two bodies of which one may be driven. The driven one has a marker off its origin.
-Model two_bodies(JointKind kind, Driven which) {
+Model two_bodies(const JointKind* kind, Driven which) {
   RandomNumbers random(31);
   Model model;
   const auto add_body = [&](const char* name, unsigned seed, int modes, bool driven) {
@@ -74,6 +75,12 @@ Model two_bodies(JointKind kind, Driven which) {
                    {"on j", 1, which == Driven::body_j ? "" : "side", offset, random.rotation()}};
   model.joints.push_back({"joint", kind, 0, 1, kAxis, kSecondAxis});
   return model;
+}
+
+VectorXd stacked(const VectorXd& first, const VectorXd& second) {
+  VectorXd both(first.size() + second.size());
+  both << first, second;
+  return both;
 }
 
 /// The markers along Q (+) (t V + t^2 / 2 Vdot), and what a joint of each kind holds of them.
@@ -107,35 +114,20 @@ class Path {
 
   /// @param D  directions that hold the positions at t = 0; a slider's turn with marker i
   /// @param T  directions that hold the orientations of a pin or a cylindrical joint at t = 0
-  VectorXd residual(JointKind kind, double t, const Matrix3d& D, const Matrix3d& T) const {
+  VectorXd residual(const JointKind* kind, double t, const Matrix3d& D, const Matrix3d& T) const {
     const Frame i = frame(0, t);
     const Frame j = frame(1, t);
     const Vector3d gap = i.p - j.p;
     const Vector3d across = T * (j.R * kAxis).cross(i.R * kAxis);
     const Vector3d twist = rotation_log(i.R * j.R.transpose());
     const Vector3d sliding = D * frame(0, 0).R * i.R.transpose() * gap;
-    VectorXd all(6);
-    switch (kind) {
-      case JointKind::ball:
-        return gap;
-      case JointKind::pin:
-        all << gap, across;
-        return all.head<5>();
-      case JointKind::fixed:
-        all << gap, twist;
-        return all;
-      case JointKind::universal:
-        all << gap, (i.R * kAxis).dot(j.R * kSecondAxis), 0, 0;
-        return all.head<4>();
-      case JointKind::cylindrical:
-        all << sliding.head<2>(), across.head<2>(), 0, 0;
-        return all.head<4>();
-      case JointKind::slider:
-        all << sliding.head<2>(), twist, 0;
-        return all.head<5>();
-      case JointKind::free:
-        break;
-    }
+    if (kind == &kSphericalJoint) return gap;
+    if (kind == &kRevoluteJoint) return stacked(gap, across.head<2>());
+    if (kind == &kFixedJoint) return stacked(gap, twist);
+    if (kind == &kUniversalJoint)
+      return stacked(gap, VectorXd::Constant(1, (i.R * kAxis).dot(j.R * kSecondAxis)));
+    if (kind == &kCylindricalJoint) return stacked(sliding.head<2>(), across.head<2>());
+    if (kind == &kPrismaticJoint) return stacked(sliding.head<2>(), twist);
     return {};
   }
 
@@ -147,18 +139,12 @@ class Path {
 };
 
 /// Orientation that marker j may have when i has the given one.
-Matrix3d joined_orientation(JointKind kind, const Matrix3d& R_i) {
-  switch (kind) {
-    case JointKind::ball:
-      return RandomNumbers(38).rotation().toRotationMatrix();
-    case JointKind::pin:
-    case JointKind::cylindrical:
-      return R_i * turned(kTurn * kAxis);
-    case JointKind::universal:
-      return R_i * turned(kTurn * kAxis) * turned(0.5 * kTurn * kSecondAxis);
-    default:
-      return R_i;
-  }
+Matrix3d joined_orientation(const JointKind* kind, const Matrix3d& R_i) {
+  if (kind == &kSphericalJoint) return RandomNumbers(38).rotation().toRotationMatrix();
+  if (kind == &kRevoluteJoint || kind == &kCylindricalJoint) return R_i * turned(kTurn * kAxis);
+  if (kind == &kUniversalJoint)
+    return R_i * turned(kTurn * kAxis) * turned(0.5 * kTurn * kSecondAxis);
+  return R_i;
 }
 
 /// A random state in which i and j coincide as the joint wants, brought onto it in velocity too.
@@ -176,7 +162,7 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
   // Turn and shift the last free body so that the markers meet.
   const VectorXd none = VectorXd::Zero(system.velocity_count);
   const Path path(model, system, state, none);
-  const JointKind kind = model.joints[0].kind;
+  const JointKind* const kind = model.joints[0].kind;
   const Frame i = path.frame(0, 0);
   const Frame j = path.frame(1, 0);
   const FreeBody& body = system.bodies.back();
@@ -197,17 +183,17 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
   return state;
 }
 
-JointKind any_joint() {
-  return GENERATE(JointKind::ball, JointKind::pin, JointKind::fixed, JointKind::universal,
-                  JointKind::cylindrical, JointKind::slider);
+const JointKind* any_joint() {
+  return GENERATE(&kSphericalJoint, &kRevoluteJoint, &kFixedJoint, &kUniversalJoint,
+                  &kCylindricalJoint, &kPrismaticJoint);
 }
 
 }  // namespace
 
 TEST_CASE("rows of every joint are derivatives of its position residual along a motion") {
-  const JointKind kind = any_joint();
+  const JointKind* const kind = any_joint();
   const Driven driven = GENERATE(Driven::none, Driven::body_i, Driven::body_j);
-  CAPTURE(static_cast<int>(kind), static_cast<int>(driven));
+  CAPTURE(kind->name, static_cast<int>(driven));
   const Model model = two_bodies(kind, driven);
   const System system(model);
   EquationsOfMotion equations(system);
@@ -239,7 +225,7 @@ TEST_CASE("rows of every joint are derivatives of its position residual along a 
 
 TEST_CASE("velocity rows of every joint are derivatives of its residual off the joint too") {
   // Those with a common axis hold only on the joint: T is chosen there anew.
-  const JointKind kind = GENERATE(JointKind::ball, JointKind::fixed, JointKind::universal);
+  const JointKind* const kind = GENERATE(&kSphericalJoint, &kFixedJoint, &kUniversalJoint);
   const Model model = two_bodies(kind, Driven::none);
   const System system(model);
   EquationsOfMotion equations(system);
@@ -258,8 +244,8 @@ TEST_CASE("velocity rows of every joint are derivatives of its residual off the 
 }
 
 TEST_CASE("reactions do no work on motions that keep the joint") {
-  const JointKind kind = any_joint();
-  CAPTURE(static_cast<int>(kind));
+  const JointKind* const kind = any_joint();
+  CAPTURE(kind->name);
   const Model model = two_bodies(kind, Driven::none);
   const System system(model);
   EquationsOfMotion equations(system);
@@ -277,11 +263,11 @@ TEST_CASE("reactions do no work on motions that keep the joint") {
   CHECK(std::abs(power) < 1e-12);
   // What the joint leaves free carries nothing.
   const Vector3d h = i.R * kAxis;
-  if (kind == JointKind::ball) CHECK(on_j.moment_Nm.norm() == 0);
-  if (kind == JointKind::pin || kind == JointKind::cylindrical)
+  if (kind == &kSphericalJoint) CHECK(on_j.moment_Nm.norm() == 0);
+  if (kind == &kRevoluteJoint || kind == &kCylindricalJoint)
     CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
   if (is_sliding(kind)) CHECK(std::abs(on_j.force_N.dot(h)) < 1e-14);
-  if (kind == JointKind::universal) {
+  if (kind == &kUniversalJoint) {
     CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
     CHECK(std::abs(on_j.moment_Nm.dot(j.R * kSecondAxis)) < 1e-14);
   }
@@ -294,7 +280,7 @@ TEST_CASE("reactions do no work on motions that keep the joint") {
 }
 
 TEST_CASE("a free joint holds nothing") {
-  const Model model = two_bodies(JointKind::free, Driven::none);
+  const Model model = two_bodies(&kFreeJoint, Driven::none);
   const System system(model);
   EquationsOfMotion equations(system);
   VectorXd state = given_state(model, system);

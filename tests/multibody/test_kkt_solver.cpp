@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "multibody/descriptor/kkt_solver.h"
+#include "multibody/joints/joint_kinds.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Index;
@@ -36,7 +37,7 @@ struct Dense {
     for (std::size_t k = 0; k < places.size(); ++k) {
       const auto size = [&](std::size_t body) { return body == kDriven ? 0 : sizes[body]; };
       Joint joint;
-      joint.kind = places[k].rows == 3 ? JointKind::ball : JointKind::fixed;
+      joint.kind = places[k].rows == 3 ? &kSphericalJoint : &kFixedJoint;
       JointRows rows(joint, size(places[k].body_i), size(places[k].body_j));
       for (TransposedRows* B : {&rows.B_i, &rows.B_j})
         for (Index c = 0; c < places[k].rows; ++c)
@@ -86,7 +87,7 @@ TEST_CASE("rows that repeat others are found and left out") {
   for (std::size_t b = 0; b < 2; ++b) solver.set_mass(b, MatrixXd::Identity(6, 6));
   Joint fixed;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    fixed.kind = places[k].rows == 6 ? JointKind::fixed : JointKind::ball;
+    fixed.kind = places[k].rows == 6 ? &kFixedJoint : &kSphericalJoint;
     JointRows rows(fixed, places[k].body_i == kDriven ? 0 : 6, 6);
     for (Index r = 0; r < places[k].rows; ++r) {
       rows.B_j(r, r) = -1;
@@ -126,7 +127,7 @@ TEST_CASE(
   }
   for (std::size_t k = 0; k < places.size(); ++k) {
     Joint joint;
-    joint.kind = places[k].rows == 6 ? JointKind::fixed : JointKind::ball;
+    joint.kind = places[k].rows == 6 ? &kFixedJoint : &kSphericalJoint;
     JointRows rows(joint, places[k].body_i == kDriven ? 0 : 6, 6);
     for (TransposedRows* B : {&rows.B_i, &rows.B_j})
       for (Index c = 0; c < places[k].rows; ++c)

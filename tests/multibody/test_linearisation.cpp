@@ -11,6 +11,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/analysis/linearisation.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/numerics/rotation.h"
 #include "tests/support/dense_solvers.h"
 #include "tests/support/point_mass_body.h"
@@ -56,7 +57,7 @@ Model double_pendulum(double m1, double l1, double m2, double l2) {
                    {"lower end", 2, ""}};
   model.markers[2].position_m = {0, 0, -l1};
   model.markers[4].position_m = {0, 0, -l2};
-  model.joints = {{"first", JointKind::pin, 0, 1}, {"second", JointKind::pin, 2, 3}};
+  model.joints = {{"first", &kRevoluteJoint, 0, 1}, {"second", &kRevoluteJoint, 2, 3}};
   return model;
 }
 
@@ -76,7 +77,7 @@ Model clamped(double zeta, double head_kg, int modes) {
   model.bodies.push_back({"ground", DrivenBody{}, {}});
   model.bodies.push_back({"flexible", DeformableBody{body, VectorXd::Constant(modes, zeta)}, {}});
   model.markers = {{"wall", 0, ""}, {"root", 1, "root"}};
-  model.joints.push_back({"clamp", JointKind::fixed, 0, 1});
+  model.joints.push_back({"clamp", &kFixedJoint, 0, 1});
   if (head_kg > 0) {
     RigidBody head;
     head.mass_kg = head_kg;
@@ -85,7 +86,7 @@ Model clamped(double zeta, double head_kg, int modes) {
     model.bodies.push_back({"head", head, {body.interface("tip").position_m}});
     model.markers.push_back({"tip", 1, "tip"});
     model.markers.push_back({"head", 2, ""});
-    model.joints.push_back({"top", JointKind::fixed, 2, 3});
+    model.joints.push_back({"top", &kFixedJoint, 2, 3});
   }
   return model;
 }
@@ -106,7 +107,7 @@ TEST_CASE("a double pendulum swings with its closed-form frequencies in both pla
     CHECK(std::abs(mode.damping_ratio) < kTolerance);
   }
   // On balls each swings in two planes, and the turns about the vertical have no restoring force.
-  for (Joint& joint : model.joints) joint.kind = JointKind::ball;
+  for (Joint& joint : model.joints) joint.kind = &kSphericalJoint;
   const auto free_modes = system_modes(model);
   REQUIRE(free_modes.size() == 6);
   CHECK(free_modes[1].frequency_Hz == 0);
@@ -167,7 +168,7 @@ TEST_CASE("about a hub that turns, a linear beam is softer by the square of the 
 
 TEST_CASE("a closed loop that is given in motion is not linearised") {
   Model loop = double_pendulum(1, 1, 1, 1);
-  loop.joints.push_back({"back", JointKind::fixed, 5, 4});
+  loop.joints.push_back({"back", &kFixedJoint, 5, 4});
   loop.markers.push_back({"below", 0, ""});
   loop.markers.back().position_m = {0, 0, -2};
   CHECK(linearise(loop, LinearisedAt::given).empty());

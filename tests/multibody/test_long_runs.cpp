@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/test_models.h"
 
@@ -29,7 +30,7 @@ Model flexible_pendulum() {
   ModelBuilder build;
   const Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi * 2 / 3, Vector3d::UnitY()));
   const auto bar = build.body("bar", deformable(make_beam_body(beam), 0), {Vector3d::Zero(), turn});
-  build.joint("pin", JointKind::pin, build.marker("pivot", build.ground(), Vector3d::Zero(), turn),
+  build.joint("pin", &kRevoluteJoint, build.marker("pivot", build.ground(), Vector3d::Zero(), turn),
               build.interface_marker("root", bar, "base"));
   build.interface_marker("tip", bar, "top");
   build.model.gravity_m_s2 = {0, 0, -kGravity};

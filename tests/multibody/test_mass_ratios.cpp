@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/equations/equations.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
@@ -49,9 +50,9 @@ void add_parallelogram(ModelBuilder& build, std::size_t ground, const std::strin
     const std::string name = prefix + (x == 0 ? "left" : "right");
     const Vector3d at(x, 0, 0);
     const auto body = build.body(name, crank, {place + at, R});
-    build.joint(name + " top", JointKind::pin, build.marker(name + " ground", ground, place + at),
+    build.joint(name + " top", &kRevoluteJoint, build.marker(name + " ground", ground, place + at),
                 build.marker(name + " top", body));
-    build.joint(name + " foot", JointKind::pin, build.marker(name + " foot", body, {0, 0, -1}),
+    build.joint(name + " foot", &kRevoluteJoint, build.marker(name + " foot", body, {0, 0, -1}),
                 build.marker(name + " end", bar, at));
   }
   build.marker(prefix + "tip", bar);
@@ -65,10 +66,10 @@ void add_chain(ModelBuilder& build, std::size_t ground) {
   const auto upper = build.body("upper", heavy, {Vector3d::Zero(), R});
   const auto link = build.body("link", body_of(1e-3, 1e-8), {along(2), R});
   const auto lower = build.body("lower", heavy, {along(3), R});
-  build.joint("top", JointKind::pin, build.marker("ground", ground), build.marker("top", upper));
-  build.joint("first", JointKind::pin, build.marker("foot", upper, {0, 0, -1}),
+  build.joint("top", &kRevoluteJoint, build.marker("ground", ground), build.marker("top", upper));
+  build.joint("first", &kRevoluteJoint, build.marker("foot", upper, {0, 0, -1}),
               build.marker("link top", link, {0, 0, 1}), Vector3d::UnitX());
-  build.joint("second", JointKind::pin, build.marker("link foot", link, {0, 0, -1}),
+  build.joint("second", &kRevoluteJoint, build.marker("link foot", link, {0, 0, -1}),
               build.marker("lower top", lower));
   build.marker("end", lower, {0, 0, -1});
 }
@@ -82,7 +83,7 @@ double largest_difference(const History& a, const History& b, const std::string&
 }
 
 /// A point of 2 kg, 0.8 m from a joint at the ground, at an angle.
-Model point_pendulum(JointKind kind, double angle) {
+Model point_pendulum(const JointKind* kind, double angle) {
   ModelBuilder build;
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   const auto ground = build.ground();
@@ -111,7 +112,7 @@ TEST_CASE(
   const auto ground = single.ground();
   const auto body =
       single.body("body", body_of(400, 50, {0, 0, -0.5}), {Vector3d::Zero(), turned(1.0)});
-  single.joint("top", JointKind::pin, single.marker("ground", ground), single.marker("top", body));
+  single.joint("top", &kRevoluteJoint, single.marker("ground", ground), single.marker("top", body));
   single.marker("tip", body, {0, 0, -1});
   const History expected = simulate(single.model, tight(Formulation::recursive), output);
   CHECK(largest_difference(found, expected, "tip") < 1e-7);
@@ -147,7 +148,7 @@ TEST_CASE("a point mass on a pin swings with the period of the elliptic integral
     a = mean;
   }
   const double period = 2 * std::numbers::pi * std::sqrt(0.8 / kGravity) / a;
-  const History history = simulate(point_pendulum(JointKind::pin, kAngle), solver_of(1e-10, 1e-13),
+  const History history = simulate(point_pendulum(&kRevoluteJoint, kAngle), solver_of(1e-10, 1e-13),
                                    {period, period / 4});
   const auto& places = history.marker("point").position_m;
   CHECK((places.col(4) - places.col(0)).norm() < 1e-8);
@@ -157,14 +158,14 @@ TEST_CASE("a point mass on a pin swings with the period of the elliptic integral
 TEST_CASE("a rotation that moves no mass and that no joint holds is refused by body and axis") {
   SolverOptions solver;
   solver.formulation = either_formulation();
-  const Model model = point_pendulum(JointKind::ball, 0.3);
+  const Model model = point_pendulum(&kSphericalJoint, 0.3);
   CHECK_THROWS_AS(simulate(model, solver, {}), InputError);
   CHECK_THROWS_WITH(simulate(model, solver, {}), Contains("'bob'") && Contains("(0, 0, 1)"));
   CHECK_THROWS_WITH(simulate_from_equilibrium(model, solver, {}), Contains("'bob'"));
 }
 
 TEST_CASE("an output that misses a joint ends a run, with the joint's name") {
-  const Model model = point_pendulum(JointKind::pin, 0.3);
+  const Model model = point_pendulum(&kRevoluteJoint, 0.3);
   const auto equations = descriptor_equations(model, {});
   Eigen::VectorXd state = equations->given_state();
   Eigen::VectorXd rate(state.size());

@@ -8,6 +8,7 @@
 
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
@@ -36,7 +37,7 @@ ModelBuilder held_beam(const flexneck::fe_modal::ModalBody& body, double zeta,
   const auto ground = build.body("base", base);
   const auto beam = build.body("beam", deformable(body, zeta), {}, velocity);
   const auto holder = build.marker("holder", ground);
-  build.joint("root", JointKind::fixed, holder, build.interface_marker("foot", beam, "base"));
+  build.joint("root", &kFixedJoint, holder, build.interface_marker("foot", beam, "base"));
   build.interface_marker("top", beam, "top");
   return build;
 }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/model/model.h"
 #include "tests/support/test_models.h"
 
@@ -124,7 +125,7 @@ TEST_CASE("Vectors that should be of unit length and driven bodies' motions are 
   CHECK_THAT(complaint([](Model& m) { m.forces[0].direction.setZero(); }),
              Contains("force 'push': direction"));
   CHECK_THAT(complaint([](Model& m) {
-               m.joints[0].kind = JointKind::pin;
+               m.joints[0].kind = &kRevoluteJoint;
                m.joints[0].axis *= 2;
              }),
              Contains("joint 'neck base': axis"));

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/formulations.h"
@@ -20,9 +21,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-const std::vector<JointKind> kKinds = {JointKind::universal, JointKind::cylindrical,
-                                       JointKind::slider,    JointKind::pin,
-                                       JointKind::ball,      JointKind::fixed};
+const std::vector<const JointKind*> kKinds = {&kUniversalJoint, &kCylindricalJoint,
+                                              &kPrismaticJoint, &kRevoluteJoint,
+                                              &kSphericalJoint, &kFixedJoint};
 constexpr double kInterval_s = 1e-3;
 /// Differences over 1 ms of momenta known to 1e-10.
 constexpr double kTolerance = 1e-7;

@@ -8,6 +8,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/history/incomplete_run.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/point_mass_body.h"
 
@@ -42,7 +43,7 @@ Model sled() {
   Marker center{"head center", 2, ""};
   center.position_m = head.center_m;
   model.markers.push_back(center);
-  model.joints = {{"base", JointKind::fixed, 0, 1}, {"top", JointKind::fixed, 2, 3}};
+  model.joints = {{"base", &kFixedJoint, 0, 1}, {"top", &kFixedJoint, 2, 3}};
   return model;
 }
 
@@ -210,7 +211,7 @@ TEST_CASE("outputs that are handed on in blocks are those of a whole run") {
 
 TEST_CASE("joints that repeat each other are named and move nothing") {
   Model twice = sled();
-  twice.joints.push_back({"again", JointKind::ball, 2, 3});
+  twice.joints.push_back({"again", &kSphericalJoint, 2, 3});
   const History history = simulate(twice, tolerance(1e-9), kShort);
   const History once = simulate(sled(), tolerance(1e-9), kShort);
   REQUIRE(history.redundant_constraints.size() == 3);

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "multibody/analysis/linearisation.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/signals/load_cell.h"
 #include "multibody/signals/response.h"
 #include "multibody/simulation/simulation.h"
@@ -27,7 +28,7 @@ VectorXd channels_of_manipulation(const Vector3d& at_m, const Vector3d& force_N)
   ModelBuilder build;
   const auto chest = build.marker("chest", build.ground());
   const auto head = build.body("head", make_head());
-  build.joint("OC", JointKind::fixed, chest, build.marker("head joint", head));
+  build.joint("OC", &kFixedJoint, chest, build.marker("head joint", head));
   build.force("hand", build.marker("grip", head, at_m), force_N, constant_table(force_N.norm()));
   const History history =
       simulate_from_equilibrium(build.model, {}, {.end_time_s = 1e-3, .interval_s = 1e-3});
@@ -140,7 +141,7 @@ TEST_CASE("A rigid pendulum's small motions have the frequency of its length") {
   const auto bob =
       build.body("bob", RigidBody{2, {0, 0, -0.5}, Vector3d(0.6, 0.5, 0.3).asDiagonal()},
                  {Vector3d::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vector3d::UnitY()))});
-  build.joint("pin", JointKind::pin, build.marker("pivot", ground), build.marker("eye", bob));
+  build.joint("pin", &kRevoluteJoint, build.marker("pivot", ground), build.marker("eye", bob));
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   const std::vector<SystemMode> modes = system_modes(build.model);
   REQUIRE(modes.size() == 1);

@@ -5,6 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/descriptor/equations_of_motion.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_start.h"
 #include "tests/support/test_models.h"
@@ -202,7 +203,7 @@ TEST_CASE("a tree's joint coordinates are found again from the motion of its bod
 TEST_CASE("the recursive formulation refuses a loop and names a joint that closes it") {
   Model model = forest();
   model.joints.push_back(
-      {"bar", JointKind::ball, model.marker_index("d end"), model.marker_index("f e")});
+      {"bar", &kSphericalJoint, model.marker_index("d end"), model.marker_index("f e")});
   CHECK_FALSE(tree::is_tree(model));
   try {
     const tree::Tree tree(model);

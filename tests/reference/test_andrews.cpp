@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/test_models.h"
 
@@ -69,7 +70,7 @@ Model mechanism() {
   const auto K7 = body(7, 0.05498, 1.912e-5, {-ub, -ua, 0}, A);
   const auto pin = [&](const std::string& name, std::size_t body_i, const Vector3d& on_i,
                        std::size_t body_j, const Vector3d& on_j) {
-    build.joint(name, JointKind::pin, build.marker(name + " i", body_i, on_i),
+    build.joint(name, &kRevoluteJoint, build.marker(name + " i", body_i, on_i),
                 build.marker(name + " j", body_j, on_j), Vector3d::UnitZ());
   };
   pin("O", ground, Vector3d::Zero(), K1, Vector3d::Zero());

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
@@ -36,7 +37,7 @@ TEST_CASE("A pendulum released from horizontal has the period of the elliptic in
   const auto pivot = build.marker("pivot", ground);
   const auto eye = build.marker("eye", bob);
   build.marker("end", bob, {0, 0, -1});
-  build.joint("pin", JointKind::pin, pivot, eye);
+  build.joint("pin", &kRevoluteJoint, pivot, eye);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   const History history =
       simulate(build.model, tight(), {.end_time_s = 2 * kPeriod_s, .interval_s = kPeriod_s / 4});
@@ -93,7 +94,7 @@ TEST_CASE("The heavy top of Bruels, Cardona and Arnold is where it must be after
   const auto pivot = build.marker("pivot", ground);
   const auto tip = build.marker("tip", top);
   build.marker("cg", top, center);
-  build.joint("ball", JointKind::ball, pivot, tip);
+  build.joint("ball", &kSphericalJoint, pivot, tip);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   const History history = simulate(build.model, tight(), {.end_time_s = 2, .interval_s = 1});
   const Vector3d published(-0.15041682, -0.72416559, -0.67302227);

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
@@ -42,10 +43,10 @@ Model make_chain() {
   const auto arm = build.body("arm", make_arm(), {Vector3d::Zero(), turn});
   const auto neck = build.body("neck", make_neck(), {arm_end, turn});
   const auto head = build.body("head", make_head(), {neck_end, turn});
-  build.joint("pivot", JointKind::pin, build.marker("ground", ground), build.marker("eye", arm));
-  build.joint("shoulder", JointKind::ball, build.marker("arm end", arm, {0, 0, -kArmLength_m}),
+  build.joint("pivot", &kRevoluteJoint, build.marker("ground", ground), build.marker("eye", arm));
+  build.joint("shoulder", &kSphericalJoint, build.marker("arm end", arm, {0, 0, -kArmLength_m}),
               build.marker("neck base", neck));
-  build.joint("OC", JointKind::fixed, build.marker("neck top", neck, {0, 0, -kNeckLength_m}),
+  build.joint("OC", &kFixedJoint, build.marker("neck top", neck, {0, 0, -kNeckLength_m}),
               build.marker("head joint", head));
   build.marker("head cg", head, make_head().center_m);
   build.model.gravity_m_s2 = kGravity_m_s2;

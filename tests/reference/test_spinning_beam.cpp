@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/signals/response.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
@@ -39,7 +40,7 @@ History spinning_beam(const Vector3d& axis, double spin_Hz, const Vector3d& blow
   const auto arm =
       build.body("beam", deformable(make_beam_body(beam), 0), {}, Vector3d::Zero(), rate);
   const auto hub_marker = build.marker("hub", hub);
-  build.joint("root", JointKind::fixed, hub_marker, build.interface_marker("root", arm, "base"));
+  build.joint("root", &kFixedJoint, hub_marker, build.interface_marker("root", arm, "base"));
   const auto tip = build.interface_marker("tip", arm, "top");
   const TimeTable force({0, 0.001, 0.002}, {0, 1, 0}, TimeTable::Outside::zero);
   build.force("strike", tip, blow, force);

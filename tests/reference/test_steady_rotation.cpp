@@ -14,6 +14,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/analysis/campbell.h"
 #include "multibody/analysis/linearisation.h"
+#include "multibody/joints/joint_kinds.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
@@ -61,7 +62,7 @@ Model rotating_beam(const Beam& beam, double rate_rad_s) {
   blade.stress_stiffening = true;
   const auto hub = build.body("hub", turning(Vector3d::UnitY(), rate_rad_s));
   const auto arm = build.body("blade", blade);
-  build.joint("root", JointKind::fixed, build.marker("hub", hub),
+  build.joint("root", &kFixedJoint, build.marker("hub", hub),
               build.interface_marker("root", arm, "base"));
   build.interface_marker("tip", arm, "top");
   return build.model;
@@ -151,7 +152,7 @@ TEST_CASE("a mass on a slider that turns is stretched outwards and softened") {
                  {{kLength, 0, 0}});
   const auto centre = build.marker("centre", hub);
   const auto on_block = build.marker("block", block);
-  build.joint("rail", JointKind::slider, centre, on_block, Vector3d::UnitX());
+  build.joint("rail", &kPrismaticJoint, centre, on_block, Vector3d::UnitX());
   MarkerSpring spring{"spring", centre, on_block, kLength, {}};
   spring.resistance.positive.curve = LoadCurve::cubic(kLinear, 0, kCubic);
   build.model.springs.push_back(spring);
@@ -258,7 +259,8 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
   refused(made.build.model, "not the same all round the axis");
 
   made = rotor(10);
-  made.build.joint("clamp", JointKind::ball, made.ground, made.build.marker("rim", 2, {0.1, 0, 0}));
+  made.build.joint("clamp", &kSphericalJoint, made.ground,
+                   made.build.marker("rim", 2, {0.1, 0, 0}));
   made.build.model.bodies[0].initial_pose.position_m = {0.1, 0, 0};
   refused(made.build.model, "joint 'clamp' ties a body to one that does not turn");
 

@@ -12,6 +12,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/analysis/linearisation.h"
 #include "multibody/history/incomplete_run.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/signals/response.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
@@ -57,8 +58,8 @@ SpunBeam spun_beam(const Beam& beam, bool stiffens, double spin_rad_s,
       {}, Vector3d::Zero(), rate);
   const auto arm = build.body("beam", elastic(beam, stiffens), {}, Vector3d::Zero(), rate);
   spun.hub = build.marker("hub", hub);
-  build.joint("pin", JointKind::pin, build.marker("ground", ground), spun.hub, Vector3d::UnitY());
-  build.joint("root", JointKind::fixed, spun.hub, build.interface_marker("root", arm, "base"));
+  build.joint("pin", &kRevoluteJoint, build.marker("ground", ground), spun.hub, Vector3d::UnitY());
+  build.joint("root", &kFixedJoint, spun.hub, build.interface_marker("root", arm, "base"));
   spun.tip = build.interface_marker("tip", arm, "top");
   return spun;
 }
@@ -215,7 +216,7 @@ Model column(int modes, bool stiffens, double load_N) {
   ModelBuilder build;
   const auto ground = build.ground();
   const auto post = build.body("column", elastic(beam, stiffens));
-  build.joint("clamp", JointKind::fixed, build.marker("ground", ground),
+  build.joint("clamp", &kFixedJoint, build.marker("ground", ground),
               build.interface_marker("foot", post, "base"));
   build.force("load", build.interface_marker("top", post, "top"), -Vector3d::UnitZ(),
               constant_table(load_N));

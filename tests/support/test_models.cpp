@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/test_models.h"
 
+#include "multibody/joints/joint_kinds.h"
+
 namespace flexneck::testing {
 
 multibody::DeformableBody deformable(fe_modal::ModalBody modes, double damping_ratio) {
@@ -36,8 +38,8 @@ ModelBuilder head_on_neck(const multibody::DrivenBody& base, const multibody::Po
   const auto neck_top = build.interface_marker("neck top", neck, "top");
   const auto head_joint = build.marker("head joint", head_body);
   build.marker("head cg", head_body, head.center_m);
-  build.joint("neck base", multibody::JointKind::fixed, base_marker, neck_base);
-  build.joint("OC", multibody::JointKind::fixed, neck_top, head_joint);
+  build.joint("neck base", &multibody::kFixedJoint, base_marker, neck_base);
+  build.joint("OC", &multibody::kFixedJoint, neck_top, head_joint);
   return build;
 }
 

@@ -38,7 +38,7 @@ struct ModelBuilder {
     model.markers.push_back({name, of_body, interface});
     return model.markers.size() - 1;
   }
-  std::size_t joint(const std::string& name, multibody::JointKind kind, std::size_t marker_i,
+  std::size_t joint(const std::string& name, const multibody::JointKind* kind, std::size_t marker_i,
                     std::size_t marker_j, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitY()) {
     model.joints.push_back({name, kind, marker_i, marker_j, axis});
     return model.joints.size() - 1;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/tree_models.h"
 
+#include "multibody/joints/joint_kinds.h"
+
 namespace flexneck::testing {
 
 multibody::RigidBody random_rigid_body(RandomNumbers& random) {
@@ -48,7 +50,6 @@ void add_forces(ModelBuilder& build, RandomNumbers& random) {
 }
 
 multibody::Model forest(bool stiffens) {
-  using multibody::JointKind;
   RandomNumbers random(51);
   ModelBuilder build;
   build.model.gravity_m_s2 = {1, -2, -9.81};
@@ -75,7 +76,7 @@ multibody::Model forest(bool stiffens) {
         {name, body, interface, Eigen::Vector3d::Zero(), random.rotation()});
     return build.model.markers.size() - 1;
   };
-  const auto join = [&](JointKind kind, std::size_t i, std::size_t j) {
+  const auto join = [&](const multibody::JointKind* kind, std::size_t i, std::size_t j) {
     // A universal joint whose axes are not perpendicular where the markers' axes agree.
     build.model.joints.push_back({"joint " + std::to_string(build.model.joints.size()), kind, i, j,
                                   random.vector().normalized(), random.vector().normalized()});
@@ -89,16 +90,16 @@ multibody::Model forest(bool stiffens) {
   const auto g = soft("g", 64, 2);
   const auto h = rigid("h");
   const auto k = rigid("k");
-  join(JointKind::pin, on("sled a", driven), on("a sled", a));
-  join(JointKind::ball, on("a b", a), at("b a", b, "side"));
-  join(JointKind::universal, at("c b", c, "tip"), at("b c", b, "tip"));
-  join(JointKind::cylindrical, at("b d", b, "root"), on("d b", d));
-  join(JointKind::slider, at("e c", e, "side"), at("c e", c, "side"));
-  join(JointKind::fixed, at("e f", e, "tip"), on("f e", f));
-  join(JointKind::cylindrical, on("h g", h), at("g h", g, "tip"));
-  join(JointKind::universal, at("g k", g, "side"), on("k g", k));
-  join(JointKind::free, on("k a", k), on("a k", a));
-  join(JointKind::slider, on("k m", k), on("m k", rigid("m")));
+  join(&multibody::kRevoluteJoint, on("sled a", driven), on("a sled", a));
+  join(&multibody::kSphericalJoint, on("a b", a), at("b a", b, "side"));
+  join(&multibody::kUniversalJoint, at("c b", c, "tip"), at("b c", b, "tip"));
+  join(&multibody::kCylindricalJoint, at("b d", b, "root"), on("d b", d));
+  join(&multibody::kPrismaticJoint, at("e c", e, "side"), at("c e", c, "side"));
+  join(&multibody::kFixedJoint, at("e f", e, "tip"), on("f e", f));
+  join(&multibody::kCylindricalJoint, on("h g", h), at("g h", g, "tip"));
+  join(&multibody::kUniversalJoint, at("g k", g, "side"), on("k g", k));
+  join(&multibody::kFreeJoint, on("k a", k), on("a k", a));
+  join(&multibody::kPrismaticJoint, on("k m", k), on("m k", rigid("m")));
   build.force("push", build.model.marker_index("b c"), random.vector(), constant_table(30));
   build.force("pull", build.marker("d end", d, {0.1, 0.2, 0.3}), random.vector(),
               constant_table(-20));

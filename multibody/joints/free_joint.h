@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "multibody/joints/joint_kind.h"
+
+namespace flexneck::multibody {
+
+/// Joins nothing: its bodies move as if it were not there, and it carries no load.
+inline constexpr JointKind kFreeJoint{.name = "free"};
+
+}  // namespace flexneck::multibody
