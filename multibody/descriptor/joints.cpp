@@ -80,12 +80,25 @@ Index translation_row_count(HeldTranslation held) {
       return 3;
     case HeldTranslation::across_axis:
       return 2;
+    case HeldTranslation::along_axis:
+      return 1;
   }
   throw std::logic_error("unknown rows of a position");
 }
 
-/// Marker j may slide along an axis of i.
-bool slides(const JointRows& joint) { return joint.translation_rows == 2; }
+/// Unit vectors that turn with marker i, along which a gap is held where the markers may part, in
+/// its axes; zero beyond the rows that there are.
+TwoRows held_directions(const Joint& joint) {
+  if (joint.kind->translation == HeldTranslation::across_axis) return across(joint.axis);
+  TwoRows along = TwoRows::Zero();
+  along.row(0) = joint.axis.transpose();
+  return along;
+}
+
+/// Marker j may slide on i, along an axis or in a plane.
+bool slides(const JointRows& joint) {
+  return joint.translation_rows == 1 || joint.translation_rows == 2;
+}
 
 void fill_rows(const NodeKinematics& node, const JointRows& joint, double sign, TransposedRows& B) {
   if (B.rows() == 0) return;
@@ -104,7 +117,7 @@ void fill_rows(const NodeKinematics& node, const JointRows& joint, double sign, 
 JointRows::JointRows(const Joint& joint, Index velocity_count_i, Index velocity_count_j)
     : axis_i(joint.axis),
       axis_j(joint.kind->axes == JointAxes::two ? joint.second_axis : joint.axis),
-      across_i(across(axis_i)),
+      held_i(held_directions(joint)),
       across_j(across(axis_j)),
       rotation(rotation_rows(joint.kind->rotation)),
       translation_rows(translation_row_count(joint.kind->translation)),
@@ -117,7 +130,7 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
   const Vector3d gap = i.p - j.p;
   if (slides(joint)) {
     // D turns with marker i.
-    joint.D.topRows<2>().noalias() = joint.across_i * i.R.transpose();
+    joint.D.topRows<2>().noalias() = joint.held_i * i.R.transpose();
     for (Index r = 0; r < 2; ++r) joint.L.row(r) = Vector3d(joint.D.row(r)).cross(gap).transpose();
   }
   joint.position_residual.head(n) = joint.D.topRows(n) * gap;

@@ -32,16 +32,17 @@ struct RotationRows {
 };
 
 /// Constraint rows of a joint, "rows i minus j" (equations.md section 4): first those along the
-/// directions D (none, 2 or 3) that hold the positions together, then those of T (none, 1, 2 or 3)
+/// directions D (none to 3) that hold the positions together, then those of T (none, 1, 2 or 3)
 /// for the orientations:
 ///   B = [D P_i + L W_i, -D P_j; T W_i, -T W_j],  B Vdot = gamma,  B V + drive = velocity residual.
 /// D, L and T follow from the configuration; L is not zero only where marker j slides along i.
 struct JointRows {
   JointRows(const Joint& joint, Eigen::Index velocity_count_i, Eigen::Index velocity_count_j);
 
-  Eigen::Vector3d axis_i;      ///< in the axes of marker i
-  Eigen::Vector3d axis_j;      ///< in the axes of marker j
-  TwoRows across_i, across_j;  ///< unit vectors across these axes, in the same axes
+  Eigen::Vector3d axis_i;  ///< in the axes of marker i
+  Eigen::Vector3d axis_j;  ///< in the axes of marker j
+  TwoRows held_i;          ///< directions of D that turn with i, in the axes of marker i
+  TwoRows across_j;        ///< unit vectors across axis_j, in the axes of marker j
   RotationRows rotation;
   Eigen::Index translation_rows;  ///< of D
   Eigen::Index rows;

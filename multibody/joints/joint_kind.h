@@ -14,6 +14,7 @@ enum class HeldTranslation {
   none,
   all,          ///< they are one point
   across_axis,  ///< that of marker j is on the axis through that of marker i
+  along_axis    ///< that of marker j is in the plane across the axis through that of marker i
 };
 
 /// What a joint holds of the orientations of its markers.

@@ -6,6 +6,7 @@
 #include "multibody/joints/cylindrical_joint.h"
 #include "multibody/joints/fixed_joint.h"
 #include "multibody/joints/free_joint.h"
+#include "multibody/joints/planar_joint.h"
 #include "multibody/joints/prismatic_joint.h"
 #include "multibody/joints/revolute_joint.h"
 #include "multibody/joints/spherical_joint.h"
@@ -16,6 +17,6 @@ namespace flexneck::multibody {
 /// All kinds of joints. A new one is a header of its own and a row here.
 inline constexpr std::array kJointKinds = {&kSphericalJoint, &kRevoluteJoint,    &kFixedJoint,
                                            &kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint,
-                                           &kFreeJoint};
+                                           &kPlanarJoint,    &kFreeJoint};
 
 }  // namespace flexneck::multibody

@@ -33,6 +33,12 @@ SquaredResidual::SquaredResidual(const Joint& joint, const MarkerState& i, const
           across(parting - i.angular_velocity_rad_s.cross(gap), axis).squaredNorm();
       break;
     }
+    case HeldTranslation::along_axis: {
+      const Vector3d axis = i.rotation * joint.axis;
+      position.translation = square(axis.dot(gap));
+      velocity.translation = square(axis.dot(parting - i.angular_velocity_rad_s.cross(gap)));
+      break;
+    }
   }
   if (kind.rotation == HeldRotation::none) return;
   const Vector3d turning = i.angular_velocity_rad_s - j.angular_velocity_rad_s;

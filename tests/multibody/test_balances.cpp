@@ -49,8 +49,8 @@ ModelBuilder flying_chain(bool stiffens) {
   join(&kSphericalJoint, build.interface_marker("soft side", soft, "side"));
   inner = build.interface_marker("soft tip", soft, "tip");
   place = origin + lump.interface("tip").position_m;
-  for (const JointKind* const kind :
-       {&kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint, &kRevoluteJoint, &kFixedJoint}) {
+  for (const JointKind* const kind : {&kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint,
+                                      &kRevoluteJoint, &kFixedJoint, &kPlanarJoint}) {
     const std::string name = std::to_string(build.model.bodies.size());
     const auto body =
         build.body("body " + name, random_rigid_body(random), {place}, spin.cross(place), spin);

@@ -50,6 +50,13 @@ bool is_sliding(const JointKind* kind) {
   return kind == &kCylindricalJoint || kind == &kPrismaticJoint;
 }
 
+/// Where marker j is seen from i, in the axes of i.
+Vector3d slide_of(const JointKind* kind) {
+  if (is_sliding(kind)) return kSlide_m * kAxis;
+  if (kind == &kPlanarJoint) return kSlide_m * kSecondAxis;
+  return Vector3d::Zero();
+}
+
 /// Two bodies of which one may be driven. The driven one has a marker off its origin.
 Model two_bodies(const JointKind* kind, Driven which) {
   RandomNumbers random(31);
@@ -128,6 +135,7 @@ class Path {
       return stacked(gap, VectorXd::Constant(1, (i.R * kAxis).dot(j.R * kSecondAxis)));
     if (kind == &kCylindricalJoint) return stacked(sliding.head<2>(), across.head<2>());
     if (kind == &kPrismaticJoint) return stacked(sliding.head<2>(), twist);
+    if (kind == &kPlanarJoint) return stacked(sliding.head<1>(), across.head<2>());
     return {};
   }
 
@@ -141,7 +149,7 @@ class Path {
 /// Orientation that marker j may have when i has the given one.
 Matrix3d joined_orientation(const JointKind* kind, const Matrix3d& R_i) {
   if (kind == &kSphericalJoint) return RandomNumbers(38).rotation().toRotationMatrix();
-  if (kind == &kRevoluteJoint || kind == &kCylindricalJoint) return R_i * turned(kTurn * kAxis);
+  if (kind->rotation == HeldRotation::common_axis) return R_i * turned(kTurn * kAxis);
   if (kind == &kUniversalJoint)
     return R_i * turned(kTurn * kAxis) * turned(0.5 * kTurn * kSecondAxis);
   return R_i;
@@ -175,8 +183,7 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
       Quaterniond(turn) * Quaterniond(state[body.position + 3], state[body.position + 4],
                                       state[body.position + 5], state[body.position + 6]);
   state.segment<4>(body.position + 3) << q.w(), q.x(), q.y(), q.z();
-  const Vector3d slide = is_sliding(kind) ? Vector3d(kSlide_m * (path.frame(0, 0).R * kAxis))
-                                          : Vector3d(Vector3d::Zero());
+  const Vector3d slide = path.frame(0, 0).R * slide_of(kind);
   const Vector3d gap = path.frame(0, 0).p + slide - path.frame(1, 0).p;
   state.segment<3>(body.position) += moves_j ? gap : Vector3d(-gap);
   Projection(equations).apply(0, state);
@@ -185,7 +192,7 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
 
 const JointKind* any_joint() {
   return GENERATE(&kSphericalJoint, &kRevoluteJoint, &kFixedJoint, &kUniversalJoint,
-                  &kCylindricalJoint, &kPrismaticJoint);
+                  &kCylindricalJoint, &kPrismaticJoint, &kPlanarJoint);
 }
 
 }  // namespace
@@ -264,9 +271,9 @@ TEST_CASE("reactions do no work on motions that keep the joint") {
   // What the joint leaves free carries nothing.
   const Vector3d h = i.R * kAxis;
   if (kind == &kSphericalJoint) CHECK(on_j.moment_Nm.norm() == 0);
-  if (kind == &kRevoluteJoint || kind == &kCylindricalJoint)
-    CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
+  if (kind->has_angle) CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
   if (is_sliding(kind)) CHECK(std::abs(on_j.force_N.dot(h)) < 1e-14);
+  if (kind == &kPlanarJoint) CHECK(on_j.force_N.cross(h).norm() < 1e-14);
   if (kind == &kUniversalJoint) {
     CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
     CHECK(std::abs(on_j.moment_Nm.dot(j.R * kSecondAxis)) < 1e-14);

@@ -21,9 +21,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-const std::vector<const JointKind*> kKinds = {&kUniversalJoint, &kCylindricalJoint,
-                                              &kPrismaticJoint, &kRevoluteJoint,
-                                              &kSphericalJoint, &kFixedJoint};
+const std::vector<const JointKind*> kKinds = {
+    &kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint, &kRevoluteJoint,
+    &kSphericalJoint, &kFixedJoint,       &kPlanarJoint};
 constexpr double kInterval_s = 1e-3;
 /// Differences over 1 ms of momenta known to 1e-10.
 constexpr double kTolerance = 1e-7;
@@ -98,6 +98,6 @@ TEST_CASE("every joint of a chain carries what hangs on it") {
     }
   }
   // It has moved far.
-  CHECK((history.marker("cg 5").position_m.col(200) - history.marker("cg 5").position_m.col(0))
-            .norm() > 0.1);
+  const Eigen::Matrix3Xd& path = history.marker("cg 5").position_m;
+  CHECK((path.col(200) - path.col(0)).norm() > 0.1);
 }

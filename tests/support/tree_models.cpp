@@ -108,4 +108,29 @@ multibody::Model forest(bool stiffens) {
   return build.model;
 }
 
+multibody::Model chain_of_all_joints() {
+  RandomNumbers random(55);
+  ModelBuilder build;
+  build.model.gravity_m_s2 = {1, -2, -9.81};
+  multibody::DrivenBody sled;
+  sled.initial_velocity_m_s = 3;
+  sled.turn.initial_rate_rad_s = 1.5;
+  auto carrier = build.body("sled", sled, {random.vector(), random.rotation()});
+  for (const multibody::JointKind* const kind : multibody::kJointKinds) {
+    if (kind->motion == nullptr) continue;
+    for (const bool reversed : {false, true}) {
+      const std::string name = std::string(kind->name) + (reversed ? " reversed" : "");
+      const auto body = build.body(name, random_rigid_body(random));
+      const auto inner =
+          build.marker("inner " + name, carrier, 0.2 * random.vector(), random.rotation());
+      const auto outer =
+          build.marker("outer " + name, body, 0.2 * random.vector(), random.rotation());
+      build.model.joints.push_back({name, kind, reversed ? outer : inner, reversed ? inner : outer,
+                                    random.vector().normalized(), random.vector().normalized()});
+      carrier = body;
+    }
+  }
+  return build.model;
+}
+
 }  // namespace flexneck::testing

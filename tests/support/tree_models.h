@@ -21,4 +21,8 @@ void add_forces(ModelBuilder& build, RandomNumbers& random);
 /// @param stiffens  whether the deformable bodies have stress stiffening
 multibody::Model forest(bool stiffens = false);
 
+/// A chain on a driven body that turns, with every kind of joint that leaves a motion, each given
+/// once from its inner and once from its outer end.
+multibody::Model chain_of_all_joints();
+
 }  // namespace flexneck::testing
