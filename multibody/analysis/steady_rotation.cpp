@@ -86,6 +86,9 @@ void check_loads(const Model& model, const TurningFrame& frame) {
     if (!is_along(load.direction, axis))
       refuse(kind + " '" + load.name + "' is not along the axis about which driven bodies turn");
   };
+  for (const Joint& joint : model.joints)
+    for (const JointMotor& motor : joint.motors)
+      if (motor.path.moves()) refuse("motor '" + motor.name + "' moves its joint");
   for (const PointForce& force : model.forces) check("force", force, force.magnitude_N);
   for (const Torque& torque : model.torques) check("torque", torque, torque.magnitude_Nm);
 }

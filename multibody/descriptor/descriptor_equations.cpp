@@ -105,10 +105,8 @@ class DescriptorEquations final : public Equations {
     std::vector<std::string> names;
     for (const KktSolver::RedundantRow& each : equations_.solver().redundant_rows()) {
       const JointRows& joint = equations_.joint(each.joint);
-      const bool moves = each.row < joint.translation_rows;
-      const Index row = moves ? each.row : each.row - joint.translation_rows;
       names.push_back("joint '" + system_.joints[each.joint].name + "', " +
-                      (moves ? "position" : "orientation") + " row " + std::to_string(row + 1));
+                      name_of_row(joint, each.row));
     }
     return names;
   }

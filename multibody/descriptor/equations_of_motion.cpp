@@ -74,6 +74,15 @@ void EquationsOfMotion::update_driven_bodies() {
   }
 }
 
+void EquationsOfMotion::follow_motor(CoordinateRow& row) const {
+  if (row.motor == nullptr) return;
+  const PrescribedCoordinate& path = row.motor->path;
+  row.value = row.motor->start + path.value(time_s_);
+  if (drive_ != Drive::prescribed) return;
+  row.rate = path.rate(time_s_);
+  row.second_rate = path.second_rate(table_time(time_s_));
+}
+
 void EquationsOfMotion::update_marker_configuration(std::size_t index) {
   const SystemMarker& marker = system_.markers[index];
   NodeKinematics& motion = markers_[index];
@@ -133,6 +142,7 @@ void EquationsOfMotion::update_positions(double time_s, const ConstVector& posit
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& joint = system_.joints[k];
     JointRows& rows = joints_[k];
+    for (CoordinateRow& row : rows.coordinates) follow_motor(row);
     update_configuration(markers_[joint.marker_i], markers_[joint.marker_j], rows);
     position_residual_.segment(solver_.joint_offset(k), rows.rows) =
         rows.position_residual.head(rows.rows);
@@ -288,6 +298,13 @@ double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {
 
 double EquationsOfMotion::work_W() const {
   double power = forces_.work_W();
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    const JointRows& joint = joints_[k];
+    for (std::size_t c = 0; c < joint.coordinates.size(); ++c)
+      power +=
+          joint.coordinates[c].rate *
+          multipliers_[solver_.joint_offset(k) + joint.first_coordinate() + static_cast<Index>(c)];
+  }
   // What driven bodies do at the place of marker j, where the reaction acts. Body i bears -f, j +f.
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     if (system_.places[k].body_i != kNone && system_.places[k].body_j != kNone) continue;

@@ -76,6 +76,7 @@ class EquationsOfMotion {
  private:
   double table_time(double time_s) const;
   void update_driven_bodies();
+  void follow_motor(CoordinateRow& row) const;
   void update_marker_configuration(std::size_t index);
   void update_marker_velocities(std::size_t index, const ConstVector& velocities);
   void update_joint_velocities();

@@ -65,7 +65,7 @@ class Carriers {
     // As many passes as the longest chain of joints is long.
     for (std::size_t pass = 0; pass <= system.bodies.size(); ++pass)
       for (std::size_t k = 0; k < model.joints.size(); ++k) {
-        if (model.joints[k].kind->motion == nullptr) continue;
+        if (model.joints[k].kind->holds_nothing()) continue;
         carry(k, model.joints[k].marker_i, model.joints[k].marker_j);
         carry(k, model.joints[k].marker_j, model.joints[k].marker_i);
       }

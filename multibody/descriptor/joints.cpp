@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/descriptor/joints.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "multibody/numerics/rotation.h"
@@ -12,6 +13,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
+
+double square(double value) { return value * value; }
 
 Vector3d no_orientation(const NodeKinematics&, const NodeKinematics&, JointRows&) {
   return Vector3d::Zero();
@@ -81,6 +84,7 @@ Index translation_row_count(HeldTranslation held) {
     case HeldTranslation::across_axis:
       return 2;
     case HeldTranslation::along_axis:
+    case HeldTranslation::distance:
       return 1;
   }
   throw std::logic_error("unknown rows of a position");
@@ -97,12 +101,38 @@ TwoRows held_directions(const Joint& joint) {
 
 /// Marker j may slide on i, along an axis or in a plane.
 bool slides(const JointRows& joint) {
+  return joint.translation == HeldTranslation::across_axis ||
+         joint.translation == HeldTranslation::along_axis;
+}
+
+/// Of a marker that is on one that slides, or at a distance.
+bool is_part_of_gap(const JointRows& joint) {
   return joint.translation_rows == 1 || joint.translation_rows == 2;
+}
+
+/// @param sign  1 for marker i, whose rotation moves the axis, -1 for marker j
+void fill_row(const NodeKinematics& node, const CoordinateRow& row, double sign, Index column,
+              TransposedRows& B) {
+  if (B.rows() == 0) return;
+  const Vector3d along = sign * row.per_distance * row.h;
+  Vector3d about = sign * row.per_angle * row.h;
+  if (sign > 0) about += row.per_distance * row.arm;
+  B.col(column) = node.P.transpose().lazyProduct(along) + node.W.transpose().lazyProduct(about);
+}
+
+void update_coordinates(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
+  Index r = joint.first_coordinate();
+  for (CoordinateRow& row : joint.coordinates) {
+    joint.position_residual[r] = update_configuration(joint.axis_i, i, j, row);
+    fill_row(i, row, 1, r, joint.B_i);
+    fill_row(j, row, -1, r, joint.B_j);
+    ++r;
+  }
 }
 
 void fill_rows(const NodeKinematics& node, const JointRows& joint, double sign, TransposedRows& B) {
   if (B.rows() == 0) return;
-  if (slides(joint))
+  if (is_part_of_gap(joint))
     B.leftCols<2>().noalias() =
         node.P.transpose().lazyProduct(sign * joint.D.topRows<2>().transpose());
   else if (joint.translation_rows == 3)
@@ -120,8 +150,11 @@ JointRows::JointRows(const Joint& joint, Index velocity_count_i, Index velocity_
       held_i(held_directions(joint)),
       across_j(across(axis_j)),
       rotation(rotation_rows(joint.kind->rotation)),
-      translation_rows(translation_row_count(joint.kind->translation)),
-      rows(translation_rows + rotation.count),
+      translation(joint.kind->translation),
+      translation_rows(translation_row_count(translation)),
+      length_m(joint.length_m),
+      coordinates(coordinate_rows(joint)),
+      rows(translation_rows + rotation.count + static_cast<Index>(coordinates.size())),
       B_i(TransposedRows::Zero(velocity_count_i, kMaxRows)),
       B_j(TransposedRows::Zero(velocity_count_j, kMaxRows)) {}
 
@@ -133,7 +166,12 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
     joint.D.topRows<2>().noalias() = joint.held_i * i.R.transpose();
     for (Index r = 0; r < 2; ++r) joint.L.row(r) = Vector3d(joint.D.row(r)).cross(gap).transpose();
   }
+  if (joint.translation == HeldTranslation::distance) {
+    joint.D.row(0) = gap.normalized().transpose();
+    joint.D.row(1).setZero();
+  }
   joint.position_residual.head(n) = joint.D.topRows(n) * gap;
+  if (joint.translation == HeldTranslation::distance) joint.position_residual[0] -= joint.length_m;
   if (joint.rotation.count > 0)
     joint.position_residual.segment<3>(n) = joint.rotation.orientation(i, j, joint);
   fill_rows(i, joint, 1, joint.B_i);
@@ -141,6 +179,7 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
   if (slides(joint) && joint.B_i.rows() > 0)
     joint.B_i.leftCols<2>().noalias() +=
         i.W.transpose().lazyProduct(joint.L.topRows<2>().transpose());
+  update_coordinates(i, j, joint);
 }
 
 void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
@@ -149,6 +188,9 @@ void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, 
   if (slides(joint))
     for (Index r = 0; r < n; ++r) joint.velocity_residual[r] += joint.L.row(r).dot(i.Om);
   if (joint.rotation.count > 0) joint.velocity_residual.segment<3>(n) = joint.T * (i.Om - j.Om);
+  for (std::size_t k = 0; k < joint.coordinates.size(); ++k)
+    joint.velocity_residual[joint.first_coordinate() + static_cast<Index>(k)] =
+        velocity_residual(i, j, joint.coordinates[k]);
 }
 
 void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint) {
@@ -167,17 +209,54 @@ void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRo
   }
   if (joint.rotation.count > 0)
     joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.rotation.bias(i, j, joint);
+  if (joint.translation == HeldTranslation::distance) {
+    // (|gap|)'' has besides what the gap's turning adds.
+    const Vector3d parting = i.pd - j.pd;
+    const Vector3d gap = i.p - j.p;
+    joint.gamma[0] -= (parting.squaredNorm() - square(joint.velocity_residual[0])) / gap.norm();
+  }
+  for (std::size_t k = 0; k < joint.coordinates.size(); ++k)
+    joint.gamma[joint.first_coordinate() + static_cast<Index>(k)] =
+        gamma(i, j, joint.coordinates[k]);
+}
+
+bool is_length(const JointRows& joint, Index row) {
+  if (row < joint.first_coordinate()) return row < joint.translation_rows;
+  const auto k = static_cast<std::size_t>(row - joint.first_coordinate());
+  return joint.coordinates[k].per_distance != 0;
+}
+
+std::string name_of_row(const JointRows& joint, Index row) {
+  if (row < joint.translation_rows) return "position row " + std::to_string(row + 1);
+  if (row < joint.first_coordinate())
+    return "orientation row " + std::to_string(row - joint.translation_rows + 1);
+  const JointMotor* const motor =
+      joint.coordinates[static_cast<std::size_t>(row - joint.first_coordinate())].motor;
+  return motor != nullptr ? "motor '" + motor->name + "'" : "row of the screw";
 }
 
 Violation violation(const JointRows& joint, const RowVector& residual) {
-  return {residual.head(joint.translation_rows).norm(),
-          residual.segment(joint.translation_rows, joint.rotation.count).norm()};
+  Violation found{residual.head(joint.translation_rows).norm(),
+                  residual.segment(joint.translation_rows, joint.rotation.count).norm()};
+  for (Index row = joint.first_coordinate(); row < joint.rows; ++row) {
+    double& part = is_length(joint, row) ? found.translation : found.rotation;
+    part = std::hypot(part, residual[row]);
+  }
+  return found;
 }
 
 Reaction reaction(const JointRows& joint, const RowVector& multipliers) {
   const Index n = joint.translation_rows;
-  return {joint.D.topRows(n).transpose() * multipliers.head(n),
-          joint.T.topRows(joint.rows - n).transpose() * multipliers.segment(n, joint.rows - n)};
+  const Index count = joint.rotation.count;
+  Reaction found{joint.D.topRows(n).transpose() * multipliers.head(n),
+                 joint.T.topRows(count).transpose() * multipliers.segment(n, count)};
+  for (std::size_t k = 0; k < joint.coordinates.size(); ++k) {
+    const CoordinateRow& row = joint.coordinates[k];
+    const Vector3d load = multipliers[joint.first_coordinate() + static_cast<Index>(k)] * row.h;
+    found.force_N += row.per_distance * load;
+    found.moment_Nm += row.per_angle * load;
+  }
+  return found;
 }
 
 }  // namespace flexneck::multibody

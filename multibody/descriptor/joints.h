@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <Eigen/Core>
 
+#include "multibody/descriptor/coordinate_row.h"
 #include "multibody/descriptor/node_kinematics.h"
 #include "multibody/model/joint_check.h"
 #include "multibody/model/model.h"
@@ -44,7 +48,10 @@ struct JointRows {
   TwoRows held_i;          ///< directions of D that turn with i, in the axes of marker i
   TwoRows across_j;        ///< unit vectors across axis_j, in the axes of marker j
   RotationRows rotation;
-  Eigen::Index translation_rows;  ///< of D
+  HeldTranslation translation;
+  Eigen::Index translation_rows;           ///< of D
+  double length_m;                         ///< of a distance joint
+  std::vector<CoordinateRow> coordinates;  ///< whose rows come last
   Eigen::Index rows;
   Eigen::Matrix3d D = Eigen::Matrix3d::Identity();  ///< world; unused rows do not count
   Eigen::Matrix3d L = Eigen::Matrix3d::Zero();      ///< rows d x (p_i - p_j) with d of D
@@ -53,6 +60,8 @@ struct JointRows {
   RowVector position_residual = RowVector::Zero();  ///< Phi
   RowVector velocity_residual = RowVector::Zero();  ///< its rate
   RowVector gamma = RowVector::Zero();
+
+  Eigen::Index first_coordinate() const { return translation_rows + rotation.count; }
 };
 
 /// D, L, T, B and Phi.
@@ -61,6 +70,12 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
 void update_velocity_residual(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
 /// The velocity residual and gamma.
 void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRows& joint);
+
+/// Whether a row's residual is in metres, else in radians.
+bool is_length(const JointRows& joint, Eigen::Index row);
+
+/// "position row 1", for messages.
+std::string name_of_row(const JointRows& joint, Eigen::Index row);
 
 /// Length of what a residual says about positions and about orientations.
 Violation violation(const JointRows& joint, const RowVector& residual);

@@ -76,7 +76,8 @@ VectorXd moved_rows(const EquationsOfMotion& equations, const MasslessRotation& 
     const auto add = [&](std::size_t body, const TransposedRows& rows) {
       if (body != rotation.body) return;
       RowVector of_joint = rows.transpose() * velocity;
-      of_joint.head(joint.translation_rows) /= rotation.length_m;
+      for (Index row = 0; row < joint.rows; ++row)
+        if (is_length(joint, row)) of_joint[row] /= rotation.length_m;
       moved.segment(equations.solver().joint_offset(k), joint.rows) += of_joint.head(joint.rows);
     };
     add(system.places[k].body_i, joint.B_i);

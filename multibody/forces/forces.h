@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "multibody/forces/resistance.h"
+#include "multibody/joints/joint.h"
 #include "multibody/numerics/time_table.h"
 
 namespace flexneck::multibody {
@@ -46,13 +47,6 @@ struct Bushing {
   std::size_t marker_j = 0;
   Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();  ///< N, N m; m, rad
   Eigen::Matrix<double, 6, 6> damping = Eigen::Matrix<double, 6, 6>::Zero();    ///< per s
-};
-
-/// Which of a joint's free motions a resistance acts on.
-enum class JointCoordinate {
-  distance,  ///< of j along the axis of a cylindrical or slider joint
-  angle,     ///< of j about the axis of a pin or cylindrical joint, in (-pi, pi]
-  flexion    ///< in [0, pi] between the axis on i and on j, of any joint; it has no negative side
 };
 
 /// Spring, damper, stops and friction of a joint.

@@ -3,13 +3,31 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "multibody/joints/fixed_joint.h"
 #include "multibody/joints/joint_kind.h"
+#include "multibody/numerics/prescribed_coordinate.h"
 
 namespace flexneck::multibody {
+
+/// Which of a joint's motions a resistance acts on or a motor gives.
+enum class JointCoordinate {
+  distance,  ///< of j along the axis (JointKind::has_distance)
+  angle,     ///< of j about the axis (JointKind::has_angle), as a resistance sees it in (-pi, pi]
+  flexion    ///< in [0, pi] between the axis on i and on j, of any joint; it has no negative side
+};
+
+/// Makes a joint's distance or angle follow a function of time, whatever load that takes, which is
+/// part of the joint's reaction.
+struct JointMotor {
+  std::string name;
+  JointCoordinate coordinate = JointCoordinate::angle;
+  double start = 0;  ///< m or rad, to which the path is added
+  PrescribedCoordinate path;
+};
 
 /// Joins two markers. Its reaction is what body i exerts on body j, so let i be the lower one.
 /// Where the markers' origins may part, its moment is about that of marker j.
@@ -22,6 +40,9 @@ struct Joint {
   /// where there are two (JointAxes).
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
   Eigen::Vector3d second_axis = Eigen::Vector3d::UnitX();  ///< axes of marker j
+  double lead_m = 0;    ///< of a screw joint: advance of j along the axis at a right-handed turn
+  double length_m = 0;  ///< of a distance joint
+  std::vector<JointMotor> motors = {};
 };
 
 }  // namespace flexneck::multibody

@@ -14,7 +14,8 @@ enum class HeldTranslation {
   none,
   all,          ///< they are one point
   across_axis,  ///< that of marker j is on the axis through that of marker i
-  along_axis    ///< that of marker j is in the plane across the axis through that of marker i
+  along_axis,   ///< that of marker j is in the plane across the axis through that of marker i
+  distance      ///< they are a length apart
 };
 
 /// What a joint holds of the orientations of its markers.
@@ -32,6 +33,13 @@ enum class JointAxes {
   two      ///< one of marker i, and a second one of marker j
 };
 
+/// A length that a kind of joint needs.
+struct JointLength {
+  std::string_view key = {};       ///< in files; empty: the kind needs none
+  double Joint::*value = nullptr;  ///< not zero
+  bool may_be_negative = false;
+};
+
 /// A kind of joint: all that files, checks, forces and formulations know of it.
 struct JointKind {
   std::string_view name;
@@ -41,8 +49,15 @@ struct JointKind {
   JointAxes axes = JointAxes::none;
   bool has_distance = false;  ///< of marker j along the axis, a joint coordinate
   bool has_angle = false;     ///< of marker j about the axis, a joint coordinate
-  /// The motion that it leaves, for the recursive formulation; none: it joins nothing there.
+  JointLength length = {};
+  bool advances = false;  ///< the distance is the angle times lead / 2 pi
+  /// The motion that it leaves, for the recursive formulation; with none it can hang no body on
+  /// another, and only closes loops in the descriptor formulation.
   const JointMotionLaw* motion = nullptr;
+
+  constexpr bool holds_nothing() const {
+    return translation == HeldTranslation::none && rotation == HeldRotation::none;
+  }
 };
 
 }  // namespace flexneck::multibody

@@ -7,27 +7,6 @@ namespace flexneck::multibody {
 
 using Eigen::Vector3d;
 
-DrivenPath::Coordinate::Coordinate(double initial_rate, const TimeTable& accelerations,
-                                   const SmoothMotion& function)
-    : moves(initial_rate != 0 || !accelerations.times_s().empty() || !function.is_none()),
-      value_before(accelerations.second_integral(0)),
-      rate_before(accelerations.integral(0) - initial_rate),
-      table(accelerations),
-      motion(function) {}
-
-double DrivenPath::Coordinate::value(double time_s) const {
-  return table.second_integral(time_s) - value_before - rate_before * time_s +
-         motion.displacement_m(time_s);
-}
-
-double DrivenPath::Coordinate::rate(double time_s) const {
-  return table.integral(time_s) - rate_before + motion.velocity_m_s(time_s);
-}
-
-double DrivenPath::Coordinate::second_rate(double time_s) const {
-  return table.value(time_s) + motion.acceleration_m_s2(time_s);
-}
-
 DrivenPath::DrivenPath(const Pose& start, const DrivenBody& body)
     : position_m_(start.position_m),
       rotation_(start.rotation.normalized().toRotationMatrix()),
@@ -41,8 +20,8 @@ DrivenMotion DrivenPath::at(double time_s, double table_time_s) const {
   DrivenMotion motion;
   motion.position_m = position_m_;
   motion.rotation = rotation_;
-  if (angle_.moves) turn(time_s, table_time_s, motion);
-  if (!travel_.moves) return motion;
+  if (angle_.moves()) turn(time_s, table_time_s, motion);
+  if (!travel_.moves()) return motion;
   motion.position_m += travel_.value(time_s) * direction_;
   motion.velocity_m_s += travel_.rate(time_s) * direction_;
   motion.acceleration_m_s2 += travel_.second_rate(table_time_s) * direction_;
@@ -63,9 +42,8 @@ void DrivenPath::turn(double time_s, double table_time_s, DrivenMotion& motion) 
 }
 
 void DrivenPath::add_breakpoints(std::vector<double>& times_s) const {
-  for (const Coordinate* each : {&travel_, &angle_})
-    for (const std::vector<double>* of : {&each->table.times_s(), &each->motion.breakpoints_s()})
-      times_s.insert(times_s.end(), of->begin(), of->end());
+  travel_.add_breakpoints(times_s);
+  angle_.add_breakpoints(times_s);
 }
 
 }  // namespace flexneck::multibody

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "multibody/model/model.h"
+#include "multibody/numerics/prescribed_coordinate.h"
 
 namespace flexneck::multibody {
 
@@ -35,26 +36,12 @@ class DrivenPath {
   void add_breakpoints(std::vector<double>& times_s) const;
 
  private:
-  /// One coordinate, m or rad: an initial rate, a table of accelerations and a function of time.
-  struct Coordinate {
-    Coordinate(double initial_rate, const TimeTable& accelerations, const SmoothMotion& function);
-
-    double value(double time_s) const;
-    double rate(double time_s) const;
-    double second_rate(double time_s) const;
-
-    bool moves;
-    double value_before = 0, rate_before;  ///< what the table alone would have at time zero
-    TimeTable table;
-    SmoothMotion motion;
-  };
-
   void turn(double time_s, double table_time_s, DrivenMotion& motion) const;
 
   Eigen::Vector3d position_m_;  ///< of the start, and
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d direction_, axis_, point_m_;
-  Coordinate travel_, angle_;
+  PrescribedCoordinate travel_, angle_;
 };
 
 /// How driven bodies move.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -212,6 +213,34 @@ void check_marker(const Marker& marker, const Model& model) {
   }
 }
 
+void check_length(const std::string& who, const Joint& joint) {
+  const JointLength& length = joint.kind->length;
+  if (length.value == nullptr) return;
+  const double value = joint.*length.value;
+  if (std::isfinite(value) && (value > 0 || (value < 0 && length.may_be_negative))) return;
+  refuse(who, std::string(length.key) + " must be " +
+                  (length.may_be_negative ? "other than zero" : "positive") + ", but is " +
+                  text(value) + " m");
+}
+
+void check_motors(const Joint& joint) {
+  check_names(names_of(joint.motors), "motor");
+  const auto demand = [&](JointCoordinate coordinate, bool has, const std::string& what) {
+    const auto of = [&](const JointMotor& motor) { return motor.coordinate == coordinate; };
+    const auto count = std::count_if(joint.motors.begin(), joint.motors.end(), of);
+    if (count == 0) return;
+    const std::string who =
+        "motor '" + std::find_if(joint.motors.begin(), joint.motors.end(), of)->name + "'";
+    if (!has)
+      refuse(who, "joint '" + joint.name + "' is " + std::string(joint.kind->name) +
+                      ", and a motor cannot give it " + what);
+    if (count > 1) refuse(who, "joint '" + joint.name + "' has another motor for its " + what);
+  };
+  demand(JointCoordinate::distance, joint.kind->has_distance, "distance");
+  demand(JointCoordinate::angle, joint.kind->has_angle, "angle");
+  demand(JointCoordinate::flexion, false, "flexion");
+}
+
 void check_joint(const Joint& joint, const Model& model) {
   const std::string who = "joint '" + joint.name + "'";
   check_index(who, "marker", joint.marker_i, model.markers.size());
@@ -230,6 +259,8 @@ void check_joint(const Joint& joint, const Model& model) {
   }
   check_unit_vector(who, "axis", joint.axis);
   check_unit_vector(who, "second axis", joint.second_axis);
+  check_length(who, joint);
+  check_motors(joint);
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ std::vector<double> breakpoints(const Model& model, double end_s) {
     if (driven == nullptr) continue;
     DrivenPath(body.initial_pose, *driven).add_breakpoints(times);
   }
+  for (const Joint& joint : model.joints)
+    for (const JointMotor& motor : joint.motors) motor.path.add_breakpoints(times);
   ForceSet(model).add_breakpoints(times);
   std::erase_if(times, [&](double time) { return !(time > 0 && time < end_s); });
   std::sort(times.begin(), times.end());

@@ -13,6 +13,9 @@ struct SquaredResidual {
   SquaredResidual(const Joint& joint, const MarkerState& i, const MarkerState& j);
 
   Violation position, velocity;
+
+ private:
+  void add_advance(const Joint& joint, const MarkerState& i, const MarkerState& j);
 };
 
 }  // namespace flexneck::multibody::tree

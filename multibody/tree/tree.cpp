@@ -30,16 +30,19 @@ struct Visit {
 struct Walk {
   std::vector<Visit> order;
   std::optional<std::size_t> closing_joint;
+  std::optional<std::size_t> unsuited_joint;  ///< by its kind or its motors
 };
 
 Walk walk(const Model& model) {
+  Walk found;
   std::vector<std::vector<std::size_t>> joints_on(model.bodies.size());
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    if (model.joints[k].kind->motion == nullptr) continue;
+    const Joint& joint = model.joints[k];
+    if (joint.kind->holds_nothing()) continue;
+    if (joint.kind->motion == nullptr || !joint.motors.empty()) found.unsuited_joint = k;
     for (const std::size_t marker : {model.joints[k].marker_i, model.joints[k].marker_j})
       joints_on[model.markers[marker].body].push_back(k);
   }
-  Walk found;
   std::vector<bool> reached(model.bodies.size(), false);
   std::vector<bool> used(model.joints.size(), false);
   std::vector<std::size_t> queue;
@@ -100,10 +103,21 @@ void retract(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& change,
   }
 }
 
-bool is_tree(const Model& model) { return !walk(model).closing_joint; }
+bool is_tree(const Model& model) {
+  const Walk walked = walk(model);
+  return !walked.closing_joint && !walked.unsuited_joint;
+}
 
 Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) {
   const Walk walked = walk(model);
+  if (walked.unsuited_joint) {
+    const Joint& joint = model.joints[*walked.unsuited_joint];
+    throw InputError("joint '" + joint.name + "' " +
+                     (joint.motors.empty() ? "is of the kind " + std::string(joint.kind->name)
+                                           : "has the motor '" + joint.motors[0].name + "'") +
+                     ", which the recursive formulation does not treat; use the descriptor "
+                     "formulation");
+  }
   if (walked.closing_joint)
     throw InputError("joint '" + model.joints[*walked.closing_joint].name +
                      "' closes a loop of joints, which the recursive "

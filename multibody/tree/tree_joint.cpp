@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/tree/tree_joint.h"
 
+#include <numbers>
 #include <stdexcept>
 
 #include "multibody/numerics/rotation.h"
@@ -44,6 +45,7 @@ constinit const JointMotionLaw kFloatingMotion{.rates = 6,
 TreeJoint::TreeJoint(const Joint& joint, bool inner_is_i) : law(joint.kind->motion) {
   if (law == nullptr) throw std::logic_error("joint '" + joint.name + "' leaves no motion");
   frame.axis_f = frame.axis_m = joint.axis;
+  frame.lead_m_per_rad = joint.lead_m / (2 * std::numbers::pi);
   if (joint.kind->axes != JointAxes::two) return;
   (inner_is_i ? frame.axis_m : frame.axis_f) = joint.second_axis;
   // Bring M's axis across F's by the smallest turn; none where the markers' axes are so already.

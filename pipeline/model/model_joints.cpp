@@ -42,6 +42,8 @@ void read_joint(const StudyTable& table, Assembly& assembly) {
   joint.marker_j = marker_named(table, "upper", assembly);
   if (joint.kind->axes != JointAxes::none) joint.axis = unit_vector(table, "axis");
   if (joint.kind->axes == JointAxes::two) joint.second_axis = unit_vector(table, "second_axis");
+  if (const multibody::JointLength& length = joint.kind->length; length.value != nullptr)
+    joint.*length.value = table.quantity(std::string(length.key), "m");
   JointStart start;
   const auto read = [&](const char* key, const char* unit, std::optional<double>& value) {
     const double found = table.quantity_or(key, unit, 0);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a driven body moves: along a direction, and about an axis.
+// How a driven body moves, along a direction and about an axis, and how a motor moves a joint.
 #include <array>
 #include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/expression.h"
 #include "pipeline/model/model_sections.h"
@@ -12,6 +13,7 @@
 namespace flexneck::pipeline {
 
 using multibody::DrivenBody;
+using multibody::JointMotor;
 using multibody::SmoothMotion;
 using multibody::TimeTable;
 
@@ -25,6 +27,7 @@ struct MotionKeys {
 };
 const MotionKeys kTravel = {"displacement", "displacement_table", "m", "initial_velocity", "m/s",
                             "m/s^2"};
+const MotionKeys kDistance = {"distance", "distance_table", "m", "initial_speed", "m/s", "m/s^2"};
 const MotionKeys kAngle = {"angle", "angle_table", "rad", "initial_rate", "rad/s", "rad/s^2"};
 
 struct Motion {
@@ -41,7 +44,7 @@ std::string motion_key(const StudyTable& table, const MotionKeys& keys) {
   for (const std::string& key : all) {
     if (!table.has(key)) continue;
     if (!found.empty())
-      table.refuse(key, "the body is driven already by '" + found + "'; give one motion only");
+      table.refuse(key, "the motion is given already by '" + found + "'; give one motion only");
     found = key;
   }
   return found;
@@ -119,7 +122,39 @@ multibody::DrivenTurn read_turn(const StudyTable& table, const Eigen::Vector3d& 
   return turn;
 }
 
+/// What a motor does to where a joint starts and how fast. @param given  in the joint's own table
+void start_at(const JointMotor& motor, const StudyTable& table, std::optional<double>& value,
+              std::optional<double>& rate) {
+  if (rate)
+    table.refuse("joint", "its rate is given by the joint and by this motor; leave one out");
+  value = motor.start + motor.path.value(0);
+  rate = motor.path.rate(0);
+}
+
 }  // namespace
+
+void read_motor(const StudyTable& table, Assembly& assembly) {
+  JointMotor motor;
+  motor.name = table.text("name");
+  const std::size_t index = reference(table, "joint", names_of(assembly.model.joints), "joint");
+  const bool turns = choice(table, "coordinate", {"angle", "distance"}) == 0;
+  const MotionKeys& keys = turns ? kAngle : kDistance;
+  const Motion motion = read_motion(table, keys, assembly);
+  if (motion_key(table, keys).empty() && !table.has(keys.rate))
+    table.refuse("name", "a motor needs a motion: " + keys.value + ", " + keys.value_table +
+                             ", times and acceleration, table, pulse_times or " + keys.rate);
+  motor.coordinate =
+      turns ? multibody::JointCoordinate::angle : multibody::JointCoordinate::distance;
+  motor.path = {motion.initial_rate, motion.acceleration, motion.function};
+  JointStart& start = assembly.starts[index];
+  motor.start = (turns ? start.angle_rad : start.distance_m).value_or(0);
+  if (turns)
+    start_at(motor, table, start.angle_rad, start.rate_rad_s);
+  else
+    start_at(motor, table, start.distance_m, start.speed_m_s);
+  assembly.model.joints[index].motors.push_back(std::move(motor));
+  table.finish();
+}
 
 DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
   DrivenBody body;

@@ -25,6 +25,7 @@ struct Assembly {
 void read_body(const StudyTable& table, Assembly& assembly);        ///< [[body]]
 void read_marker(const StudyTable& table, Assembly& assembly);      ///< [[marker]]
 void read_joint(const StudyTable& table, Assembly& assembly);       ///< [[joint]]
+void read_motor(const StudyTable& table, Assembly& assembly);       ///< [[motor]]
 void read_force(const StudyTable& table, Assembly& assembly);       ///< [[force]]
 void read_torque(const StudyTable& table, Assembly& assembly);      ///< [[torque]]
 void read_spring(const StudyTable& table, Assembly& assembly);      ///< [[spring]]

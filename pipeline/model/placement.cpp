@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/model/placement.h"
 
+#include <numbers>
+
 #include "geometry/foundation/error.h"
 #include "multibody/model/driven_path.h"
 #include "multibody/numerics/rotation.h"
@@ -54,9 +56,13 @@ BodyMotion motion_of(const Body& body) {
 
 namespace {
 
+/// Of a screw joint; of others zero.
+double lead_m_per_rad(const Joint& joint) { return joint.lead_m / (2 * std::numbers::pi); }
+
 Pose start_pose(const Joint& joint, const JointStart& start) {
-  return {start.distance_m.value_or(0) * joint.axis,
-          Quaterniond(Eigen::AngleAxisd(start.angle_rad.value_or(0), joint.axis))};
+  const double angle = start.angle_rad.value_or(0);
+  return {(start.distance_m.value_or(0) + lead_m_per_rad(joint) * angle) * joint.axis,
+          Quaterniond(Eigen::AngleAxisd(angle, joint.axis))};
 }
 
 /// Calls visit(joint index, from, to) along the joints, from what is done to what is not.
@@ -108,10 +114,11 @@ void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
     const BodyMotion motion = motion_of(carrier);
     // The axis is the same in both markers' axes.
     const Vector3d axis = (outwards ? 1 : -1) * (frame.rotation * joint.axis);
-    const Vector3d w = motion.w + starts[k].rate_rad_s.value_or(0) * axis;
+    const double rate = starts[k].rate_rad_s.value_or(0);
+    const Vector3d w = motion.w + rate * axis;
     const Vector3d at = (body.initial_pose * marker_pose(model, to)).position_m;
     const Vector3d v = motion.v + motion.w.cross(at - pose_of(carrier).position_m) +
-                       starts[k].speed_m_s.value_or(0) * axis;
+                       (starts[k].speed_m_s.value_or(0) + lead_m_per_rad(joint) * rate) * axis;
     body.initial_velocity_m_s = v + w.cross(body.initial_pose.position_m - at);
     body.initial_angular_velocity_rad_s = body.initial_pose.rotation.conjugate() * w;
   });

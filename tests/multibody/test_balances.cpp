@@ -39,6 +39,7 @@ ModelBuilder flying_chain(bool stiffens) {
   place += Vector3d(0.2, 0, 0.1);
   const auto join = [&](const JointKind* kind, std::size_t outer) {
     build.joint("joint " + std::to_string(build.model.joints.size()), kind, inner, outer, axis);
+    build.model.joints.back().lead_m = 0.2;
   };
   const auto lump = make_point_mass_body(61, 3).body;
   const Vector3d side = lump.interface("side").position_m;
@@ -50,7 +51,7 @@ ModelBuilder flying_chain(bool stiffens) {
   inner = build.interface_marker("soft tip", soft, "tip");
   place = origin + lump.interface("tip").position_m;
   for (const JointKind* const kind : {&kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint,
-                                      &kRevoluteJoint, &kFixedJoint, &kPlanarJoint}) {
+                                      &kRevoluteJoint, &kFixedJoint, &kPlanarJoint, &kScrewJoint}) {
     const std::string name = std::to_string(build.model.bodies.size());
     const auto body =
         build.body("body " + name, random_rigid_body(random), {place}, spin.cross(place), spin);

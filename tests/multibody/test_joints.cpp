@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -43,6 +44,8 @@ const Vector3d kSecondAxis(0.8, 0.0, -0.6);
 /// How far a joint that turns or slides has done so.
 constexpr double kTurn = 0.7;
 constexpr double kSlide_m = 0.3;
+constexpr double kLead_m = 0.2;
+constexpr double kLength_m = 0.5;
 
 enum class Driven { none, body_i, body_j };
 
@@ -54,6 +57,8 @@ bool is_sliding(const JointKind* kind) {
 Vector3d slide_of(const JointKind* kind) {
   if (is_sliding(kind)) return kSlide_m * kAxis;
   if (kind == &kPlanarJoint) return kSlide_m * kSecondAxis;
+  if (kind == &kDistanceJoint) return kLength_m * Vector3d(2, -1, 2) / 3;
+  if (kind == &kScrewJoint) return (kTurn / (2 * std::numbers::pi) + 1) * kLead_m * kAxis;
   return Vector3d::Zero();
 }
 
@@ -80,7 +85,7 @@ Model two_bodies(const JointKind* kind, Driven which) {
   const Vector3d offset = 0.1 * random.vector();
   model.markers = {{"on i", 0, which == Driven::body_i ? "" : "tip", offset, random.rotation()},
                    {"on j", 1, which == Driven::body_j ? "" : "side", offset, random.rotation()}};
-  model.joints.push_back({"joint", kind, 0, 1, kAxis, kSecondAxis});
+  model.joints.push_back({"joint", kind, 0, 1, kAxis, kSecondAxis, kLead_m, kLength_m});
   return model;
 }
 
@@ -136,6 +141,16 @@ class Path {
     if (kind == &kCylindricalJoint) return stacked(sliding.head<2>(), across.head<2>());
     if (kind == &kPrismaticJoint) return stacked(sliding.head<2>(), twist);
     if (kind == &kPlanarJoint) return stacked(sliding.head<1>(), across.head<2>());
+    if (kind == &kDistanceJoint) return VectorXd::Constant(1, gap.norm() - kLength_m);
+    if (kind == &kScrewJoint) {
+      const Vector3d turned = i.R.transpose() * j.R * kSecondAxis;
+      const double angle =
+          std::atan2(kAxis.cross(kSecondAxis).dot(turned), kSecondAxis.dot(turned));
+      const double advance = kAxis.dot(i.R.transpose() * -gap);
+      const double turns = angle / (2 * std::numbers::pi) + 1;
+      return stacked(stacked(sliding.head<2>(), across.head<2>()),
+                     VectorXd::Constant(1, kLead_m * turns - advance));
+    }
     return {};
   }
 
@@ -148,7 +163,7 @@ class Path {
 
 /// Orientation that marker j may have when i has the given one.
 Matrix3d joined_orientation(const JointKind* kind, const Matrix3d& R_i) {
-  if (kind == &kSphericalJoint) return RandomNumbers(38).rotation().toRotationMatrix();
+  if (kind->rotation == HeldRotation::none) return RandomNumbers(38).rotation().toRotationMatrix();
   if (kind->rotation == HeldRotation::common_axis) return R_i * turned(kTurn * kAxis);
   if (kind == &kUniversalJoint)
     return R_i * turned(kTurn * kAxis) * turned(0.5 * kTurn * kSecondAxis);
@@ -192,7 +207,8 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
 
 const JointKind* any_joint() {
   return GENERATE(&kSphericalJoint, &kRevoluteJoint, &kFixedJoint, &kUniversalJoint,
-                  &kCylindricalJoint, &kPrismaticJoint, &kPlanarJoint);
+                  &kCylindricalJoint, &kPrismaticJoint, &kPlanarJoint, &kScrewJoint,
+                  &kDistanceJoint);
 }
 
 }  // namespace
@@ -271,8 +287,9 @@ TEST_CASE("reactions do no work on motions that keep the joint") {
   // What the joint leaves free carries nothing.
   const Vector3d h = i.R * kAxis;
   if (kind == &kSphericalJoint) CHECK(on_j.moment_Nm.norm() == 0);
-  if (kind->has_angle) CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
+  if (kind->has_angle && !kind->advances) CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);
   if (is_sliding(kind)) CHECK(std::abs(on_j.force_N.dot(h)) < 1e-14);
+  if (kind == &kDistanceJoint) CHECK(on_j.moment_Nm.norm() == 0);
   if (kind == &kPlanarJoint) CHECK(on_j.force_N.cross(h).norm() < 1e-14);
   if (kind == &kUniversalJoint) {
     CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);

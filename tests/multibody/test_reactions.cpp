@@ -23,8 +23,9 @@ namespace {
 
 const std::vector<const JointKind*> kKinds = {
     &kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint, &kRevoluteJoint,
-    &kSphericalJoint, &kFixedJoint,       &kPlanarJoint};
+    &kSphericalJoint, &kFixedJoint,       &kPlanarJoint,    &kScrewJoint};
 constexpr double kInterval_s = 1e-3;
+constexpr double kLead_m = 0.2;
 /// Differences over 1 ms of momenta known to 1e-10.
 constexpr double kTolerance = 1e-7;
 
@@ -43,6 +44,7 @@ Model chain() {
     const bool reversed = k % 2 == 1;
     build.joint("joint " + name, kKinds[k], reversed ? outer : inner, reversed ? inner : outer,
                 Vector3d(0, 0.6, 0.8));
+    build.model.joints.back().lead_m = kLead_m;
     build.marker("cg " + name, body, rigid.center_m);
     const Vector3d next = 0.3 * random.vector();
     inner = build.marker("inner " + name, body, next);

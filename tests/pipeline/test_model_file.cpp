@@ -160,7 +160,7 @@ TEST_CASE("a driven body follows a table, a pulse or an expression, and one of t
       Approx(3));
 
   CHECK_THAT(refusal(folder, sled("displacement = \"t\"\nacceleration = \"t\"")),
-             Contains("body.ground.displacement: the body is driven already by 'acceleration'"));
+             Contains("body.ground.displacement: the motion is given already by 'acceleration'"));
   CHECK_THAT(refusal(folder, sled("displacement = \"sin(t\"")),
              Contains("body.ground.displacement: \"sin(t\" cannot be read"));
   CHECK_THAT(refusal(folder, sled("displacement = \"sqrt(t - 1)\"")),
@@ -216,7 +216,7 @@ TEST_CASE("a driven body turns by the same kinds of motion, and its body starts 
 
   CHECK_THAT(refusal(folder, turntable("")), Contains("a turn needs a motion"));
   CHECK_THAT(refusal(folder, turntable("angle = \"t\"\nangle_table = \"angle.csv\"")),
-             Contains("is driven already by 'angle'"));
+             Contains("motion is given already by 'angle'"));
   CHECK_THAT(refusal(folder, turntable("initial_rate = \"3 m/s\"")),
              Contains("body.ground.turn.initial_rate"));
   write_text(folder / "short.csv", "time [ms], angle [deg]\n0, 30\n50, 35\n100, 37\n150, 30\n");

@@ -126,7 +126,8 @@ multibody::Model chain_of_all_joints() {
       const auto outer =
           build.marker("outer " + name, body, 0.2 * random.vector(), random.rotation());
       build.model.joints.push_back({name, kind, reversed ? outer : inner, reversed ? inner : outer,
-                                    random.vector().normalized(), random.vector().normalized()});
+                                    random.vector().normalized(), random.vector().normalized(),
+                                    0.2});
       carrier = body;
     }
   }

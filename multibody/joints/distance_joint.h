@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "multibody/joints/joint.h"
+
+namespace flexneck::multibody {
+
+/// A massless rod with a spherical joint at each end. It holds too little for a tree.
+inline constexpr JointKind kDistanceJoint{.name = "distance",
+                                          .translation = HeldTranslation::distance,
+                                          .length = {.key = "length", .value = &Joint::length_m}};
+
+}  // namespace flexneck::multibody
