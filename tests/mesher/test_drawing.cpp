@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
+#include <cairo.h>
 #include <cmath>
+#include <cstring>
 #include <iterator>
+#include <memory>
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -133,6 +137,45 @@ TEST_CASE("a sheet is a PNG file, the same each time, and nothing is left where 
   CHECK(bytes_of(folder / "a.png") == bytes_of(folder / "b.png"));
   CHECK_THROWS_AS(write_png(folder / "none" / "c.png", sheet), InputError);
   CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 2);
+}
+
+TEST_CASE("panels of a sheet stand in rows below each other, with their titles above") {
+  const TemporaryFolder folder;
+  constexpr int kSize = 60;
+  const std::array colours = {Colour(1, 0, 0), Colour(0, 1, 0), Colour(0, 0, 1)};
+  PictureSheet sheet{.panels = {}, .columns = 2, .caption = {}, .legend = {}, .scale = {}};
+  for (const Colour& colour : colours) sheet.panels.push_back({"", Raster(kSize, kSize, colour)});
+  write_png(folder / "sheet.png", sheet);
+  const auto close = [](cairo_surface_t* surface) { cairo_surface_destroy(surface); };
+  const std::unique_ptr<cairo_surface_t, decltype(close)> picture(
+      cairo_image_surface_create_from_png((folder / "sheet.png").c_str()), close);
+  const int width = cairo_image_surface_get_width(picture.get());
+  const int stride = cairo_image_surface_get_stride(picture.get());
+  const unsigned char* const bytes = cairo_image_surface_get_data(picture.get());
+  /// First column and row, and number of pixels of a colour.
+  struct Found {
+    int x = 1 << 20, y = 1 << 20, count = 0;
+  };
+  const auto find = [&](std::uint32_t colour) {
+    Found found;
+    for (int y = 0; y < cairo_image_surface_get_height(picture.get()); ++y)
+      for (int x = 0; x < width; ++x) {
+        std::uint32_t pixel = 0;
+        std::memcpy(&pixel, bytes + y * stride + 4 * x, 4);
+        if ((pixel & kWhite) != colour) continue;
+        found = {std::min(found.x, x), std::min(found.y, y), found.count + 1};
+      }
+    return found;
+  };
+  const Found red = find(0xFF0000);
+  const Found green = find(0x00FF00);
+  const Found blue = find(0x0000FF);
+  for (const Found& each : {red, green, blue}) CHECK(each.count == kSize * kSize);
+  CHECK(green.x == red.x + kSize);
+  CHECK(green.y == red.y);
+  CHECK(blue.x == red.x);
+  CHECK(blue.y > red.y + kSize);
+  CHECK(width == 2 * (red.x + kSize));  // as much margin on the right
 }
 
 }  // namespace flexneck::mesher

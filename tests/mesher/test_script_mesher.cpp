@@ -190,6 +190,18 @@ Physical Volume("brick") = {1};
   const Mesh mesh = script.mesh();
   CHECK(mesh.blocks[0].kind == ElementKind::tet10);
   CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(1).epsilon(kRounding));
+  // Tetrahedra that are asked for are made against what the script recombines.
+  ScriptFixture recombined(R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Mesh.MeshSizeMin = 1;
+Mesh.RecombineAll = 1;
+Physical Volume("brick") = {1};
+)");
+  recombined.options.element = ElementKind::tet10;
+  const Mesh tetrahedra = recombined.mesh();
+  REQUIRE(tetrahedra.blocks.size() == 1);
+  CHECK(tetrahedra.blocks[0].kind == ElementKind::tet10);
   script.options.element = ElementKind::hex20;
   CHECK_THROWS_AS(script.mesh(), InputError);
   CHECK_THROWS_WITH(script.mesh(), Contains("its elements are tet10, asked for are hex20"));

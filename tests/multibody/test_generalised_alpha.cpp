@@ -170,6 +170,19 @@ TEST_CASE("generalised-alpha is of order two for deformation, whatever it damps"
   CHECK(fine < 1e-3 * reference.norm());
 }
 
+TEST_CASE("the local error of generalised-alpha is that of its formulas on a cubic path") {
+  const double radius = GENERATE(0.0, 0.5, 0.8, 1.0);
+  const AlphaParameters alpha(radius);
+  // x'' = t: the auxiliary a is x'' at t_n + shift h, so that a step from rest is in closed form.
+  constexpr double kStep = 0.1;
+  const double a = alpha.shift * kStep;
+  const double a_next = ((1 - alpha.alpha_f) * kStep - alpha.alpha_m * a) / (1 - alpha.alpha_m);
+  CHECK(a_next == Approx(kStep + a));
+  const double x = kStep * kStep * ((0.5 - alpha.beta) * a + alpha.beta * a_next);
+  const double exact = kStep * kStep * kStep / 6;
+  CHECK(x - exact == Approx(alpha.error * kStep * kStep * kStep).epsilon(1e-12));
+}
+
 TEST_CASE("generalised-alpha steps over stiff vibrations that hold up the explicit method") {
   const Formulation formulation = either_formulation();
   const Model model = stiff_pendulum();

@@ -7,6 +7,7 @@
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/tree/tree_dynamics.h"
+#include "multibody/tree/tree_error.h"
 #include "multibody/tree/tree_start.h"
 #include "tests/support/test_models.h"
 #include "tests/support/tree_models.h"
@@ -203,6 +204,46 @@ TEST_CASE("a tree's joint coordinates are found again from the motion of its bod
     if (q.dot(state.segment<4>(body.position + nq - 4)) < 0) q = -q;
   }
   CHECK((found - state).lpNorm<Eigen::Infinity>() < 1e-13);
+}
+
+TEST_CASE("a tree's error is measured where it is, in units of what each part tolerates") {
+  const Model model = forest();
+  const tree::Tree tree(model);
+  constexpr double kRelative = 1e-3;
+  constexpr double kAbsolute = 1e-6;
+  const tree::TreeError measure(tree, kRelative, kAbsolute);
+  const VectorXd state = random_state(tree);
+  double speed = 0;
+  for (const tree::TreeBody& body : tree.bodies) {
+    const Index n = body.joint.law->distances;
+    const auto rates =
+        state.segment(tree.position_count + body.velocity, body.joint.velocity_count());
+    speed =
+        std::max({speed, rates.head(n).norm(), tree.size_m * rates.tail(rates.size() - n).norm()});
+  }
+  constexpr double kError = 1e-5;
+  for (const tree::TreeBody& body : tree.bodies) {
+    const Index n = body.joint.law->distances;
+    const auto name = body.joint_index == tree::kNone
+                          ? "body '" + body.name + "'"
+                          : "joint '" + model.joints[body.joint_index].name + "'";
+    const auto check = [&](Index place, double size, double reference, const std::string& part) {
+      CAPTURE(name, part);
+      VectorXd error = VectorXd::Zero(state.size());
+      error[place] = kError;
+      const ErrorEstimate found = measure(state, state, error);
+      CHECK(found.value ==
+            Approx(size * kError / (kAbsolute + kRelative * reference)).epsilon(1e-12));
+      CHECK(measure.name_of(found.component) == part + " of " + name);
+    };
+    const Index u = tree.position_count + body.velocity;
+    if (n > 0) check(body.position, 1, tree.size_m, "position");
+    if (n > 0) check(u, 1, speed, "rate");
+    const Index nu = body.joint.velocity_count();
+    // A quaternion changes by half the angle.
+    if (nu > n) check(body.position + n, body.joint.law->has_quaternion ? 2 : 1, 1, "position");
+    if (nu > n) check(u + n, tree.size_m, speed, "rate");
+  }
 }
 
 TEST_CASE("the recursive formulation refuses a loop and names a joint that closes it") {

@@ -117,6 +117,20 @@ TEST_CASE("an .inp gives the mesh back with its materials, positions to 13 digit
                                          Contains("floor,1,3\n*STEP"));
 }
 
+TEST_CASE("an .inp names the element of a face also behind the first of its block") {
+  Mesh mesh = hex20_mesh();
+  mesh.blocks[0].nodes.insert(mesh.blocks[0].nodes.end(), mesh.blocks[1].nodes.begin(),
+                              mesh.blocks[1].nodes.end());
+  mesh.blocks.pop_back();
+  const Files files;
+  ImportOptions options;
+  options.file = files / "mesh.inp";
+  write_inp(options.file, mesh, {});
+  CHECK_THAT(bytes_of(options.file), Contains("*SURFACE,NAME=floor,TYPE=ELEMENT\n2,S1\n"));
+  const Mesh read = import_mesh(options, {});
+  CHECK(read.face_set("floor").blocks[0].nodes == mesh.face_set("floor").blocks[0].nodes);
+}
+
 TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held") {
   Mesh mesh = hex20_mesh();
   const auto a = static_cast<std::int32_t>(mesh.nodes.size() - 1);
