@@ -31,7 +31,8 @@ struct FormulationChoice {
   Formulation of(const mesher::Material& material) const;
 };
 
-/// A line for each material that would lock: nearly incompressible, nu > 0.45, but not mixed.
+/// A line for each material that would lock, nearly incompressible, nu > 0.45, but not mixed, and
+/// for each part of linear tetrahedra.
 std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
                                           const FormulationChoice& formulation);
 

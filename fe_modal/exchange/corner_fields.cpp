@@ -15,36 +15,6 @@ namespace flexneck::fe_modal {
 namespace {
 
 using mesher::ElementKind;
-using mesher::ReferenceShape;
-
-/// Shape functions of the corners alone, those of first order, at a point: (c).
-Eigen::VectorXd corner_functions(ElementKind kind, const Eigen::Vector3d& point) {
-  const auto corners = mesher::reference_nodes(kind).first(mesher::corners_per_element(kind));
-  const auto along = [](double corner, double x) { return 0.5 * (1 + corner * x); };
-  Eigen::VectorXd values(static_cast<Eigen::Index>(corners.size()));
-  const ReferenceShape shape = mesher::shape_of(kind);
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    const std::array<double, 3>& at = corners[static_cast<std::size_t>(k)];
-    if (shape == ReferenceShape::hexahedron) {
-      values[k] = along(at[0], point[0]) * along(at[1], point[1]) * along(at[2], point[2]);
-      continue;
-    }
-    // Of a simplex the corner at the origin has what the others leave.
-    const int axes = shape == ReferenceShape::prism ? 2 : 3;
-    double rest = 1;
-    double own = 0;
-    for (int a = 0; a < axes; ++a) {
-      const auto axis = static_cast<std::size_t>(a);
-      rest -= point[a];
-      if (at[axis] == 1) own = point[a];
-    }
-    const bool is_origin =
-        std::all_of(at.begin(), at.begin() + axes, [](double x) { return x == 0; });
-    values[k] =
-        (is_origin ? rest : own) * (shape == ReferenceShape::prism ? along(at[2], point[2]) : 1.0);
-  }
-  return values;
-}
 
 /// dx_a / dxi_b at point q of a table.
 Eigen::Matrix3d jacobian(const mesher::ShapeTable& table, Eigen::Index q,
@@ -69,12 +39,10 @@ void for_each_element(const mesher::ElementBlock& block, Visit&& visit) {
 class CornerVolumes {
  public:
   explicit CornerVolumes(ElementKind kind)
-      : rule_(mesher::gauss_rule(kind, 3)), table_(mesher::tabulate(kind, rule_.points)) {
-    functions_.resize(static_cast<Eigen::Index>(mesher::corners_per_element(kind)),
-                      rule_.weights.size());
-    for (Eigen::Index q = 0; q < rule_.weights.size(); ++q) {
-      functions_.col(q) = corner_functions(kind, rule_.points.col(q));
-    }
+      : rule_(mesher::gauss_rule(kind, 3)),
+        table_(mesher::tabulate(kind, rule_.points)),
+        functions_(
+            mesher::tabulate(mesher::linear_kind_of(mesher::shape_of(kind)), rule_.points).values) {
   }
 
   /// (c), m^3

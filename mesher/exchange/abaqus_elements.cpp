@@ -2,49 +2,39 @@
 #include "mesher/exchange/abaqus_elements.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "geometry/foundation/error.h"
 
 namespace flexneck::mesher {
 namespace {
 
-/// The first of a kind is the one that is written, the one in R its reduced integration.
-constexpr std::array<std::pair<std::string_view, ElementKind>, 7> kTypes = {
-    {{"C3D8", ElementKind::hex8},
-     {"C3D8I", ElementKind::hex8},
-     {"C3D8R", ElementKind::hex8},
-     {"C3D10", ElementKind::tet10},
-     {"C3D15", ElementKind::prism15},
-     {"C3D20", ElementKind::hex20},
-     {"C3D20R", ElementKind::hex20}}};
+bool has(std::span<const std::string_view> types, std::string_view type) {
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
 
 }  // namespace
 
 std::optional<ElementKind> kind_of_abaqus_type(std::string_view type) {
-  const auto* const found = std::find_if(kTypes.begin(), kTypes.end(),
-                                         [&](const auto& row) { return row.first == type; });
-  return found == kTypes.end() ? std::nullopt : std::optional(found->second);
+  for (const ElementKind kind : element_kinds())
+    if (has(traits_of(kind).abaqus_types, type)) return kind;
+  return std::nullopt;
 }
 
 std::string known_abaqus_types() {
   std::string known;
-  for (const auto& [type, kind] : kTypes) {
-    known += (known.empty() ? "" : ", ") + std::string(type);
-  }
+  for (const ElementKind kind : element_kinds())
+    for (const std::string_view type : traits_of(kind).abaqus_types)
+      known += (known.empty() ? "" : ", ") + std::string(type);
   return known;
 }
 
 std::string abaqus_type_of(ElementKind kind, bool is_reduced) {
-  const auto* const found = std::find_if(kTypes.begin(), kTypes.end(),
-                                         [&](const auto& row) { return row.second == kind; });
-  if (found != kTypes.end()) {
-    const std::string reduced = std::string(found->first) + "R";
-    return is_reduced && kind_of_abaqus_type(reduced) ? reduced : std::string(found->first);
-  }
-  throw InputError("an .inp has no element of kind " + std::string(name_of(kind)) +
-                   "; mesh with the 20-node one instead (mesh.element = \"hex20\")");
+  const auto types = traits_of(kind).abaqus_types;
+  if (types.empty())
+    throw InputError("an .inp has no element of kind " + std::string(name_of(kind)) +
+                     "; mesh with the 20-node one instead (mesh.element = \"hex20\")");
+  const std::string full(types.front());
+  return is_reduced && has(types, full + "R") ? full + "R" : full;
 }
 
 std::span<const std::vector<std::size_t>> abaqus_facets(ElementKind kind) {

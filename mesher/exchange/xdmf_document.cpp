@@ -7,33 +7,6 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Names of the XDMF model, version 2 and 3.
-std::string topology_of(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::hex8:
-      return "Hexahedron";
-    case ElementKind::hex20:
-      return "Hexahedron_20";
-    case ElementKind::hex27:
-      return "Hexahedron_27";
-    case ElementKind::prism15:
-      return "Wedge_15";
-    case ElementKind::prism18:
-      return "Wedge_18";
-    case ElementKind::tet10:
-      return "Tetrahedron_10";
-    case ElementKind::quad4:
-      return "Quadrilateral";
-    case ElementKind::quad8:
-      return "Quadrilateral_8";
-    case ElementKind::quad9:
-      return "Quadrilateral_9";
-    case ElementKind::tri6:
-      return "Triangle_6";
-  }
-  return {};
-}
-
 std::string escaped(const std::string& text) {
   static const std::map<char, std::string> kEscapes = {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
@@ -76,7 +49,7 @@ void XdmfDocument::begin(const std::string& name, const std::string& topology,
 
 void XdmfDocument::begin_grid(const std::string& name, ElementKind kind,
                               const XdmfItem& connectivity, const XdmfItem& positions) {
-  begin(name, "\"" + topology_of(kind) + "\"", connectivity, positions);
+  begin(name, "\"" + std::string(traits_of(kind).xdmf_topology) + "\"", connectivity, positions);
 }
 
 void XdmfDocument::begin_points(const std::string& name, const XdmfItem& nodes,

@@ -13,28 +13,17 @@
 namespace flexneck::mesher {
 namespace {
 
-/// gmsh's numbers of the element types that a mesh may hold; node orders are the same.
-constexpr std::array<std::pair<int, ElementKind>, 10> kKindOfType = {{{5, ElementKind::hex8},
-                                                                      {17, ElementKind::hex20},
-                                                                      {12, ElementKind::hex27},
-                                                                      {18, ElementKind::prism15},
-                                                                      {13, ElementKind::prism18},
-                                                                      {11, ElementKind::tet10},
-                                                                      {3, ElementKind::quad4},
-                                                                      {16, ElementKind::quad8},
-                                                                      {10, ElementKind::quad9},
-                                                                      {9, ElementKind::tri6}}};
-
 constexpr std::array<const char*, 4> kEntityNames = {"point", "curve", "surface", "volume"};
 
 std::string entity_name(int dimension) {
   return kEntityNames.at(static_cast<std::size_t>(dimension));
 }
 
+/// Node orders are gmsh's.
 std::optional<ElementKind> kind_of(int gmsh_type) {
-  const auto* const found = std::find_if(kKindOfType.begin(), kKindOfType.end(),
-                                         [&](const auto& row) { return row.first == gmsh_type; });
-  return found == kKindOfType.end() ? std::nullopt : std::optional(found->second);
+  for (const ElementKind kind : element_kinds())
+    if (traits_of(kind).gmsh_type == gmsh_type) return kind;
+  return std::nullopt;
 }
 
 std::string name_of_type(int gmsh_type) {
@@ -155,11 +144,7 @@ void require_one_part_per_volume(const std::vector<GmshGroup>& volumes) {
   }
 }
 
-int gmsh_type_of(ElementKind kind) {
-  return std::find_if(kKindOfType.begin(), kKindOfType.end(),
-                      [&](const auto& row) { return row.second == kind; })
-      ->first;
-}
+int gmsh_type_of(ElementKind kind) { return traits_of(kind).gmsh_type; }
 
 GroupElements elements_of(const GmshGroup& group) {
   GroupElements elements;

@@ -112,33 +112,65 @@ constexpr std::array<Point, 6> kTriangleNodes = {{
     {0, 0.5, 0},
 }};
 
-/// All that is known of a kind: a new kind is one row here.
-struct KindRecord {
-  ElementKind kind;
-  std::string_view name;
-  ReferenceShape shape;
-  int order;
-  std::span<const Point> nodes;
-};
+/// Serendipity elements have the monomials whose superlinear degree, the sum of the exponents above
+/// one, is at most two (Arnold and Awanou, Found. Comput. Math. 11 (2011) 337).
+constexpr bool is_serendipity(const Exponents& e) {
+  int degree = 0;
+  for (const int exponent : e) degree += exponent > 1 ? exponent : 0;
+  return degree <= 2;
+}
+constexpr bool is_multilinear(const Exponents& e) { return e[0] <= 1 && e[1] <= 1 && e[2] <= 1; }
+constexpr bool is_any(const Exponents&) { return true; }
+constexpr bool is_linear(const Exponents& e) { return e[0] + e[1] + e[2] <= 1; }
+constexpr bool is_quadratic(const Exponents& e) { return e[0] + e[1] + e[2] <= 2; }
+constexpr bool is_linear_prism(const Exponents& e) { return e[0] + e[1] <= 1 && e[2] <= 1; }
+constexpr bool is_serendipity_prism(const Exponents& e) {
+  return e[0] + e[1] <= 2 && (e[2] <= 1 || e[0] + e[1] <= 1);
+}
+constexpr bool is_quadratic_prism(const Exponents& e) { return e[0] + e[1] <= 2; }
 
-constexpr std::array<KindRecord, 10> kKinds = {{
-    {ElementKind::hex8, "hex8", ReferenceShape::hexahedron, 1,
-     std::span(kHexahedronNodes).first(8)},
+constexpr std::array<std::string_view, 3> kC3D8 = {"C3D8", "C3D8I", "C3D8R"};
+constexpr std::array<std::string_view, 2> kC3D20 = {"C3D20", "C3D20R"};
+constexpr std::array<std::string_view, 1> kC3D6 = {"C3D6"};
+constexpr std::array<std::string_view, 1> kC3D15 = {"C3D15"};
+constexpr std::array<std::string_view, 1> kC3D4 = {"C3D4"};
+constexpr std::array<std::string_view, 1> kC3D10 = {"C3D10"};
+
+constexpr std::array<ElementTraits, 13> kKinds = {{
+    {ElementKind::hex8, "hex8", ReferenceShape::hexahedron, 1, std::span(kHexahedronNodes).first(8),
+     is_multilinear, 5, "Hexahedron", kC3D8},
     {ElementKind::hex20, "hex20", ReferenceShape::hexahedron, 2,
-     std::span(kHexahedronNodes).first(20)},
-    {ElementKind::hex27, "hex27", ReferenceShape::hexahedron, 2, kHexahedronNodes},
-    {ElementKind::prism15, "prism15", ReferenceShape::prism, 2, std::span(kPrismNodes).first(15)},
-    {ElementKind::prism18, "prism18", ReferenceShape::prism, 2, kPrismNodes},
-    {ElementKind::tet10, "tet10", ReferenceShape::tetrahedron, 2, kTetrahedronNodes},
+     std::span(kHexahedronNodes).first(20), is_serendipity, 17, "Hexahedron_20", kC3D20},
+    {ElementKind::hex27, "hex27", ReferenceShape::hexahedron, 2, kHexahedronNodes, is_any, 12,
+     "Hexahedron_27"},
+    {ElementKind::prism6, "prism6", ReferenceShape::prism, 1, std::span(kPrismNodes).first(6),
+     is_linear_prism, 6, "Wedge", kC3D6},
+    {ElementKind::prism15, "prism15", ReferenceShape::prism, 2, std::span(kPrismNodes).first(15),
+     is_serendipity_prism, 18, "Wedge_15", kC3D15},
+    {ElementKind::prism18, "prism18", ReferenceShape::prism, 2, kPrismNodes, is_quadratic_prism, 13,
+     "Wedge_18"},
+    {ElementKind::tet4, "tet4", ReferenceShape::tetrahedron, 1,
+     std::span(kTetrahedronNodes).first(4), is_linear, 4, "Tetrahedron", kC3D4},
+    {ElementKind::tet10, "tet10", ReferenceShape::tetrahedron, 2, kTetrahedronNodes, is_quadratic,
+     11, "Tetrahedron_10", kC3D10},
     {ElementKind::quad4, "quad4", ReferenceShape::quadrilateral, 1,
-     std::span(kQuadrilateralNodes).first(4)},
+     std::span(kQuadrilateralNodes).first(4), is_multilinear, 3, "Quadrilateral"},
     {ElementKind::quad8, "quad8", ReferenceShape::quadrilateral, 2,
-     std::span(kQuadrilateralNodes).first(8)},
-    {ElementKind::quad9, "quad9", ReferenceShape::quadrilateral, 2, kQuadrilateralNodes},
-    {ElementKind::tri6, "tri6", ReferenceShape::triangle, 2, kTriangleNodes},
+     std::span(kQuadrilateralNodes).first(8), is_serendipity, 16, "Quadrilateral_8"},
+    {ElementKind::quad9, "quad9", ReferenceShape::quadrilateral, 2, kQuadrilateralNodes, is_any, 10,
+     "Quadrilateral_9"},
+    {ElementKind::tri3, "tri3", ReferenceShape::triangle, 1, std::span(kTriangleNodes).first(3),
+     is_linear, 2, "Triangle"},
+    {ElementKind::tri6, "tri6", ReferenceShape::triangle, 2, kTriangleNodes, is_quadratic, 9,
+     "Triangle_6"},
 }};
-
-const KindRecord& record_of(ElementKind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
+static_assert(
+    [] {
+      for (std::size_t k = 0; k < kKinds.size(); ++k)
+        if (kKinds[k].kind != static_cast<ElementKind>(k)) return false;
+      return true;
+    }(),
+    "rows in the order of the enumeration");
 
 using Corners = std::vector<std::size_t>;
 
@@ -168,12 +200,14 @@ void append_middle(std::span<const Point> nodes, const Corners& of, Corners& sid
   if (found != nodes.end()) side.push_back(static_cast<std::size_t>(found - nodes.begin()));
 }
 
-ElementKind facet_kind(std::size_t corners, std::size_t nodes) {
-  if (corners == 3) return ElementKind::tri6;
-  return nodes == 4 ? ElementKind::quad4 : nodes == 8 ? ElementKind::quad8 : ElementKind::quad9;
+ElementKind facet_kind(ReferenceShape shape, std::size_t nodes) {
+  const auto* const found = std::find_if(
+      kKinds.begin(), kKinds.end(),
+      [&](const ElementTraits& each) { return each.shape == shape && each.nodes.size() == nodes; });
+  return found->kind;
 }
 
-std::vector<ReferenceFacet> make_facets(const KindRecord& record) {
+std::vector<ReferenceFacet> make_facets(const ElementTraits& record) {
   std::vector<ReferenceFacet> sides;
   for (const Corners& corners : facet_corners(record.shape)) {
     Corners side = corners;
@@ -181,7 +215,9 @@ std::vector<ReferenceFacet> make_facets(const KindRecord& record) {
       append_middle(record.nodes, {corners[c], corners[(c + 1) % corners.size()]}, side);
     }
     if (corners.size() == 4) append_middle(record.nodes, corners, side);
-    sides.push_back({facet_kind(corners.size(), side.size()), side});
+    const ReferenceShape shape =
+        corners.size() == 3 ? ReferenceShape::triangle : ReferenceShape::quadrilateral;
+    sides.push_back({facet_kind(shape, side.size()), side});
   }
   return sides;
 }
@@ -197,34 +233,36 @@ std::span<const ElementKind> element_kinds() {
   return kAll;
 }
 
-std::string_view name_of(ElementKind kind) { return record_of(kind).name; }
+const ElementTraits& traits_of(ElementKind kind) {
+  return kKinds.at(static_cast<std::size_t>(kind));
+}
+
+std::string_view name_of(ElementKind kind) { return traits_of(kind).name; }
+
+ElementKind linear_kind_of(ReferenceShape shape) {
+  return std::find_if(
+             kKinds.begin(), kKinds.end(),
+             [&](const ElementTraits& each) { return each.shape == shape && each.order == 1; })
+      ->kind;
+}
 
 ElementKind element_kind_from(std::string_view name) {
   std::string known;
-  for (const KindRecord& record : kKinds) {
+  for (const ElementTraits& record : kKinds) {
     if (record.name == name) return record.kind;
     known += (known.empty() ? "" : ", ") + std::string(record.name);
   }
   throw InputError("unknown element kind '" + std::string(name) + "', expected one of " + known);
 }
 
-ReferenceShape shape_of(ElementKind kind) { return record_of(kind).shape; }
+ReferenceShape shape_of(ElementKind kind) { return traits_of(kind).shape; }
 
 std::span<const std::array<double, 3>> reference_nodes(ElementKind kind) {
-  return record_of(kind).nodes;
+  return traits_of(kind).nodes;
 }
 
 std::size_t corners_per_element(ElementKind kind) {
-  switch (shape_of(kind)) {
-    case ReferenceShape::hexahedron:
-      return 8;
-    case ReferenceShape::prism:
-      return 6;
-    case ReferenceShape::triangle:
-      return 3;
-    default:
-      return 4;
-  }
+  return nodes_per_element(linear_kind_of(shape_of(kind)));
 }
 
 int dimension(ElementKind kind) {
@@ -232,13 +270,13 @@ int dimension(ElementKind kind) {
   return shape == ReferenceShape::quadrilateral || shape == ReferenceShape::triangle ? 2 : 3;
 }
 
-int order_of(ElementKind kind) { return record_of(kind).order; }
+int order_of(ElementKind kind) { return traits_of(kind).order; }
 
 std::span<const ReferenceFacet> facets_of(ElementKind kind) {
   static const std::vector<std::vector<ReferenceFacet>> kFacets = [] {
     std::vector<std::vector<ReferenceFacet>> all;
     all.reserve(kKinds.size());
-    for (const KindRecord& record : kKinds) all.push_back(make_facets(record));
+    for (const ElementTraits& record : kKinds) all.push_back(make_facets(record));
     return all;
   }();
   return kFacets.at(static_cast<std::size_t>(kind));

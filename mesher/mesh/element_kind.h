@@ -14,17 +14,17 @@ enum class ElementKind {
   hex8,     ///< trilinear hexahedron
   hex20,    ///< serendipity hexahedron
   hex27,    ///< triquadratic hexahedron
+  prism6,   ///< linear prism
   prism15,  ///< serendipity prism
   prism18,  ///< quadratic prism
+  tet4,     ///< linear tetrahedron
   tet10,    ///< quadratic tetrahedron
-  quad4,    ///< bilinear quadrilateral, face of hex8
+  quad4,    ///< bilinear quadrilateral, face of hex8 and prism6
   quad8,    ///< serendipity quadrilateral, face of hex20 and prism15
   quad9,    ///< biquadratic quadrilateral, face of hex27 and prism18
+  tri3,     ///< linear triangle, face of prism6 and tet4
   tri6,     ///< quadratic triangle, face of prism15, prism18 and tet10
 };
-
-/// All kinds, in the order of the enumeration.
-std::span<const ElementKind> element_kinds();
 
 std::string_view name_of(ElementKind kind);
 /// @throws InputError if no kind has this name.
@@ -33,6 +33,30 @@ ElementKind element_kind_from(std::string_view name);
 /// Reference elements: [-1, 1]^d, or the simplex xi, eta, zeta >= 0 with sum <= 1; the prism is the
 /// triangle times zeta in [-1, 1].
 enum class ReferenceShape { hexahedron, prism, tetrahedron, quadrilateral, triangle };
+
+/// Powers of the reference coordinates in a monomial, each up to two.
+using Exponents = std::array<int, 3>;
+
+/// All that is known of a kind. A new kind is an enumerator and a row of these in
+/// element_kind.cpp; what it can do in the analysis is said by the schemes of fe_modal/element.
+struct ElementTraits {
+  ElementKind kind;
+  std::string_view name;
+  ReferenceShape shape;
+  int order;
+  std::span<const std::array<double, 3>> nodes;  ///< see reference_nodes()
+  bool (*spans)(const Exponents&);               ///< the monomials of the shape functions
+  int gmsh_type;
+  std::string_view xdmf_topology;                    ///< of the XDMF model, version 2 and 3
+  std::span<const std::string_view> abaqus_types{};  ///< the first is written; the one in R is its
+                                                     ///< reduced integration
+};
+const ElementTraits& traits_of(ElementKind kind);
+
+/// All kinds, in the order of the enumeration.
+std::span<const ElementKind> element_kinds();
+/// The kind whose nodes are the corners of the shape.
+ElementKind linear_kind_of(ReferenceShape shape);
 ReferenceShape shape_of(ElementKind kind);
 
 /// Coordinates of the nodes in the reference element, unused ones zero. Nodes follow gmsh's order:

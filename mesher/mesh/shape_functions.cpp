@@ -9,42 +9,6 @@
 namespace flexneck::mesher {
 namespace {
 
-using Exponents = std::array<int, 3>;
-
-/// Serendipity elements have the monomials whose superlinear degree, the sum of the exponents above
-/// one, is at most two (Arnold and Awanou, Found. Comput. Math. 11 (2011) 337).
-int superlinear_degree(const Exponents& e, int dimension) {
-  int degree = 0;
-  for (int d = 0; d < dimension; ++d) {
-    const int exponent = e[static_cast<std::size_t>(d)];
-    degree += exponent > 1 ? exponent : 0;
-  }
-  return degree;
-}
-
-bool spans(ElementKind kind, const Exponents& e) {
-  const int planar = e[0] + e[1];
-  switch (kind) {
-    case ElementKind::hex8:
-    case ElementKind::quad4:
-      return e[0] <= 1 && e[1] <= 1 && e[2] <= 1;
-    case ElementKind::hex20:
-    case ElementKind::quad8:
-      return superlinear_degree(e, dimension(kind)) <= 2;
-    case ElementKind::hex27:
-    case ElementKind::quad9:
-      return true;
-    case ElementKind::prism15:
-      return planar <= 2 && (e[2] <= 1 || planar <= 1);
-    case ElementKind::prism18:
-      return planar <= 2;
-    case ElementKind::tet10:
-    case ElementKind::tri6:
-      return planar + e[2] <= 2;
-  }
-  return false;
-}
-
 /// Monomials with exponents up to two that an element's shape functions span.
 std::vector<Exponents> monomials_of(ElementKind kind) {
   std::vector<Exponents> monomials;
@@ -52,7 +16,7 @@ std::vector<Exponents> monomials_of(ElementKind kind) {
   for (int a = 0; a <= 2; ++a) {
     for (int b = 0; b <= 2; ++b) {
       for (int c = 0; c <= highest_z; ++c) {
-        if (spans(kind, {a, b, c})) monomials.push_back({a, b, c});
+        if (traits_of(kind).spans({a, b, c})) monomials.push_back({a, b, c});
       }
     }
   }

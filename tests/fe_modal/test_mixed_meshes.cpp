@@ -54,6 +54,11 @@ mesher::Mesh cube_of(ElementKind kind, const Field& position, const mesher::Mate
   return testing::with_kind(block.make(), kind);
 }
 
+bool offered_in(const mesher::Mesh& mesh, Formulation formulation) {
+  return std::all_of(mesh.blocks.begin(), mesh.blocks.end(),
+                     [&](const auto& block) { return offered(block.kind, formulation); });
+}
+
 std::vector<NamedMesh> patches(const Field& position, const mesher::Material& material) {
   std::vector<NamedMesh> meshes;
   meshes.reserve(kVolumes.size() + 2);
@@ -137,6 +142,7 @@ TEST_CASE("patch test: elements of all kinds, curved and mixed, reproduce every 
   for (const mesher::Material& material : {kSteel, kRubber}) {
     for (const NamedMesh& patch : patches(testing::distorted, material)) {
       for (const Formulation formulation : kFull) {
+        if (!offered_in(patch.mesh, formulation)) continue;
         CAPTURE(patch.name, material.name, name_of(formulation));
         CHECK(patch_error(patch.mesh, formulation, linear_field) < kRounding);
       }
@@ -172,7 +178,7 @@ TEST_CASE("patch test of second order: sheared quadratic elements reproduce pure
       return {x * z, -nu * y * z, (-x * x + nu * (y * y - z * z)) / 2};
     };
     for (const NamedMesh& patch : patches(skewed, material)) {
-      if (patch.name == "hex8") continue;
+      if (mesher::order_of(patch.mesh.blocks[0].kind) == 1) continue;
       CAPTURE(patch.name, material.name);
       CHECK(patch_error(patch.mesh, Formulation::displacement, bending) < kRounding);
     }
@@ -186,6 +192,7 @@ TEST_CASE("patch test of second order: sheared quadratic elements reproduce pure
 TEST_CASE("patches of every kind resist all but the six rigid motions") {
   for (const NamedMesh& patch : patches(testing::distorted, kRubber)) {
     for (const Formulation formulation : kFull) {
+      if (!offered_in(patch.mesh, formulation)) continue;
       CAPTURE(patch.name, name_of(formulation));
       CHECK(zero_energy_motions(patch.mesh, formulation) == 6);
     }

@@ -12,6 +12,7 @@
 #include "fe_modal/system/memory_needs.h"
 #include "geometry/foundation/error.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_meshes.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -121,6 +122,9 @@ TEST_CASE("each material has its formulation; one that locks is warned of") {
   const auto warnings = locking_warnings(mesh, rubber_locks);
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Catch::Contains("'rubber' with Poisson's ratio 0.49"));
+  const auto tetrahedra = locking_warnings(testing::with_kind(mesh, mesher::ElementKind::tet4), {});
+  REQUIRE(tetrahedra.size() == 2);  // parts
+  CHECK_THAT(tetrahedra[0], Catch::Contains("part 'pad' is of tet4"));
 
   ModalOptions unknown;
   unknown.held_set = "bottom";

@@ -58,7 +58,7 @@ TEST_CASE(
 
 TEST_CASE("neighbours share the new nodes: a refined box has those of a box of half the size") {
   for (const ElementKind kind : {ElementKind::hex8, ElementKind::hex20, ElementKind::hex27,
-                                 ElementKind::prism15, ElementKind::prism18}) {
+                                 ElementKind::prism6, ElementKind::prism15, ElementKind::prism18}) {
     CAPTURE(name_of(kind));
     const Mesh fine = refine(testing::with_kind(box({2, 1, 2}), kind)).mesh;
     const Mesh expected = testing::with_kind(box({4, 2, 4}), kind);

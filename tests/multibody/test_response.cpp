@@ -56,6 +56,17 @@ TEST_CASE("A ripple on the half waves adds no peaks") {
   CHECK(rippled.crossings_s.size() == smooth.crossings_s.size());
 }
 
+TEST_CASE("The peak of a half wave is its own, however large the next one begins") {
+  const VectorXd time_s = VectorXd::LinSpaced(7, 0, 6);
+  VectorXd signal(7);
+  signal << 1, 3, 1, -9, -2, -1, 5;
+  const FreeOscillation found = free_oscillation(time_s, signal, 0, 0);
+  REQUIRE(found.peaks.size() >= 2);
+  CHECK(found.peaks[0].value == Approx(3));
+  CHECK(found.peaks[0].time_s == Approx(1));
+  CHECK(found.peaks[1].value == Approx(-9.066).epsilon(1e-3));
+}
+
 TEST_CASE("Signals that do not oscillate have neither frequency nor damping") {
   const VectorXd time_s = millisecond_grid(500);
   const VectorXd decay = (-10 * time_s.array()).exp();

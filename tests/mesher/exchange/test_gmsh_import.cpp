@@ -125,12 +125,12 @@ TEST_CASE("a length unit scales positions, and parts need materials that exist")
 TEST_CASE("elements that a mesh cannot hold are refused with their number and type") {
   const Files files;
   const std::string mesh = testing::kTetrahedronMsh;
-  const std::string linear = "1 4 2 7 1 1 2 3 4\n2 4 2 7 1 2 3 4 6\n";
+  const std::string pyramids = "1 7 2 7 1 1 2 3 4 5\n2 7 2 7 1 2 3 4 6 5\n";
   const std::size_t begin = mesh.find("1\n1 11 2");
   const auto file =
-      files.write("linear.msh", mesh.substr(0, begin) + "2\n" + linear + "$EndElements\n");
+      files.write("pyramids.msh", mesh.substr(0, begin) + "2\n" + pyramids + "$EndElements\n");
   CHECK_THAT(testing::refusal(import_options(file, {"corner"})),
-             Contains("physical volume 'corner'") && Contains("2 of type 'Tetrahedron 4'"));
+             Contains("physical volume 'corner'") && Contains("2 of type 'Pyramid 5'"));
 }
 
 TEST_CASE("points and curves in groups become node sets") {

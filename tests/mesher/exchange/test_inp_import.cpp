@@ -58,6 +58,16 @@ const std::vector<ManualElement>& manual() {
        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
        {{1, 2}, {2, 3}, {3, 1}, {1, 4}, {2, 4}, {3, 4}},
        {{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}}},
+      {"C3D4",
+       ElementKind::tet4,
+       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+       {},
+       {{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}}},
+      {"C3D6",
+       ElementKind::prism6,
+       {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
+       {},
+       {{1, 2, 3}, {4, 6, 5}, {1, 4, 5, 2}, {2, 5, 6, 3}, {3, 6, 4, 1}}},
       {"C3D15",
        ElementKind::prism15,
        {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
@@ -255,6 +265,19 @@ TEST_CASE("the study's parts and materials go before the file's") {
   CHECK(mesh.materials[mesh.blocks[1].material].name == "Steel");
 }
 
+TEST_CASE("a named support of solids holds all directions, as its numbers do") {
+  const Files files;
+  for (const char* const support : {"Foot, ENCASTRE\n", "foot, pinned\n", "Foot, 1, 6\n"}) {
+    INFO(support);
+    ImportOptions options;
+    options.file = files.write("deck.inp", with(kDeck, "Foot, 1, 2\nfoot, 3\n", support));
+    const Mesh mesh = import_mesh(options, {});
+    CHECK(mesh.node_set("boundary").nodes == mesh.node_set("Foot").nodes);
+  }
+  const auto refused = refusal_of(with(kDeck, "Foot, 1, 2\nfoot, 3\n", "Foot, XSYMM\n"));
+  CHECK_THAT(refused, Contains("deck.inp") && Contains("XSYMM"));
+}
+
 TEST_CASE("parts that are missing, doubled or without material are refused") {
   CHECK_THAT(refusal_of(kDeck, {"uper"}),
              Contains("there is no ELSET 'uper'") && Contains("did you mean 'Upper'"));
@@ -273,8 +296,8 @@ TEST_CASE("parts that are missing, doubled or without material are refused") {
 TEST_CASE("elements of other types are refused with number, type and line") {
   const std::string deck = with(kDeck, "*Elset, elset=Both",
                                 "*Element, type=S4\n3, 1, 2, 3, 4\n4, 5, 6,\n7, 8\n"
-                                "*Element, type=C3D4\n5, 1, 2, 3, 5\n*Elset, elset=Both");
-  CHECK_THAT(refusal_of(deck), Contains("1 of type C3D4 (first at") &&
+                                "*Element, type=C3D5\n5, 1, 2, 3, 4, 5\n*Elset, elset=Both");
+  CHECK_THAT(refusal_of(deck), Contains("1 of type C3D5 (first at") &&
                                    Contains("2 of type S4 (first at") && Contains("deck.inp:23") &&
                                    Contains("supported are C3D8, C3D8I"));
 }
