@@ -19,7 +19,7 @@ inline constexpr JointMotionLaw kCylindricalMotion{
         },
     .nearest =
         [](const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d& d,
-           Eigen::Ref<Eigen::VectorXd> q) {
+           Eigen::VectorXd& q) {
           q[0] = frame.axis_f.dot(d);
           q[1] = angle_about(frame.axis_f, R);
         }};

@@ -9,7 +9,7 @@ inline constexpr JointMotionLaw kFixedMotion{
     .rates = 0,
     .update = [](const JointFrame&, const Coordinates&, const Coordinates&, JointMotion&) {},
     .nearest = [](const JointFrame&, const Eigen::Matrix3d&, const Eigen::Vector3d&,
-                  Eigen::Ref<Eigen::VectorXd>) {}};
+                  Eigen::VectorXd&) {}};
 
 /// All is held.
 inline constexpr JointKind kFixedJoint{.name = "fixed",

@@ -39,7 +39,7 @@ struct JointMotionLaw {
                  JointMotion& motion);
   /// The coordinates whose R and d come next to the given ones.
   void (*nearest)(const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d& d,
-                  Eigen::Ref<Eigen::VectorXd> q);
+                  Eigen::VectorXd& q);
 };
 
 inline Eigen::Matrix3d turn_about(const Eigen::Vector3d& axis, double angle) {

@@ -20,7 +20,7 @@ inline constexpr JointMotionLaw kPlanarMotion{
         },
     .nearest =
         [](const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d& d,
-           Eigen::Ref<Eigen::VectorXd> q) {
+           Eigen::VectorXd& q) {
           q.head<2>() = across(frame.axis_f) * d;
           q[2] = angle_about(frame.axis_f, R);
         }};

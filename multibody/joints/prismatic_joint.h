@@ -16,7 +16,7 @@ inline constexpr JointMotionLaw kPrismaticMotion{
           motion.S.block<3, 1>(0, 0) = frame.axis_m;
         },
     .nearest = [](const JointFrame& frame, const Eigen::Matrix3d&, const Eigen::Vector3d& d,
-                  Eigen::Ref<Eigen::VectorXd> q) { q[0] = frame.axis_f.dot(d); }};
+                  Eigen::VectorXd& q) { q[0] = frame.axis_f.dot(d); }};
 
 /// Slides along an axis (ATB's slip joint).
 inline constexpr JointKind kPrismaticJoint{.name = "prismatic",

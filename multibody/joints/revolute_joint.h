@@ -14,7 +14,7 @@ inline constexpr JointMotionLaw kRevoluteMotion{
           motion.S.block<3, 1>(3, 0) = frame.axis_m;
         },
     .nearest = [](const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d&,
-                  Eigen::Ref<Eigen::VectorXd> q) { q[0] = angle_about(frame.axis_f, R); }};
+                  Eigen::VectorXd& q) { q[0] = angle_about(frame.axis_f, R); }};
 
 /// Turns about an axis.
 inline constexpr JointKind kRevoluteJoint{.name = "revolute",

@@ -21,7 +21,7 @@ inline constexpr JointMotionLaw kScrewMotion{
         },
     .nearest =
         [](const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d& d,
-           Eigen::Ref<Eigen::VectorXd> q) {
+           Eigen::VectorXd& q) {
           // Which turn it is in is told by the distance.
           constexpr double kTurn = 2 * std::numbers::pi;
           const double angle = angle_about(frame.axis_f, R);

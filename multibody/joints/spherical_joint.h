@@ -16,7 +16,7 @@ inline constexpr JointMotionLaw kSphericalMotion{
         },
     .nearest =
         [](const JointFrame&, const Eigen::Matrix3d& R, const Eigen::Vector3d&,
-           Eigen::Ref<Eigen::VectorXd> q) {
+           Eigen::VectorXd& q) {
           const Eigen::Quaterniond turn(R);
           q << turn.w(), turn.x(), turn.y(), turn.z();
         }};

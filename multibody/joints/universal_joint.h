@@ -21,7 +21,7 @@ inline constexpr JointMotionLaw kUniversalMotion{
         },
     .nearest =
         [](const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d&,
-           Eigen::Ref<Eigen::VectorXd> q) {
+           Eigen::VectorXd& q) {
           const Eigen::Vector3d start = frame.R0 * frame.axis_m;
           const Eigen::Vector3d now = R * frame.axis_m;
           q[0] = std::atan2(frame.axis_f.dot(start.cross(now)), start.dot(now));

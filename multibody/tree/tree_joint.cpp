@@ -27,8 +27,7 @@ void update_floating(const JointFrame&, const Coordinates& q, const Coordinates&
   motion.S.block<3, 3>(3, 3).setIdentity();
 }
 
-void nearest_floating(const JointFrame&, const Eigen::Matrix3d& R, const Vector3d& d,
-                      Eigen::Ref<VectorXd> q) {
+void nearest_floating(const JointFrame&, const Eigen::Matrix3d& R, const Vector3d& d, VectorXd& q) {
   const Quaterniond turn(R);
   q << d, turn.w(), turn.x(), turn.y(), turn.z();
 }
