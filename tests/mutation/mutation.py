@@ -79,7 +79,8 @@ class Campaign:
         done = run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DFLEXNECK_TESTS=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
                     "-DFLEXNECK_PRECOMPILED_HEADERS=OFF",  # the switch comes first
-                    f"-DCMAKE_CXX_FLAGS=-w -include {self.work / 'switch.h'}"])
+                    "-DCMAKE_CXX_FLAGS_RELEASE=-O2",  # with assertions, which see what runs out of an array
+                    f"-DCMAKE_CXX_FLAGS=-w -D_GLIBCXX_ASSERTIONS -include {self.work / 'switch.h'}"])
         if done.returncode != 0:
             sys.exit(done.stdout + done.stderr)
 
