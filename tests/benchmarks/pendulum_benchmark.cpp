@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <vector>
 
 #include "multibody/joints/joint_kinds.h"
@@ -76,6 +77,7 @@ void report_batch(std::size_t count) {
         1e-3 * static_cast<double>(k);
   const OutputOptions output{.end_time_s = 0.25, .interval_s = 0.0125};
   std::vector<BatchRun> runs;
+  runs.reserve(models.size());
   for (const Model& model : models) runs.push_back({&model, kSolver, output, true});
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
@@ -96,11 +98,16 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: %s [RUNS]\n", argv[0]);
     return 2;
   }
-  std::printf("pendulum, 0.25 s, relative tolerance 1e-6, %d runs: median, fastest\n", runs);
-  report("4 modes, descriptor", flexible_neck(), Formulation::descriptor, runs);
-  report("4 modes, recursive", flexible_neck(), Formulation::recursive, runs);
-  report("rigid neck, descriptor", rigid_neck(), Formulation::descriptor, runs);
-  report("rigid neck, recursive", rigid_neck(), Formulation::recursive, runs);
-  report_batch(runs > 1 ? 1000 : 20);
+  try {
+    std::printf("pendulum, 0.25 s, relative tolerance 1e-6, %d runs: median, fastest\n", runs);
+    report("4 modes, descriptor", flexible_neck(), Formulation::descriptor, runs);
+    report("4 modes, recursive", flexible_neck(), Formulation::recursive, runs);
+    report("rigid neck, descriptor", rigid_neck(), Formulation::descriptor, runs);
+    report("rigid neck, recursive", rigid_neck(), Formulation::recursive, runs);
+    report_batch(runs > 1 ? 1000 : 20);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
   return 0;
 }

@@ -14,7 +14,6 @@
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using flexneck::ComputationError;
 using flexneck::InputError;
 using flexneck::testing::make_point_mass_body;
 using namespace flexneck::multibody;

@@ -230,7 +230,7 @@ TEST_CASE("what a model gets wrong is told in one line with the place and the re
   const TemporaryFolder folder;
   const std::string good = double_pendulum_text();
   const auto told = [&](const std::string& part, const std::string& by) {
-    const std::string line = refusal(folder, with(good, part, by));
+    std::string line = refusal(folder, with(good, part, by));
     CHECK(line.find('\n') == std::string::npos);
     return line;
   };

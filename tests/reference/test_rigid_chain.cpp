@@ -16,7 +16,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using flexneck::testing::ModelBuilder;
-using flexneck::testing::rotation_at;
 
 namespace {
 
