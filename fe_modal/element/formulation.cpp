@@ -35,7 +35,7 @@ constexpr std::array<NamedFormulation, 3> kFormulations = {{
 // pressures know no bending: with the bulk part a slender beam of steel, two elements of tet10
 // thick, is 5 % too soft, with the other part 0.02 % too stiff; a bonded pad loses 0.3 %. The
 // 8-node hexahedron with constant pressure and bulk part is the well-known B-bar element.
-constexpr std::array<ElementScheme, 16> kSchemes = {{
+constexpr std::array<ElementScheme, 22> kSchemes = {{
     {ElementKind::hex8, Formulation::mixed_pressure, 2, PressureSpace::constant,
      VolumetricPart::bulk},  // B-bar
     {ElementKind::hex8, Formulation::displacement, 2, PressureSpace::none, VolumetricPart::bulk},
@@ -60,6 +60,18 @@ constexpr std::array<ElementScheme, 16> kSchemes = {{
     {ElementKind::tet10, Formulation::mixed_pressure, 3, PressureSpace::constant,
      VolumetricPart::lame},
     {ElementKind::tet10, Formulation::displacement, 3, PressureSpace::none, VolumetricPart::bulk},
+    {ElementKind::pyramid5, Formulation::mixed_pressure, 2, PressureSpace::constant,
+     VolumetricPart::bulk},
+    {ElementKind::pyramid5, Formulation::displacement, 2, PressureSpace::none,
+     VolumetricPart::bulk},
+    {ElementKind::pyramid13, Formulation::mixed_pressure, 3, PressureSpace::constant,
+     VolumetricPart::lame},
+    {ElementKind::pyramid13, Formulation::displacement, 3, PressureSpace::none,
+     VolumetricPart::bulk},
+    {ElementKind::pyramid14, Formulation::mixed_pressure, 3, PressureSpace::constant,
+     VolumetricPart::lame},
+    {ElementKind::pyramid14, Formulation::displacement, 3, PressureSpace::none,
+     VolumetricPart::bulk},
 }};
 
 }  // namespace
@@ -74,10 +86,11 @@ std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
   constexpr double kNearlyIncompressible = 0.45;
   std::vector<std::string> lines;
   for (const mesher::ElementBlock& block : mesh.blocks)
-    if (block.kind == ElementKind::tet4)
-      lines.push_back("part '" + block.part +
-                      "' is of tet4, linear tetrahedra, which are far too stiff in bending and "
-                      "shear unless they are very fine; mesh it with tet10");
+    if (block.kind == ElementKind::tet4 || block.kind == ElementKind::pyramid5)
+      lines.push_back("part '" + block.part + "' has elements of kind " +
+                      std::string(mesher::name_of(block.kind)) +
+                      ", linear ones, which are far too stiff in bending and shear unless they are "
+                      "very fine; mesh it with quadratic ones");
   for (const mesher::Material& material : mesh.materials) {
     const Formulation chosen = formulation.of(material);
     if (chosen == Formulation::mixed_pressure) continue;

@@ -39,6 +39,8 @@ std::vector<Group> groups_of(ReferenceShape shape) {
               {0, 3}, {1, 4}, {2, 5}, {0, 1, 3, 4}, {1, 2, 4, 5}, {0, 2, 3, 5}};
     case ReferenceShape::tetrahedron:
       return {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+    case ReferenceShape::pyramid:
+      return {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}, {0, 1, 2, 3}};
     case ReferenceShape::quadrilateral:
       return {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 1, 2, 3}};
     case ReferenceShape::triangle:

@@ -92,7 +92,7 @@ std::filesystem::path view_file(const std::filesystem::path& file) {
 XdmfItem view_connectivity(const std::filesystem::path& mesh_file, const ElementBlock& block) {
   return {view_file(mesh_file),
           "/parts/" + block.part + "/" + std::string(name_of(block.kind)) + "/connectivity",
-          {block.size(), nodes_per_element(block.kind)}};
+          {block.size(), traits_of(block.kind).xdmf_nodes}};
 }
 
 }  // namespace flexneck::mesher

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/exchange/xdmf_writer.h"
 
+#include <span>
+
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/xdmf_document.h"
 #include "mesher/mesh/mesh_measures.h"
@@ -64,13 +66,14 @@ class XdmfWriter {
   XdmfDocument xdmf_;
 };
 
-/// The connectivity of a block in the order that VTK wants.
+/// The connectivity of a block in the order that VTK wants, as far as it knows the nodes.
 std::vector<std::int32_t> reordered(const ElementBlock& block) {
   const std::vector<std::size_t> order = edge_order(block.kind);
+  const auto shown = std::span(order).first(traits_of(block.kind).xdmf_nodes);
   std::vector<std::int32_t> nodes;
   nodes.reserve(block.nodes.size());
   for (std::size_t first = 0; first < block.nodes.size(); first += order.size()) {
-    for (const std::size_t local : order) nodes.push_back(block.nodes[first + local]);
+    for (const std::size_t local : shown) nodes.push_back(block.nodes[first + local]);
   }
   return nodes;
 }

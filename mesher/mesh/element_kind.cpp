@@ -86,6 +86,26 @@ constexpr std::array<Point, 10> kTetrahedronNodes = {{
     {0.5, 0, 0.5},
 }};
 
+constexpr std::array<Point, 14> kPyramidNodes = {{
+    // corners
+    {-1, -1, 0},
+    {1, -1, 0},
+    {1, 1, 0},
+    {-1, 1, 0},
+    {0, 0, 1},
+    // edges
+    {0, -1, 0},
+    {-1, 0, 0},
+    {-0.5, -0.5, 0.5},
+    {1, 0, 0},
+    {0.5, -0.5, 0.5},
+    {0, 1, 0},
+    {0.5, 0.5, 0.5},
+    {-0.5, 0.5, 0.5},
+    // base
+    {0, 0, 0},
+}};
+
 constexpr std::array<Point, 9> kQuadrilateralNodes = {{
     // corners
     {-1, -1, 0},
@@ -128,6 +148,12 @@ constexpr bool is_serendipity_prism(const Exponents& e) {
   return e[0] + e[1] <= 2 && (e[2] <= 1 || e[0] + e[1] <= 1);
 }
 constexpr bool is_quadratic_prism(const Exponents& e) { return e[0] + e[1] <= 2; }
+constexpr int pyramid_degree(const Exponents& e) { return std::max(e[0], e[1]) + e[2]; }
+constexpr bool is_linear_pyramid(const Exponents& e) { return pyramid_degree(e) <= 1; }
+constexpr bool is_serendipity_pyramid(const Exponents& e) {
+  return pyramid_degree(e) <= 2 && e[0] + e[1] <= 3;
+}
+constexpr bool is_quadratic_pyramid(const Exponents& e) { return pyramid_degree(e) <= 2; }
 
 constexpr std::array<std::string_view, 3> kC3D8 = {"C3D8", "C3D8I", "C3D8R"};
 constexpr std::array<std::string_view, 2> kC3D20 = {"C3D20", "C3D20R"};
@@ -136,7 +162,7 @@ constexpr std::array<std::string_view, 1> kC3D15 = {"C3D15"};
 constexpr std::array<std::string_view, 1> kC3D4 = {"C3D4"};
 constexpr std::array<std::string_view, 1> kC3D10 = {"C3D10"};
 
-constexpr std::array<ElementTraits, 13> kKinds = {{
+constexpr std::array<ElementTraits, 16> kKinds = {{
     {ElementKind::hex8, "hex8", ReferenceShape::hexahedron, 1, std::span(kHexahedronNodes).first(8),
      is_multilinear, 5, "Hexahedron", kC3D8},
     {ElementKind::hex20, "hex20", ReferenceShape::hexahedron, 2,
@@ -153,6 +179,20 @@ constexpr std::array<ElementTraits, 13> kKinds = {{
      std::span(kTetrahedronNodes).first(4), is_linear, 4, "Tetrahedron", kC3D4},
     {ElementKind::tet10, "tet10", ReferenceShape::tetrahedron, 2, kTetrahedronNodes, is_quadratic,
      11, "Tetrahedron_10", kC3D10},
+    {ElementKind::pyramid5, "pyramid5", ReferenceShape::pyramid, 1,
+     std::span(kPyramidNodes).first(5), is_linear_pyramid, 7, "Pyramid"},
+    {ElementKind::pyramid13, "pyramid13", ReferenceShape::pyramid, 2,
+     std::span(kPyramidNodes).first(13), is_serendipity_pyramid, 19, "Pyramid_13"},
+    {ElementKind::pyramid14,
+     "pyramid14",
+     ReferenceShape::pyramid,
+     2,
+     kPyramidNodes,
+     is_quadratic_pyramid,
+     14,
+     "Pyramid_13",
+     {},
+     13},
     {ElementKind::quad4, "quad4", ReferenceShape::quadrilateral, 1,
      std::span(kQuadrilateralNodes).first(4), is_multilinear, 3, "Quadrilateral"},
     {ElementKind::quad8, "quad8", ReferenceShape::quadrilateral, 2,
@@ -183,6 +223,8 @@ std::vector<Corners> facet_corners(ReferenceShape shape) {
       return {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
     case ReferenceShape::tetrahedron:
       return {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    case ReferenceShape::pyramid:
+      return {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
     default:
       return {};
   }

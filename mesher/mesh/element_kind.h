@@ -11,19 +11,22 @@ namespace flexneck::mesher {
 /// Kinds of volume and surface elements that a mesh may hold. Node orders are those of
 /// reference_nodes().
 enum class ElementKind {
-  hex8,     ///< trilinear hexahedron
-  hex20,    ///< serendipity hexahedron
-  hex27,    ///< triquadratic hexahedron
-  prism6,   ///< linear prism
-  prism15,  ///< serendipity prism
-  prism18,  ///< quadratic prism
-  tet4,     ///< linear tetrahedron
-  tet10,    ///< quadratic tetrahedron
-  quad4,    ///< bilinear quadrilateral, face of hex8 and prism6
-  quad8,    ///< serendipity quadrilateral, face of hex20 and prism15
-  quad9,    ///< biquadratic quadrilateral, face of hex27 and prism18
-  tri3,     ///< linear triangle, face of prism6 and tet4
-  tri6,     ///< quadratic triangle, face of prism15, prism18 and tet10
+  hex8,       ///< trilinear hexahedron
+  hex20,      ///< serendipity hexahedron
+  hex27,      ///< triquadratic hexahedron
+  prism6,     ///< linear prism
+  prism15,    ///< serendipity prism
+  prism18,    ///< quadratic prism
+  tet4,       ///< linear tetrahedron
+  tet10,      ///< quadratic tetrahedron
+  pyramid5,   ///< linear pyramid
+  pyramid13,  ///< serendipity pyramid
+  pyramid14,  ///< quadratic pyramid
+  quad4,      ///< bilinear quadrilateral, face of hex8, prism6 and pyramid5
+  quad8,      ///< serendipity quadrilateral, face of hex20, prism15 and pyramid13
+  quad9,      ///< biquadratic quadrilateral, face of hex27, prism18 and pyramid14
+  tri3,       ///< linear triangle, face of linear prisms, tetrahedra and pyramids
+  tri6,       ///< quadratic triangle, face of the others
 };
 
 std::string_view name_of(ElementKind kind);
@@ -31,10 +34,13 @@ std::string_view name_of(ElementKind kind);
 ElementKind element_kind_from(std::string_view name);
 
 /// Reference elements: [-1, 1]^d, or the simplex xi, eta, zeta >= 0 with sum <= 1; the prism is the
-/// triangle times zeta in [-1, 1].
-enum class ReferenceShape { hexahedron, prism, tetrahedron, quadrilateral, triangle };
+/// triangle times zeta in [-1, 1]; the pyramid has the base [-1, 1]^2 at zeta = 0 and its apex at
+/// zeta = 1.
+enum class ReferenceShape { hexahedron, prism, tetrahedron, pyramid, quadrilateral, triangle };
 
-/// Powers of the reference coordinates in a monomial, each up to two.
+/// Exponents (a, b, c), each up to two, of a function xi^a eta^b zeta^c; of a pyramid
+/// (xi / w)^a (eta / w)^b w^max(a, b) zeta^c with w = 1 - zeta, which is a polynomial on each side
+/// (Bergot, Cohen and Durufle, J. Sci. Comput. 42 (2010) 345).
 using Exponents = std::array<int, 3>;
 
 /// All that is known of a kind. A new kind is an enumerator and a row of these in
@@ -45,11 +51,13 @@ struct ElementTraits {
   ReferenceShape shape;
   int order;
   std::span<const std::array<double, 3>> nodes;  ///< see reference_nodes()
-  bool (*spans)(const Exponents&);               ///< the monomials of the shape functions
+  bool (*spans)(const Exponents&);               ///< the functions that shape functions are made of
   int gmsh_type;
   std::string_view xdmf_topology;                    ///< of the XDMF model, version 2 and 3
   std::span<const std::string_view> abaqus_types{};  ///< the first is written; the one in R is its
                                                      ///< reduced integration
+  /// The topology's; nodes behind them are not shown.
+  std::size_t xdmf_nodes = nodes.size();
 };
 const ElementTraits& traits_of(ElementKind kind);
 

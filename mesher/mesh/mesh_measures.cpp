@@ -61,6 +61,10 @@ CornerEdges corner_edges(ElementKind kind) {
       return {{triad(x, y, z), triad(y - x, -x, z - x), triad(-y, x - y, z - y),
                triad(x - z, -z, y - z)},
               std::sqrt(2.0)};
+    case ReferenceShape::pyramid:
+      return {{triad(x, y, x + y + z), triad(x, y, y + z - x), triad(x, y, z - x - y),
+               triad(x, y, x + z - y)},
+              std::sqrt(2.0)};
     default:
       return {{Eigen::Matrix3d::Identity()}, 1};
   }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
+
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
 
@@ -147,6 +149,39 @@ Points prism_rule(int n) {
   return rule;
 }
 
+/// Gauss-Jacobi rule for the integral of (1 - z)^2 f(z) over [0, 1]: eigenvalues of the matrix of
+/// the recurrence of the orthogonal polynomials (Golub and Welsch, Math. Comp. 23 (1969) 221).
+std::vector<LinePoint> gauss_jacobi_line(int n) {
+  constexpr double kTotalWeight = 1.0 / 3;
+  Eigen::MatrixXd recurrence = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k < n; ++k) {
+    const double twice = 2 * k + 2;
+    recurrence(k, k) = -4 / (twice * (twice + 2));
+    if (k == 0) continue;
+    recurrence(k, k - 1) = 2.0 * k * (k + 2) / twice / std::sqrt(twice * twice - 1);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(recurrence);
+  std::vector<LinePoint> rule;
+  for (int q = 0; q < n; ++q) {
+    const double first = eigen.eigenvectors()(0, q);
+    rule.push_back({(1 + eigen.eigenvalues()[q]) / 2, kTotalWeight * first * first});
+  }
+  return rule;
+}
+
+/// The product rule on the cube, mapped onto the pyramid: a side shrinks to the apex.
+Points pyramid_rule(int n) {
+  Points rule;
+  const Points base = product_rule(n, 2);
+  for (const LinePoint& c : gauss_jacobi_line(n)) {
+    for (std::size_t q = 0; q < base.places.size(); ++q) {
+      rule.add((1 - c.position) * base.places[q] + c.position * Eigen::Vector3d::UnitZ(),
+               base.weights[q] * c.weight);
+    }
+  }
+  return rule;
+}
+
 Points points_of(ReferenceShape shape, int n) {
   switch (shape) {
     case ReferenceShape::hexahedron:
@@ -155,6 +190,8 @@ Points points_of(ReferenceShape shape, int n) {
       return prism_rule(n);
     case ReferenceShape::tetrahedron:
       return tetrahedron_rule(n);
+    case ReferenceShape::pyramid:
+      return pyramid_rule(n);
     case ReferenceShape::quadrilateral:
       return product_rule(n, 2);
     case ReferenceShape::triangle:

@@ -17,8 +17,9 @@
 namespace flexneck::mesher {
 namespace {
 
-/// x -> origin + linear x: a piece of the reference element.
-struct AffineMap {
+/// A piece of a reference element: the reference element of a shape under x -> origin + linear x.
+struct Piece {
+  ReferenceShape shape;
   Eigen::Vector3d origin;
   Eigen::Matrix3d linear;
 };
@@ -26,7 +27,7 @@ struct AffineMap {
 using Points = std::vector<Eigen::Vector3d>;
 
 /// The reference tetrahedron onto the one with these corners, turned right side out.
-AffineMap onto_tetrahedron(Points corners) {
+Piece onto_tetrahedron(Points corners) {
   const auto edges = [&] {
     Eigen::Matrix3d matrix;
     for (int k = 0; k < 3; ++k)
@@ -34,17 +35,17 @@ AffineMap onto_tetrahedron(Points corners) {
     return matrix;
   };
   if (edges().determinant() < 0) std::swap(corners[2], corners[3]);
-  return {corners[0], edges()};
+  return {ReferenceShape::tetrahedron, corners[0], edges()};
 }
 
-std::vector<AffineMap> pieces_of_tetrahedron() {
+std::vector<Piece> pieces_of_tetrahedron() {
   const Points corner = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto middle = [&](std::size_t a, std::size_t b) -> Eigen::Vector3d {
     return (corner[a] + corner[b]) / 2;
   };
-  std::vector<AffineMap> pieces;
+  std::vector<Piece> pieces;
   for (const Eigen::Vector3d& c : corner)
-    pieces.push_back({c / 2, Eigen::Matrix3d::Identity() / 2});
+    pieces.push_back({ReferenceShape::tetrahedron, c / 2, Eigen::Matrix3d::Identity() / 2});
   // The octahedron that is left, cut along the diagonal between the middles of edges 02 and 13.
   const Eigen::Vector3d one = middle(0, 2);
   const Eigen::Vector3d other = middle(1, 3);
@@ -56,20 +57,41 @@ std::vector<AffineMap> pieces_of_tetrahedron() {
 }
 
 /// Triangles in the plane zeta = 0: three corners, and the middle one turned by half a turn.
-std::vector<AffineMap> pieces_of_triangle() {
+std::vector<Piece> pieces_of_triangle() {
+  const ReferenceShape shape = ReferenceShape::triangle;
   const Eigen::Matrix3d half = Eigen::Vector3d(0.5, 0.5, 1).asDiagonal();
   const Eigen::Matrix3d turned = Eigen::Vector3d(-0.5, -0.5, 1).asDiagonal();
-  return {{{0, 0, 0}, half}, {{0.5, 0, 0}, half}, {{0, 0.5, 0}, half}, {{0.5, 0.5, 0}, turned}};
+  return {{shape, {0, 0, 0}, half},
+          {shape, {0.5, 0, 0}, half},
+          {shape, {0, 0.5, 0}, half},
+          {shape, {0.5, 0.5, 0}, turned}};
 }
 
-std::vector<AffineMap> pieces_of(ReferenceShape shape) {
-  std::vector<AffineMap> pieces;
+/// Five pyramids at the corners, one upside down under the uppermost, and four tetrahedra.
+std::vector<Piece> pieces_of_pyramid() {
+  const Eigen::Matrix3d half = Eigen::Matrix3d::Identity() / 2;
+  const Eigen::Matrix3d upside_down = Eigen::Vector3d(0.5, -0.5, -0.5).asDiagonal();
+  const ReferenceShape shape = ReferenceShape::pyramid;
+  std::vector<Piece> pieces = {{shape, {0, 0, 0.5}, half}, {shape, {0, 0, 0.5}, upside_down}};
+  const Points corners = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
+  const Eigen::Vector3d up(0, 0, 0.5);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector3d& a = corners[k];
+    const Eigen::Vector3d& b = corners[(k + 1) % corners.size()];
+    pieces.push_back({shape, a, half});
+    pieces.push_back(onto_tetrahedron({Eigen::Vector3d::Zero(), a + b, a + up, b + up}));
+  }
+  return pieces;
+}
+
+std::vector<Piece> pieces_of(ReferenceShape shape) {
+  std::vector<Piece> pieces;
   switch (shape) {
     case ReferenceShape::hexahedron:
       for (const double z : {-0.5, 0.5}) {
         for (const double y : {-0.5, 0.5}) {
           for (const double x : {-0.5, 0.5}) {
-            pieces.push_back({{x, y, z}, Eigen::Matrix3d::Identity() / 2});
+            pieces.push_back({shape, {x, y, z}, Eigen::Matrix3d::Identity() / 2});
           }
         }
       }
@@ -77,13 +99,14 @@ std::vector<AffineMap> pieces_of(ReferenceShape shape) {
     case ReferenceShape::quadrilateral:
       for (const double y : {-0.5, 0.5}) {
         for (const double x : {-0.5, 0.5}) {
-          pieces.push_back({{x, y, 0}, Eigen::Matrix3d::Identity() / 2});
+          pieces.push_back({shape, {x, y, 0}, Eigen::Matrix3d::Identity() / 2});
         }
       }
       break;
     case ReferenceShape::prism:
       for (const double z : {-0.5, 0.5}) {
-        for (AffineMap piece : pieces_of_triangle()) {
+        for (Piece piece : pieces_of_triangle()) {
+          piece.shape = shape;
           piece.origin[2] = z;
           piece.linear(2, 2) = 0.5;
           pieces.push_back(piece);
@@ -92,6 +115,8 @@ std::vector<AffineMap> pieces_of(ReferenceShape shape) {
       break;
     case ReferenceShape::tetrahedron:
       return pieces_of_tetrahedron();
+    case ReferenceShape::pyramid:
+      return pieces_of_pyramid();
     case ReferenceShape::triangle:
       return pieces_of_triangle();
   }
@@ -101,24 +126,39 @@ std::vector<AffineMap> pieces_of(ReferenceShape shape) {
 /// A position as shape functions that are not zero there: (node, value).
 using Weights = std::vector<std::pair<std::int32_t, double>>;
 
+/// Pieces of one kind: row-major (pieces, nodes per element) local positions, or nodes of a mesh.
+template <typename Index>
+using ByKind = std::map<ElementKind, std::vector<Index>>;
+
 /// How a kind is cut: positions that its pieces have nodes at, and the pieces by positions.
 struct Subdivision {
   explicit Subdivision(ElementKind kind);
 
-  std::vector<Weights> positions;   ///< by local nodes
-  std::vector<std::size_t> pieces;  ///< row-major (pieces, nodes per element)
+  std::vector<Weights> positions;  ///< by local nodes
+  ByKind<std::size_t> pieces;
 };
+
+/// The kind of a piece: that of the whole, or, where the shape differs, of the same order. All
+/// tetrahedra of an order have as many nodes on a side as the pyramids that they are cut from.
+ElementKind kind_of_piece(ElementKind whole, ReferenceShape shape) {
+  if (shape == shape_of(whole)) return whole;
+  const auto kinds = element_kinds();
+  return *std::find_if(kinds.begin(), kinds.end(), [&](ElementKind kind) {
+    return shape_of(kind) == shape && order_of(kind) == order_of(whole);
+  });
+}
 
 Subdivision::Subdivision(ElementKind kind) {
   constexpr double kNothing = 1e-12;
   std::map<std::array<double, 3>, std::size_t> known;  // coordinates are dyadic, so exact
   Points points;
-  for (const AffineMap& piece : pieces_of(shape_of(kind))) {
-    for (const auto& node : reference_nodes(kind)) {
+  for (const Piece& piece : pieces_of(shape_of(kind))) {
+    const ElementKind kind_here = kind_of_piece(kind, piece.shape);
+    for (const auto& node : reference_nodes(kind_here)) {
       const Eigen::Vector3d x = piece.origin + piece.linear * Eigen::Vector3d(node.data());
       const auto [place, is_new] = known.try_emplace({x[0], x[1], x[2]}, points.size());
       if (is_new) points.push_back(x);
-      pieces.push_back(place->second);
+      pieces[kind_here].push_back(place->second);
     }
   }
   Eigen::Matrix3Xd columns(3, static_cast<Eigen::Index>(points.size()));
@@ -188,11 +228,11 @@ class NodeNumbers {
 };
 
 /// Cuts elements or faces of one kind.
-std::vector<std::int32_t> cut(ElementKind kind, std::span<const std::int32_t> connectivity,
-                              NodeNumbers& numbers) {
+ByKind<std::int32_t> cut(ElementKind kind, std::span<const std::int32_t> connectivity,
+                         NodeNumbers& numbers) {
   const Subdivision subdivision(kind);
   const std::size_t width = nodes_per_element(kind);
-  std::vector<std::int32_t> result;
+  ByKind<std::int32_t> result;
   std::vector<std::int32_t> here(subdivision.positions.size());
   for (std::size_t first = 0; first < connectivity.size(); first += width) {
     for (std::size_t k = 0; k < here.size(); ++k) {
@@ -202,9 +242,22 @@ std::vector<std::int32_t> cut(ElementKind kind, std::span<const std::int32_t> co
       }
       here[k] = numbers.number(std::move(weights));
     }
-    for (const std::size_t k : subdivision.pieces) result.push_back(here[k]);
+    for (const auto& [kind_of_pieces, places] : subdivision.pieces)
+      for (const std::size_t k : places) result[kind_of_pieces].push_back(here[k]);
   }
   return result;
+}
+
+/// Appends elements of a part to its block of their kind.
+void append_block(Mesh& mesh, const ElementBlock& added) {
+  const auto found = std::find_if(mesh.blocks.begin(), mesh.blocks.end(), [&](const auto& block) {
+    return block.part == added.part && block.kind == added.kind;
+  });
+  if (found == mesh.blocks.end()) {
+    mesh.blocks.push_back(added);
+  } else {
+    found->nodes.insert(found->nodes.end(), added.nodes.begin(), added.nodes.end());
+  }
 }
 
 NodeSet refine_set(const NodeSet& set, const std::vector<Weights>& positions) {
@@ -266,13 +319,14 @@ RefinedMesh refine(const Mesh& mesh) {
   NodeNumbers numbers(mesh.nodes.size());
   result.mesh.materials = mesh.materials;
   for (const ElementBlock& block : mesh.blocks) {
-    result.mesh.blocks.push_back(
-        {block.part, block.kind, block.material, cut(block.kind, block.nodes, numbers)});
+    for (auto& [kind, nodes] : cut(block.kind, block.nodes, numbers))
+      append_block(result.mesh, {block.part, kind, block.material, std::move(nodes)});
   }
   for (const FaceSet& set : mesh.face_sets) {
     FaceSet& refined = result.mesh.face_sets.emplace_back(FaceSet{set.name, {}});
     for (const FaceBlock& block : set.blocks) {
-      refined.blocks.push_back({block.kind, cut(block.kind, block.nodes, numbers)});
+      for (auto& [kind, nodes] : cut(block.kind, block.nodes, numbers))
+        refined.blocks.push_back({kind, std::move(nodes)});
     }
   }
   place_nodes(mesh, numbers.weights(), result);

@@ -42,7 +42,7 @@ double lowest_frequency(const mesher::Mesh& hexahedra, const Row& row) {
 TEST_CASE("a slender cantilever of every element bends at Euler's frequency less shear") {
   // Rayleigh's and Timoshenko's corrections as in test_modal_analysis.cpp; nu = 0. Second-order
   // elements, 2 x 2 x 20: within 2e-4. Elements of first order lock in shear: it is known that they
-  // need far finer meshes, and B-bar does not change that; tetrahedra are the worst.
+  // need far finer meshes, and B-bar does not change that; tetrahedra and pyramids are the worst.
   constexpr double kFine = 2e-4;
   const std::vector<Row> rows = {{ElementKind::hex8, kMixed, 0.1, 0.2},
                                  {ElementKind::hex8, kDisplacement, 0.2, 0.3},
@@ -59,7 +59,13 @@ TEST_CASE("a slender cantilever of every element bends at Euler's frequency less
                                  {ElementKind::prism18, kMixed, 0, kFine},
                                  {ElementKind::prism18, kDisplacement, 0, kFine},
                                  {ElementKind::tet10, kMixed, 0, kFine},
-                                 {ElementKind::tet10, kDisplacement, 0, kFine}};
+                                 {ElementKind::tet10, kDisplacement, 0, kFine},
+                                 {ElementKind::pyramid5, kMixed, 0.6, 0.7},
+                                 {ElementKind::pyramid5, kDisplacement, 0.6, 0.7},
+                                 {ElementKind::pyramid13, kMixed, 0, kFine},
+                                 {ElementKind::pyramid13, kDisplacement, 0, kFine},
+                                 {ElementKind::pyramid14, kMixed, 0, kFine},
+                                 {ElementKind::pyramid14, kDisplacement, 0, kFine}};
   constexpr double kSide = 0.02, kLength = 0.4, kYoung = 2.1e11, kDensity = 7850;
   constexpr double kRoot = 1.8751040687119611;  // cos cosh = -1
   const double ratio = kSide * kSide / 12 / (kLength * kLength);
@@ -79,8 +85,9 @@ TEST_CASE("a slender cantilever of every element bends at Euler's frequency less
 TEST_CASE("locking on a bonded rubber pad: elements stand where the study's table has them") {
   // A flat pad with nu = 0.49, bonded to a steel plate that rocks on it, 8 x 8 x (4 + 2) elements
   // of hex27 and their pieces. Converged: hex27, mixed, at half and a third of the size give 190.07
-  // Hz. Mixed elements of second order: within 0.7 %; displacements: above 1 % at any DOF; 8-node
-  // hexahedra: B-bar 1.3 %, full integration beyond 4 %.
+  // Hz. Mixed elements of second order: within 0.7 %; displacements: above 1 % at any DOF
+  // (pyramids, with three times the elements: 0.8 %); 8-node hexahedra: B-bar 1.3 %, full
+  // integration beyond 4 %.
   constexpr double kConverged = 190.07;
   const std::vector<Row> rows = {{ElementKind::hex8, kMixed, 0.01, 0.02},
                                  {ElementKind::hex8, kDisplacement, 0.04, 0.06},
@@ -97,7 +104,13 @@ TEST_CASE("locking on a bonded rubber pad: elements stand where the study's tabl
                                  {ElementKind::prism18, kMixed, 0, 0.004},
                                  {ElementKind::prism18, kDisplacement, 0.01, 0.02},
                                  {ElementKind::tet10, kMixed, 0, 0.004},
-                                 {ElementKind::tet10, kDisplacement, 0.01, 0.02}};
+                                 {ElementKind::tet10, kDisplacement, 0.01, 0.02},
+                                 {ElementKind::pyramid5, kMixed, 0.02, 0.03},
+                                 {ElementKind::pyramid5, kDisplacement, 0.03, 0.045},
+                                 {ElementKind::pyramid13, kMixed, -0.003, 0},
+                                 {ElementKind::pyramid13, kDisplacement, 0.006, 0.01},
+                                 {ElementKind::pyramid14, kMixed, -0.003, 0},
+                                 {ElementKind::pyramid14, kDisplacement, 0.006, 0.01}};
   testing::BlockMesh block = testing::box({8, 8, 1}, {0.08, 0.08, 0.03}, {});
   block.slices = {{"pad", 4, {"rubber", 8.3e6, 0.49, 950}},
                   {"plate", 2, {"steel", 2.1e11, 0.3, 7850}}};

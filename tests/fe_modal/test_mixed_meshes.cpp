@@ -30,6 +30,13 @@ struct NamedMesh {
   mesher::Mesh mesh;
 };
 
+void move_nodes(mesher::Mesh& mesh, const Field& position) {
+  for (auto& node : mesh.nodes) {
+    const Eigen::Vector3d x = position(Eigen::Vector3d(node.data()));
+    node = {x[0], x[1], x[2]};
+  }
+}
+
 /// Hexahedra beside prisms and, on top of these, tetrahedra; over the hexahedra there is nothing,
 /// for there a quadrilateral would meet two triangles. The unit cube without that quarter.
 mesher::Mesh three_families(ElementKind hexahedron, ElementKind prism, const Field& position,
@@ -41,10 +48,19 @@ mesher::Mesh three_families(ElementKind hexahedron, ElementKind prism, const Fie
     return p[2] < 0.5 ? prism : ElementKind::tet10;
   };
   mesher::Mesh mesh = testing::with_kinds(block.make(), choose);
-  for (auto& node : mesh.nodes) {
-    const Eigen::Vector3d x = position(Eigen::Vector3d(node.data()));
-    node = {x[0], x[1], x[2]};
-  }
+  move_nodes(mesh, position);
+  return mesh;
+}
+
+/// A row of three cells: a hexahedron, pyramids on its side, tetrahedra on those.
+mesher::Mesh row_with_pyramids(ElementKind hexahedron, ElementKind pyramid, ElementKind tetrahedron,
+                               const Field& position, const mesher::Material& material) {
+  testing::BlockMesh block = testing::box({3, 1, 1}, {1, 1, 1}, material);
+  block.position = [](const Eigen::Vector3d& p) { return p; };
+  mesher::Mesh mesh = testing::with_kinds(block.make(), [&](const Eigen::Vector3d& p) {
+    return std::optional(p[0] < 1.0 / 3 ? hexahedron : p[0] < 2.0 / 3 ? pyramid : tetrahedron);
+  });
+  move_nodes(mesh, position);
   return mesh;
 }
 
@@ -61,7 +77,7 @@ bool offered_in(const mesher::Mesh& mesh, Formulation formulation) {
 
 std::vector<NamedMesh> patches(const Field& position, const mesher::Material& material) {
   std::vector<NamedMesh> meshes;
-  meshes.reserve(kVolumes.size() + 2);
+  meshes.reserve(kVolumes.size() + 4);
   for (const ElementKind kind : kVolumes) {
     meshes.push_back({std::string(mesher::name_of(kind)), cube_of(kind, position, material)});
   }
@@ -69,6 +85,12 @@ std::vector<NamedMesh> patches(const Field& position, const mesher::Material& ma
                     three_families(ElementKind::hex27, ElementKind::prism18, position, material)});
   meshes.push_back({"hex20, prism15, tet10",
                     three_families(ElementKind::hex20, ElementKind::prism15, position, material)});
+  meshes.push_back(
+      {"hex27, pyramid14, tet10", row_with_pyramids(ElementKind::hex27, ElementKind::pyramid14,
+                                                    ElementKind::tet10, position, material)});
+  meshes.push_back(
+      {"hex20, pyramid13, tet10", row_with_pyramids(ElementKind::hex20, ElementKind::pyramid13,
+                                                    ElementKind::tet10, position, material)});
   return meshes;
 }
 

@@ -122,9 +122,12 @@ TEST_CASE("each material has its formulation; one that locks is warned of") {
   const auto warnings = locking_warnings(mesh, rubber_locks);
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Catch::Contains("'rubber' with Poisson's ratio 0.49"));
-  const auto tetrahedra = locking_warnings(testing::with_kind(mesh, mesher::ElementKind::tet4), {});
-  REQUIRE(tetrahedra.size() == 2);  // parts
-  CHECK_THAT(tetrahedra[0], Catch::Contains("part 'pad' is of tet4"));
+  for (const auto kind : {mesher::ElementKind::tet4, mesher::ElementKind::pyramid5}) {
+    const auto linear = locking_warnings(testing::with_kind(mesh, kind), {});
+    REQUIRE(linear.size() == 2);  // parts
+    CHECK_THAT(linear[0], Catch::Contains("part 'pad' has elements of kind " +
+                                          std::string(mesher::name_of(kind))));
+  }
 
   ModalOptions unknown;
   unknown.held_set = "bottom";

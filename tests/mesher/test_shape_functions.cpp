@@ -50,6 +50,9 @@ double moment(ReferenceShape shape, int a, int b, int c) {
       return factorial(a) * factorial(b) / factorial(a + b + 2) * line_moment(c);
     case ReferenceShape::tetrahedron:
       return factorial(a) * factorial(b) * factorial(c) / factorial(a + b + c + 3);
+    case ReferenceShape::pyramid:
+      return line_moment(a) * line_moment(b) * factorial(a + b + 2) * factorial(c) /
+             factorial(a + b + c + 3);
   }
   return 0;
 }
@@ -142,10 +145,13 @@ TEST_CASE("shape functions interpolate the polynomials of their element") {
 }
 
 TEST_CASE("derivatives agree with central differences of the values") {
-  // Central differences of quadratics are exact; only rounding over the step remains.
+  // Central differences of quadratics are exact; only rounding over the step remains. Those of the
+  // pyramid's rational functions have an error, of the square of the step.
   constexpr double kStep = 1e-3;
   constexpr double kDifferenceRounding = 1e-12;
+  constexpr double kDifferenceError = 3 * kStep * kStep;
   for (const ElementKind kind : element_kinds()) {
+    const bool exact = shape_of(kind) != ReferenceShape::pyramid;
     const Eigen::Matrix3Xd points = scattered_points(kind);
     const ShapeTable table = tabulate(kind, points);
     for (int d = 0; d < 3; ++d) {
@@ -156,7 +162,7 @@ TEST_CASE("derivatives agree with central differences of the values") {
       const Eigen::MatrixXd difference =
           (tabulate(kind, ahead).values - tabulate(kind, behind).values) / (2 * kStep);
       CHECK((difference - table.derivatives[static_cast<std::size_t>(d)]).cwiseAbs().maxCoeff() <
-            kDifferenceRounding);
+            (exact ? kDifferenceRounding : kDifferenceError));
     }
   }
 }
@@ -175,6 +181,7 @@ TEST_CASE("a rule integrates what its strength promises, with positive weights")
           for (int c = 0; c <= (dimension(kind) == 3 ? line_degree : 0); ++c) {
             if (simplex && a + b + c > simplex_degree) continue;
             if (shape == ReferenceShape::prism && a + b > simplex_degree) continue;
+            if (shape == ReferenceShape::pyramid && a + b + c > line_degree) continue;
             const double found =
                 (rule.points.row(0).array().pow(a) * rule.points.row(1).array().pow(b) *
                  rule.points.row(2).array().pow(c) * rule.weights.transpose().array())

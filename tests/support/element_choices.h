@@ -16,10 +16,11 @@ inline const mesher::Material kRubber{"rubber", 8.3e6, 0.49, 950};
 inline constexpr std::array kFormulations = {Formulation::mixed_pressure, Formulation::displacement,
                                              Formulation::reduced};
 inline constexpr std::array kFull = {Formulation::mixed_pressure, Formulation::displacement};
-inline constexpr std::array kVolumes = {mesher::ElementKind::hex8,    mesher::ElementKind::hex20,
-                                        mesher::ElementKind::hex27,   mesher::ElementKind::prism6,
-                                        mesher::ElementKind::prism15, mesher::ElementKind::prism18,
-                                        mesher::ElementKind::tet4,    mesher::ElementKind::tet10};
+inline constexpr std::array kVolumes = {
+    mesher::ElementKind::hex8,      mesher::ElementKind::hex20,    mesher::ElementKind::hex27,
+    mesher::ElementKind::prism6,    mesher::ElementKind::prism15,  mesher::ElementKind::prism18,
+    mesher::ElementKind::tet4,      mesher::ElementKind::tet10,    mesher::ElementKind::pyramid5,
+    mesher::ElementKind::pyramid13, mesher::ElementKind::pyramid14};
 
 /// Whether the kind has an element of this formulation.
 inline bool offered(mesher::ElementKind kind, Formulation formulation) {

@@ -3,32 +3,90 @@
 
 namespace flexneck::testing {
 
+namespace {
+
+/// Pyramids on the three sides that do not meet in corner 6, their apex.
+const std::vector<std::vector<std::size_t>> kPyramids = {
+    {0, 1, 2, 3, 6}, {0, 4, 5, 1, 6}, {0, 3, 7, 4, 6}};
+
+/// The same with their apex in another corner: where the reflection that takes 6 there changes the
+/// orientation, bases are gone round the other way.
+std::vector<std::vector<std::size_t>> pyramids_with_apex(std::size_t apex) {
+  const auto hex = mesher::reference_nodes(mesher::ElementKind::hex8);
+  auto pieces = kPyramids;
+  for (auto& piece : pieces) {
+    for (std::size_t& corner : piece) {
+      std::array<double, 3> place = hex[corner];
+      for (std::size_t d = 0; d < 3; ++d) place[d] *= hex[apex][d];
+      corner = static_cast<std::size_t>(std::find(hex.begin(), hex.end(), place) - hex.begin());
+    }
+    if (hex[apex][0] * hex[apex][1] * hex[apex][2] < 0) std::swap(piece[1], piece[3]);
+  }
+  return pieces;
+}
+
+/// Gives each hexahedron of a full box, taken layer by layer, an apex for its pyramids, so that
+/// neighbours cut the side between them in the same way: one that has it already, or corner 6.
+std::size_t choose_apex(std::span<const std::int32_t> nodes, std::set<std::int32_t>& apexes) {
+  for (std::size_t corner = 0; corner < 8; ++corner)
+    if (apexes.contains(nodes[corner])) return corner;
+  apexes.insert(nodes[6]);
+  return 6;
+}
+
+/// x -> origin + linear x
+struct ReferenceMap {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d linear;
+};
+
+/// The reference element of a shape onto a piece with these corners, a parallelepiped's.
+ReferenceMap map_of_piece(mesher::ReferenceShape shape,
+                          const std::function<Eigen::Vector3d(std::size_t)>& corner) {
+  const auto edge = [&](std::size_t k) -> Eigen::Vector3d { return corner(k) - corner(0); };
+  ReferenceMap map{corner(0), Eigen::Matrix3d()};
+  switch (shape) {
+    case mesher::ReferenceShape::hexahedron:
+      map.linear << edge(1) / 2, edge(3) / 2, edge(4) / 2;
+      map.origin += map.linear.rowwise().sum();
+      break;
+    case mesher::ReferenceShape::pyramid:
+      map.origin += edge(2) / 2;
+      map.linear << edge(1) / 2, edge(3) / 2, corner(4) - map.origin;
+      break;
+    case mesher::ReferenceShape::prism:
+      map.origin += edge(3) / 2;
+      map.linear << edge(1), edge(2), edge(3) / 2;
+      break;
+    default:
+      map.linear << edge(1), edge(2), edge(3);
+  }
+  return map;
+}
+
+}  // namespace
+
 std::vector<std::vector<std::size_t>> pieces_of_hexahedron(mesher::ReferenceShape shape) {
   switch (shape) {
+    case mesher::ReferenceShape::pyramid:
+      return kPyramids;
     case mesher::ReferenceShape::prism:
       return {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
     case mesher::ReferenceShape::tetrahedron:
       return {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
     default:
-      return {{0, 1, 3, 4}};
+      return {{0, 1, 2, 3, 4, 5, 6, 7}};
   }
 }
 
 std::vector<std::size_t> nodes_of_piece(mesher::ElementKind kind,
                                         const std::vector<std::size_t>& corners) {
   const auto hex = mesher::reference_nodes(mesher::ElementKind::hex27);
-  const auto at = [&](std::size_t corner) { return Eigen::Vector3d(hex[corner].data()); };
-  // The piece's own coordinates run from its first corner along three edges.
-  const mesher::ReferenceShape shape = mesher::shape_of(kind);
-  const Eigen::Vector3d origin = at(corners[0]);
-  Eigen::Matrix3d edges;
-  edges << at(corners[1]) - origin, at(corners[2]) - origin, at(corners[3]) - origin;
+  const auto at = [&](std::size_t corner) { return Eigen::Vector3d(hex[corners[corner]].data()); };
+  const ReferenceMap map = map_of_piece(mesher::shape_of(kind), at);
   std::vector<std::size_t> result;
   for (const auto& node : mesher::reference_nodes(kind)) {
-    Eigen::Vector3d along(node.data());
-    if (shape == mesher::ReferenceShape::hexahedron) along = (along.array() + 1) / 2;
-    if (shape == mesher::ReferenceShape::prism) along[2] = (along[2] + 1) / 2;
-    const Eigen::Vector3d place = origin + edges * along;
+    const Eigen::Vector3d place = map.origin + map.linear * Eigen::Vector3d(node.data());
     const auto found = std::find_if(hex.begin(), hex.end(), [&](const auto& candidate) {
       return (Eigen::Vector3d(candidate.data()) - place).norm() < 1e-12;
     });
@@ -92,6 +150,7 @@ std::vector<mesher::FaceBlock> sides_within(const mesher::Mesh& mesh,
 mesher::Mesh with_kinds(const mesher::Mesh& hexahedra, const KindChoice& choose) {
   mesher::Mesh mesh = hexahedra;
   mesh.blocks.clear();
+  std::set<std::int32_t> apexes;
   for (const mesher::ElementBlock& block : hexahedra.blocks) {
     std::map<mesher::ElementKind, std::vector<std::int32_t>> by_kind;
     for (std::size_t e = 0; e < block.size(); ++e) {
@@ -99,7 +158,10 @@ mesher::Mesh with_kinds(const mesher::Mesh& hexahedra, const KindChoice& choose)
       const auto kind =
           choose(Eigen::Vector3d(hexahedra.nodes[static_cast<std::size_t>(nodes[26])].data()));
       if (!kind) continue;
-      for (const auto& corners : pieces_of_hexahedron(mesher::shape_of(*kind))) {
+      const auto pieces = mesher::shape_of(*kind) == mesher::ReferenceShape::pyramid
+                              ? pyramids_with_apex(choose_apex(nodes, apexes))
+                              : pieces_of_hexahedron(mesher::shape_of(*kind));
+      for (const auto& corners : pieces) {
         for (const std::size_t i : nodes_of_piece(*kind, corners)) {
           by_kind[*kind].push_back(nodes[i]);
         }

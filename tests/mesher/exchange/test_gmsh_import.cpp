@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+
 #include <catch2/catch.hpp>
 #include <gmsh.h>
 
 #include "mesher/gmsh/gmsh_session.h"
+#include "mesher/mesh/boundary.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "tests/mesher/exchange/files.h"
 
@@ -37,11 +40,43 @@ void write_boxes(const Files& files, const std::vector<std::string>& names, doub
   gmsh::option::setNumber("Mesh.BdfFieldFormat", 1);
   gmsh::model::mesh::generate(3);
   for (const std::string& name : names) {
-    const bool is_old = name.find("2") != std::string::npos;
+    const bool is_old = name.find('2') != std::string::npos;
     gmsh::option::setNumber("Mesh.MshFileVersion", is_old ? 2.2 : 4.1);
     gmsh::option::setNumber("Mesh.Binary", name.find("binary") != std::string::npos ? 1 : 0);
     gmsh::write(files / name);
   }
+}
+
+/// Two unit cubes side by side: one of hexahedra, the other left to gmsh, which puts pyramids on
+/// the quadrilaterals between them and fills the rest with tetrahedra.
+void write_hexahedra_beside_tetrahedra(const Files& files) {
+  const GmshSession session;
+  gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1, 1);
+  gmsh::model::occ::addBox(1, 0, 0, 1, 1, 1, 2);
+  gmsh::vectorpair pieces;
+  std::vector<gmsh::vectorpair> piece_of;
+  gmsh::model::occ::fragment({{3, 1}, {3, 2}}, {}, pieces, piece_of);
+  gmsh::model::occ::synchronize();
+  gmsh::vectorpair sides;
+  gmsh::vectorpair edges;
+  gmsh::model::getBoundary({{3, 1}}, sides, false, false);
+  gmsh::model::getBoundary(sides, edges, false, false);
+  for (const auto& edge : edges) gmsh::model::mesh::setTransfiniteCurve(edge.second, 4);
+  for (const auto& side : sides) {
+    gmsh::model::mesh::setTransfiniteSurface(side.second);
+    gmsh::model::mesh::setRecombine(2, side.second);
+  }
+  gmsh::model::mesh::setTransfiniteVolume(1);
+  gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {1, 2}, 1), "both");
+  gmsh::option::setNumber("Mesh.MeshSizeMax", 0.4);
+  gmsh::model::mesh::generate(3);
+  gmsh::write(files / "linear.msh");
+  gmsh::model::mesh::setOrder(2);
+  gmsh::write(files / "quadratic.msh");
+  gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
+  gmsh::model::mesh::setOrder(1);
+  gmsh::model::mesh::setOrder(2);
+  gmsh::write(files / "serendipity.msh");
 }
 
 /// Volume and area are exact whatever the order of nodes in the file; a wrong one folds elements.
@@ -122,15 +157,40 @@ TEST_CASE("a length unit scales positions, and parts need materials that exist")
   CHECK_THAT(testing::refusal(options), Contains("set 'nowhere': no face of the surface"));
 }
 
+TEST_CASE("pyramids between hexahedra and tetrahedra close the mesh") {
+  const Files files;
+  write_hexahedra_beside_tetrahedra(files);
+  const auto kinds_of = [&](const std::string& name) {
+    const Mesh mesh = import_mesh(import_options(files / name, {"both"}), {});
+    CHECK_NOTHROW(require_sound_elements(mesh));
+    double volume = 0;
+    std::set<ElementKind> kinds;
+    for (const ElementBlock& block : mesh.blocks) {
+      kinds.insert(block.kind);
+      volume += measure(mesh, block).volume_m3;
+    }
+    const FaceSet all =
+        faces_among(boundary_facets(mesh), "all", [](std::int32_t) { return true; });
+    CHECK(volume == Approx(2).epsilon(kRounding));
+    CHECK(area_m2(mesh, all) == Approx(10).epsilon(kRounding));
+    return kinds;
+  };
+  using enum ElementKind;
+  CHECK(kinds_of("linear.msh") == std::set{hex8, tet4, pyramid5});
+  CHECK(kinds_of("quadratic.msh") == std::set{hex27, tet10, pyramid14});
+  CHECK(kinds_of("serendipity.msh") == std::set{hex20, tet10, pyramid13});
+}
+
 TEST_CASE("elements that a mesh cannot hold are refused with their number and type") {
   const Files files;
   const std::string mesh = testing::kTetrahedronMsh;
-  const std::string pyramids = "1 7 2 7 1 1 2 3 4 5\n2 7 2 7 1 2 3 4 6 5\n";
+  const std::string nodes = " 1 2 3 4 5 6 7 8 9 10 1 2 3 4 5 6 7 8 9 10\n";
+  const std::string cubics = "1 29 2 7 1" + nodes + "2 29 2 7 1" + nodes;
   const std::size_t begin = mesh.find("1\n1 11 2");
   const auto file =
-      files.write("pyramids.msh", mesh.substr(0, begin) + "2\n" + pyramids + "$EndElements\n");
+      files.write("cubics.msh", mesh.substr(0, begin) + "2\n" + cubics + "$EndElements\n");
   CHECK_THAT(testing::refusal(import_options(file, {"corner"})),
-             Contains("physical volume 'corner'") && Contains("2 of type 'Pyramid 5'"));
+             Contains("physical volume 'corner'") && Contains("2 of type 'Tetrahedron 20'"));
 }
 
 TEST_CASE("points and curves in groups become node sets") {
