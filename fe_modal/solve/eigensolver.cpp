@@ -76,7 +76,7 @@ EpsHandle make_solver(const Problem& problem, InverseContext& context) {
   return handle;
 }
 
-EigenPairs imported_mesh(EPS eps, const Problem& problem, Eigen::Index count, Eigen::Index size) {
+EigenPairs converged_pairs(EPS eps, const Problem& problem, Eigen::Index count, Eigen::Index size) {
   EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(size, count)};
   for (Eigen::Index k = 0; k < count; ++k) {
     const VecHandle vector = column_vector(pairs.vectors, k);
@@ -126,7 +126,7 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Eigen::Matri
     throw ComputationError("the eigensolver found " + std::to_string(converged) + " of " +
                            std::to_string(wanted) + " modes");
   }
-  return imported_mesh(eps, problem, count, start.rows());
+  return converged_pairs(eps, problem, count, start.rows());
 }
 
 /// The pairs with the copies of multiple eigenvalues that a Krylov space of one vector, which has

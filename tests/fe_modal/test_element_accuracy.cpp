@@ -9,6 +9,7 @@
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/assembly.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
 
 namespace flexneck::fe_modal {
@@ -28,16 +29,55 @@ struct Row {
   double highest;  ///< at most
 };
 
-double lowest_frequency(const mesher::Mesh& hexahedra, const Row& row) {
-  const mesher::Mesh mesh = testing::with_kind(hexahedra, row.kind);
-  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
-  const SystemMatrices system = assemble(mesh, dof_map, {row.formulation});
+double lowest_frequency(const mesher::Mesh& mesh, const DofMap& dof_map, Formulation formulation) {
+  const SystemMatrices system = assemble(mesh, dof_map, {formulation});
   const CholeskyFactor factor(system.stiffness.get(), 0);
-  const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 1);
+  const EigenPairs pairs =
+      lowest_eigenpairs(system.stiffness.get(), system.mass_operator(), factor, 1);
   return std::sqrt(pairs.values[0]) / (2 * std::numbers::pi);
 }
 
+double lowest_frequency(const mesher::Mesh& hexahedra, const Row& row) {
+  const mesher::Mesh mesh = testing::with_kind(hexahedra, row.kind);
+  return lowest_frequency(mesh, DofMap(mesh, mesh.node_set("bottom").nodes), row.formulation);
+}
+
+/// Relative error of the frequency of Lame's mode of a free square plate: u = (sin kx cos ky,
+/// -cos kx sin ky, 0), k = pi over the side, leaves all its sides free of load. The quarter x, y >
+/// 0 of its upper half, on rollers, of n x n x n/4 elements of hex27 and their pieces.
+double lame_mode_error(ElementKind kind, Formulation formulation, int n) {
+  constexpr double kSide = 0.1;
+  testing::BlockMesh block = testing::box({n, n, n / 4}, {1, 1, 1}, kSteel);
+  block.position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return kSide / 2 * p.cwiseProduct(Eigen::Vector3d(1, 1, 0.25));
+  };
+  const mesher::Mesh mesh = testing::with_kind(block.make(), kind);
+  std::vector<HeldDirections> rollers(3);
+  for (std::size_t a = 0; a < 3; ++a) rollers[a].is_held[a] = true;
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k)
+    for (std::size_t a = 0; a < 3; ++a)
+      if (mesh.nodes[k][a] == 0) rollers[a].nodes.push_back(static_cast<std::int32_t>(k));
+  const double shear = kSteel.youngs_modulus_Pa / (2 * (1 + kSteel.poissons_ratio));
+  const double exact = std::sqrt(shear / kSteel.density_kg_m3) / (std::sqrt(2.0) * kSide);
+  return lowest_frequency(mesh, DofMap(mesh, {}, {}, rollers), formulation) / exact - 1;
+}
+
 }  // namespace
+
+TEST_CASE("frequencies converge with twice the order of the element") {
+  constexpr double kNotYetFine = 0.4;
+  for (const ElementKind kind : kVolumes) {
+    for (const Formulation formulation : kFormulations) {
+      if (!offered(kind, formulation)) continue;
+      CAPTURE(mesher::name_of(kind), name_of(formulation));
+      const int order = mesher::order_of(kind);
+      const int coarse = order == 1 ? 8 : 4;
+      const double ratio = lame_mode_error(kind, formulation, coarse) /
+                           lame_mode_error(kind, formulation, 2 * coarse);
+      CHECK(std::log2(ratio) > 2 * order - kNotYetFine);
+    }
+  }
+}
 
 TEST_CASE("a slender cantilever of every element bends at Euler's frequency less shear") {
   // Rayleigh's and Timoshenko's corrections as in test_modal_analysis.cpp; nu = 0. Second-order
