@@ -7,21 +7,18 @@
 #include <new>
 #include <optional>
 #include <span>
-#include <sstream>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "fe_modal/solve/distributed/ranks.h"
 #include "geometry/foundation/atomic_file.h"
 #include "geometry/foundation/error.h"
-#include "geometry/foundation/names.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/signal_cleanup.h"
 #include "pipeline/commands/child_tasks.h"
-#include "pipeline/commands/commands.h"
+#include "pipeline/commands/command_line.h"
 #include "pipeline/folder/folder_lock.h"
-#include "pipeline/version.h"
+#include "pipeline/folder/remembered_study.h"
 
 namespace {
 
@@ -33,114 +30,58 @@ constexpr int kVerificationFailed = 1;
 constexpr int kUnusableInput = 2;
 constexpr int kComputationFailed = 3;
 
-struct Arguments {
-  std::string line = "flexneck";  ///< as the user gave it
-  std::string command = "run";
-  std::vector<std::string> files;
-  std::string folder = "out";
-  std::vector<std::string> settings;
-  bool quiet = false;
-  bool verbose = false;
-  bool show = false;
-  bool force = false;
-  std::string target;
-  bool is_binary = false;
-
-  Verbosity verbosity() const {
-    return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
-  }
-};
-
-void describe(CLI::App& app, Arguments& arguments) {
-  app.set_version_flag("--version", std::string("flexneck ") + kVersion + " (" + kGitHash + ")");
-  app.add_option("command", arguments.command, "What to do; see below")->option_text("COMMAND");
-  app.add_option("files", arguments.files,
-                 "Study file (default: the built-in Hybrid III study), the model of simulate, or "
-                 "the files of info")
-      ->option_text("FILE ...");
-  app.add_option("-o,--out,--output", arguments.folder, "Folder for results")
-      ->option_text("DIR [out]");
-  app.add_option("--set", arguments.settings, "Use another value, e.g. modes.count=12")
-      ->option_text("KEY=VALUE ...")
-      ->allow_extra_args(false);
-  app.add_option_function<std::string>(
-         "--preset",
-         [&](const std::string& name) { arguments.settings.push_back("mesh.preset=" + name); },
-         "Mesh divisions: default or paper; as --set mesh.preset=NAME")
-      ->option_text("NAME");
-  app.add_option_function<std::string>(
-         "--refine",
-         [&](const std::string& cuts) { arguments.settings.push_back("mesh.refine=" + cuts); },
-         "Cut every element in N + 1 in each direction; as --set mesh.refine=N")
-      ->option_text("N");
-  app.add_flag_function(
-      "--certify",
-      [&](std::int64_t /*times*/) { arguments.settings.emplace_back("modes.certify=true"); },
-      "Prove that no mode is missing and estimate the mesh's error; as --set modes.certify=true");
-  app.add_option_function<std::string>(
-         "--solver",
-         [&](const std::string& name) { arguments.settings.push_back("modes.solver=" + name); },
-         "Of modes: direct, or iterative in less memory; as --set modes.solver=NAME")
-      ->option_text("NAME");
-  app.add_flag("--force", arguments.force, "With run: redo what has not changed, too");
-  app.add_flag("--show", arguments.show, "With mesh: print dimensions and a section, mesh nothing");
-  app.add_option("--to", arguments.target, "With export: the file to write")
-      ->option_text("FILE.msh|.inp|.mtx|.petsc|.dat");
-  app.add_flag("--binary", arguments.is_binary, "With export: a .msh in bytes instead of text");
-  CLI::Option* const quiet = app.add_flag("-q,--quiet", arguments.quiet, "Print errors only");
-  app.add_flag("-v,--verbose", arguments.verbose, "Print what each stage does")->excludes(quiet);
-  std::string footer = "Commands:\n";
-  for (const Command& command : commands()) {
-    footer +=
-        "  " + command.name + std::string(12 - command.name.size(), ' ') + command.help + "\n";
-  }
-  app.footer(footer +
-             "\nExit codes: 0 done, 1 a verification failed, 2 unusable input, "
-             "3 a computation failed.");
+/// The study of a command that goes on in a folder without naming one is the folder's.
+StudyChoice choose_study(const CommandLine& line, const Console& console) {
+  StudyChoice choice;
+  if (!line.files.empty()) choice.study = line.files.front();
+  choice.settings = line.settings;
+  if (line.command->begins || !line.files.empty()) return choice;
+  const std::optional<StudyChoice> kept = remembered_study(line.folder);
+  if (!kept) return choice;
+  const StudyChoice given = choice;
+  choice = with_settings(*kept, line.settings);
+  if (!same(choice, given))
+    console.step("Study of " + line.folder.string() + ": " + text_of(choice));
+  return choice;
 }
 
 /// Does the command. @param take_lock is called once its arguments are known to be right
-bool do_command(const Command& command, const Arguments& arguments, const ResultsFolder& folder,
-                const Console& console, const Ranks* ranks,
+bool do_command(const CommandLine& line, const Console& console, const Ranks* ranks,
                 const std::function<void()>& take_lock) {
+  const Command& command = *line.command;
+  const ResultsFolder folder(line.folder);
   if (command.run_on_files != nullptr) {
     take_lock();
     return command.run_on_files(
-        {{arguments.files.begin(), arguments.files.end()}, arguments.settings, folder, console});
+        {{line.files.begin(), line.files.end()}, line.settings, folder, console});
   }
-  if (arguments.files.size() > 1) {
-    throw flexneck::InputError(arguments.command + ": expected one study, found '" +
-                               arguments.files[1] + "' too");
+  if (line.files.size() > 1) {
+    throw flexneck::InputError(command.name + ": expected one study, found '" + line.files[1] +
+                               "' too");
   }
-  const Study study = read_study(
-      arguments.files.empty() ? built_in_study() : std::filesystem::path(arguments.files.front()),
-      arguments.settings);
+  const StudyChoice choice = choose_study(line, console);
+  const Study study =
+      read_study(choice.study.empty() ? built_in_study() : choice.study, choice.settings);
   take_lock();
-  if (ranks != nullptr && arguments.command != "modes" && arguments.command != "run") {
-    console.step("Only modes are computed on many ranks: '" + arguments.command +
-                 "' runs on the first");
+  if (ranks != nullptr && command.name != "modes" && command.name != "run") {
+    console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
   }
-  return (arguments.show ? show_command : command.run)(
-      {study, folder, console, arguments.target, arguments.is_binary, ranks, arguments.force});
+  if (line.show) return show_command({study, folder, console});
+  const bool passed =
+      command.run({study, folder, console, line.target, line.is_binary, ranks, line.redo});
+  if (command.writes_results) remember_study(line.folder, choice);
+  return passed;
 }
 
-bool execute(const Arguments& arguments, const Console& console, const Ranks* ranks) {
-  const std::vector<Command>& list = commands();
-  const std::size_t which =
-      flexneck::find_name(flexneck::names_of(list), arguments.command, "command");
-  if (arguments.show && arguments.command != "mesh") {
-    throw flexneck::InputError("--show belongs to the command mesh, found with '" +
-                               arguments.command + "'");
-  }
-  const ResultsFolder folder(arguments.folder);
+bool execute(const CommandLine& line, const Console& console, const Ranks* ranks) {
   std::optional<FolderLock> lock;
   const auto take_lock = [&] {
-    if (!list[which].writes_results || arguments.show) return;
-    lock.emplace(folder.path(), arguments.line,
-                 [&](const std::string& line) { console.warning(line); });
+    if (!line.command->writes_results || line.show) return;
+    lock.emplace(line.folder, line.text,
+                 [&](const std::string& warning) { console.warning(warning); });
   };
-  const bool passed = do_command(list[which], arguments, folder, console, ranks, take_lock);
-  if (lock) flexneck::sync_folder(folder.path());
+  const bool passed = do_command(line, console, ranks, take_lock);
+  if (lock) flexneck::sync_folder(line.folder);
   return passed;
 }
 
@@ -164,30 +105,19 @@ Failure failure() {
   }
 }
 
-int exit_code_of(const Arguments& arguments, const Ranks* ranks) {
-  const Console console(arguments.verbosity());
+int exit_code_of(const CommandLine& line, const Ranks* ranks) {
+  const Console console(line.verbosity());
   try {
-    return execute(arguments, console, ranks) ? 0 : kVerificationFailed;
+    if (line.command == nullptr || !line.answer.empty()) {
+      console.result(line.answer);
+      return 0;
+    }
+    return execute(line, console, ranks) ? 0 : kVerificationFailed;
   } catch (...) {
     const Failure found = failure();
     console.error(found.text);
     return found.exit_code;
   }
-}
-
-/// What asks for help or the version comes as an "error", too.
-int exit_code_of(const CLI::App& app, const CLI::ParseError& error) {
-  std::ostringstream help;
-  std::ostringstream ignored;
-  const Console console(Verbosity::normal);
-  if (app.exit(error, help, ignored) != 0) {
-    console.error(std::string(error.what()) + "; 'flexneck --help' lists what there is");
-    return kUnusableInput;
-  }
-  std::string text = help.str();
-  text.erase(text.find_last_not_of('\n') + 1);
-  console.result(text);
-  return 0;
 }
 
 int run(int argc, char** argv) {
@@ -201,16 +131,7 @@ int run(int argc, char** argv) {
     ranks->serve();
     return 0;
   }
-  CLI::App app("From the geometry of a manikin's neck to its motion.", "flexneck");
-  Arguments arguments;
-  for (int k = 1; k < argc; ++k) arguments.line += std::string(" ") + argv[k];
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return exit_code_of(app, error);
-  }
-  return exit_code_of(arguments, ranks ? &*ranks : nullptr);
+  return exit_code_of(parse_command_line({argv, argv + argc}), ranks ? &*ranks : nullptr);
 }
 
 void tell_without_console(const char* text) noexcept {

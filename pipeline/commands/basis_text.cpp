@@ -60,23 +60,28 @@ std::string mode_count_table(const fe_modal::ModalBody& body,
 
 }  // namespace
 
+std::string loaded_text(const fe_modal::ModalBody& body, bool with_counts) {
+  std::string text;
+  for (const fe_modal::AttachedFrequencies& attached : body.attached) {
+    text += "\n\nWith " + attached.body + " on " + attached.interface + ":";
+    for (const double frequency : attached.frequencies_Hz)
+      text += fmt::format(" {:.3f}", frequency);
+    text += " Hz";
+    const std::string study = with_counts ? mode_count_table(body, attached) : "";
+    if (!study.empty()) text += "\nThe same from modes, and how far off\n" + study;
+  }
+  return text;
+}
+
 std::string basis_text(const fe_modal::ModalBody& body) {
   const fe_modal::BasisTable table = fe_modal::basis_table(body);
-  std::string text = "\n\nEffective mass and inertia about the origin, cumulative %\n" +
+  std::string text = "\nEffective mass and inertia about the origin, cumulative %\n" +
                      cumulative_table(body, table.inertia_percent,
                                       {"x", "y", "z", "about x", "about y", "about z"});
   for (const fe_modal::BasisTable::Captured& captured : table.compliance) {
     text += "\n\nStatic compliance at " + captured.interface + ", cumulative %\n" +
             cumulative_table(body, captured.percent,
                              {"ux/Fx", "uy/Fy", "uz/Fz", "rx/Mx", "ry/My", "rz/Mz"});
-  }
-  for (const fe_modal::AttachedFrequencies& attached : body.attached) {
-    text += "\n\nWith " + attached.body + " on " + attached.interface + ":";
-    for (const double frequency : attached.frequencies_Hz)
-      text += fmt::format(" {:.3f}", frequency);
-    text += " Hz";
-    const std::string study = mode_count_table(body, attached);
-    if (!study.empty()) text += "\nThe same from modes, and how far off\n" + study;
   }
   return text;
 }

@@ -8,8 +8,11 @@
 namespace flexneck::pipeline {
 
 /// Whether there are modes enough: tables of the inertia and of each interface's static compliance
-/// that the modes hold, and for each attached body its frequencies and those that fewer modes would
-/// give.
+/// that the modes hold.
 std::string basis_text(const fe_modal::ModalBody& body);
+
+/// For each attached body its frequencies.
+/// @param with_counts and a table of those that fewer modes would give
+std::string loaded_text(const fe_modal::ModalBody& body, bool with_counts);
 
 }  // namespace flexneck::pipeline

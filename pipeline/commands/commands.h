@@ -27,16 +27,28 @@ struct CommandInput {
   bool is_run = false;                     ///< all that follows is made anew, too
 };
 
+/// Options that some commands have and others have not.
+enum class CommandOption { folder, settings, mesh_settings, modes_settings, redo, show, target };
+
+/// What a command's files are.
+struct FileArguments {
+  std::string label;
+  std::string help;
+};
+
 /// A command returns true unless a verification failed; everything else is an exception.
 struct Command {
   std::string name;
   std::string help;
+  FileArguments files;
+  std::vector<CommandOption> options;
   bool (*run)(const CommandInput&);                  ///< null if it works on files
   bool (*run_on_files)(const FileInput&) = nullptr;  ///< null if it works on a study
   bool writes_results = true;                        ///< into the folder of results
+  bool begins = false;                               ///< makes a folder from a study that is named
 };
 
-/// All commands, in the order of --help.
+/// All commands, in the order of --help; the first one is that of a line without a command.
 const std::vector<Command>& commands();
 
 /// Of a stage by itself, before it replaces a file by one that is made from other values.

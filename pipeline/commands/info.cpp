@@ -37,7 +37,7 @@ std::string provenance_text(const Provenance& provenance) {
 
 std::string describe_mesh(const fs::path& path) {
   const mesher::MeshFile file = mesher::read_mesh(path);
-  std::string text = mesh_text(file.mesh, {});
+  std::string text = mesh_text(file.mesh, {}, true);
   for (const mesher::NodeSet& set : file.mesh.node_sets)
     text += fmt::format("\nNode set {}: {} nodes", set.name, set.nodes.size());
   for (const mesher::FaceSet& set : file.mesh.face_sets) {
@@ -53,10 +53,10 @@ std::string describe_mesh(const fs::path& path) {
 
 std::string describe_modes(const fs::path& path) {
   const fe_modal::ModalBodyFile file = fe_modal::read_modal_body(path);
-  std::string text =
-      fmt::format("{}, {}; mass {:.4g} kg, {} nodes\nSolver: {}\n{}{}", file.body.boundary,
-                  file.body.certificate, file.body.invariants.mass, file.body.nodes_m.cols(),
-                  file.body.solver, mode_table(file.body), basis_text(file.body));
+  std::string text = fmt::format(
+      "{}, {}; mass {:.4g} kg, {} nodes\nSolver: {}\n{}{}", file.body.boundary,
+      file.body.certificate, file.body.invariants.mass, file.body.nodes_m.cols(), file.body.solver,
+      mode_table(file.body, true), "\n" + basis_text(file.body) + loaded_text(file.body, true));
   for (const fe_modal::Interface& interface : file.body.interfaces) {
     const Eigen::Vector3d& at = interface.position_m;
     text += fmt::format("\nInterface {} at ({:.4g}, {:.4g}, {:.4g}) m", interface.name, at[0],

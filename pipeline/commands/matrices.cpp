@@ -40,10 +40,10 @@ bool modes_of_matrices(const CommandInput& input) {
   file.provenance.libraries = fe_modal::library_versions();
   warn_of_replaced(input, input.folder.modes(), fe_modal::kModalBodyFormat, file.provenance);
   fe_modal::write_modal_body(input.folder.modes(), file);
-  input.console.result(fmt::format("\nModes: {}, {}; moving mass {:.4g} kg  ({})\nSolver: {}\n{}",
-                                   file.body.boundary, file.body.certificate,
-                                   file.body.invariants.mass, input.folder.modes().string(),
-                                   file.body.solver, mode_table(file.body)));
+  input.console.result(fmt::format(
+      "\nModes: {}, {}; moving mass {:.4g} kg  ({})\nSolver: {}\n{}", file.body.boundary,
+      file.body.certificate, file.body.invariants.mass, input.folder.modes().string(),
+      file.body.solver, mode_table(file.body, input.console.is_verbose())));
   return true;
 }
 

@@ -50,12 +50,13 @@ std::string add_orders(const MeshOrders& orders, mesher::MeshFile& file) {
 
 }  // namespace
 
-std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact) {
+std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact, bool with_parts) {
   const mesher::MeshSummary summary = mesher::summarise(mesh);
   const Eigen::Vector3d extent = mesher::bounding_box(mesh).extent_m();
-  return fmt::format("{} elements, {} nodes, {:.4g} x {:.4g} x {:.4g} m, {:.4g} kg\n{}",
+  return fmt::format("{} elements, {} nodes, {:.4g} x {:.4g} x {:.4g} m, {:.4g} kg",
                      summary.elements, summary.nodes, extent[0], extent[1], extent[2],
-                     summary.mass_kg, parts_table(summary, exact));
+                     summary.mass_kg) +
+         (with_parts ? "\n" + parts_table(summary, exact) : "");
 }
 
 void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVolumes& exact) {
@@ -65,8 +66,11 @@ void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVo
   mesher::write_mesh(input.folder.mesh(), file);
   mesher::write_xdmf(input.folder.mesh(), file);
 
-  input.console.result("\nMesh  (" + input.folder.mesh().string() +
-                       "): " + mesh_text(file.mesh, exact) + partition_lines);
+  const bool whole = input.console.is_verbose();
+  input.console.result(
+      "\nMesh  (" + input.folder.mesh().string() +
+      "): " + mesh_text(file.mesh, whole ? exact : ExactVolumes{}, whole || !input.is_run) +
+      partition_lines);
   const double mass_kg = mesher::summarise(file.mesh).mass_kg;
   const double extent_m = mesher::bounding_box(file.mesh).extent_m().maxCoeff();
   for (const std::string& remark : geometry::implausibilities(extent_m, mass_kg)) {

@@ -13,7 +13,7 @@ namespace flexneck::pipeline {
 using ExactVolumes = std::map<std::string, double>;
 
 /// Size and mass of a mesh, and a table of its parts with their quality.
-std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact);
+std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact, bool with_parts);
 
 /// What every mesh command does with its mesh: adds the partitions and the order that the study
 /// asks for, writes mesh.h5 and its view, and prints the table of its parts with their quality.

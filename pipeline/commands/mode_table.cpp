@@ -25,9 +25,9 @@ std::vector<std::string> mesh_error_cells(const fe_modal::MeshError& estimate) {
           fmt::format("{:.4f}", estimate.mac)};
 }
 
-std::vector<std::string> head(const fe_modal::ModalBody& body) {
+std::vector<std::string> head(const fe_modal::ModalBody& body, bool with_shares) {
   std::vector<std::string> cells = {"mode", "kind", "Hz"};
-  if (has_shares(body)) {
+  if (with_shares) {
     for (const char* title : {"fore-aft %", "lateral %", "twist %", "axial %"}) {
       cells.emplace_back(title);
     }
@@ -41,9 +41,9 @@ std::vector<std::string> head(const fe_modal::ModalBody& body) {
 
 }  // namespace
 
-std::string mode_table(const fe_modal::ModalBody& body) {
-  const bool with_shares = has_shares(body);
-  std::vector<std::vector<std::string>> rows = {head(body)};
+std::string mode_table(const fe_modal::ModalBody& body, bool with_shares) {
+  with_shares = with_shares && has_shares(body);
+  std::vector<std::vector<std::string>> rows = {head(body, with_shares)};
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
     const fe_modal::ModeRecord& mode = body.modes[static_cast<std::size_t>(k)];
     std::vector<std::string> row = {mode.name, mode.kind,

@@ -191,10 +191,12 @@ bool modes_command(const CommandInput& input) {
   if (input.ranks == nullptr) session.emplace();
   const fe_modal::ModalBody body = solve(input, mesh.mesh, options, input.folder.modes(), times);
   input.console.detail()("seconds: " + times.summary());
-  input.console.result(
-      fmt::format("\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary,
-                  body.certificate, mass_text(input.study, body.invariants.mass),
-                  input.folder.modes().string(), body.solver, mode_table(body), basis_text(body)));
+  const bool whole = input.console.is_verbose();
+  input.console.result(fmt::format(
+      "\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary, body.certificate,
+      mass_text(input.study, body.invariants.mass), input.folder.modes().string(), body.solver,
+      mode_table(body, whole), loaded_text(body, whole)));
+  input.console.table(basis_text(body));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
   return true;

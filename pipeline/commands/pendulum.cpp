@@ -3,6 +3,7 @@
 
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
+#include "pipeline/commands/shown_tables.h"
 #include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/experiments/pulse_tables.h"
 #include "pipeline/experiments/variant_tables.h"
@@ -47,22 +48,6 @@ void write_spectrum(const CommandInput& input) {
             spectrum_curves(input.study, frequencies_Hz), "frequency [Hz]");
 }
 
-/// What fits a console; pendulum.json has it all.
-void print(const CommandInput& input, const std::vector<PendulumEntry>& entries,
-           const std::vector<ResultTable>& variants, const std::vector<ResultTable>& measured) {
-  std::vector<PendulumEntry> bases;
-  for (const PendulumEntry& entry : entries)
-    if (entry.experiment.variant_of.empty()) bases.push_back(entry);
-  const auto show = [&](const ResultTable& table) { input.console.result("\n" + printed(table)); };
-  show(peak_table(input.study, bases));
-  show(oscillation_table(bases));
-  show(velocity_table(entries));
-  for (const ResultTable& table : variants) show(in_short(table));
-  for (const ResultTable& table : measured) show(table);
-  input.console.result("\nAll figures: " + input.folder.file("pendulum.json").string());
-  for (const std::string& warning : pulse_warnings(entries)) input.console.warning(warning);
-}
-
 }  // namespace
 
 bool pendulum_command(const CommandInput& input) {
@@ -94,7 +79,10 @@ void write_pendulum_tables(const CommandInput& input, const PendulumResults& kno
   // Apart from the others, which are the same bytes in every run.
   write_tables(input.folder.file("timing.json"), measured, provenance);
   write_spectrum(input);
-  print(input, entries, variants, measured);
+  tables.insert(tables.end(), measured.begin(), measured.end());
+  show_tables(input, tables);
+  input.console.result("\nAll figures: " + input.folder.file("pendulum.json").string());
+  for (const std::string& warning : pulse_warnings(entries)) input.console.warning(warning);
 }
 
 }  // namespace flexneck::pipeline

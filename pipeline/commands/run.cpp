@@ -8,6 +8,7 @@
 #include "geometry/foundation/step_times.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
+#include "pipeline/commands/shown_tables.h"
 #include "pipeline/console/text_table.h"
 #include "pipeline/folder/stages.h"
 #include "pipeline/output/result_table.h"
@@ -100,12 +101,11 @@ std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults&
 void print_kept(const CommandInput& input, const std::string& stage) {
   if (stage == "verify") {
     const VerificationFile file = read_verification(input.folder.verification());
-    input.console.result("\n" + printed(file.table));
+    show_verification(input, file.table);
   }
   const fs::path tables = input.folder.file(stage + ".json");
   if (!fs::exists(tables)) return;
-  for (const ResultTable& table : read_tables(tables).tables)
-    input.console.result("\n" + printed(table));
+  show_tables(input, read_tables(tables).tables);
 }
 
 void make(const CommandInput& input, Stages& records, const Stage& stage) {
@@ -141,9 +141,8 @@ PendulumResults make_cases(const CommandInput& input, Stages& records) {
 bool run_stages(const CommandInput& input, StepTimes& times) {
   const Study& study = input.study;
   if (study.geometry) {
-    input.console.result("Inputs by origin: " + origin_counts(study) +
-                         "; 'flexneck study' lists them with their sources.\n" +
-                         origin_table(study));
+    input.console.result("Inputs by origin: " + origin_counts(study) + " (flexneck study)");
+    input.console.table(origin_table(study));
   }
   Stages records(input.folder.path(), input.redo);
   const auto make_all = [&](const std::vector<Stage>& stages) {

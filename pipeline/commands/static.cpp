@@ -4,6 +4,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/history/incomplete_run.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/shown_tables.h"
 #include "pipeline/experiments/static_chain.h"
 #include "pipeline/experiments/static_tables.h"
 #include "pipeline/experiments/static_test.h"
@@ -106,7 +107,7 @@ bool static_command(const CommandInput& input) {
   std::vector<ResultTable> tables = {static_table(entries, has_own_moduli), ramp_table(entries)};
   if (!links.empty()) tables.push_back(chain_table(entries));
   write_tables(input.folder.file("static.json"), tables, provenance);
-  for (const ResultTable& table : tables) input.console.result("\n" + printed(table));
+  show_tables(input, tables);
   return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/commands/shown_tables.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/verification/verification.h"
 
@@ -51,7 +52,8 @@ bool verify_command(const CommandInput& input) {
   }
   write_verification(input.folder.verification(), table, provenance);
   input.console.result("\nVerification against " + table.reference_origins + " figures  (" +
-                       input.folder.verification().string() + ")\n" + printed(table));
+                       input.folder.verification().string() + ")");
+  show_verification(input, table);
   if (!table.passed()) input.console.error("a verification failed, see the table");
   return table.passed();
 }

@@ -66,6 +66,10 @@ void Console::result(const std::string& text) const {
   require_written_output();
 }
 
+void Console::table(const std::string& text) const {
+  if (is_verbose()) result(text);
+}
+
 void Console::step(const std::string& line) const { spdlog::info(one_line(line)); }
 
 void Console::warning(const std::string& line) const {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::pipeline {
+
+/// That a line on standard output has at most, unless verbose.
+inline constexpr std::size_t kConsoleColumns = 100;
 
 /// How much the command says.
 enum class Verbosity { quiet, normal, verbose };
@@ -24,8 +28,12 @@ class Console {
  public:
   explicit Console(Verbosity verbosity);
 
-  /// Tables; silent when quiet. @throws ComputationError if standard output cannot be written.
+  /// Verdicts and short tables, within kConsoleColumns; silent when quiet.
+  /// @throws ComputationError if standard output cannot be written.
   void result(const std::string& text) const;
+  /// All other tables: shown when verbose.
+  void table(const std::string& text) const;
+  bool is_verbose() const { return verbosity_ == Verbosity::verbose; }
   void step(const std::string& line) const;     ///< what is done now; silent when quiet
   void warning(const std::string& line) const;  ///< always: a result may not be what it seems
   void error(const std::string& line) const;    ///< always

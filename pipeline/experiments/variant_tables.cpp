@@ -43,7 +43,6 @@ struct CaseFigure {
   const char* format;
   double factor;  ///< from SI to the unit
   std::optional<double> (*of)(const PendulumEntry&);
-  bool in_short;  ///< on the console too
 };
 
 std::vector<CaseFigure> case_figures() {
@@ -54,25 +53,25 @@ std::vector<CaseFigure> case_figures() {
   using Figure = std::optional<double>;
   return {
       {"head rotation", "deg", "{:.1f}", deg,
-       [](const Entry& e) -> Figure { return e.result.head_rotation.value; }, true},
+       [](const Entry& e) -> Figure { return e.result.head_rotation.value; }},
       {"at", "ms", "{:.1f}", 1e3,
-       [](const Entry& e) -> Figure { return e.result.head_rotation.time_s; }, true},
+       [](const Entry& e) -> Figure { return e.result.head_rotation.time_s; }},
       {"back at zero", "ms", "{:.1f}", 1e3,
-       [](const Entry& e) -> Figure { return e.result.zero_crossing_s; }, false},
+       [](const Entry& e) -> Figure { return e.result.zero_crossing_s; }},
       {"neck rotation", "deg", "{:.1f}", deg,
-       [](const Entry& e) -> Figure { return e.result.neck_rotation.value; }, false},
+       [](const Entry& e) -> Figure { return e.result.neck_rotation.value; }},
       {"head acceleration", "gn", "{:.1f}", gn,
-       [](const Entry& e) -> Figure { return e.result.head_acceleration.value; }, true},
+       [](const Entry& e) -> Figure { return e.result.head_acceleration.value; }},
       {"occipital moment", "lbf*ft", "{:.1f}", lbf_ft,
-       [](const Entry& e) -> Figure { return e.result.occipital_moment.value; }, true},
+       [](const Entry& e) -> Figure { return e.result.occipital_moment.value; }},
       {"eigenvalue", "Hz", "{:.2f}", 1,
-       [](const Entry& e) -> Figure { return e.hanging.frequency_Hz; }, true},
+       [](const Entry& e) -> Figure { return e.hanging.frequency_Hz; }},
       {"its damping", "1", "{:.3f}", 1,
-       [](const Entry& e) -> Figure { return e.hanging.damping_ratio; }, true},
-      {"run", "Hz", "{:.2f}", 1, [](const Entry& e) -> Figure { return e.result.run_frequency_Hz; },
-       false},
+       [](const Entry& e) -> Figure { return e.hanging.damping_ratio; }},
+      {"run", "Hz", "{:.2f}", 1,
+       [](const Entry& e) -> Figure { return e.result.run_frequency_Hz; }},
       {"its damping", "1", "{:.3f}", 1,
-       [](const Entry& e) -> Figure { return e.result.run_damping_ratio; }, false},
+       [](const Entry& e) -> Figure { return e.result.run_damping_ratio; }},
   };
 }
 
@@ -154,23 +153,6 @@ ResultTable variant_table(const Study& study, const std::string& name,
 }
 
 }  // namespace
-
-ResultTable in_short(const ResultTable& table) {
-  std::vector<std::size_t> shown = {0};
-  const std::vector<CaseFigure> figures = case_figures();
-  for (std::size_t k = 0; k < figures.size(); ++k)
-    if (figures[k].in_short) shown.insert(shown.end(), {2 * k + 1, 2 * k + 2});
-  ResultTable result = table;
-  result.columns.clear();
-  for (const std::size_t column : shown) result.columns.push_back(table.columns[column]);
-  for (auto& row : result.rows) {
-    std::vector<std::string> cells;
-    cells.reserve(shown.size());
-    for (const std::size_t column : shown) cells.push_back(row[column]);
-    row = cells;
-  }
-  return result;
-}
 
 std::vector<ResultTable> variant_tables(const Study& study,
                                         const std::vector<PendulumEntry>& entries) {

@@ -11,9 +11,6 @@ namespace flexneck::pipeline {
 std::vector<ResultTable> variant_tables(const Study& study,
                                         const std::vector<PendulumEntry>& entries);
 
-/// The columns of such a table that fit a console.
-ResultTable in_short(const ResultTable& table);
-
 /// "rigid necks": pivots, springs and dampers of the rigid necks that cases use, by plane.
 ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body);
 

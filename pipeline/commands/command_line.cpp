@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/command_line.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/version.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// An option that stands for a value of the study.
+void add_setting(CLI::App& app, CommandLine& line, const char* name, const char* label,
+                 const std::string& key, const std::string& help) {
+  app.add_option_function<std::string>(
+         name,
+         [&line, key](const std::string& value) { line.settings.push_back(key + "=" + value); },
+         help + "; as --set " + key)
+      ->option_text(label);
+}
+
+void add_folder(CLI::App& app, CommandLine& line) {
+  app.add_option("-o,--out,--output", line.folder, "Folder for results")->option_text("DIR [out]");
+}
+
+void add_settings(CLI::App& app, CommandLine& line) {
+  app.add_option("--set", line.settings, "Use another value, e.g. modes.count=12")
+      ->option_text("KEY=VALUE ...")
+      ->allow_extra_args(false);
+}
+
+void add_mesh_settings(CLI::App& app, CommandLine& line) {
+  add_setting(app, line, "--preset", "NAME", "mesh.preset", "Mesh divisions: default or paper");
+  add_setting(app, line, "--refine", "N", "mesh.refine",
+              "Cut every element in N + 1 in each direction");
+}
+
+void add_modes_settings(CLI::App& app, CommandLine& line) {
+  app.add_flag_function(
+      "--certify",
+      [&line](std::int64_t /*times*/) { line.settings.emplace_back("modes.certify=true"); },
+      "Prove that no mode is missing, estimate the mesh's error");
+  add_setting(app, line, "--solver", "NAME", "modes.solver", "direct, or iterative in less memory");
+}
+
+void add_redo(CLI::App& app, CommandLine& line) {
+  app.add_flag("--force", line.redo, "Redo what has not changed, too");
+}
+
+void add_show(CLI::App& app, CommandLine& line) {
+  app.add_flag("--show", line.show, "Print dimensions and a section, mesh nothing");
+}
+
+void add_target(CLI::App& app, CommandLine& line) {
+  app.add_option("--to", line.target, "File to write")->option_text("FILE");
+  app.add_flag("--binary", line.is_binary, "A .msh in bytes instead of text");
+}
+
+struct OptionRow {
+  CommandOption option;
+  void (*add)(CLI::App&, CommandLine&);
+};
+constexpr std::array<OptionRow, 7> kOptions = {{{CommandOption::folder, add_folder},
+                                                {CommandOption::settings, add_settings},
+                                                {CommandOption::mesh_settings, add_mesh_settings},
+                                                {CommandOption::modes_settings, add_modes_settings},
+                                                {CommandOption::redo, add_redo},
+                                                {CommandOption::show, add_show},
+                                                {CommandOption::target, add_target}}};
+
+void describe(CLI::App& app, const Command& command, CommandLine& line) {
+  app.add_option("files", line.files, command.files.help)->option_text(command.files.label);
+  for (const OptionRow& row : kOptions) {
+    if (std::count(command.options.begin(), command.options.end(), row.option) > 0)
+      row.add(app, line);
+  }
+  CLI::Option* const quiet = app.add_flag("-q,--quiet", line.is_quiet, "Print errors only");
+  app.add_flag("-v,--verbose", line.is_verbose, "Print all tables, and what each stage does")
+      ->excludes(quiet);
+}
+
+std::string help() {
+  std::string text =
+      "From the geometry of a manikin's neck to its motion.\n"
+      "Usage: flexneck [COMMAND] [FILE ...] [OPTIONS]\n\nCommands:\n";
+  for (const Command& command : commands())
+    text += fmt::format("  {:<10}  {}\n", command.name, command.help);
+  return text +
+         "\n'flexneck COMMAND --help' lists the options of a command, 'flexneck --version' tells "
+         "the "
+         "version.\n"
+         "Exit codes: 0 done, 1 a verification failed, 2 unusable input, 3 a computation failed.";
+}
+
+/// Commands that have an option, such as "mesh, run".
+std::string owners_of(const std::string& option) {
+  std::string owners;
+  for (const Command& command : commands()) {
+    CommandLine unused;
+    CLI::App app;
+    describe(app, command, unused);
+    if (app.get_option_no_throw(option) != nullptr)
+      owners += (owners.empty() ? "" : ", ") + command.name;
+  }
+  return owners;
+}
+
+[[noreturn]] void refuse(const CLI::App& app, const Command& command,
+                         const std::vector<std::string>& words, const std::string& problem) {
+  for (const std::string& word : words) {
+    const std::string option = word.substr(0, word.find('='));
+    if (!option.starts_with('-') || app.get_option_no_throw(option) != nullptr) continue;
+    const std::string owners = owners_of(option);
+    if (owners.empty()) continue;
+    throw InputError(option + " belongs to the command " + owners + ", found with '" +
+                     command.name + "'");
+  }
+  throw InputError(command.name + ": " + problem + "; 'flexneck " + command.name +
+                   " --help' lists its options");
+}
+
+void parse_options(const std::vector<std::string>& words, CommandLine& line) {
+  const Command& command = *line.command;
+  CLI::App app(command.help, "flexneck " + command.name);
+  describe(app, command, line);
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::CallForHelp&) {
+    line.answer = app.help();
+    line.answer.erase(line.answer.find_last_not_of('\n') + 1);
+  } catch (const CLI::ParseError& error) {
+    refuse(app, command, words, error.what());
+  }
+}
+
+/// Before the command there may be -q or -v.
+std::size_t place_of_command(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 4> kFlags = {"-q", "--quiet", "-v", "--verbose"};
+  const auto found = std::find_if(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(kFlags.begin(), kFlags.end(), word) == kFlags.end();
+  });
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+void refuse_late_command(const CommandLine& line) {
+  for (const std::string& file : line.files)
+    for (const Command& command : commands())
+      if (command.name == file)
+        throw InputError("the command comes first: 'flexneck " + file + "', then its options");
+}
+
+}  // namespace
+
+CommandLine parse_command_line(const std::vector<std::string>& words) {
+  CommandLine line;
+  for (const std::string& word : words) line.text += (line.text.empty() ? "" : " ") + word;
+  const std::vector<std::string> given(words.begin() + 1, words.end());
+  const std::size_t place = place_of_command(given);
+  const std::string first = place < given.size() ? given[place] : "";
+  if (first == "-h" || first == "--help") {
+    line.answer = help();
+  } else if (first == "--version") {
+    line.answer = std::string("flexneck ") + kVersion + " (" + kGitHash + ")";
+  } else if (first.empty() || first.front() == '-') {
+    line.command = &commands().front();
+    parse_options(given, line);
+    refuse_late_command(line);
+  } else {
+    line.command = &commands()[find_name(names_of(commands()), first, "command")];
+    std::vector<std::string> others = given;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
+    parse_options(others, line);
+  }
+  return line;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/commands/commands.h"
+
+namespace flexneck::pipeline {
+
+/// What the user asks for: a command, and the options that it has.
+struct CommandLine {
+  std::string text;    ///< as given
+  std::string answer;  ///< to print, in place of a command: the help or the version
+  const Command* command = nullptr;
+  std::vector<std::string> files;
+  std::filesystem::path folder = "out";
+  std::vector<std::string> settings;
+  bool is_quiet = false;
+  bool is_verbose = false;
+  bool show = false;
+  bool redo = false;
+  std::filesystem::path target;
+  bool is_binary = false;
+
+  Verbosity verbosity() const {
+    return is_quiet ? Verbosity::quiet : is_verbose ? Verbosity::verbose : Verbosity::normal;
+  }
+};
+
+/// The command comes first; without one it is `run`.
+/// @param words the arguments of main, the program's name included
+/// @throws InputError for a command that does not exist, or an option that the command has not.
+CommandLine parse_command_line(const std::vector<std::string>& words);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/folder/remembered_study.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
+#include "geometry/foundation/output_file.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFile = "study.json";
+constexpr const char* kFormat = "flexneck choice of a study";
+
+}  // namespace
+
+bool same(StudyChoice a, StudyChoice b) {
+  std::sort(a.settings.begin(), a.settings.end());
+  std::sort(b.settings.begin(), b.settings.end());
+  return a.study == b.study && a.settings == b.settings;
+}
+
+std::string text_of(const StudyChoice& choice) {
+  std::string text =
+      choice.study.empty() ? "the built-in one" : choice.study.lexically_normal().string();
+  for (const std::string& setting : choice.settings) text += " --set " + setting;
+  return text;
+}
+
+StudyChoice with_settings(StudyChoice choice, const std::vector<std::string>& more) {
+  const auto key_of = [](const std::string& setting) {
+    return setting.substr(0, setting.find('='));
+  };
+  for (const std::string& setting : more) {
+    std::erase_if(choice.settings,
+                  [&](const std::string& old) { return key_of(old) == key_of(setting); });
+    choice.settings.push_back(setting);
+  }
+  return choice;
+}
+
+std::optional<StudyChoice> remembered_study(const fs::path& folder) {
+  const fs::path path = folder / kFile;
+  if (!fs::exists(path)) return {};
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text_of_file(path));
+    if (json.at("format") != kFormat) throw InputError("another format");
+    const auto study = json.at("study").get<std::string>();
+    return StudyChoice{study.empty() ? fs::path() : (folder / study).lexically_normal(),
+                       json.at("settings").get<std::vector<std::string>>()};
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": expected the study that the folder was made with, found " +
+                     error.what() + "; name the study, or remove the file");
+  }
+}
+
+void remember_study(const fs::path& folder, const StudyChoice& choice) {
+  const std::string study = choice.study.empty()
+                                ? ""
+                                : fs::weakly_canonical(choice.study)
+                                      .lexically_proximate(fs::weakly_canonical(folder))
+                                      .generic_string();
+  const nlohmann::ordered_json json = {
+      {"format", kFormat}, {"study", study}, {"settings", choice.settings}};
+  write_text(folder / kFile, json.dump(1) + "\n", Durability::none);
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexneck::pipeline {
+
+/// A study and the values that the command line set in it.
+struct StudyChoice {
+  std::filesystem::path study;        ///< empty: the built-in one
+  std::vector<std::string> settings;  ///< "key=value"
+};
+
+/// Whether two choices are of the same values, in whatever order.
+bool same(StudyChoice a, StudyChoice b);
+
+/// "geometry/examples/cantilever.toml --set modes.count=4"
+std::string text_of(const StudyChoice& choice);
+
+/// The same study with more values set: each key once, the later value.
+StudyChoice with_settings(StudyChoice choice, const std::vector<std::string>& more);
+
+/// What a folder of results was last made with, from its file study.json; none if there is no such
+/// file.
+/// @throws InputError if the file is none of ours.
+std::optional<StudyChoice> remembered_study(const std::filesystem::path& folder);
+
+/// Writes that file, with the path of the study from the folder.
+void remember_study(const std::filesystem::path& folder, const StudyChoice& choice);
+
+}  // namespace flexneck::pipeline

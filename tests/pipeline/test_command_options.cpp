@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/temporary_folder.h"
+#include "tests/support/coarse_neck.h"
+#include "tests/support/flexneck_command.h"
+
+namespace flexneck::pipeline {
+namespace {
+
+using Catch::Matchers::Contains;
+using testing::check_refused;
+using testing::CommandOutcome;
+using testing::run_flexneck;
+
+/// Standard output only: warnings are lines to search in, of any length. Results go into `out`.
+CommandOutcome printed_by(const TemporaryFolder& folder, const std::string& arguments) {
+  return testing::run_shell("(cd " + folder.path().string() + "; " + testing::flexneck_program() +
+                            " " + arguments + " 2>/dev/null)");
+}
+
+std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  return longest;
+}
+
+}  // namespace
+
+TEST_CASE("each command has a help of its own, and all of it fits the console") {
+  const CommandOutcome all = run_flexneck("--help");
+  CHECK(longest_line(all.text) <= 100);
+  for (const char* const command :
+       {"run", "mesh", "modes", "pictures", "static", "pendulum", "verify", "export", "report",
+        "simulate", "info", "compare", "study"}) {
+    INFO(command);
+    CHECK_THAT(all.text, Contains("\n  " + std::string(command) + " "));
+    const CommandOutcome help = run_flexneck(std::string(command) + " --help");
+    CHECK(help.exit_code == 0);
+    CHECK_THAT(help.text,
+               Contains("Usage: flexneck " + std::string(command)) && Contains("--verbose"));
+    CHECK(longest_line(help.text) <= 100);
+  }
+  CHECK_THAT(run_flexneck("mesh --help").text, Contains("--show") && !Contains("--force"));
+}
+
+TEST_CASE("an option is refused by commands in which it does nothing") {
+  check_refused(run_flexneck("modes --show"), "--show belongs to the command mesh");
+  check_refused(run_flexneck("static --refine=1"), "--refine belongs to the command run, mesh");
+  check_refused(run_flexneck("info --set a=1 b"), "--set belongs to the command run, mesh");
+  check_refused(run_flexneck("mesh --to bar.inp"), "--to belongs to the command export");
+  check_refused(run_flexneck("mesh --shw"), "'flexneck mesh --help' lists its options");
+  check_refused(run_flexneck("-o out mesh"), "the command comes first: 'flexneck mesh'");
+  check_refused(run_flexneck("msh"), "did you mean 'mesh'?");
+}
+
+TEST_CASE("a folder remembers its study and the values set, and a run fits the console") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  const CommandOutcome run = printed_by(
+      folder, std::string("run") + testing::kCoarseNeck + " --set pendulum.duration='0.2 s'");
+  CHECK(longest_line(run.text) <= 100);
+  CHECK_THAT(run.text, Contains("torsion 2") && Contains("flexion-60 ") &&
+                           !Contains("flexion-60-rigid") && Contains("without a verdict"));
+  const CommandOutcome whole = printed_by(folder, "verify -v");
+  CHECK_THAT(whole.text, Contains("effective damping"));
+
+  const CommandOutcome modes = run_flexneck("modes --set modes.count=8" + out);
+  INFO(modes.text);
+  CHECK(modes.exit_code == 0);
+  CHECK_THAT(modes.text,
+             Contains("Study of " + (folder / "out").string() + ": the built-in one --set mesh."));
+  const CommandOutcome tester = run_flexneck("static" + out);
+  CHECK(tester.exit_code == 0);
+  CHECK_THAT(tester.text, Contains("--set modes.count=8"));
+  // A study that is named is taken as it is.
+  check_refused(run_flexneck("static " + std::string(FLEXNECK_SOURCE_DIR) +
+                             "/pipeline/studies/hybrid3.toml" + out),
+                "was made with");
+  std::ofstream(folder / "out/study.json") << "{ half a";
+  check_refused(run_flexneck("static" + out), "out/study.json: expected the study");
+}
+
+}  // namespace flexneck::pipeline
