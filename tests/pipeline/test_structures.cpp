@@ -129,7 +129,7 @@ TEST_CASE("a mesh comes back from its export with the same frequencies") {
                              (folder / "bar.inp").string()),
                 "no element of kind hex27");
   check_refused(run_flexneck("export -q " + study + " -o " + out.string() + " --to bar.stl"),
-                "expected a file with the ending .msh");
+                "expected a file with an ending of .msh (the mesh for gmsh)");
 }
 
 TEST_CASE("an .inp comes back from its export with the same frequencies, and CalculiX agrees") {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/exports/export_formats.h"
+
+#include <array>
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr std::array<ExportFormat, 5> kFormats = {
+    {{".msh", "the mesh for gmsh", export_msh, true},
+     {".inp", "a deck for CalculiX", export_deck},
+     {".mtx", "K and M in Matrix Market's format", export_matrices},
+     {".petsc", "K and M in PETSc's", export_matrices},
+     {".dat", "the modes for the ATB", export_atb_modes}}};
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() { return kFormats; }
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "mesher/mesh/mesh.h"
+#include "pipeline/commands/commands.h"
+
+namespace flexneck::pipeline {
+
+/// A kind of file that `export` writes to input.target. A new one is a function in a file of this
+/// folder and a row in export_formats.cpp.
+struct ExportFormat {
+  std::string_view ending;
+  std::string_view content;
+  /// @param mesh of the folder; may be changed
+  void (*write)(const CommandInput& input, mesher::Mesh& mesh);
+  bool may_be_binary = false;  ///< knows --binary
+};
+
+std::span<const ExportFormat> export_formats();
+
+/// The mesh for gmsh.
+void export_msh(const CommandInput& input, mesher::Mesh& mesh);
+
+/// A deck for CalculiX and Abaqus: mesh, materials, supports, and the search for modes.
+void export_deck(const CommandInput& input, mesher::Mesh& mesh);
+
+/// K and M without what is held as NAME_K.mtx and NAME_M.mtx, and the positions of the nodes as
+/// NAME_nodes.mtx; in PETSc's binary format likewise.
+void export_matrices(const CommandInput& input, mesher::Mesh& mesh);
+
+/// The modes of this mesh for the ATB.
+void export_atb_modes(const CommandInput& input, mesher::Mesh& mesh);
+
+}  // namespace flexneck::pipeline

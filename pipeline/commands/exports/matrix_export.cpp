@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
+
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/exchange/exported_matrices.h"
+#include "geometry/foundation/error.h"
+#include "pipeline/commands/exports/export_formats.h"
+#include "pipeline/commands/structure_options.h"
+
+namespace flexneck::pipeline {
+
+void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
+  const Study& study = input.study;
+  if (!study.modes.held_directions.empty() || !study.modes.rigid_interfaces.empty()) {
+    throw InputError(
+        "matrices are written with three directions a node: leave out modes.held_directions and "
+        "modes.rigid_interfaces");
+  }
+  const std::string held =
+      study.structure ? structure_options(study, mesh).held_set : std::string("bolts");
+  const fe_modal::DofMap dof_map(
+      mesh, held.empty() ? std::vector<std::int32_t>{} : mesh.node_set(held).nodes);
+  std::optional<fe_modal::PetscSession> session;
+  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::ImportedBody body =
+      fe_modal::export_matrices(mesh, dof_map, formulation_of(study));
+  const auto named = [&](const std::string& what) {
+    std::filesystem::path path = input.target;
+    path.replace_filename(path.stem().string() + what + path.extension().string());
+    return path;
+  };
+  fe_modal::write_matrix(named("_K"), body.stiffness);
+  fe_modal::write_matrix(named("_M"), body.mass);
+  fe_modal::write_positions(named("_nodes"), body.nodes_m);
+}
+
+}  // namespace flexneck::pipeline

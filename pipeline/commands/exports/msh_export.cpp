@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/exchange/msh_writer.h"
+#include "pipeline/commands/exports/export_formats.h"
+
+namespace flexneck::pipeline {
+
+void export_msh(const CommandInput& input, mesher::Mesh& mesh) {
+  mesher::write_msh(input.target, mesh,
+                    input.is_binary ? mesher::MshEncoding::binary : mesher::MshEncoding::text);
+}
+
+}  // namespace flexneck::pipeline
