@@ -88,7 +88,7 @@ void describe(CLI::App& app, const Command& command, CommandLine& line) {
 
 std::string help() {
   std::string text =
-      "From the geometry of a manikin's neck to its motion.\n"
+      "From the geometry of a dummy's neck to its motion.\n"
       "Usage: flexneck [COMMAND] [FILE ...] [OPTIONS]\n\nCommands:\n";
   for (const Command& command : commands())
     text += fmt::format("  {:<10}  {}\n", command.name, command.help);

@@ -22,7 +22,7 @@ ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& ent
   table.columns = {{"case", ""},
                    {"head rotation", "deg"},
                    {"at", "ms"},
-                   {"back at zero", "ms"},
+                   {"first zero crossing", "ms"},
                    {"neck rotation", "deg"},
                    {"at", "ms"},
                    {"head acceleration", "gn"},
@@ -51,7 +51,7 @@ ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& ent
           ". The paper's deceleration records are not published.",
       "Head acceleration: kinematic, along the arm's motion, CFC 1000. Moments: load of the lower "
       "body on the upper one, signs of SAE J211.",
-      "Back at zero: the head's rotation passes its hanging equilibrium after its peak."};
+      "First zero crossing: the head's rotation passes its hanging equilibrium after its peak."};
   return table;
 }
 
@@ -71,7 +71,7 @@ ResultTable oscillation_table(const std::vector<PendulumEntry>& entries) {
                           text_of(entry.result.run_damping_ratio, "{:.4f}")});
   }
   table.notes = {
-      "The paper tells of a system frequency of about 5 Hz, a seventh of the neck's first, and of "
+      "The paper reports a system frequency of about 5 Hz, a seventh of the neck's first, and of "
       "an effective damping of about 0.2. The three contradict each other: a modal ratio of 0.9 at "
       "a frequency seven times higher makes about 0.13.",
       "Eigenvalue: small motions in the plane of the case about the hanging equilibrium. Run: "

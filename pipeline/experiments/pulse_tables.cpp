@@ -152,7 +152,7 @@ ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>&
   const std::vector<const PulseSection*> pulses = pulses_in_use(study);
   ResultTable table;
   table.name = "pulse spectrum";
-  table.title = "Pulses beside the modes: what is left of a pulse's area at a frequency";
+  table.title = "Normalised pulse spectrum at the frequencies of the modes";
   table.columns = {{"motion", ""}, {"frequency", "Hz"}, {"used", ""}};
   for (const PulseSection* const pulse : pulses) table.columns.push_back({pulse->name, "%"});
   const auto add = [&](const std::string& name, double frequency_Hz, bool is_used) {

@@ -69,7 +69,7 @@ ResultTable static_table(const std::vector<StaticEntry>& entries, bool has_own_m
                    {"base moment", "in*lbf"},
                    {"initial", "in*lbf/deg"},
                    {"final", "in*lbf/deg"},
-                   {"chord longer by", "%"}};
+                   {"spurious elongation", "%"}};
   for (const StaticEntry& entry : entries) {
     table.rows.push_back(row_of(entry.experiment.name, entry.ramp));
     if (entry.chain) table.rows.push_back(row_of(entry.experiment.name + "-chain", *entry.chain));
@@ -88,7 +88,7 @@ ResultTable static_table(const std::vector<StaticEntry>& entries, bool has_own_m
 ResultTable ramp_table(const std::vector<StaticEntry>& entries) {
   ResultTable table;
   table.name = "ramp against statics";
-  table.title = "Static neck tester: the moving ramp against true statics";
+  table.title = "Static neck tester: the moving ramp against static solutions";
   table.columns = {{"case", ""},
                    {"largest difference", "deg"},
                    {"of the rotation at the end", "%"},

@@ -29,7 +29,7 @@ StaticTestSignals static_test_signals(const multibody::Model& model,
                                       const multibody::History& history,
                                       const CaseSection& experiment);
 
-/// True statics at forty loads of the case's ramp: no inertia, no damping.
+/// Static solutions at forty loads of the case's ramp: no inertia, no damping.
 multibody::History settled_static_test(const Study& study, const CaseSection& experiment,
                                        const multibody::Model& model);
 

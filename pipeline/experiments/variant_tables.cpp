@@ -56,7 +56,7 @@ std::vector<CaseFigure> case_figures() {
        [](const Entry& e) -> Figure { return e.result.head_rotation.value; }},
       {"at", "ms", "{:.1f}", 1e3,
        [](const Entry& e) -> Figure { return e.result.head_rotation.time_s; }},
-      {"back at zero", "ms", "{:.1f}", 1e3,
+      {"first zero crossing", "ms", "{:.1f}", 1e3,
        [](const Entry& e) -> Figure { return e.result.zero_crossing_s; }},
       {"neck rotation", "deg", "{:.1f}", deg,
        [](const Entry& e) -> Figure { return e.result.neck_rotation.value; }},
@@ -84,7 +84,7 @@ std::string title_of(const CaseSection& experiment) {
   if (experiment.arm == CaseSection::Arm::rotating)
     return "Arm rotating about its pivot, beside one that translates";
   if (experiment.pulse_scaling == PulseFit::duration)
-    return "Pulse brought to the velocity by its duration, beside its amplitude";
+    return "Pulse scaled in duration, compared with scaled in amplitude";
   return "Variant '" + experiment.variant + "' beside the cases it is made of";
 }
 
@@ -100,7 +100,7 @@ std::string pivot_origin(const Study& study, const CaseSection& experiment) {
 
 std::vector<std::string> notes_of(const Study& study, const CaseSection& experiment) {
   std::vector<std::string> notes = {
-      "(base): the same figure of the case that the variant is made of."};
+      "(baseline): the same figure of the case that the variant is made of."};
   if (!experiment.rigid_neck.empty()) {
     notes.push_back(
         "The parameters of the paper's rigid model are not published, nor are the curves of its "
@@ -136,7 +136,7 @@ ResultTable variant_table(const Study& study, const std::string& name,
   table.columns = {{"case", ""}};
   for (const CaseFigure& figure : figures)
     table.columns.insert(table.columns.end(),
-                         {{figure.name, figure.unit}, {"(base)", figure.unit}});
+                         {{figure.name, figure.unit}, {"(baseline)", figure.unit}});
   for (const PendulumEntry& entry : entries) {
     if (entry.experiment.variant != name) continue;
     if (table.rows.empty()) {
@@ -199,12 +199,12 @@ ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body
                    {"plane", ""},
                    {"mass", "lb"},
                    {"lower pivot", "in"},
-                   {"one way", "in*lbf/deg"},
-                   {"the other", "in*lbf/deg"},
+                   {"flexion", "in*lbf/deg"},
+                   {"extension", "in*lbf/deg"},
                    {"damper", "in*lbf*s/deg"},
                    {"upper pivot", "in"},
-                   {"one way", "in*lbf/deg"},
-                   {"the other", "in*lbf/deg"},
+                   {"flexion", "in*lbf/deg"},
+                   {"extension", "in*lbf/deg"},
                    {"damper", "in*lbf*s/deg"}};
   std::set<std::pair<std::string, bool>> seen;
   for (const CaseSection& experiment : study.cases) {
@@ -217,7 +217,8 @@ ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body
                                    lateral ? neck.upper.lateral : neck.upper.fore_aft));
   }
   table.notes = {
-      "One way: flexion, or to one side. Matched: the link and springs that answer any static load "
+      "Flexion and extension: in the lateral plane to one side and to the other. Matched: the link "
+      "and springs that answer any static load "
       "at the neck's top as the modes used do, with their mass and the first mode's damping."};
   return table;
 }

@@ -62,7 +62,7 @@ std::string verification_html(const Results& results) {
   HtmlTable table;
   table.name = "verification";
   const std::string& reference = results.verification->reference_origins;
-  table.caption = "Computed beside " + reference;
+  table.caption = "Computed vs. " + reference;
   table.columns = {{"quantity"}, {"how"},           {"computed", true}, {reference, true},
                    {"unit"},     {"error %", true}, {"verdict"}};
   for (const VerificationRow& row : results.verification->rows) {

@@ -95,7 +95,7 @@ void add_mode_character(VerificationTable& table, const fe_modal::ModalBody& bod
     twist.detail = mode.name;
     twist.unit = "%";
     twist.value = fmt::format("{:.2f}", mode.shares_percent[2]);
-    twist.reference = rank == 1 ? "some" : "none told";
+    twist.reference = rank == 1 ? "some" : "not reported";
     table.rows.push_back(twist);
   }
 }

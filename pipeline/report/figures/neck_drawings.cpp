@@ -122,7 +122,7 @@ std::string origins_of_dimensions(const Study& study) {
 
 Figure section(const Study& study) {
   const GeometrySection& geometry = *study.geometry;
-  Figure figure{2, "Hybrid III manikin neck",
+  Figure figure{2, "Hybrid III dummy neck",
                 "Section in the plane of symmetry, front to the right; light: plates, dark: rubber "
                 "sections. Its dimensions by origin: " +
                     origins_of_dimensions(study) + "."};
