@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/body/basis_table.h"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace flexneck::fe_modal {
@@ -45,6 +47,12 @@ BasisTable basis_table(const ModalBody& body) {
                             interface.response->compliance.diagonal().transpose())});
   }
   return table;
+}
+
+bool has_shares(const ModalBody& body) {
+  return std::any_of(body.modes.begin(), body.modes.end(), [](const ModeRecord& mode) {
+    return mode.shares_percent != std::array<double, 4>{};
+  });
 }
 
 }  // namespace flexneck::fe_modal

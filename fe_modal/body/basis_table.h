@@ -33,4 +33,8 @@ struct BasisTable {
 
 BasisTable basis_table(const ModalBody& body);
 
+/// Whether the modes' shares of the kinetic energy are known (ModeRecord): only bodies of several
+/// parts, the rigid ones named, have them.
+bool has_shares(const ModalBody& body);
+
 }  // namespace flexneck::fe_modal

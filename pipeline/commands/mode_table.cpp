@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/mode_table.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
 
+#include "fe_modal/body/basis_table.h"
 #include "pipeline/console/text_table.h"
 
 namespace flexneck::pipeline {
 
 namespace {
-
-/// Of a body that came as matrices nothing is known of parts.
-bool has_shares(const fe_modal::ModalBody& body) {
-  return std::any_of(body.modes.begin(), body.modes.end(), [](const fe_modal::ModeRecord& mode) {
-    return mode.shares_percent != std::array<double, 4>{};
-  });
-}
 
 /// What --certify adds to a row of the table.
 std::vector<std::string> mesh_error_cells(const fe_modal::MeshError& estimate) {
@@ -42,7 +34,7 @@ std::vector<std::string> head(const fe_modal::ModalBody& body, bool with_shares)
 }  // namespace
 
 std::string mode_table(const fe_modal::ModalBody& body, bool with_shares) {
-  with_shares = with_shares && has_shares(body);
+  with_shares = with_shares && fe_modal::has_shares(body);
   std::vector<std::vector<std::string>> rows = {head(body, with_shares)};
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
     const fe_modal::ModeRecord& mode = body.modes[static_cast<std::size_t>(k)];

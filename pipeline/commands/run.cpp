@@ -60,13 +60,17 @@ Provenance without_studies(Provenance provenance, const Study& study) {
   return provenance;
 }
 
-/// Up to the experiments that are one stage.
+/// Up to the experiments that are one stage; of another structure than the neck all stages.
 std::vector<Stage> stages_before_cases(const Study& study) {
   if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
   std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
                                {"modes", modes_provenance(study), {"mesh"}, modes_command},
                                {"pictures", {}, {"mesh", "modes"}, pictures_command}};
-  if (study.structure) return stages;  // the experiments below are the neck's
+  if (study.structure) {  // the experiments below are the neck's
+    stages.push_back(
+        {"report", provenance_of(study), {"mesh", "modes", "pictures"}, report_command});
+    return stages;
+  }
   stages.push_back({"static",
                     experiment_provenance(study, CaseSection::Kind::static_test),
                     {"modes"},

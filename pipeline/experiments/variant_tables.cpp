@@ -93,7 +93,7 @@ std::string pivot_origin(const Study& study, const CaseSection& experiment) {
   const std::string key = "pivot_distance";
   for (const std::string& table :
        {"variant." + experiment.variant, "case." + experiment.variant_of})
-    if (const std::string origin = origins_of(study.parameters, table, {key}); !origin.empty())
+    if (std::string origin = origins_of(study.parameters, table, {key}); !origin.empty())
       return origin;
   return origins_of(study.parameters, "pendulum", {key});
 }

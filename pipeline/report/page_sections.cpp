@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "fe_modal/body/basis_table.h"
 #include "pipeline/plotting/embedding.h"
 
 namespace flexneck::pipeline {
@@ -57,8 +58,9 @@ std::string verification_summary(const VerificationTable& table) {
   return text;
 }
 
-std::string verification_html(const Results& results) {
-  if (!results.verification) return note("There is no comparison in this folder yet.");
+std::string verification_html(const Results& results, const Study& study) {
+  if (!results.verification)
+    return study.verification.empty() ? "" : note("There is no comparison in this folder yet.");
   HtmlTable table;
   table.name = "verification";
   const std::string& reference = results.verification->reference_origins;
@@ -80,33 +82,33 @@ bool looks_like_number(const std::string& text) {
   return first != std::string::npos && text[first] >= '0' && text[first] <= '9';
 }
 
-std::string tables_html(const Results& results) {
+std::string tables_html(const Results& results, const Study& study) {
   std::string html;
   for (const ResultTable& table : results.tables) {
     html += html_of(html_table_of(table)) + html_list(table.notes);
   }
-  return html.empty() ? note("There are no tables of experiments in this folder yet.") : html;
+  if (!html.empty() || study.cases.empty()) return html;
+  return note("There are no tables of experiments in this folder yet.");
 }
 
 HtmlTable mode_table_of(const fe_modal::ModalBody& body) {
   HtmlTable table;
   table.name = "modes";
   table.caption = "Modes: " + body.boundary;
-  table.columns = {{"mode"},
-                   {"kind"},
-                   {"Hz", true},
-                   {"fore-aft %", true},
-                   {"lateral %", true},
-                   {"twist %", true},
-                   {"axial %", true},
-                   {"residual", true},
-                   {"mesh error %", true}};
+  table.columns = {{"mode"}, {"kind"}, {"Hz", true}};
+  const bool with_shares = fe_modal::has_shares(body);
+  if (with_shares)
+    for (const char* const share : {"fore-aft %", "lateral %", "twist %", "axial %"})
+      table.columns.push_back({share, true});
+  table.columns.push_back({"residual", true});
+  table.columns.push_back({"mesh error %", true});
   for (std::size_t k = 0; k < body.modes.size(); ++k) {
     const fe_modal::ModeRecord& mode = body.modes[k];
     HtmlTable::Row row{{html_text(mode.name), html_text(mode.kind),
                         fmt::format("{:.3f}", body.frequencies_Hz[static_cast<Eigen::Index>(k)])}};
-    for (const double share : mode.shares_percent)
-      row.cells.push_back(fmt::format("{:.2f}", share));
+    if (with_shares)
+      for (const double share : mode.shares_percent)
+        row.cells.push_back(fmt::format("{:.2f}", share));
     row.cells.push_back(fmt::format("{:.1e}", mode.residual));
     row.cells.push_back(mode.mesh_error ? fmt::format("{:.3f}", 100 * mode.mesh_error->error)
                                         : "not estimated");
@@ -226,15 +228,19 @@ std::map<std::string, std::string> page_sections(const Results& results, const S
   std::vector<std::string> remarks = context.remarks;
   const std::vector<std::string> on_pulses = pulse_remarks(study, context);
   if (!remarks.empty()) remarks.insert(remarks.end(), on_pulses.begin(), on_pulses.end());
-  return {{"study", html_text(study.file.filename().string())},
-          {"warnings", warnings_html(results)},
-          {"verification", verification_html(results)},
-          {"tables", tables_html(results)},
-          {"modes", modes_html(results)},
-          {"remarks", html_list(remarks)},
-          {"parameters", parameters_html(study)},
-          {"provenance", provenance_html(results, study)},
-          {"missing", missing_html(results)}};
+  return {
+      {"study", html_text(study.file.filename().string())},
+      {"warnings", warnings_html(results)},
+      {"subject", study.geometry ? "From the geometry of a crash-test dummy's neck to its motion: "
+                                   "modes by finite elements, the static neck tester and the "
+                                   "head/neck pendulum."
+                                 : "From a geometry to its modes by finite elements."},
+      {"verification", verification_html(results, study)},
+      {"tables", tables_html(results, study)},
+      {"modes", modes_html(results)},
+      {"remarks", html_list(remarks)},
+      {"parameters", parameters_html(study)},
+      {"provenance", provenance_html(results, study) + missing_html(results)}};
 }
 
 }  // namespace flexneck::pipeline

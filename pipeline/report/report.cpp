@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/report/report.h"
 
+#include <array>
+
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/output_file.h"
@@ -17,6 +19,36 @@ namespace flexneck::pipeline {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// A section of the page. One without content is left out.
+struct PageSection {
+  const char* id;
+  const char* link;  ///< in the navigation
+  const char* title;
+  const char* content;  ///< name of its text
+};
+constexpr std::array<PageSection, 9> kSections = {
+    {{"verification", "Verification", "Verification", "verification"},
+     {"view", "In motion", "Modes and motion", "scene"},
+     {"curves", "Curves", "Curves", "plots"},
+     {"results", "Results", "Results of the experiments", "tables"},
+     {"figures", "Figures", "The paper's figures", "figures"},
+     {"modes", "Modes", "Modes and their certificates", "modes"},
+     {"remarks", "The paper", "Where the paper contradicts itself or is silent", "remarks"},
+     {"inputs", "Inputs", "Inputs and their origin", "parameters"},
+     {"provenance", "Provenance", "Provenance", "provenance"}}};
+
+void add_sections(std::map<std::string, std::string>& texts) {
+  for (const PageSection& section : kSections) {
+    const std::string& content = texts.at(section.content);
+    if (content.empty()) continue;
+    const std::string id = section.id;
+    texts["navigation"] += "<a href=\"#" + id + "\">" + section.link + "</a>\n";
+    texts["sections"] += "<section id=\"" + id + "\" aria-labelledby=\"" + id +
+                         "-title\">\n<h2 id=\"" + id + "-title\">" + section.title + "</h2>\n" +
+                         content + "</section>\n";
+  }
+}
 
 PaperContext context_of(const Study& study) {
   if (study.verification.empty()) return {};
@@ -37,6 +69,7 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   texts["head"] = page_head(texts["study"]);
   texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
+  add_sections(texts);
   texts["data"] = script_json({{"scene", scene}, {"curves", curves}});
   std::string& scripts = texts["scripts"];
   if (!curves.is_null()) scripts += script_element(source_of(WebLibrary::d3));

@@ -170,14 +170,16 @@ class Campaign:
         listed = json.loads(run(["ctest", "--show-only=json-v1"], cwd=self.build).stdout)["tests"]
         found = {room: [] for room in self.options.rooms}
         for test in listed:
-            for room in self.options.rooms:
-                if "command" in test and test["name"].split(":")[0] in ROOMS[room][1]:
-                    folder = {entry["name"]: entry["value"] for entry in test["properties"]}["WORKING_DIRECTORY"]
-                    seconds, code = self.call(test["command"], folder, 0, 3600)
-                    if code == 0:
-                        found[room].append((seconds, test["name"], test["command"], folder))
-                    elif code != SKIPPED:
-                        print(f"fails unchanged, and is left out: {test['name']}", flush=True)
+            rooms = [room for room in self.options.rooms if test["name"].split(":")[0] in ROOMS[room][1]]
+            if "command" not in test or not rooms:
+                continue
+            folder = {entry["name"]: entry["value"] for entry in test["properties"]}["WORKING_DIRECTORY"]
+            seconds, code = self.call(test["command"], folder, 0, 3600)
+            if code == 0:
+                for room in rooms:
+                    found[room].append((seconds, test["name"], test["command"], folder))
+            elif code != SKIPPED:
+                print(f"fails unchanged, and is left out: {test['name']}", flush=True)
         return {room: sorted(tests) for room, tests in found.items()}
 
     def call(self, command, folder, mutant, limit_s):

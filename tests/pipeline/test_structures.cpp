@@ -11,6 +11,7 @@
 #include "mesher/mesh/mesh_file.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "tests/support/calculix.h"
+#include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"
 
 using Catch::Matchers::Contains;
@@ -220,6 +221,16 @@ TEST_CASE("masses and supports of a Nastran deck are told, exit 0") {
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.text,
              Contains("Warning: ") && Contains("deck.bdf: not carried over: 1 CONM2, 1 SPC1\n"));
+}
+
+TEST_CASE("a run of a structure ends with a report of what it has, without the paper's sections") {
+  const TemporaryFolder folder;
+  run_study(kExamples + "cantilever.toml", folder.path());
+  const std::string page = testing::bytes_of(folder / "report.html");
+  CHECK_THAT(page, Contains("<h2 id=\"modes-title\">") && Contains("<h2 id=\"view-title\">") &&
+                       Contains("cantilever.toml") && Contains("href=\"#inputs\""));
+  CHECK_THAT(page, !Contains("id=\"figures\"") && !Contains("id=\"verification\"") &&
+                       !Contains("fore-aft"));
 }
 
 TEST_CASE("weight densities, free supports and decks without pressures are warned about") {

@@ -143,6 +143,7 @@ std::vector<mesher::FaceBlock> sides_within(const mesher::Mesh& mesh,
     }
   }
   std::vector<mesher::FaceBlock> blocks;
+  blocks.reserve(by_kind.size());
   for (const auto& [kind, nodes] : by_kind) blocks.push_back({kind, nodes});
   return blocks;
 }

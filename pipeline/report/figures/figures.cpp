@@ -100,6 +100,7 @@ std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study
 }
 
 std::string figures_html(const std::vector<DrawnFigure>& figures) {
+  if (figures.empty()) return {};
   std::string html = "<div class=\"figures\">\n";
   for (const DrawnFigure& figure : figures) html += html_of(figure);
   return html + "</div>\n";

@@ -320,7 +320,7 @@
 
   const plots = [...document.querySelectorAll('.plot')].map((container) => new Plot(container))
       .filter((plot) => !plot.container.hidden);
-  document.getElementById('units').addEventListener('click', (event) => {
+  document.getElementById('units')?.addEventListener('click', (event) => {
     isSi = !isSi;
     event.target.setAttribute('aria-pressed', isSi);
     for (const plot of plots) plot.reset();
