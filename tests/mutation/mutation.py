@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Changes the numeric code at places drawn by a seed and sees whether the tests notice (README.md).
 
-Usage: mutation.py [--sites N] [--seed S] [--rooms ROOM …] [--work FOLDER] [--out FOLDER]
+Usage: mutation.py [--sites N] [--seed S] [--rooms ROOM …] [--jobs N] [--work FOLDER] [--out FOLDER]
 """
 
 import argparse
+import concurrent.futures
 import json
 import os
 import re
@@ -61,6 +62,7 @@ class Campaign:
         self.work = Path(options.work).resolve()
         self.tree, self.build = self.work / "tree", self.work / "build"
         self.mutants_file, self.results_file = self.work / "mutants.json", self.work / "results.jsonl"
+        self.pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
         names = {name for room in options.rooms for name in ROOMS[room][1]}
         self.targets = [f"test_{name}" for name in sorted(names - SCRIPTS)]
         if names & SCRIPTS or "pipeline" in options.rooms:
@@ -169,14 +171,16 @@ class Campaign:
         """Commands of each room's tests, quickest first, with their times."""
         listed = json.loads(run(["ctest", "--show-only=json-v1"], cwd=self.build).stdout)["tests"]
         found = {room: [] for room in self.options.rooms}
-        for test in listed:
-            rooms = [room for room in self.options.rooms if test["name"].split(":")[0] in ROOMS[room][1]]
-            if "command" not in test or not rooms:
-                continue
+
+        def measure(test):
             folder = {entry["name"]: entry["value"] for entry in test["properties"]}["WORKING_DIRECTORY"]
-            seconds, code = self.call(test["command"], folder, 0, 3600)
+            return test, folder, *self.call(test["command"], folder, 0, 3600)
+
+        rooms_of = lambda test: [room for room in self.options.rooms if test["name"].split(":")[0] in ROOMS[room][1]]
+        wanted = [test for test in listed if "command" in test and rooms_of(test)]
+        for test, folder, seconds, code in self.pool.map(measure, wanted):
             if code == 0:
-                for room in rooms:
+                for room in rooms_of(test):
                     found[room].append((seconds, test["name"], test["command"], folder))
             elif code != SKIPPED:
                 print(f"fails unchanged, and is left out: {test['name']}", flush=True)
@@ -214,13 +218,14 @@ class Campaign:
             for line in self.results_file.read_text().splitlines():
                 done[json.loads(line)["number"]] = json.loads(line)
         tests = self.tests() if len(done) < len(drawn["mutants"]) else {}
-        for mutant in drawn["mutants"]:
-            if mutant["number"] in done:
-                continue
-            done[mutant["number"]] = mutant | self.outcome(mutant, tests[mutant["room"]])
+        work = {self.pool.submit(self.outcome, mutant, tests[mutant["room"]]): mutant
+                for mutant in drawn["mutants"] if mutant["number"] not in done}
+        for finished in concurrent.futures.as_completed(work):
+            row = work[finished] | finished.result()
+            done[row["number"]] = row
             with self.results_file.open("a") as file:
-                file.write(json.dumps(done[mutant["number"]]) + "\n")
-            print(f"{mutant['number']}: {done[mutant['number']]['outcome']}", flush=True)
+                file.write(json.dumps(row) + "\n")
+            print(f"{row['number']}: {row['outcome']}", flush=True)
         return self.report([done[mutant["number"]] for mutant in drawn["mutants"]], drawn["not compiled"])
 
     def report(self, rows, failed):
@@ -244,6 +249,7 @@ def main():
     parser.add_argument("--sites", type=int, default=150)
     parser.add_argument("--seed", default=head)
     parser.add_argument("--rooms", nargs="+", choices=ROOMS, default=DEFAULT)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="tests at once")
     parser.add_argument("--work", help="where to build; what is there already is gone on with")
     parser.add_argument("--out", help="where the table goes (default: the work folder)")
     options = parser.parse_args()
