@@ -55,7 +55,7 @@ void add_redo(CLI::App& app, CommandLine& line) {
 }
 
 void add_show(CLI::App& app, CommandLine& line) {
-  app.add_flag("--show", line.show, "Print dimensions and a section, mesh nothing");
+  app.add_flag("--dry-run,--show", line.show, "Print dimensions and a section, mesh nothing");
 }
 
 void add_target(CLI::App& app, CommandLine& line) {

@@ -52,8 +52,10 @@ std::optional<StudyChoice> remembered_study(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(text_of_file(path));
     if (json.at("format") != kFormat) throw InputError("another format");
     const auto study = json.at("study").get<std::string>();
-    return StudyChoice{study.empty() ? fs::path() : (folder / study).lexically_normal(),
-                       json.at("settings").get<std::vector<std::string>>()};
+    const auto settings = json.at("settings").get<std::vector<std::string>>();
+    if (study.empty()) return StudyChoice{{}, settings};
+    const fs::path whole = (fs::weakly_canonical(folder) / study).lexically_normal();
+    return StudyChoice{whole.lexically_proximate(fs::current_path()), settings};
   } catch (const std::exception& error) {
     throw InputError(path.string() + ": expected the study that the folder was made with, found " +
                      error.what() + "; name the study, or remove the file");

@@ -371,10 +371,10 @@ TEST_CASE("giants are refused before they start, with what they take and what th
   CHECK_FALSE(fs::exists(folder / "out/modes.h5"));
 }
 
-TEST_CASE("mesh --show tells dimensions, mass and section of the neck and makes nothing") {
+TEST_CASE("mesh --dry-run tells dimensions, mass and section of the neck and makes nothing") {
   const TemporaryFolder folder;
   const std::string out = " -o " + (folder / "out").string();
-  const CommandOutcome outcome = run_flexneck("mesh --show --preset paper" + out);
+  const CommandOutcome outcome = run_flexneck("mesh --dry-run --preset paper" + out);
   INFO(outcome.text);
   CHECK(outcome.exit_code == 0);
   CHECK_FALSE(fs::exists(folder / "out"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -11,6 +12,8 @@
 
 namespace flexneck::pipeline {
 namespace {
+
+namespace fs = std::filesystem;
 
 using Catch::Matchers::Contains;
 using testing::check_refused;
@@ -46,7 +49,7 @@ TEST_CASE("each command has a help of its own, and all of it fits the console") 
                Contains("Usage: flexneck " + std::string(command)) && Contains("--verbose"));
     CHECK(longest_line(help.text) <= 100);
   }
-  CHECK_THAT(run_flexneck("mesh --help").text, Contains("--show") && !Contains("--force"));
+  CHECK_THAT(run_flexneck("mesh --help").text, Contains("--dry-run") && !Contains("--force"));
 }
 
 TEST_CASE("an option is refused by commands in which it does nothing") {
@@ -85,6 +88,29 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
                 "was made with");
   std::ofstream(folder / "out/study.json") << "{ half a";
   check_refused(run_flexneck("static" + out), "out/study.json: expected the study");
+}
+
+TEST_CASE("the study that a folder remembers is found from everywhere, through links too") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "studies");
+  fs::create_directories(folder / "far/away");
+  std::ofstream(folder / "studies/mine.toml")
+      << "include = [\"" << FLEXNECK_SOURCE_DIR << "/geometry/examples/cantilever.toml\"]\n";
+  fs::create_directory_symlink(folder / "far/away", folder / "link");
+  const std::string made = " -o " + (folder / "link").string();
+  const std::string study = (folder / "studies/mine.toml").string();
+  REQUIRE(run_flexneck("mesh -q " + study + made + " --set modes.count=3").exit_code == 0);
+  const std::string shell = "(cd " + (folder / "far").string() + "; " + testing::flexneck_program();
+  for (const char* const place : {"away", "../link"}) {
+    const CommandOutcome outcome = testing::run_shell(shell + " modes -o " + place + ")");
+    INFO(outcome.text);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.text, Contains("studies/mine.toml --set modes.count=3") &&
+                                 Contains("Solving for 3 modes"));
+  }
+  fs::remove(folder / "studies/mine.toml");
+  CHECK_THAT(run_flexneck("modes" + made).text, Contains("mine.toml"));
+  CHECK(run_flexneck("modes" + made).exit_code == 2);
 }
 
 }  // namespace flexneck::pipeline
