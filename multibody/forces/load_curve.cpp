@@ -47,11 +47,10 @@ LoadCurve LoadCurve::table(std::vector<double> x, std::vector<double> load) {
 
 namespace {
 
-/// The row from which the piece at x starts; the last piece goes on.
+/// The row from which the piece at x starts; the first and the last piece go on.
 std::size_t row_before(const std::vector<double>& rows, double x) {
-  const auto after = std::upper_bound(rows.begin(), rows.end() - 1, x);
-  const auto k = static_cast<std::size_t>(after - rows.begin());
-  return std::min(k == 0 ? 0 : k - 1, rows.size() - 2);
+  const auto after = std::upper_bound(rows.begin() + 1, rows.end() - 1, x);
+  return static_cast<std::size_t>(after - rows.begin()) - 1;
 }
 
 }  // namespace

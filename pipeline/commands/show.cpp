@@ -99,7 +99,7 @@ std::string division_line(const GeometrySection& geometry) {
 bool show_command(const CommandInput& input) {
   if (!input.study.geometry) {
     throw InputError(input.study.file.string() +
-                     ": --show describes the neck, but [geometry] gives none");
+                     ": --dry-run describes the neck, but [geometry] gives none");
   }
   const GeometrySection& geometry = *input.study.geometry;
   const geometry::NeckMeasures measures = geometry::measure(geometry.neck, densities(geometry));

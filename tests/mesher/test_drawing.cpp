@@ -45,6 +45,37 @@ std::uint32_t pixel_at(const Raster& picture, int x, int y) {
   return picture.pixels()[static_cast<std::size_t>(place)];
 }
 
+/// The pixels of a PNG file.
+class SheetPixels {
+ public:
+  /// First column and row, and number of pixels of a colour.
+  struct Found {
+    int x = 1 << 20, y = 1 << 20, count = 0;
+  };
+
+  explicit SheetPixels(const fs::path& path)
+      : picture_(cairo_image_surface_create_from_png(path.c_str()), cairo_surface_destroy) {}
+
+  int width() const { return cairo_image_surface_get_width(picture_.get()); }
+
+  Found find(std::uint32_t colour) const {
+    const int stride = cairo_image_surface_get_stride(picture_.get());
+    const unsigned char* const bytes = cairo_image_surface_get_data(picture_.get());
+    Found found;
+    for (int y = 0; y < cairo_image_surface_get_height(picture_.get()); ++y)
+      for (int x = 0; x < width(); ++x) {
+        std::uint32_t pixel = 0;
+        std::memcpy(&pixel, bytes + y * stride + 4 * x, 4);
+        if ((pixel & kWhite) != colour) continue;
+        found = {std::min(found.x, x), std::min(found.y, y), found.count + 1};
+      }
+    return found;
+  }
+
+ private:
+  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture_;
+};
+
 }  // namespace
 
 TEST_CASE("the skin of a box has its outer sides and the box's area") {
@@ -139,6 +170,24 @@ TEST_CASE("a sheet is a PNG file, the same each time, and nothing is left where 
   CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 2);
 }
 
+TEST_CASE("entries of a legend stand side by side, each with its whole patch of colour") {
+  const TemporaryFolder folder;
+  PictureSheet sheet;
+  sheet.panels.push_back({"", Raster(400, 40, Colour(1, 1, 1))});
+  sheet.legend = {{"first of three", Colour(1, 0, 0)},
+                  {"second", Colour(0, 1, 0)},
+                  {"third one", Colour(0, 0, 1)}};
+  write_png(folder / "sheet.png", sheet);
+  const SheetPixels pixels(folder / "sheet.png");
+  int last_x = -1;
+  for (const std::uint32_t colour : {0xFF0000U, 0x00FF00U, 0x0000FFU}) {
+    const SheetPixels::Found patch = pixels.find(colour);
+    CHECK(patch.count >= 12 * 13);  // its left and right edges may share a pixel with the ground
+    CHECK(patch.x > last_x + 13);
+    last_x = patch.x;
+  }
+}
+
 TEST_CASE("panels of a sheet stand in rows below each other, with their titles above") {
   const TemporaryFolder folder;
   constexpr int kSize = 60;
@@ -146,36 +195,16 @@ TEST_CASE("panels of a sheet stand in rows below each other, with their titles a
   PictureSheet sheet{.panels = {}, .columns = 2, .caption = {}, .legend = {}, .scale = {}};
   for (const Colour& colour : colours) sheet.panels.push_back({"", Raster(kSize, kSize, colour)});
   write_png(folder / "sheet.png", sheet);
-  const auto close = [](cairo_surface_t* surface) { cairo_surface_destroy(surface); };
-  const std::unique_ptr<cairo_surface_t, decltype(close)> picture(
-      cairo_image_surface_create_from_png((folder / "sheet.png").c_str()), close);
-  const int width = cairo_image_surface_get_width(picture.get());
-  const int stride = cairo_image_surface_get_stride(picture.get());
-  const unsigned char* const bytes = cairo_image_surface_get_data(picture.get());
-  /// First column and row, and number of pixels of a colour.
-  struct Found {
-    int x = 1 << 20, y = 1 << 20, count = 0;
-  };
-  const auto find = [&](std::uint32_t colour) {
-    Found found;
-    for (int y = 0; y < cairo_image_surface_get_height(picture.get()); ++y)
-      for (int x = 0; x < width; ++x) {
-        std::uint32_t pixel = 0;
-        std::memcpy(&pixel, bytes + y * stride + 4 * x, 4);
-        if ((pixel & kWhite) != colour) continue;
-        found = {std::min(found.x, x), std::min(found.y, y), found.count + 1};
-      }
-    return found;
-  };
-  const Found red = find(0xFF0000);
-  const Found green = find(0x00FF00);
-  const Found blue = find(0x0000FF);
-  for (const Found& each : {red, green, blue}) CHECK(each.count == kSize * kSize);
+  const SheetPixels pixels(folder / "sheet.png");
+  const SheetPixels::Found red = pixels.find(0xFF0000);
+  const SheetPixels::Found green = pixels.find(0x00FF00);
+  const SheetPixels::Found blue = pixels.find(0x0000FF);
+  for (const SheetPixels::Found& each : {red, green, blue}) CHECK(each.count == kSize * kSize);
   CHECK(green.x == red.x + kSize);
   CHECK(green.y == red.y);
   CHECK(blue.x == red.x);
   CHECK(blue.y > red.y + kSize);
-  CHECK(width == 2 * (red.x + kSize));  // as much margin on the right
+  CHECK(pixels.width() == 2 * (red.x + kSize));  // as much margin on the right
 }
 
 }  // namespace flexneck::mesher

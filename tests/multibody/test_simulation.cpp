@@ -8,6 +8,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/history/incomplete_run.h"
+#include "multibody/history/recorder.h"
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/point_mass_body.h"
@@ -206,6 +207,13 @@ TEST_CASE("outputs that are handed on in blocks are those of a whole run") {
     first += n;
   }
   CHECK(blocks.back().statistics.evaluations == whole.statistics.evaluations);
+}
+
+TEST_CASE("an output of a history has 19 numbers a marker, 6 a joint, one a mode and ten more") {
+  // Positions, velocities, accelerations, angular ones, a quaternion; force and moment; time, five
+  // energies and four residuals.
+  const Model model = sled();
+  CHECK(numbers_per_output(model) == 19 * 5 + 6 * 2 + 4 + 10);
 }
 
 TEST_CASE("joints that repeat each other are named and move nothing") {
