@@ -207,6 +207,7 @@ TEST_CASE("steps end where a stop is met and left, and the kinks cost neither or
     side->stop = kStop_m;
     side->beyond_stop = LoadCurve::cubic(kStiffness);
   }
+  build.model.resistances.push_back({"idle", 0, JointCoordinate::distance, {}});
   build.model.resistances.push_back(stops);
   // To the stop, half a swing of sqrt(m / k) in it, back through the middle to the other one, half
   // a swing, and back to where it began.
