@@ -193,6 +193,19 @@ TEST_CASE("elements that a mesh cannot hold are refused with their number and ty
              Contains("physical volume 'corner'") && Contains("2 of type 'Tetrahedron 20'"));
 }
 
+TEST_CASE("a .msh without nodes or without elements is refused before gmsh reads it") {
+  const Files files;
+  const std::string mesh = testing::kTetrahedronMsh;
+  for (const std::string section : {"Nodes", "Elements"}) {
+    std::string without = mesh;
+    const std::size_t begin = without.find("$" + section);
+    const std::string end = "$End" + section + "\n";
+    without.erase(begin, without.find(end) + end.size() - begin);
+    CHECK_THAT(testing::refusal(import_options(files.write("part.msh", without), {"corner"})),
+               Contains("part.msh") && Contains("it has no $Nodes or no $Elements"));
+  }
+}
+
 TEST_CASE("points and curves in groups become node sets") {
   const Files files;
   std::string mesh = testing::kTetrahedronMsh;
