@@ -78,7 +78,8 @@ std::optional<IsolatedTask> task_of(const Study& study) {
   IsolatedTask task;
   task.name = "mesh";
   task.library = "gmsh";
-  task.limits.memory_bytes = static_cast<std::uint64_t>(std::min(available_memory(), 1e18));
+  const auto available = static_cast<std::uint64_t>(std::min(available_memory(), 1e18));
+  task.limits.memory_bytes = available;
   task.advice = "correct the script";
   task.file = study.structure ? study.structure->file() : study.geometry->script;
   const std::uint64_t size = size_of_file(task.file);
@@ -90,10 +91,10 @@ std::optional<IsolatedTask> task_of(const Study& study) {
   task.advice = "if it is not damaged, write it anew or in another format";
   task.limits.processor_s = static_cast<unsigned>(10 + (is_shape ? 10 : 1) * (size >> 20U));
   task.limits.clock_s = 20 * task.limits.processor_s;
+  task.limits.memory_bytes = (768U << 20U) + (is_shape ? 64 : 16) * size;
   if (is_shape) {
     task.library = kShapeReader;
-  } else {
-    task.limits.memory_bytes = (768U << 20U) + 16 * size;
+    task.limits.later_memory_bytes = available;
   }
   return task;
 }
@@ -135,7 +136,7 @@ mesher::Mesh make_mesh(const Study& study, const Console& console) {
 void mesh_task(const std::vector<std::string>& arguments, const ChildLines& lines) {
   const Study study = read_study(arguments.at(1), {arguments.begin() + 2, arguments.end()});
   mesher::write_mesh(arguments.front(),
-                     {.mesh = mesh_here(study, lines, lift_time_limits), .provenance = {}});
+                     {.mesh = mesh_here(study, lines, lift_limits), .provenance = {}});
 }
 
 }  // namespace flexneck::pipeline

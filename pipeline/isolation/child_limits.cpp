@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/isolation/child_limits.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -13,6 +14,9 @@
 namespace flexneck::pipeline {
 
 namespace {
+
+/// Of recursion without end, which memory does not limit where the stack has no limit.
+constexpr rlim_t kStackBytes = 64U << 20U;
 
 /// Libraries' data, stacks and, under a sanitizer, terabytes that are reserved but not used.
 std::uint64_t bytes_at_start() {
@@ -49,15 +53,20 @@ void limit_this_process(const ChildLimits& limits, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) std::_Exit(EXIT_FAILURE);  // it was gone before
   limit(RLIMIT_CORE, 0, 0);
-  const rlim_t bytes = bytes_at_start() + limits.memory_bytes;
-  limit(RLIMIT_DATA, bytes, bytes);
+  const rlim_t start = bytes_at_start();
+  limit(RLIMIT_DATA, start + limits.memory_bytes,
+        start + std::max(limits.memory_bytes, limits.later_memory_bytes));
+  limit(RLIMIT_STACK, kStackBytes, kStackBytes);  // grows by what is called from now on
   receive(SIGXCPU);
   receive(SIGALRM);
   if (limits.processor_s > 0) limit(RLIMIT_CPU, limits.processor_s, RLIM_INFINITY);
   alarm(limits.clock_s);
 }
 
-void lift_time_limits() {
+void lift_limits() {
+  rlimit memory{};
+  getrlimit(RLIMIT_DATA, &memory);
+  limit(RLIMIT_DATA, memory.rlim_max, memory.rlim_max);
   limit(RLIMIT_CPU, RLIM_INFINITY, RLIM_INFINITY);
   alarm(0);
 }

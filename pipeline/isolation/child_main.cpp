@@ -16,7 +16,7 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr const char* kChild = "--isolated";
-constexpr std::size_t kOwnArguments = 6;
+constexpr std::size_t kOwnArguments = 7;
 
 void report(ChildReport::Kind kind, const std::string& text) {
   std::cout << line_of({kind, text}) << std::flush;
@@ -35,7 +35,8 @@ void run_task(std::span<char*> arguments, const std::vector<ChildTask>& tasks) {
   };
   limit_this_process({.memory_bytes = number(4),
                       .processor_s = static_cast<unsigned>(number(5)),
-                      .clock_s = static_cast<unsigned>(number(6))},
+                      .clock_s = static_cast<unsigned>(number(6)),
+                      .later_memory_bytes = number(7)},
                      static_cast<pid_t>(number(3)));
   const std::span<char*> rest = arguments.subspan(1 + kOwnArguments);
   tasks[find_name(names_of(tasks), arguments[2], "task")].run(
@@ -70,7 +71,8 @@ std::vector<std::string> child_arguments(const std::string& task, const ChildLim
           std::to_string(parent),
           std::to_string(limits.memory_bytes),
           std::to_string(limits.processor_s),
-          std::to_string(limits.clock_s)};
+          std::to_string(limits.clock_s),
+          std::to_string(limits.later_memory_bytes)};
 }
 
 bool is_child(std::span<char*> arguments) {

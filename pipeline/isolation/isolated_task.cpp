@@ -34,8 +34,13 @@ std::string colourless(const std::string& line) {
 /// What became of a child that did not say itself why it ended.
 std::string death_of(const ChildEnd& end, const ChildLimits& limits) {
   if (end.exit_code == kChildOutOfMemory) {
-    return fmt::format("wants more than {:.1f} GB of memory for it",
-                       static_cast<double>(limits.memory_bytes) / 1e9);
+    const auto in_GB = [](std::uint64_t bytes) {
+      return fmt::format("{:.1f} GB", static_cast<double>(bytes) / 1e9);
+    };
+    return "wants more than " + in_GB(limits.memory_bytes) + " of memory for it" +
+           (limits.later_memory_bytes > 0
+                ? ", or more than " + in_GB(limits.later_memory_bytes) + " for what it makes of it"
+                : "");
   }
   if (end.signal == SIGXCPU)
     return fmt::format("is not done with it after {} s", limits.processor_s);

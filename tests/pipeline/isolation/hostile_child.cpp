@@ -39,6 +39,27 @@ void allocate(const Arguments& /*none*/, const ChildLines& /*lines*/) {
   while (true) blocks.emplace_back(std::size_t{1} << 20U, 'x');
 }
 
+/// Takes a page of the stack each time, which is still wanted behind the call.
+int depth_below(int depth, const volatile char* above) {
+  volatile char page[4096] = {};
+  page[0] = static_cast<char>(above[0] + 1);
+  const int below = depth == 1 << 20 ? 0 : depth_below(depth + 1, page);
+  return below + page[depth % 4096];
+}
+
+/// 4 GB of stack, if there are.
+void recurse(const Arguments& /*none*/, const ChildLines& lines) {
+  const char first = 0;
+  lines.detail(std::to_string(depth_below(0, &first)));
+}
+
+/// 300 MB, once what is read is read.
+void allocate_later(const Arguments& /*none*/, const ChildLines& lines) {
+  lift_limits();
+  const std::vector<char> block(std::size_t{300} << 20U, 'x');
+  lines.detail(std::to_string(block.back()));
+}
+
 void leave(const Arguments& /*none*/, const ChildLines& /*lines*/) { std::_Exit(1); }
 
 void refuse(const Arguments& /*none*/, const ChildLines& /*lines*/) {
@@ -77,6 +98,8 @@ int main(int argc, char** argv) {
                                                       {"compute", compute},
                                                       {"sleep", sleep_on},
                                                       {"allocate", allocate},
+                                                      {"allocate later", allocate_later},
+                                                      {"recurse", recurse},
                                                       {"leave", leave},
                                                       {"refuse", refuse},
                                                       {"fail", fail},

@@ -68,12 +68,26 @@ TEST_CASE("a child that crashes, hangs or takes all memory is told in one line")
   CHECK_THAT(refusal(task_named("allocate")),
              Contains("bar.msh: gmsh wants more than 0.2 GB of memory for it; write it anew") ||
                  Contains("gives up on it"));  // as the memory of a sanitizer does
+  CHECK_THAT(
+      refusal(task_named("recurse")),
+      Contains("bar.msh: gmsh crashes on it (Segmentation fault)") || Contains("gives up on it"));
   IsolatedTask busy = task_named("compute");
   busy.limits.processor_s = 1;
   CHECK(refusal(busy) == "bar.msh: gmsh is not done with it after 1 s; write it anew");
   IsolatedTask idle = task_named("sleep");
   idle.limits.clock_s = 1;
   CHECK(refusal(idle) == "bar.msh: gmsh is not done with it after 1 s; write it anew");
+}
+
+TEST_CASE("once a child has read a file it may take more memory, up to another limit") {
+  const TemporaryFolder folder;
+  IsolatedTask task = task_named("allocate later");
+  task.limits.later_memory_bytes = 400U << 20U;
+  CHECK_NOTHROW(run_isolated(task, folder.path(), {}));
+  task.limits.later_memory_bytes = 250U << 20U;
+  CHECK_THAT(refusal(task), Contains("wants more than 0.2 GB of memory for it, or more than 0.3 GB "
+                                     "for what it makes of it") ||
+                                Contains("gives up on it"));
 }
 
 TEST_CASE("what a child refuses is refused in its words, and its end does not count") {
