@@ -232,6 +232,28 @@ TEST_CASE("steps end where a stop is met and left, and the kinks cost neither or
   }
 }
 
+TEST_CASE("a block comes to rest in a hard stop at the end of a soft spring") {
+  // A step by the soft spring's stiffness ends far beyond the stop, where the energy is much
+  // higher, and the next one by the stop's far on the other side.
+  constexpr double kStop_m = 0.05;
+  constexpr double kHard = 1e6;
+  constexpr double kPull_N = 10;
+  ModelBuilder build = sliding_block(0);
+  JointResistance buffer{"buffer", 0, JointCoordinate::distance, {}};
+  buffer.resistance.positive.curve = LoadCurve::cubic(1);
+  buffer.resistance.negative.curve = LoadCurve::cubic(1);
+  buffer.resistance.positive.stop = kStop_m;
+  buffer.resistance.positive.beyond_stop = LoadCurve::cubic(kHard);
+  build.model.resistances.push_back(buffer);
+  build.model.forces.push_back({"pull", build.model.marker_index("block"), Vector3d::UnitX(),
+                                TimeTable({0}, {kPull_N}, TimeTable::Outside::constant)});
+  SolverOptions solver;
+  solver.formulation = GENERATE(Formulation::descriptor, Formulation::recursive);
+  const History history = settle(build.model, solver, {.end_time_s = 1, .interval_s = 1});
+  CHECK(history.marker("block").position_m(0, 0) ==
+        Approx((kPull_N + kHard * kStop_m) / (1 + kHard)).epsilon(1e-9));
+}
+
 TEST_CASE("a law's pieces change where its load has a kink, and nowhere else") {
   Resistance resistance;
   resistance.positive.curve = LoadCurve::table({0, 0.1, 0.3}, {0, 5, 6});
@@ -264,6 +286,11 @@ TEST_CASE("a law's pieces change where its load has a kink, and nowhere else") {
   // The same line on both sides has no kink at zero; a rope has.
   resistance.positive = resistance.negative;
   CHECK(same(-1, 0.1, 1, 0.1));
+  resistance.positive.curve = LoadCurve::table({0, 0.5, 1}, {0, 15, 16});
+  resistance.negative.curve = LoadCurve::table({0, 0.2, 1}, {0, 6, 36});
+  CHECK(same(-0.1, 0.1, 0.1, 0.1));
+  resistance.negative.curve = LoadCurve::table({0, 0.2, 1}, {0, 7, 36});
+  CHECK_FALSE(same(-0.1, 0.1, 0.1, 0.1));
   resistance.tension_only = true;
   CHECK_FALSE(same(-1, 0.1, 1, 0.1));
 }

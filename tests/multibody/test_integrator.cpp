@@ -60,6 +60,13 @@ double dense_error(double length) {
 
 }  // namespace
 
+TEST_CASE("before the first step the dense output is the state at the start") {
+  const DormandPrince integrator(problem(1), kLimits, 0.5, start());
+  VectorXd y(2);
+  integrator.interpolate(0.5, y);
+  CHECK(y == start());
+}
+
 TEST_CASE("the integrator is of order five") {
   // Halving the step divides the error by 2^5, up to terms of the next order.
   const double order = std::log2(error_at_end(20) / error_at_end(40));
