@@ -57,7 +57,8 @@ void warn_of_replaced(const CommandInput& input, const std::filesystem::path& fi
 
 bool run_command(const CommandInput& input);
 bool mesh_command(const CommandInput& input);
-/// Of `mesh --dry-run`: the neck's dimensions, what follows from them, and a drawing; meshes nothing.
+/// Of `mesh --dry-run`: the neck's dimensions, what follows from them, and a drawing; meshes
+/// nothing.
 bool show_command(const CommandInput& input);
 bool modes_command(const CommandInput& input);
 bool export_command(const CommandInput& input);
