@@ -32,7 +32,7 @@ std::string abaqus_type_of(ElementKind kind, bool is_reduced) {
   const auto types = traits_of(kind).abaqus_types;
   if (types.empty())
     throw InputError("an .inp has no element of kind " + std::string(name_of(kind)) +
-                     "; mesh with the 20-node one instead (mesh.element = \"hex20\")");
+                     "; mesh with hex20, prism15 or tet10 instead");
   const std::string full(types.front());
   return is_reduced && has(types, full + "R") ? full + "R" : full;
 }

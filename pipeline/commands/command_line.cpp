@@ -93,9 +93,8 @@ std::string help() {
   for (const Command& command : commands())
     text += fmt::format("  {:<10}  {}\n", command.name, command.help);
   return text +
-         "\n'flexneck COMMAND --help' lists the options of a command, 'flexneck --version' tells "
-         "the "
-         "version.\n"
+         "\n'flexneck COMMAND --help' lists the options of a command.\n"
+         "'flexneck --version' tells the version and the sources that it is built from.\n"
          "Exit codes: 0 done, 1 a verification failed, 2 unusable input, 3 a computation failed.";
 }
 

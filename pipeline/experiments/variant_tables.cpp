@@ -218,8 +218,8 @@ ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body
   }
   table.notes = {
       "Flexion and extension: in the lateral plane to one side and to the other. Matched: the link "
-      "and springs that answer any static load "
-      "at the neck's top as the modes used do, with their mass and the first mode's damping."};
+      "and springs that answer any static load at the neck's top as the modes used do, with their "
+      "mass and the first mode's damping."};
   return table;
 }
 

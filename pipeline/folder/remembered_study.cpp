@@ -18,6 +18,11 @@ namespace {
 constexpr const char* kFile = "study.json";
 constexpr const char* kFormat = "flexneck choice of a study";
 
+[[noreturn]] void refuse(const fs::path& path, const std::string& found) {
+  throw InputError(path.string() + ": expected the study that the folder was made with, found " +
+                   found + "; name the study, or remove the file");
+}
+
 }  // namespace
 
 bool same(StudyChoice a, StudyChoice b) {
@@ -50,15 +55,14 @@ std::optional<StudyChoice> remembered_study(const fs::path& folder) {
   if (!fs::exists(path)) return {};
   try {
     const nlohmann::json json = nlohmann::json::parse(text_of_file(path));
-    if (json.at("format") != kFormat) throw InputError("another format");
+    if (json.at("format") != kFormat) refuse(path, "another format");
     const auto study = json.at("study").get<std::string>();
     const auto settings = json.at("settings").get<std::vector<std::string>>();
     if (study.empty()) return StudyChoice{{}, settings};
     const fs::path whole = (fs::weakly_canonical(folder) / study).lexically_normal();
     return StudyChoice{whole.lexically_proximate(fs::current_path()), settings};
-  } catch (const std::exception& error) {
-    throw InputError(path.string() + ": expected the study that the folder was made with, found " +
-                     error.what() + "; name the study, or remove the file");
+  } catch (const nlohmann::json::exception& error) {
+    refuse(path, error.what());
   }
 }
 
