@@ -2,6 +2,8 @@
 #include "mesher/exchange/gmsh_import.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -60,13 +62,44 @@ void name_groups(const std::map<int, std::string>& volumes) {
   }
 }
 
+/// What the shapes of a dimension measure: m, m^2 or m^3 where the file is in metres.
+double measure_of_all(int dim) {
+  gmsh::vectorpair shapes;
+  gmsh::model::getEntities(shapes, dim);
+  double sum = 0;
+  for (const auto& [dimension, tag] : shapes) {
+    double measure = 0;
+    gmsh::model::occ::getMass(dimension, tag, measure);
+    sum += std::abs(measure);
+  }
+  return sum;
+}
+
+/// Of 10-node tetrahedra whose edges are as long as a number of the shape, within a factor of two
+/// of bars with holes.
+/// @param size  0: a tenth of the shape's diagonal, as gmsh takes it
+double estimated_nodes(double size) {
+  constexpr std::array kNodesPerEdgeToThe = {0.0, 2.0, 5.0, 7.0};  // the dimension
+  if (size == 0) {
+    std::array<double, 3> low{};
+    std::array<double, 3> high{};
+    gmsh::model::getBoundingBox(-1, -1, low[0], low[1], low[2], high[0], high[1], high[2]);
+    size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 10;
+  }
+  double nodes = 0;
+  for (int dim = 1; dim <= 3; ++dim) {
+    nodes += kNodesPerEdgeToThe[dim] * measure_of_all(dim) / std::pow(size, dim);
+  }
+  return nodes;
+}
+
 void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double size) {
   const bool is_step = copy.format() == ForeignFormat::step;
   if (is_step) gmsh::option::setString("Geometry.OCCTargetUnit", "M");
   gmsh::vectorpair shapes;
   gmsh::model::occ::importShapes(copy.path().string(), shapes, true, is_step ? "step" : "brep");
   gmsh::model::occ::synchronize();
-  if (options.when_read) options.when_read();
+  if (options.when_read) options.when_read(estimated_nodes(size));
   gmsh::vectorpair volumes;
   gmsh::model::getEntities(volumes, 3);
   if (volumes.empty()) throw InputError(options.file.string() + ": the shape has no volume");

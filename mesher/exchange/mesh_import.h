@@ -33,8 +33,9 @@ struct ImportOptions {
   bool is_reduced = false;     ///< modes will be of reduced integration, as C3D20R of an .inp are
   bool keeps_doubles = false;  ///< nodes in the same place are meant, as at a crack
   std::vector<BoxSet> box_sets;
-  /// Called once a shape is read, before it is meshed; may be empty.
-  std::function<void()> when_read = {};
+  /// Called once a shape is read, before it is meshed, with about the number of nodes that its mesh
+  /// will have; may be empty.
+  std::function<void(double nodes)> when_read = {};
 };
 
 /// Reads the file; a shape is meshed with 10-node tetrahedra. The parts are

@@ -2,8 +2,12 @@
 #include "pipeline/commands/make_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
+
+#include <fmt/core.h>
 
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
@@ -24,8 +28,9 @@ namespace {
 
 using mesher::ForeignFormat;
 
-/// It reads what it can of a damaged shape, and complains of the rest on standard output.
-constexpr const char* kShapeReader = "OpenCASCADE";
+/// The one reads what it can of a damaged shape, and complains of the rest on standard output; the
+/// other meshes it.
+constexpr const char* kShapeLibraries = "OpenCASCADE or gmsh";
 
 mesher::ScriptMeshOptions neck_options(const GeometrySection& geometry) {
   mesher::ScriptMeshOptions options;
@@ -44,8 +49,11 @@ mesher::ScriptMeshOptions neck_options(const GeometrySection& geometry) {
   return options;
 }
 
-/// @param when_read  called once a shape is read, before it is meshed
-mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines, void (*when_read)()) {
+/// What is called with a number of nodes once a shape is read; see ImportOptions.
+using WhenRead = std::function<void(double nodes)>;
+
+mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines,
+                            const WhenRead& when_read) {
   const auto& source = study.structure->source;
   if (const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&source)) {
     mesher::Mesh mesh = mesher::mesh_script(*script, lines.detail, lines.warning);
@@ -58,11 +66,11 @@ mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines, void (*
   }
   auto options = std::get<mesher::ImportOptions>(source);
   options.is_reduced = study.modes.formulation == fe_modal::Formulation::reduced;
-  if (when_read != nullptr) options.when_read = when_read;
+  options.when_read = when_read;
   return mesher::import_mesh(options, lines.detail, lines.warning);
 }
 
-mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, void (*when_read)()) {
+mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, const WhenRead& when_read) {
   return study.structure
              ? structure_mesh(study, lines, when_read)
              : mesher::mesh_script(neck_options(*study.geometry), lines.detail, lines.warning);
@@ -90,13 +98,30 @@ std::optional<IsolatedTask> task_of(const Study& study) {
   const bool is_shape = format == ForeignFormat::step || format == ForeignFormat::brep;
   task.advice = "if it is not damaged, write it anew or in another format";
   task.limits.processor_s = static_cast<unsigned>(10 + (is_shape ? 10 : 1) * (size >> 20U));
-  task.limits.clock_s = 20 * task.limits.processor_s;
+  task.limits.clock_s = kClockPerProcessor * task.limits.processor_s;
   task.limits.memory_bytes = (768U << 20U) + (is_shape ? 64 : 16) * size;
   if (is_shape) {
-    task.library = kShapeReader;
+    task.library = kShapeLibraries;
     task.limits.later_memory_bytes = available;
   }
   return task;
+}
+
+/// What gmsh may take to mesh a shape that is read: ten times as long as it took for bars with
+/// holes, since over some damaged shapes it does not end.
+void limit_meshing(const fs::path& shape, double nodes) {
+  constexpr double kBase_s = 8;
+  constexpr double kPerMegabyte_s = 60;  // of small faces and edges, which have nodes of their own
+  constexpr double kPerNode_s = 4e-4;
+  constexpr double kBytesPerNode = 800;
+  if (!std::isfinite(nodes)) {
+    throw InputError("its volumes, surfaces or curves have no finite size");
+  }
+  require_memory(fmt::format("a mesh of about {:.3g} nodes", nodes), kBytesPerNode * nodes,
+                 "enlarge mesh.size, or correct the shape's unit");
+  const double megabytes = static_cast<double>(size_of_file(shape)) / (1U << 20U);
+  limit_what_follows(
+      static_cast<unsigned>(std::ceil(kBase_s + kPerMegabyte_s * megabytes + kPerNode_s * nodes)));
 }
 
 ChildLines lines_to(const Console& console) {
@@ -118,16 +143,16 @@ Progress collector_of(std::string& text) {
 mesher::Mesh make_mesh(const Study& study, const Console& console) {
   ChildLines lines = lines_to(console);
   std::optional<IsolatedTask> task = task_of(study);
-  if (!task) return mesh_here(study, lines, nullptr);
+  if (!task) return mesh_here(study, lines, {});
   const TemporaryFolder folder;
   const fs::path result = folder / "mesh.h5";
   task->arguments = {result.string(), study.file.string()};
   task->arguments.insert(task->arguments.end(), study.settings.begin(), study.settings.end());
   std::string complaints;
-  if (task->library == kShapeReader) lines.chatter = collector_of(complaints);
+  if (task->library == kShapeLibraries) lines.chatter = collector_of(complaints);
   run_isolated(*task, folder.path(), lines);
   if (!complaints.empty()) {
-    console.warning(task->file.string() + ": " + kShapeReader + " complains: " + complaints +
+    console.warning(task->file.string() + ": OpenCASCADE complains: " + complaints +
                     "; compare volumes and sets with what they should be");
   }
   return mesher::read_mesh(result).mesh;
@@ -135,8 +160,9 @@ mesher::Mesh make_mesh(const Study& study, const Console& console) {
 
 void mesh_task(const std::vector<std::string>& arguments, const ChildLines& lines) {
   const Study study = read_study(arguments.at(1), {arguments.begin() + 2, arguments.end()});
+  const auto when_read = [&](double nodes) { limit_meshing(study.structure->file(), nodes); };
   mesher::write_mesh(arguments.front(),
-                     {.mesh = mesh_here(study, lines, lift_limits), .provenance = {}});
+                     {.mesh = mesh_here(study, lines, when_read), .provenance = {}});
 }
 
 }  // namespace flexneck::pipeline

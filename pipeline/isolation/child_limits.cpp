@@ -63,12 +63,15 @@ void limit_this_process(const ChildLimits& limits, pid_t parent) {
   alarm(limits.clock_s);
 }
 
-void lift_limits() {
+void limit_what_follows(unsigned processor_s) {
   rlimit memory{};
   getrlimit(RLIMIT_DATA, &memory);
   limit(RLIMIT_DATA, memory.rlim_max, memory.rlim_max);
-  limit(RLIMIT_CPU, RLIM_INFINITY, RLIM_INFINITY);
-  alarm(0);
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto before = static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
+  limit(RLIMIT_CPU, before + processor_s, RLIM_INFINITY);
+  alarm(kClockPerProcessor * processor_s);
 }
 
 }  // namespace flexneck::pipeline

@@ -11,7 +11,7 @@ struct ChildLimits {
   std::uint64_t memory_bytes = 0;  ///< beyond what the program has when it starts
   unsigned processor_s = 0;        ///< 0: any time
   unsigned clock_s = 0;            ///< likewise; ends one that waits, others may use the machine
-  std::uint64_t later_memory_bytes = 0;  ///< once lift_limits() was called; 0: no more than before
+  std::uint64_t later_memory_bytes = 0;  ///< once what follows is limited; 0: no more than before
 };
 
 /// Limits this process, without core dumps, and ends it together with its parent.
@@ -19,7 +19,12 @@ struct ChildLimits {
 /// @throws ComputationError if the system refuses a limit.
 void limit_this_process(const ChildLimits& limits, pid_t parent);
 
-/// For what comes once a file is read: takes the limits of time away, and raises that of memory.
-void lift_limits();
+/// For what comes once a file is read: limits the time anew, from now on, and raises the limit of
+/// memory.
+/// @param processor_s  at least 1; on the clock it may take kClockPerProcessor times as long
+void limit_what_follows(unsigned processor_s);
+
+/// The machine may have other work.
+constexpr unsigned kClockPerProcessor = 20;
 
 }  // namespace flexneck::pipeline

@@ -10,6 +10,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <string_view>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
@@ -68,9 +69,16 @@ class FileActions {
   posix_spawn_file_actions_t actions_{};
 };
 
-ChildEnd end_of(int status) {
-  if (WIFSIGNALED(status)) return {.exit_code = 0, .signal = WTERMSIG(status)};
-  return {.exit_code = WEXITSTATUS(status), .signal = 0};
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+ChildEnd end_of(int status, const rusage& used, double clock_s) {
+  const bool is_signal = WIFSIGNALED(status);
+  return {.exit_code = is_signal ? 0 : WEXITSTATUS(status),
+          .signal = is_signal ? WTERMSIG(status) : 0,
+          .processor_s = seconds(used.ru_utime) + seconds(used.ru_stime),
+          .clock_s = clock_s};
 }
 
 }  // namespace
@@ -133,11 +141,12 @@ void ChildProcess::read_lines(const LineReceiver& on_line) {
 
 ChildEnd ChildProcess::wait(const LineReceiver& on_line) {
   int status = 0;
+  rusage used{};
   pid_t ended = 0;
   while (ended == 0) {
     // The output ends with the process, unless a program that it started still holds it.
     if (has_output(kLook_ms)) read_lines(on_line);
-    ended = waitpid(id_, &status, is_open_ ? WNOHANG : 0);
+    ended = wait4(id_, &status, is_open_ ? WNOHANG : 0, &used);
     if (ended < 0 && errno == EINTR) ended = 0;
   }
   if (ended < 0) throw ComputationError("a child process is lost: the system has ended it");
@@ -145,7 +154,8 @@ ChildEnd ChildProcess::wait(const LineReceiver& on_line) {
   cleanup_.reset();
   while (has_output(0)) read_lines(on_line);
   if (!unread_.empty()) on_line(std::exchange(unread_, {}));
-  return end_of(status);
+  const std::chrono::duration<double> clock = std::chrono::steady_clock::now() - start_;
+  return end_of(status, used, clock.count());
 }
 
 }  // namespace flexneck::pipeline

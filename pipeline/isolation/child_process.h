@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -15,6 +16,8 @@ namespace flexneck::pipeline {
 struct ChildEnd {
   int exit_code = 0;
   int signal = 0;  ///< 0: none
+  double processor_s = 0;
+  double clock_s = 0;
 };
 
 /// Another program as a process of its own, started by posix_spawn: never by fork, which is not
@@ -42,6 +45,7 @@ class ChildProcess {
   void read_lines(const LineReceiver& on_line);
 
   pid_t id_ = -1;  ///< -1: it has ended
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SignalCleanup cleanup_;
   int output_ = -1;      ///< end of the pipe that this process reads
   bool is_open_ = true;  ///< whether more may come from there

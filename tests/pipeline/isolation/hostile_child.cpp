@@ -29,6 +29,12 @@ void compute(const Arguments& /*none*/, const ChildLines& /*lines*/) {
   }
 }
 
+/// Beyond the time that it had at first.
+void compute_later(const Arguments& none, const ChildLines& lines) {
+  limit_what_follows(2);
+  compute(none, lines);
+}
+
 void sleep_on(const Arguments& /*none*/, const ChildLines& lines) {
   lines.detail(std::to_string(getpid()));
   while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -55,7 +61,7 @@ void recurse(const Arguments& /*none*/, const ChildLines& lines) {
 
 /// 300 MB, once what is read is read.
 void allocate_later(const Arguments& /*none*/, const ChildLines& lines) {
-  lift_limits();
+  limit_what_follows(60);
   const std::vector<char> block(std::size_t{300} << 20U, 'x');
   lines.detail(std::to_string(block.back()));
 }
@@ -96,6 +102,7 @@ void have_child(const Arguments& /*none*/, const ChildLines& lines) {
 int main(int argc, char** argv) {
   child_main({argv, static_cast<std::size_t>(argc)}, {{"crash", crash},
                                                       {"compute", compute},
+                                                      {"compute later", compute_later},
                                                       {"sleep", sleep_on},
                                                       {"allocate", allocate},
                                                       {"allocate later", allocate_later},

@@ -118,11 +118,16 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
   const std::string vector = step.substr(comma + 1, step.find(')', comma) - comma - 1);
   std::string crossed = step;
   crossed.replace(line + 10, comma - line - 10, vector);
-  refused("crossed.step", crossed, "OpenCASCADE crashes on it (Segmentation fault)");
+  refused("crossed.step", crossed, "OpenCASCADE or gmsh crashes on it (Segmentation fault)");
 
   // OpenCASCADE looks for the end of an edge in what is not there.
   refused("short.brep", brep.substr(0, brep.find("\nEd\n") + 8),
-          "OpenCASCADE is not done with it after 10 s");
+          "OpenCASCADE or gmsh is not done with it after 10 s");
+
+  // Read without complaint: an edge that is far away in the parameters of its face.
+  refused("far.brep",
+          with(brep, "Curve2ds 24\n1 0 0 1 0 \n1 0 0 ", "Curve2ds 24\n1 0 0 1 0 \n1 1e19 0 "),
+          "OpenCASCADE or gmsh is not done with it after 9 s");
 
   // A block of 2^31 - 1 nodes, of which there is none.
   std::istringstream lines(msh.substr(msh.find("$Nodes\n") + 7));
@@ -137,6 +142,15 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
   const std::size_t count = unv.find("10\n", unv.find("  2412\n"));
   REQUIRE(count != std::string::npos);
   refused("nine.unv", unv.substr(0, count) + " 9\n" + unv.substr(count + 3), "");
+}
+
+TEST_CASE("a shape whose mesh would not fit into memory is refused before it is meshed") {
+  const TemporaryFolder folder;
+  write_box(folder.path());
+  write_study(folder / "study.toml", "file = \"box.step\"", "volume_1");
+  // 16 cm^3 in cubes of a micrometre, with seven nodes each.
+  check_refused(folder.path(), "mesh study.toml --set 'mesh.size=1 um'",
+                "box.step: gmsh cannot mesh it: a mesh of about 1.12e+14 nodes takes about");
 }
 
 TEST_CASE("what OpenCASCADE complains of while it makes a shape of it is a warning") {
