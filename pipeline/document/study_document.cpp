@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "geometry/foundation/names.h"
@@ -15,26 +17,63 @@ namespace flexneck::pipeline {
 struct StudyDocument::Impl {
   toml::table root;
   std::vector<InputFile> files;
+  std::span<const Key> keys;
   StudyRecords records;
 };
 
+namespace {
+
+/// Of a fallback, which is in SI units.
+double number_in(std::string_view text) { return std::stod(std::string(text)); }
+
+/// The unit of a quantity whose kinds measure different things is chosen by the reader.
+std::string unit_in(const Key& row, const std::string& wanted) {
+  std::string_view rest = row.unit;
+  if (wanted.empty() && rest.find('|') == std::string_view::npos) return std::string(rest);
+  for (std::size_t bar = 0; bar != std::string_view::npos;) {
+    bar = rest.find(" | ");
+    if (rest.substr(0, bar) == wanted) return wanted;
+    if (bar != std::string_view::npos) rest.remove_prefix(bar + 3);
+  }
+  throw std::logic_error("the table of keys has no unit '" + wanted + "' for " +
+                         std::string(row.name));
+}
+
+}  // namespace
+
 StudyTable::StudyTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
 
-bool StudyTable::has(const std::string& key) const { return node_->find(key) != nullptr; }
+bool StudyTable::has(const std::string& key) const {
+  node_->row(key);
+  return node_->find(key) != nullptr;
+}
 
 bool StudyTable::is_text(const std::string& key) const { return node_->value(key).is_string(); }
 
 std::string StudyTable::text(const std::string& key) const {
+  const Key& row = node_->row(key, KeyType::text);
+  if (node_->falls_back(key, row)) return row.fallback == kNone ? "" : std::string(row.fallback);
   return node_->scalar<std::string>(key, "a text in quotes");
 }
 
 std::string StudyTable::text_or(const std::string& key, const std::string& fallback) const {
   if (has(key)) return text(key);
-  node_->record_default(key, fallback.empty() ? "-" : fallback);
+  node_->record_default(key, fallback.empty() ? std::string(kNone) : fallback);
   return fallback;
 }
 
+std::size_t StudyTable::choice(const std::string& key) const {
+  const std::vector<std::string> names = node_->row(key).details.choices();
+  const std::string name = text(key);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::string expected = "expected one of";
+  for (const std::string& each : names) expected += " \"" + each + "\"";
+  refuse(key, expected + ", found \"" + name + "\"" + did_you_mean(names, name));
+}
+
 std::vector<std::string> StudyTable::texts(const std::string& key) const {
+  if (node_->falls_back(key, node_->row(key, KeyType::texts))) return {};
   std::vector<std::string> values;
   for (const toml::node& node : node_->array(key, 0)) {
     const auto value = node.value_exact<std::string>();
@@ -44,37 +83,38 @@ std::vector<std::string> StudyTable::texts(const std::string& key) const {
   return values;
 }
 
-std::vector<std::string> StudyTable::texts_or_none(const std::string& key) const {
-  if (has(key)) return texts(key);
-  node_->record_default(key, "-");
-  return {};
-}
-
-bool StudyTable::flag_or(const std::string& key, bool fallback) const {
-  if (has(key)) return node_->scalar<bool>(key, "true or false");
-  node_->record_default(key, fallback ? "true" : "false");
-  return fallback;
+bool StudyTable::flag(const std::string& key) const {
+  const Key& row = node_->row(key, KeyType::flag);
+  if (node_->falls_back(key, row)) return row.fallback == "true";
+  return node_->scalar<bool>(key, "true or false");
 }
 
 bool StudyTable::is_list(const std::string& key) const { return node_->value(key).is_array(); }
 
-int StudyTable::count(const std::string& key, int least) const {
+int StudyTable::count(const std::string& key) const {
+  const Key& row = node_->row(key, KeyType::count);
+  if (node_->falls_back(key, row)) return static_cast<int>(number_in(row.fallback));
   const auto value = node_->scalar<std::int64_t>(key, "a whole number");
-  if (value < least || value > std::numeric_limits<int>::max()) {
-    refuse(key, "expected a whole number of at least " + std::to_string(least) + ", found " +
+  const Range& range = row.details.range;
+  if (!range.contains(static_cast<double>(value)) || value > std::numeric_limits<int>::max()) {
+    refuse(key, "expected a whole number of at least " + exact_text(range.low) + ", found " +
                     std::to_string(value));
   }
   return static_cast<int>(value);
 }
 
-int StudyTable::count_or(const std::string& key, int least, int fallback) const {
-  if (has(key)) return count(key, least);
+int StudyTable::count_or(const std::string& key, int fallback) const {
+  if (has(key)) return count(key);
   node_->record_default(key, std::to_string(fallback));
   return fallback;
 }
 
 double StudyTable::number(const std::string& key) const {
-  return node_->number_of(node_->value(key), key);
+  const Key& row = node_->row(key, KeyType::number);
+  if (node_->falls_back(key, row)) return number_in(row.fallback);
+  const double value = node_->number_of(node_->value(key), key);
+  node_->require_within(key, row.details.range, value);
+  return value;
 }
 
 double StudyTable::number_or(const std::string& key, double fallback) const {
@@ -84,26 +124,27 @@ double StudyTable::number_or(const std::string& key, double fallback) const {
 }
 
 std::vector<double> StudyTable::numbers(const std::string& key, std::size_t size) const {
+  const Range& range = node_->row(key, KeyType::numbers).details.range;
   std::vector<double> values;
   for (const toml::node& node : node_->array(key, size)) {
     values.push_back(node_->number_of(node, key));
+    node_->require_within(key, range, values.back());
   }
   return values;
 }
 
-double StudyTable::quantity(const std::string& key, const std::string& si_unit) const {
-  return node_->quantity_of(node_->value(key), key, si_unit);
+double StudyTable::quantity(const std::string& key, const std::string& unit) const {
+  const Key& row = node_->row(key, KeyType::quantity);
+  const std::string si_unit = unit_in(row, unit);
+  if (node_->falls_back(key, row, si_unit)) return number_in(row.fallback);
+  const double value = node_->quantity_of(node_->value(key), key, si_unit);
+  node_->require_within(key, row.details.range, value);
+  return value;
 }
 
-double StudyTable::quantity_or(const std::string& key, const std::string& si_unit,
-                               double fallback) const {
-  if (has(key)) return quantity(key, si_unit);
-  node_->record_default(key, exact_text(fallback) + " " + si_unit);
-  return fallback;
-}
-
-std::vector<double> StudyTable::quantities(const std::string& key, const std::string& si_unit,
-                                           std::size_t size) const {
+std::vector<double> StudyTable::quantities(const std::string& key, std::size_t size,
+                                           const std::string& unit) const {
+  const std::string si_unit = unit_in(node_->row(key, KeyType::quantities), unit);
   std::vector<double> values;
   for (const toml::node& node : node_->array(key, size)) {
     values.push_back(node_->quantity_of(node, key, si_unit));
@@ -111,9 +152,15 @@ std::vector<double> StudyTable::quantities(const std::string& key, const std::st
   return values;
 }
 
+std::filesystem::path StudyTable::file(const std::string& key) const {
+  node_->row(key, KeyType::file);
+  return folder_of(key) / node_->scalar<std::string>(key, "a text in quotes");
+}
+
 StudyTable StudyTable::table(const std::string& key) const {
   auto child = std::make_shared<Node>();
   child->records = node_->records;
+  child->keys = node_->row(key, KeyType::table).keys;
   child->path = node_->holder(key).dotted(key);
   if (const toml::node* const node = node_->find(key)) {
     child->table = node->as_table();
@@ -124,12 +171,14 @@ StudyTable StudyTable::table(const std::string& key) const {
 
 std::vector<StudyTable> StudyTable::tables(const std::string& key) const {
   std::vector<StudyTable> result;
+  const std::span<const Key> rows = node_->row(key, KeyType::tables).keys;
   const toml::node* const node = node_->find(key);
   if (node == nullptr) return result;
   if (!node->is_array_of_tables()) refuse(key, "expected tables [[" + node_->dotted(key) + "]]");
   for (const toml::node& element : *node->as_array()) {
     auto child = std::make_shared<Node>();
     child->records = node_->records;
+    child->keys = rows;
     child->table = element.as_table();
     const std::string name = (*child->table)["name"].value_or(std::to_string(result.size() + 1));
     child->path = node_->dotted(key) + "." + name;
@@ -168,9 +217,12 @@ void StudyTable::refuse(const std::string& key, const std::string& problem) cons
   node_->refuse(key, problem);
 }
 
+std::span<const Key> StudyTable::key_rows() const { return node_->keys; }
+
 StudyDocument::StudyDocument(const std::filesystem::path& path,
-                             const std::vector<std::string>& settings)
+                             const std::vector<std::string>& settings, std::span<const Key> keys)
     : impl_(std::make_shared<Impl>()) {
+  impl_->keys = keys;
   impl_->root = parse_with_includes(path, impl_->files);
   for (const std::string& setting : settings) apply_setting(impl_->root, setting);
 }
@@ -178,6 +230,7 @@ StudyDocument::StudyDocument(const std::filesystem::path& path,
 StudyTable StudyDocument::root() const {
   auto node = std::make_shared<StudyTable::Node>();
   node->table = &impl_->root;
+  node->keys = impl_->keys;
   // Shares the ownership of the document: a table may outlive it.
   node->records = std::shared_ptr<StudyRecords>(impl_, &impl_->records);
   return StudyTable(std::move(node));

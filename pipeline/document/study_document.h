@@ -3,17 +3,22 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "geometry/foundation/provenance.h"
+#include "pipeline/document/key.h"
 
 namespace flexneck::pipeline {
 
-/// One table of a study. Every getter checks kind and unit and remembers that the key is known, so
-/// that finish() can refuse the keys that nobody asked for. A value is written plainly or, with its
-/// origin, as { value = …, origin = "published", note = "…" }. All members throw InputError with
-/// file, line, column, dotted key, what was expected and what was found.
+/// One table of a study. What a key means stands in the format's table of keys (key.h): a getter
+/// checks type, unit and range, returns the fallback of a key that is not there, and remembers that
+/// the key is known, so that finish() can refuse the keys that nobody asked for. A value is written
+/// plainly or, with its origin, as { value = …, origin = "published", note = "…" }. All members
+/// throw InputError with file, line, column, dotted key, what was expected and what was found; and
+/// std::logic_error where a reader asks for a key that is not in the table of keys, or for another
+/// type.
 class StudyTable {
  public:
   struct Node;
@@ -23,30 +28,31 @@ class StudyTable {
   /// True if the value is a text in quotes.
   bool is_text(const std::string& key) const;
   std::string text(const std::string& key) const;
+  /// @param fallback  of a key for which it depends on others
   std::string text_or(const std::string& key, const std::string& fallback) const;
+  /// Position of a text among the choices of its key.
+  std::size_t choice(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
-  std::vector<std::string> texts_or_none(const std::string& key) const;
-
-  bool flag_or(const std::string& key, bool fallback) const;
-
-  /// A whole number of at least `least`.
-  int count(const std::string& key, int least) const;
-  int count_or(const std::string& key, int least, int fallback) const;
+  bool flag(const std::string& key) const;
+  /// A whole number.
+  int count(const std::string& key) const;
+  int count_or(const std::string& key, int fallback) const;
 
   /// A pure number, written without a unit.
   double number(const std::string& key) const;
   double number_or(const std::string& key, double fallback) const;
-  /// A list of them; `size` 0 means any number.
-  std::vector<double> numbers(const std::string& key, std::size_t size) const;
+  /// A list of them; `size` 0 means that of the key's row.
+  std::vector<double> numbers(const std::string& key, std::size_t size = 0) const;
   /// True if the value is a list.
   bool is_list(const std::string& key) const;
 
-  /// A dimensional number such as "0.4 in", returned in `si_unit`.
-  double quantity(const std::string& key, const std::string& si_unit) const;
-  double quantity_or(const std::string& key, const std::string& si_unit, double fallback) const;
-  /// A list of them; `size` 0 means any number.
-  std::vector<double> quantities(const std::string& key, const std::string& si_unit,
-                                 std::size_t size) const;
+  /// A dimensional number such as "0.4 in", returned in SI units.
+  /// @param unit  of those of the key; may be empty if it has one
+  double quantity(const std::string& key, const std::string& unit = {}) const;
+  std::vector<double> quantities(const std::string& key, std::size_t size = 0,
+                                 const std::string& unit = {}) const;
+  /// The path that a key names, from the folder of the file that holds the key.
+  std::filesystem::path file(const std::string& key) const;
 
   /// A sub-table; an absent one is empty.
   StudyTable table(const std::string& key) const;
@@ -63,6 +69,8 @@ class StudyTable {
   void finish() const;
   /// "<file>:<line>:<column>: <dotted key>: <problem>"
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const;
+  /// What the keys of this table may be.
+  std::span<const Key> key_rows() const;
 
  private:
   std::shared_ptr<Node> node_;
@@ -74,8 +82,10 @@ class StudyDocument {
  public:
   /// `settings` are "dotted.key=value"; an element of an array of tables is addressed by its name,
   /// as in "case.flexion-60.duration=0.5 s".
+  /// @param keys  of the format; they outlive the document and its tables
   /// @throws InputError for a file that is missing or does not parse (line and column).
-  StudyDocument(const std::filesystem::path& path, const std::vector<std::string>& settings);
+  StudyDocument(const std::filesystem::path& path, const std::vector<std::string>& settings,
+                std::span<const Key> keys);
 
   StudyTable root() const;
   /// The files read, in the order of inclusion, with the hash of their contents.

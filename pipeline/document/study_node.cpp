@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry/foundation/error.h"
@@ -16,6 +17,19 @@ namespace flexneck::pipeline {
 
 std::string StudyTable::Node::dotted(const std::string& key) const {
   return path.empty() ? key : path + "." + key;
+}
+
+const Key& StudyTable::Node::row(const std::string& key) const {
+  const Key* const found = find_key(keys, key);
+  if (found == nullptr) throw std::logic_error("the table of keys has no row of " + dotted(key));
+  return *found;
+}
+
+const Key& StudyTable::Node::row(const std::string& key, KeyType type) const {
+  const Key& found = row(key);
+  if (!serves_as(found.type, type))
+    throw std::logic_error("the table of keys has another type for " + dotted(key));
+  return found;
 }
 
 const toml::node* StudyTable::Node::find(const std::string& key) {
@@ -99,12 +113,31 @@ void StudyTable::Node::record(const std::string& key, const toml::node& value,
   add_new(records->parameters, std::move(parameter));
 }
 
-void StudyTable::Node::record_default(const std::string& key, const std::string& value) {
+void StudyTable::Node::record_default(const std::string& key, const std::string& fallback) {
   find(key);
   // A key that is in none of the layers belongs to the lowest, which they share.
   const Node* lowest = this;
   while (lowest->below) lowest = lowest->below.get();
-  add_new(records->defaults, {lowest->dotted(key), value, Origin::synthetic, {}});
+  add_new(records->defaults, {lowest->dotted(key), fallback, row(key).details.origin, {}});
+}
+
+bool StudyTable::Node::falls_back(const std::string& key, const Key& row, const std::string& unit) {
+  if (row.fallback == kRequired || find(key) != nullptr) return false;
+  // Only texts can be none.
+  const bool is_text = row.type == KeyType::text || row.type == KeyType::texts;
+  if (row.fallback == kNone && !is_text) return false;
+  const bool is_number =
+      row.type == KeyType::count || row.type == KeyType::number || row.type == KeyType::quantity;
+  const std::string fallback(row.fallback);
+  record_default(key, (is_number ? exact_text(std::stod(fallback)) : fallback) +
+                          (unit.empty() ? "" : " " + unit));
+  return true;
+}
+
+void StudyTable::Node::require_within(const std::string& key, const Range& range,
+                                      double value) const {
+  if (range.contains(value)) return;
+  refuse(key, "expected " + range.text() + ", found " + exact_text(value));
 }
 
 const toml::node& StudyTable::Node::value(const std::string& key) {
@@ -151,6 +184,7 @@ double StudyTable::Node::quantity_of(const toml::node& node, const std::string& 
 }
 
 const toml::array& StudyTable::Node::array(const std::string& key, std::size_t size) {
+  if (size == 0) size = row(key).details.size;
   const toml::array* const found = value(key).as_array();
   if (found == nullptr || (size != 0 && found->size() != size)) {
     refuse(key, "expected a list" +

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,14 @@ struct StudyTable::Node {
   const toml::table* table = nullptr;  ///< kept alive by the owner of `records`; null if absent
   std::shared_ptr<StudyRecords> records;
   std::string path;
+  std::span<const Key> keys;  ///< what there may be
   std::vector<std::string> known;
   std::shared_ptr<Node> below;  ///< asked for keys that are not here; may be null
 
   std::string dotted(const std::string& key) const;
+  /// What a key is. @throws std::logic_error if there is no such row or it is of another type.
+  const Key& row(const std::string& key) const;
+  const Key& row(const std::string& key, KeyType type) const;
   /// The node of a key, labels and all; null if there is none.
   const toml::node* find(const std::string& key);
   /// The node that a key is found in; this one if it is nowhere.
@@ -35,12 +40,16 @@ struct StudyTable::Node {
 
   /// The value of a key, out of its { value, origin, note } where it has one; notes the parameter.
   const toml::node& value(const std::string& key);
-  void record_default(const std::string& key, const std::string& value);
+  /// @param fallback  of the key's row, or one that depends on other keys
+  void record_default(const std::string& key, const std::string& fallback);
+  /// True for a key that is not there and has a fallback, which is recorded.
+  bool falls_back(const std::string& key, const Key& row, const std::string& unit = {});
 
   double number_of(const toml::node& node, const std::string& key) const;
   double quantity_of(const toml::node& node, const std::string& key,
                      const std::string& si_unit) const;
-  /// @param size  0 means any
+  void require_within(const std::string& key, const Range& range, double value) const;
+  /// @param size  0 means that of the row
   const toml::array& array(const std::string& key, std::size_t size);
 
   template <typename T>

@@ -2,7 +2,6 @@
 #include "pipeline/folder/results_folder.h"
 
 #include <algorithm>
-#include <array>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/isolation/result_files.h"
@@ -14,13 +13,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What experiments know by the modes only, and what a case has to name to depend on it.
-constexpr std::array<const char*, 13> kNotOfEveryCase = {
-    "geometry.", "mesh.",    "modes.", "substructures.", "interface.",  "pendulum.",   "static.",
-    "case.",     "variant.", "force.", "pulse.",         "rigid_neck.", "head_spring."};
+UsedBy used_by(const Parameter& parameter) {
+  return find_dotted_key(study_keys(), parameter.key).used_by;
+}
 
-/// Of those, what a case does name. A variant also has the values of the case it is made of.
-std::vector<std::string> used_by(const CaseSection& experiment) {
+/// Beginnings of the keys that a case names. A variant also has the values of the case it is made
+/// of.
+std::vector<std::string> named_by(const CaseSection& experiment) {
   const std::string& own = experiment.variant_of.empty() ? experiment.name : experiment.variant_of;
   std::vector<std::string> prefixes = {
       experiment.kind == CaseSection::Kind::pendulum ? "pendulum." : "static.",
@@ -36,11 +35,10 @@ std::vector<std::string> used_by(const CaseSection& experiment) {
   return prefixes;
 }
 
-/// Whether a value changes a result: not how it is computed, nor what is stored beside it.
+/// What other programs write of their keys may not be in the table.
 bool matters(const std::string& key) {
-  constexpr std::array<const char*, 4> kOfNoResult = {"modes.certify", "modes.solver",
-                                                      "mesh.partitions", "mesh.node_order"};
-  return std::find(kOfNoResult.begin(), kOfNoResult.end(), key) == kOfNoResult.end();
+  const Key* const row = find_dotted_key(study_keys(), key).key;
+  return row == nullptr || row->details.changes_results;
 }
 
 const Parameter* find(const std::vector<Parameter>& parameters, const std::string& key) {
@@ -66,11 +64,11 @@ bool begins_with_one_of(const std::string& key, const Prefixes& prefixes) {
                      [&](const auto& prefix) { return key.starts_with(prefix); });
 }
 
-Provenance provenance_using(const Study& study, const std::vector<std::string>& used) {
+Provenance provenance_using(const Study& study, const std::vector<std::string>& named) {
   Provenance provenance = provenance_of(study);
   std::erase_if(provenance.parameters, [&](const Parameter& parameter) {
-    return begins_with_one_of(parameter.key, kNotOfEveryCase) &&
-           !begins_with_one_of(parameter.key, used);
+    return used_by(parameter) != UsedBy::all_experiments &&
+           !begins_with_one_of(parameter.key, named);
   });
   return provenance;
 }
@@ -114,12 +112,8 @@ Provenance provenance_of(const Study& study, const std::vector<std::string>& pre
 }
 
 std::vector<Parameter> mesh_values(const Study& study) {
-  std::vector<Parameter> values = provenance_of(study, {"geometry.", "mesh."}).parameters;
-  std::erase_if(values, [](const Parameter& parameter) {
-    return parameter.key.starts_with("geometry.materials.") &&
-           (parameter.key.ends_with(".formulation") ||
-            parameter.key.ends_with(".static_modulus_ratio"));
-  });
+  std::vector<Parameter> values = study.parameters;
+  std::erase_if(values, [](const Parameter& each) { return used_by(each) != UsedBy::mesh; });
   return values;
 }
 
@@ -131,22 +125,27 @@ Provenance mesh_provenance(const Study& study) {
 }
 
 Provenance modes_provenance(const Study& study) {
-  return provenance_of(study, {"geometry.", "mesh.", "modes.", "substructures.", "interface.",
-                               "body." + study.modes.attached_body + "."});
+  Provenance provenance = provenance_of(study.files, study.parameters);
+  const std::string attached = "body." + study.modes.attached_body + ".";
+  std::erase_if(provenance.parameters, [&](const Parameter& each) {
+    const UsedBy user = used_by(each);
+    return user != UsedBy::mesh && user != UsedBy::modes && !each.key.starts_with(attached);
+  });
+  return provenance;
 }
 
 Provenance experiment_provenance(const Study& study, CaseSection::Kind kind) {
   std::vector<std::string> used;
   for (const CaseSection& experiment : study.cases) {
     if (experiment.kind != kind) continue;
-    const std::vector<std::string> more = used_by(experiment);
+    const std::vector<std::string> more = named_by(experiment);
     used.insert(used.end(), more.begin(), more.end());
   }
   return provenance_using(study, used);
 }
 
 Provenance case_provenance(const Study& study, const CaseSection& experiment) {
-  return provenance_using(study, used_by(experiment));
+  return provenance_using(study, named_by(experiment));
 }
 
 void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,

@@ -16,10 +16,29 @@ using multibody::Model;
 namespace {
 
 /// In the order of Quantity.
-const std::vector<std::string> kQuantities = {
-    "position", "velocity",         "acceleration",         "rotation_vector", "quaternion",
-    "angle",    "angular_velocity", "angular_acceleration", "accelerometer",   "force",
-    "moment",   "load_cell_force",  "load_cell_moment",     "modal",           "energy"};
+std::vector<std::string> quantities() {
+  return {"position", "velocity",         "acceleration",         "rotation_vector", "quaternion",
+          "angle",    "angular_velocity", "angular_acceleration", "accelerometer",   "force",
+          "moment",   "load_cell_force",  "load_cell_moment",     "modal",           "energy"};
+}
+
+std::vector<std::string> filters() { return {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}; }
+
+constexpr Key kKeys[] = {
+    Key::text("name", kRequired, "Name of the channel"),
+    Key::text("quantity", kRequired, "What is measured", {.choices = quantities}),
+    Key::text("marker", kNone, "Of a motion: the marker that moves"),
+    Key::text("joint", kNone, "Of a load: the joint that carries it"),
+    Key::text("body", kNone, "Of modal coordinates: the deformable body"),
+    Key::text(
+        "relative_to", kNone,
+        "Marker from whose moving frame the motion is seen; the world if the key is not there"),
+    Key::text(
+        "axes", kNone,
+        "Marker along whose axes the components are; those of relative_to if the key is not there"),
+    Key::numbers("axis", kNone, "Of an angle: its axis", {.size = 3}),
+    Key::text("filter", kNone, "Filter of SAE J211", {.choices = filters}),
+};
 
 std::optional<std::size_t> marker_or_none(const StudyTable& table, const std::string& key,
                                           const Model& model) {
@@ -49,8 +68,7 @@ std::optional<ChannelClass> read_filter(const StudyTable& table, double interval
   if (!table.has("filter")) return std::nullopt;
   constexpr std::array kClasses = {ChannelClass::cfc60, ChannelClass::cfc180, ChannelClass::cfc600,
                                    ChannelClass::cfc1000};
-  const ChannelClass cfc =
-      kClasses.at(choice(table, "filter", {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}));
+  const ChannelClass cfc = kClasses.at(table.choice("filter"));
   try {  // The filter itself knows what it needs.
     multibody::cfc_filtered(Eigen::Vector2d::Zero(), interval_s, cfc);
   } catch (const InputError& error) {
@@ -61,10 +79,12 @@ std::optional<ChannelClass> read_filter(const StudyTable& table, double interval
 
 }  // namespace
 
+std::span<const Key> channel_keys() { return kKeys; }
+
 ChannelSpec read_channel(const StudyTable& table, const Model& model, double interval_s) {
   ChannelSpec spec;
   spec.name = table.text("name");
-  spec.quantity = static_cast<Quantity>(choice(table, "quantity", kQuantities));
+  spec.quantity = static_cast<Quantity>(table.choice("quantity"));
   switch (spec.quantity) {
     case Quantity::force:
     case Quantity::moment:

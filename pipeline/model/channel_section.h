@@ -10,6 +10,7 @@ namespace flexneck::pipeline {
 /// One [[channel]].
 /// @param interval_s  of the output: a filter needs it short enough
 /// @throws InputError with file, line, column and key.
+std::span<const Key> channel_keys();
 ChannelSpec read_channel(const StudyTable& table, const multibody::Model& model, double interval_s);
 
 }  // namespace flexneck::pipeline

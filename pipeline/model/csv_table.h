@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "pipeline/document/key.h"
 
 namespace flexneck::pipeline {
 
@@ -11,6 +14,13 @@ namespace flexneck::pipeline {
 struct TableColumns {
   std::vector<double> x, y;
 };
+
+/// Of a table that may have two of its lists from a file.
+inline constexpr std::array<Key, 2> kCsvKeys = {{
+    Key::file("table", kNone,
+              "In place of the lists: a CSV file, its first line with names and units"),
+    Key::text("column", kNone, "Column of that file, where it has more than two"),
+}};
 
 /// Reads two columns of a CSV file. Its first line names the columns with their units, such as
 /// "time [ms], acceleration [gn]"; x is the first. Commas stand between cells, decimals have a

@@ -16,6 +16,39 @@ using multibody::RigidBody;
 
 namespace {
 
+std::vector<std::string> kinds() { return {"ground", "driven", "rigid", "deformable"}; }
+
+constexpr auto kOwnKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the body"),
+        Key::text("kind", kRequired, "What the body is", {.choices = kinds}),
+        Key::quantities(
+            "position", "m", kNone,
+            "Where its frame is at the start, in the world; the joints place it if neither "
+            "this nor rotation is there",
+            {.size = 3}),
+        Key::quantities("rotation", "rad", kNone,
+                        "How its frame is turned at the start: a rotation vector", {.size = 3}),
+        Key::quantities(
+            "velocity", "m/s", kNone,
+            "Velocity of its origin at the start, in the world; that of what it hangs on if "
+            "neither this nor angular_velocity is there",
+            {.size = 3}),
+        Key::quantities("angular_velocity", "rad/s", kNone,
+                        "Angular velocity at the start, in its own axes", {.size = 3}),
+        Key::quantities("inertia_rotation", "rad", kNone,
+                        "Of a rigid body: how the axes of its inertia are turned against its frame",
+                        {.size = 3}),
+        Key::file("modes_file", kNone, "Of a deformable body: its file of modes"),
+        Key::texts("modes", kNone, "Names of the modes that are used; all if the key is not there"),
+        Key::one_or_numbers("damping_ratio", kNone, "Damping ratio of all modes, or of each"),
+        Key::quantity("damping_time", "s", kNone,
+                      "Besides or in its place: damping is this time multiplied by the stiffness"),
+        Key::numbers("offset", kNone, "Permanent set of the modal coordinates, in kg^(1/2) m"),
+        Key::flag("stress_stiffening", "false", "Whether the body's loads stiffen and soften it"),
+    }),
+    kRigidBodyKeys);
+
 /// The inertia's axes may be turned against the body's.
 RigidBody rigid_body(const StudyTable& table) {
   RigidBody body = read_rigid(table);
@@ -31,7 +64,7 @@ Eigen::VectorXd damping_ratios(const StudyTable& table, const Eigen::VectorXd& f
   const Eigen::Index modes = frequencies_Hz.size();
   Eigen::VectorXd ratios = Eigen::VectorXd::Zero(modes);
   if (table.has("damping_time")) {
-    ratios = std::numbers::pi * table.quantity("damping_time", "s") * frequencies_Hz;
+    ratios = std::numbers::pi * table.quantity("damping_time") * frequencies_Hz;
     if (!table.has(key)) return ratios;
   }
   if (!table.is_list(key)) return ratios.array() + table.number(key);
@@ -40,7 +73,7 @@ Eigen::VectorXd damping_ratios(const StudyTable& table, const Eigen::VectorXd& f
 }
 
 DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
-  const std::filesystem::path path = table.folder_of("modes_file") / table.text("modes_file");
+  const std::filesystem::path path = table.file("modes_file");
   fe_modal::ModalBody all = read_modal_body(path).body;
   assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
   DeformableBody body;
@@ -54,7 +87,7 @@ DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
     const std::vector<double> offset = table.numbers("offset", static_cast<std::size_t>(modes));
     body.offset = Eigen::Map<const Eigen::VectorXd>(offset.data(), modes);
   }
-  body.stress_stiffening = table.flag_or("stress_stiffening", false);
+  body.stress_stiffening = table.flag("stress_stiffening");
   if (body.stress_stiffening && !body.modes.geometric_stiffness)
     table.refuse("stress_stiffening",
                  path.string() +
@@ -79,23 +112,31 @@ void add_interfaces(multibody::Model& model, std::size_t index) {
 void read_start(const StudyTable& table, bool is_free, Assembly& assembly) {
   multibody::Body& body = assembly.model.bodies.back();
   const bool posed = table.has("position") || table.has("rotation");
-  if (table.has("position")) body.initial_pose.position_m = quantity_vector(table, "position", "m");
+  if (table.has("position")) body.initial_pose.position_m = quantity_vector(table, "position");
   body.initial_pose.rotation = rotation_or_none(table, "rotation");
   assembly.posed.push_back(posed || !is_free);
   const bool moving = is_free && (table.has("velocity") || table.has("angular_velocity"));
   if (moving && table.has("velocity"))
-    body.initial_velocity_m_s = quantity_vector(table, "velocity", "m/s");
+    body.initial_velocity_m_s = quantity_vector(table, "velocity");
   if (moving && table.has("angular_velocity"))
-    body.initial_angular_velocity_rad_s = quantity_vector(table, "angular_velocity", "rad/s");
+    body.initial_angular_velocity_rad_s = quantity_vector(table, "angular_velocity");
   assembly.moving.push_back(moving);
 }
 
-}  // namespace
+constexpr Key kMarkerKeys[] = {
+    Key::text("body", kRequired, "Body that carries the marker"),
+    Key::text("name", kRequired, "Name of the marker; others call it body.name"),
+    Key::quantities("position", "m", kNone, "Place in the body's frame", {.size = 3}),
+    Key::text("interface", kNone,
+              "Of a deformable body, in place of position: the interface that it moves with"),
+    Key::quantities("rotation", "rad", kNone,
+                    "How its axes are turned against the body's: a rotation vector", {.size = 3}),
+};
 
 void read_body(const StudyTable& table, Assembly& assembly) {
   multibody::Body body;
   body.name = table.text("name");
-  const std::size_t kind = choice(table, "kind", {"ground", "driven", "rigid", "deformable"});
+  const std::size_t kind = table.choice("kind");
   switch (kind) {
     case 0:
       body.kind = DrivenBody();
@@ -126,11 +167,30 @@ void read_marker(const StudyTable& table, Assembly& assembly) {
     const std::vector<std::string> names = names_of(deformable->modes.interfaces);
     marker.interface = names[reference(table, "interface", names, "interface")];
   } else {
-    marker.position_m = quantity_vector(table, "position", "m");
+    marker.position_m = quantity_vector(table, "position");
   }
   marker.rotation = rotation_or_none(table, "rotation");
   model.markers.push_back(std::move(marker));
   table.finish();
+}
+
+}  // namespace
+
+ModelSection body_section() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all(kOwnKeys.begin(), kOwnKeys.end());
+    const std::span<const Key> driven = driven_body_keys();
+    all.insert(all.end(), driven.begin(), driven.end());
+    return all;
+  }();
+  return {Key::tables("body", "Bodies", keys), read_body};
+}
+
+ModelSection marker_section() {
+  return {
+      Key::tables("marker", "Points and axes of bodies; interfaces of deformable ones are markers",
+                  kMarkerKeys),
+      read_marker};
 }
 
 }  // namespace flexneck::pipeline

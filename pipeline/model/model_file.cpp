@@ -14,45 +14,78 @@ namespace flexneck::pipeline {
 
 namespace {
 
-using Read = void (*)(const StudyTable&, Assembly&);
+std::vector<std::string> formulations() { return {"descriptor", "recursive", "automatic"}; }
+std::vector<std::string> integrators() { return {"dormand_prince", "generalised_alpha"}; }
+std::vector<std::string> analyses() { return {"motion", "quasi_static"}; }
+std::vector<std::string> starts() { return {"given", "equilibrium"}; }
+std::vector<std::string> linearised_about() { return {"equilibrium", "given"}; }
+
+constexpr auto kSolverKeys = joined(
+    std::to_array<Key>({
+        Key::quantity("end_time", "s", kRequired, "The run is from 0 to it", {.range = kPositive}),
+        Key::text("analysis", "motion", "Motion, or the static equilibrium at each output time",
+                  {.choices = analyses}),
+        Key::text("start", "given", "As the bodies are given, or at rest against the driven bodies",
+                  {.choices = starts}),
+        Key::quantities("gravity", "m/s^2", kNone,
+                        "Gravity in the world; none if the key is not there", {.size = 3}),
+        Key::text("formulation", "automatic",
+                  "Equations of motion: of all bodies with constraints, of joint coordinates, or "
+                  "whichever "
+                  "fits",
+                  {.choices = formulations}),
+        Key::text("integrator", "dormand_prince", "How a run steps through time",
+                  {.choices = integrators}),
+        Key::number(
+            "spectral_radius", "0.8",
+            "Of generalised_alpha: by what a step multiplies vibrations that it does not resolve"),
+        Key::count("most_steps", "10000000", "Steps after which a run is given up",
+                   {.range = at_least(1)}),
+    }),
+    kStepKeys);
+
+constexpr Key kLinearisationKeys[] = {
+    Key::text("about", kRequired, "Equilibrium or steady rotation, or the state that is given",
+              {.choices = linearised_about}),
+    Key::quantities("rates", "rad/s", kNone,
+                    "Rates of the bodies that turn, for a Campbell diagram"),
+};
+
+constexpr Key kOutputKeys[] = {
+    Key::quantity("interval", "s", "0.001", "Time between outputs", {.range = kPositive}),
+    Key::texts("markers", kNone,
+               "Markers whose histories are written; all if the key is not there"),
+    Key::texts("joints", kNone, "Joints whose histories are written; all if the key is not there"),
+};
 
 /// In the order in which one kind of table may name things of another.
-constexpr std::pair<const char*, Read> kSections[] = {
-    {"body", read_body},     {"marker", read_marker},   {"joint", read_joint},
-    {"motor", read_motor},   {"force", read_force},     {"torque", read_torque},
-    {"spring", read_spring}, {"bushing", read_bushing}, {"resistance", read_resistance},
-};
+std::array<ModelSection, 9> sections() {
+  return {body_section(),   marker_section(),  joint_section(),
+          motor_section(),  force_section(),   torque_section(),
+          spring_section(), bushing_section(), resistance_section()};
+}
 
 void read_solver(const StudyTable& table, ModelFile& file) {
   read_steps(table, file.solver);
-  file.solver.max_steps = table.count_or("most_steps", 1, file.solver.max_steps);
-  if (table.has("formulation"))
-    file.solver.formulation = static_cast<multibody::Formulation>(
-        choice(table, "formulation", {"descriptor", "recursive", "automatic"}));
-  if (table.has("integrator"))
-    file.solver.integrator = static_cast<multibody::Integrator>(
-        choice(table, "integrator", {"dormand_prince", "generalised_alpha"}));
-  file.solver.spectral_radius = table.number_or("spectral_radius", file.solver.spectral_radius);
-  if (table.has("analysis"))
-    file.analysis =
-        static_cast<ModelFile::Analysis>(choice(table, "analysis", {"motion", "quasi_static"}));
+  file.solver.max_steps = table.count("most_steps");
+  file.solver.formulation = static_cast<multibody::Formulation>(table.choice("formulation"));
+  file.solver.integrator = static_cast<multibody::Integrator>(table.choice("integrator"));
+  file.solver.spectral_radius = table.number("spectral_radius");
+  file.analysis = static_cast<ModelFile::Analysis>(table.choice("analysis"));
   if (table.has("start") && file.analysis == ModelFile::Analysis::quasi_static)
     table.refuse("start", "a quasi-static analysis is at rest all the time; leave this key out");
-  if (table.has("start"))
-    file.start = static_cast<ModelFile::Start>(choice(table, "start", {"given", "equilibrium"}));
-  if (table.has("gravity")) file.model.gravity_m_s2 = quantity_vector(table, "gravity", "m/s^2");
-  file.end_time_s = table.quantity("end_time", "s");
-  if (!(file.end_time_s > 0)) table.refuse("end_time", "expected a positive time");
+  file.start = static_cast<ModelFile::Start>(table.choice("start"));
+  if (table.has("gravity")) file.model.gravity_m_s2 = quantity_vector(table, "gravity");
+  file.end_time_s = table.quantity("end_time");
   table.finish();
 }
 
 void read_linearisation(const StudyTable& root, ModelFile& file) {
   if (!root.has("linearisation")) return;
   const StudyTable table = root.table("linearisation");
-  file.linearised_at =
-      static_cast<multibody::LinearisedAt>(choice(table, "about", {"equilibrium", "given"}));
+  file.linearised_at = static_cast<multibody::LinearisedAt>(table.choice("about"));
   if (table.has("rates")) {
-    file.rates_rad_s = table.quantities("rates", "rad/s", 0);
+    file.rates_rad_s = table.quantities("rates");
     if (file.linearised_at != multibody::LinearisedAt::equilibrium)
       table.refuse("rates", "a Campbell diagram is about steady rotation: about = \"equilibrium\"");
   }
@@ -76,8 +109,7 @@ std::vector<std::string> chosen(const StudyTable& table, const std::string& key,
 void read_output(const StudyTable& root, ModelFile& file) {
   const StudyTable table = root.table("output");
   OutputSection& output = file.output;
-  output.interval_s = table.quantity_or("interval", "s", output.interval_s);
-  if (!(output.interval_s > 0)) table.refuse("interval", "expected a positive time");
+  output.interval_s = table.quantity("interval");
   output.markers = chosen(table, "markers", names_of(file.model.markers), "marker");
   output.joints = chosen(table, "joints", names_of(file.model.joints), "joint");
   table.finish();
@@ -102,9 +134,29 @@ void assemble(Assembly& assembly, ModelFile& file) {
 
 }  // namespace
 
+std::span<const Key> model_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = {
+        Key::table("solver", "Length, start and integration of the run", kSolverKeys),
+        Key::table("linearisation",
+                   "Frequencies, damping ratios and shapes of small motions, besides the run",
+                   kLinearisationKeys),
+    };
+    for (const ModelSection& section : sections()) all.push_back(section.key);
+    all.push_back(Key::table("output", "What is written", kOutputKeys));
+    all.push_back(
+        Key::tables("channel",
+                    "Curves for the table, the CSV file and the history; without any, a set of all "
+                    "markers, joints, modes and energies",
+                    channel_keys()));
+    return all;
+  }();
+  return keys;
+}
+
 ModelFile read_model_file(const std::filesystem::path& path,
                           const std::vector<std::string>& settings) {
-  const StudyDocument document(path, settings);
+  const StudyDocument document(path, settings, model_keys());
   const StudyTable root = document.root();
   ModelFile file;
   file.file = path;
@@ -113,8 +165,9 @@ ModelFile read_model_file(const std::filesystem::path& path,
   Assembly assembly;
   assembly.end_time_s = file.end_time_s;
   assembly.model.gravity_m_s2 = file.model.gravity_m_s2;
-  for (const auto& [key, read] : kSections)
-    for (const StudyTable& table : root.tables(key)) read(table, assembly);
+  for (const ModelSection& section : sections())
+    for (const StudyTable& table : root.tables(std::string(section.key.name)))
+      section.read(table, assembly);
   if (assembly.model.bodies.empty())
     throw InputError(path.string() + ": expected bodies as tables [[body]], found none");
   assemble(assembly, file);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "multibody/analysis/linearisation.h"
 #include "multibody/model/model.h"
 #include "multibody/simulation/simulation.h"
+#include "pipeline/document/key.h"
 #include "pipeline/model/channel.h"
 
 namespace flexneck::pipeline {
@@ -48,6 +50,9 @@ struct ModelFile {
   std::vector<InputFile> files;  ///< everything that was read
   std::vector<Parameter> parameters;
 };
+
+/// The table of keys of model files, by section.
+std::span<const Key> model_keys();
 
 /// Reads a model file (pipeline/models/README.md) and what it names: modes and tables.
 /// @param settings  "dotted.key=value", as read_study()

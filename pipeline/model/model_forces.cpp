@@ -14,13 +14,28 @@ namespace {
 
 // --------------------------------------------------------------------------- loads over time
 
+std::vector<std::string> outsides() { return {"constant", "zero"}; }
+
+/// Of a force and a torque.
+constexpr auto kLoadKeys =
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the load"),
+               Key::text("marker", kRequired, "Marker that it acts at"),
+               Key::numbers("direction", kRequired, "Direction in the world", {.size = 3}),
+               Key::quantity("magnitude", "N | N*m", kNone, "Magnitude at all times"),
+               Key::quantities("times", "s", kNone, "In place of magnitude: times of a table"),
+               Key::quantities("magnitudes", "N | N*m", kNone,
+                               "Magnitude at each time; linear between them"),
+               Key::text("outside", "constant", "What holds before and after the table",
+                         {.choices = outsides}),
+           }),
+           kCsvKeys);
+
 /// A load that is the same at all times under the key `constant`, or a table.
 TimeTable load_over_time(const StudyTable& table, const std::string& constant,
                          const ColumnKeys& keys, Assembly& assembly) {
   const TimeTable::Outside outside =
-      table.has("outside") && choice(table, "outside", {"constant", "zero"}) == 1
-          ? TimeTable::Outside::zero
-          : TimeTable::Outside::constant;
+      table.choice("outside") == 1 ? TimeTable::Outside::zero : TimeTable::Outside::constant;
   if (table.has(constant)) {
     for (const std::string& key : {keys.x, std::string("table")})
       if (table.has(key)) table.refuse(key, "the load is given already by '" + constant + "'");
@@ -36,10 +51,23 @@ TimeTable load_over_time(const StudyTable& table, const std::string& constant,
 
 // -------------------------------------------------------------------------------- bushings
 
+constexpr Key kBushingKeys[] = {
+    Key::text("name", kRequired, "Name of the bushing"),
+    Key::text("lower", kRequired, "Marker in whose axes the matrices are"),
+    Key::text("upper", kRequired, "The other marker"),
+    Key::quantities("translation_stiffness", "N/m", kNone,
+                    "Forces over translations: three on the diagonal, or nine row by row"),
+    Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
+    Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
+    Key::quantities("translation_damping", "N*s/m", kNone, "Forces over velocities"),
+    Key::quantities("rotation_damping", "N*m*s/rad", kNone, "Moments over angular velocities"),
+    Key::quantities("coupling_damping", "N*s/rad", kNone, "Forces over angular velocities"),
+};
+
 /// Nine numbers row by row, or three on the diagonal.
 Eigen::Matrix3d block(const StudyTable& table, const std::string& key, const std::string& unit) {
   if (!table.has(key)) return Eigen::Matrix3d::Zero();
-  const std::vector<double> values = table.quantities(key, unit, 0);
+  const std::vector<double> values = table.quantities(key, 0, unit);
   if (values.size() == 3)
     return Eigen::Map<const Eigen::Vector3d>(values.data()).asDiagonal().toDenseMatrix();
   if (values.size() != 9)
@@ -58,7 +86,30 @@ Eigen::Matrix<double, 6, 6> bushing_matrix(const StudyTable& table, const std::s
   return matrix;
 }
 
-}  // namespace
+// ------------------------------------------------------------------------ springs, resistances
+
+constexpr auto kSpringKeys =
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the spring"),
+               Key::text("lower", kRequired, "Marker at the one end"),
+               Key::text("upper", kRequired, "Marker at the other"),
+               Key::quantity("free_length", "m", kRequired, "Length without load"),
+               Key::flag("tension_only", "false", "Whether it pulls only"),
+           }),
+           joined(kResistanceKeys, kCsvKeys));
+
+std::vector<std::string> coordinates() { return {"distance", "angle", "flexion"}; }
+
+constexpr auto kJointResistanceKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the resistance"),
+        Key::text("joint", kRequired, "Joint that it acts in"),
+        Key::text("coordinate", kRequired,
+                  "Which motion of the joint it resists; flexion is the angle between the axis on "
+                  "one body and on the other",
+                  {.choices = coordinates}),
+    }),
+    joined(kResistanceKeys, kCsvKeys));
 
 void read_force(const StudyTable& table, Assembly& assembly) {
   multibody::PointForce force;
@@ -87,9 +138,9 @@ void read_spring(const StudyTable& table, Assembly& assembly) {
   spring.name = table.text("name");
   spring.marker_i = marker_named(table, "lower", assembly);
   spring.marker_j = marker_named(table, "upper", assembly);
-  spring.free_length_m = table.quantity("free_length", "m");
+  spring.free_length_m = table.quantity("free_length");
   spring.resistance = read_resistance_law(table, kLinearUnits, assembly.files);
-  spring.resistance.tension_only = table.flag_or("tension_only", false);
+  spring.resistance.tension_only = table.flag("tension_only");
   assembly.model.springs.push_back(std::move(spring));
   table.finish();
 }
@@ -109,13 +160,36 @@ void read_resistance(const StudyTable& table, Assembly& assembly) {
   multibody::JointResistance resistance;
   resistance.name = table.text("name");
   resistance.joint = reference(table, "joint", names_of(assembly.model.joints), "joint");
-  resistance.coordinate =
-      static_cast<JointCoordinate>(choice(table, "coordinate", {"distance", "angle", "flexion"}));
+  resistance.coordinate = static_cast<JointCoordinate>(table.choice("coordinate"));
   const bool is_linear = resistance.coordinate == JointCoordinate::distance;
   resistance.resistance =
       read_resistance_law(table, is_linear ? kLinearUnits : kAngularUnits, assembly.files);
   assembly.model.resistances.push_back(std::move(resistance));
   table.finish();
+}
+
+}  // namespace
+
+ModelSection force_section() {
+  return {Key::tables("force", "Forces at markers", kLoadKeys), read_force};
+}
+ModelSection torque_section() {
+  return {Key::tables("torque", "Torques at markers", kLoadKeys), read_torque};
+}
+ModelSection spring_section() {
+  return {
+      Key::tables("spring", "Springs and dampers between the origins of two markers", kSpringKeys),
+      read_spring};
+}
+ModelSection bushing_section() {
+  return {
+      Key::tables("bushing", "Linear springs and dampers between two markers in all six directions",
+                  kBushingKeys),
+      read_bushing};
+}
+ModelSection resistance_section() {
+  return {Key::tables("resistance", "Resistances to the motion of joints", kJointResistanceKeys),
+          read_resistance};
 }
 
 }  // namespace flexneck::pipeline

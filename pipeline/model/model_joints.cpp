@@ -34,6 +34,27 @@ std::size_t marker_named(const StudyTable& table, const std::string& key,
   return reference(table, key, names_of(assembly.model.markers), "marker");
 }
 
+namespace {
+
+constexpr auto kKeys = std::to_array<Key>({
+    Key::text("name", kRequired, "Name of the joint"),
+    Key::text("kind", kRequired, "Which motion it leaves"),
+    Key::text("lower", kRequired, "Marker of the lower body"),
+    Key::text("upper", kRequired,
+              "Marker of the upper body, on which the lower one exerts the reaction"),
+    Key::numbers("axis", kNone,
+                 "Axis, in both markers' axes; of a universal joint in the lower one's",
+                 {.size = 3}),
+    Key::numbers("second_axis", kNone, "Of a universal joint: axis in the upper marker's axes",
+                 {.size = 3}),
+    Key::quantity("length", "m", kNone, "Of a distance joint: distance of the markers"),
+    Key::quantity("lead", "m", kNone, "Of a screw joint: motion along the axis at every turn"),
+    Key::quantity("angle", "rad", "0", "Angle at the start"),
+    Key::quantity("rate", "rad/s", "0", "Its rate at the start"),
+    Key::quantity("distance", "m", "0", "Distance along the axis at the start"),
+    Key::quantity("speed", "m/s", "0", "Its rate at the start"),
+});
+
 void read_joint(const StudyTable& table, Assembly& assembly) {
   Joint joint;
   joint.name = table.text("name");
@@ -43,23 +64,29 @@ void read_joint(const StudyTable& table, Assembly& assembly) {
   if (joint.kind->axes != JointAxes::none) joint.axis = unit_vector(table, "axis");
   if (joint.kind->axes == JointAxes::two) joint.second_axis = unit_vector(table, "second_axis");
   if (const multibody::JointLength& length = joint.kind->length; length.value != nullptr)
-    joint.*length.value = table.quantity(std::string(length.key), "m");
+    joint.*length.value = table.quantity(std::string(length.key));
   JointStart start;
-  const auto read = [&](const char* key, const char* unit, std::optional<double>& value) {
-    const double found = table.quantity_or(key, unit, 0);
+  const auto read = [&](const char* key, std::optional<double>& value) {
+    const double found = table.quantity(key);
     if (table.has(key)) value = found;
   };
   if (joint.kind->has_angle) {
-    read("angle", "rad", start.angle_rad);
-    read("rate", "rad/s", start.rate_rad_s);
+    read("angle", start.angle_rad);
+    read("rate", start.rate_rad_s);
   }
   if (joint.kind->has_distance) {
-    read("distance", "m", start.distance_m);
-    read("speed", "m/s", start.speed_m_s);
+    read("distance", start.distance_m);
+    read("speed", start.speed_m_s);
   }
   assembly.model.joints.push_back(std::move(joint));
   assembly.starts.push_back(start);
   table.finish();
+}
+
+}  // namespace
+
+ModelSection joint_section() {
+  return {Key::tables("joint", "Joints between markers", kKeys), read_joint};
 }
 
 }  // namespace flexneck::pipeline

@@ -22,13 +22,71 @@ namespace {
 /// Names and units of the keys of one coordinate. Its acceleration has the same names in both.
 struct MotionKeys {
   std::string value, value_table, value_unit;
-  std::string rate, rate_unit;
+  std::string rate;
   std::string acceleration_unit;
 };
-const MotionKeys kTravel = {"displacement", "displacement_table", "m", "initial_velocity", "m/s",
-                            "m/s^2"};
-const MotionKeys kDistance = {"distance", "distance_table", "m", "initial_speed", "m/s", "m/s^2"};
-const MotionKeys kAngle = {"angle", "angle_table", "rad", "initial_rate", "rad/s", "rad/s^2"};
+const MotionKeys kTravel = {"displacement", "displacement_table", "m", "initial_velocity", "m/s^2"};
+const MotionKeys kDistance = {"distance", "distance_table", "m", "initial_speed", "m/s^2"};
+const MotionKeys kAngle = {"angle", "angle_table", "rad", "initial_rate", "rad/s^2"};
+
+/// Beside those of the coordinate and kCsvKeys.
+constexpr auto kMotionKeys = std::to_array<Key>({
+    Key::quantities("times", "s", kNone, "Times of a motion given by lists"),
+    Key::expression_or_quantities("acceleration", "m/s^2 | rad/s^2", kNone,
+                                  "Acceleration at each time, or an expression of t"),
+    Key::quantities("pulse_times", "s", kNone,
+                    "Times of a pulse that is scaled so that it brings the motion to rest"),
+    Key::quantities("pulse_deceleration", "m/s^2 | rad/s^2", kNone,
+                    "Deceleration at each of these times, of any size"),
+});
+
+constexpr auto kAngleKeys = std::to_array<Key>({
+    Key::expression_or_quantities("angle", "rad", kNone,
+                                  "Angle at each time, or an expression of t"),
+    Key::file("angle_table", kNone, "CSV file of angles over time"),
+    Key::quantity("initial_rate", "rad/s", "0", "Rate at the start, to which the motion adds"),
+});
+
+constexpr auto kTurnKeys =
+    joined(std::to_array<Key>({
+               Key::numbers("axis", kRequired, "Axis in the world", {.size = 3}),
+               Key::quantities("point", "m", kNone,
+                               "Point of the axis; the body's position if the key is not there",
+                               {.size = 3}),
+           }),
+           joined(kAngleKeys, joined(kMotionKeys, kCsvKeys)));
+
+constexpr auto kDrivenKeys = joined(
+    std::to_array<Key>({
+        Key::numbers(
+            "direction", kNone,
+            "Of a driven body: direction of its travel in the world; x if the key is not there",
+            {.size = 3}),
+        Key::expression_or_quantities("displacement", "m", kNone,
+                                      "Displacement at each time, or an expression of t"),
+        Key::file("displacement_table", kNone, "CSV file of displacements over time"),
+        Key::quantity("initial_velocity", "m/s", "0",
+                      "Velocity along the direction at the start, to which the motion adds"),
+        Key::table("turn", "Rotation of a driven body", kTurnKeys),
+    }),
+    joined(kMotionKeys, kCsvKeys));
+
+std::vector<std::string> motor_coordinates() { return {"angle", "distance"}; }
+
+constexpr auto kMotorKeys =
+    joined(joined(std::to_array<Key>({
+                      Key::text("name", kRequired, "Name of the motor"),
+                      Key::text("joint", kRequired, "Joint that it moves"),
+                      Key::text("coordinate", kRequired, "Which motion of the joint it prescribes",
+                                {.choices = motor_coordinates}),
+                      Key::expression_or_quantities("distance", "m", kNone,
+                                                    "Distance at each time, or an expression of t"),
+                      Key::file("distance_table", kNone, "CSV file of distances over time"),
+                      Key::quantity("initial_speed", "m/s", "0",
+                                    "Rate of the distance at the start, to which the motion adds"),
+                  }),
+                  kAngleKeys),
+           joined(kMotionKeys, kCsvKeys));
 
 struct Motion {
   double initial_rate = 0;
@@ -58,9 +116,9 @@ TimeTable acceleration_table(const StudyTable& table, const MotionKeys& keys, As
 }
 
 TimeTable pulse(const StudyTable& table, const MotionKeys& keys, double rate) {
-  const std::vector<double> times = table.quantities("pulse_times", "s", 0);
+  const std::vector<double> times = table.quantities("pulse_times");
   const std::vector<double> values =
-      table.quantities("pulse_deceleration", keys.acceleration_unit, times.size());
+      table.quantities("pulse_deceleration", times.size(), keys.acceleration_unit);
   return at_key(table, "pulse_deceleration", [&] { return braking_pulse(times, values, rate); });
 }
 
@@ -90,7 +148,7 @@ SmoothMotion tabulated_motion(const StudyTable& table, const MotionKeys& keys,
 
 Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& assembly) {
   Motion motion;
-  motion.initial_rate = table.quantity_or(keys.rate, keys.rate_unit, 0);
+  motion.initial_rate = table.quantity(keys.rate);
   const std::string key = motion_key(table, keys);
   if (key.empty()) return motion;
   if (key == "pulse_times") {
@@ -109,7 +167,7 @@ multibody::DrivenTurn read_turn(const StudyTable& table, const Eigen::Vector3d& 
                                 Assembly& assembly) {
   multibody::DrivenTurn turn;
   turn.axis = unit_vector(table, "axis");
-  turn.point_m = table.has("point") ? quantity_vector(table, "point", "m") : position_m;
+  turn.point_m = table.has("point") ? quantity_vector(table, "point") : position_m;
   const Motion motion = read_motion(table, kAngle, assembly);
   turn.initial_rate_rad_s = motion.initial_rate;
   turn.acceleration_rad_s2 = motion.acceleration;
@@ -131,13 +189,11 @@ void start_at(const JointMotor& motor, const StudyTable& table, std::optional<do
   rate = motor.path.rate(0);
 }
 
-}  // namespace
-
 void read_motor(const StudyTable& table, Assembly& assembly) {
   JointMotor motor;
   motor.name = table.text("name");
   const std::size_t index = reference(table, "joint", names_of(assembly.model.joints), "joint");
-  const bool turns = choice(table, "coordinate", {"angle", "distance"}) == 0;
+  const bool turns = table.choice("coordinate") == 0;
   const MotionKeys& keys = turns ? kAngle : kDistance;
   const Motion motion = read_motion(table, keys, assembly);
   if (motion_key(table, keys).empty() && !table.has(keys.rate))
@@ -156,6 +212,17 @@ void read_motor(const StudyTable& table, Assembly& assembly) {
   table.finish();
 }
 
+}  // namespace
+
+ModelSection motor_section() {
+  return {
+      Key::tables("motor", "Motors, which make a joint follow a motion whatever load that takes",
+                  kMotorKeys),
+      read_motor};
+}
+
+std::span<const Key> driven_body_keys() { return kDrivenKeys; }
+
 DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
   DrivenBody body;
   if (table.has("direction")) body.direction = unit_vector(table, "direction");
@@ -165,7 +232,7 @@ DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
   body.motion = motion.function;
   if (table.has("turn")) {
     const Eigen::Vector3d position_m =
-        table.has("position") ? quantity_vector(table, "position", "m") : Eigen::Vector3d::Zero();
+        table.has("position") ? quantity_vector(table, "position") : Eigen::Vector3d::Zero();
     body.turn = read_turn(table.table("turn"), position_m, assembly);
   } else if (motion_key(table, kTravel).empty() && !table.has(kTravel.rate)) {
     table.refuse("name",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,16 +22,21 @@ struct Assembly {
   std::vector<InputFile> files;  ///< modes and tables read
 };
 
-// Each adds what one table of the file says, and refuses what the table alone shows to be wrong.
-void read_body(const StudyTable& table, Assembly& assembly);        ///< [[body]]
-void read_marker(const StudyTable& table, Assembly& assembly);      ///< [[marker]]
-void read_joint(const StudyTable& table, Assembly& assembly);       ///< [[joint]]
-void read_motor(const StudyTable& table, Assembly& assembly);       ///< [[motor]]
-void read_force(const StudyTable& table, Assembly& assembly);       ///< [[force]]
-void read_torque(const StudyTable& table, Assembly& assembly);      ///< [[torque]]
-void read_spring(const StudyTable& table, Assembly& assembly);      ///< [[spring]]
-void read_bushing(const StudyTable& table, Assembly& assembly);     ///< [[bushing]]
-void read_resistance(const StudyTable& table, Assembly& assembly);  ///< [[resistance]]
+/// A kind of table in a model file.
+struct ModelSection {
+  Key key;
+  /// Adds what one table says, and refuses what the table alone shows to be wrong.
+  void (*read)(const StudyTable& table, Assembly& assembly);
+};
+ModelSection body_section();
+ModelSection marker_section();
+ModelSection joint_section();
+ModelSection motor_section();
+ModelSection force_section();
+ModelSection torque_section();
+ModelSection spring_section();
+ModelSection bushing_section();
+ModelSection resistance_section();
 
 /// Position of the thing that a key names. @throws InputError with the nearest name.
 std::size_t reference(const StudyTable& table, const std::string& key,
@@ -39,7 +45,8 @@ std::size_t marker_named(const StudyTable& table, const std::string& key, const 
 /// A rotation vector, axis times angle; none if the key is not there.
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key);
 
-/// The motion that a [[body]] of kind "driven" gives.
+/// The motion that a [[body]] of kind "driven" gives: the keys driven_body_keys().
+std::span<const Key> driven_body_keys();
 multibody::DrivenBody driven_body(const StudyTable& table, Assembly& assembly);
 
 /// Calls make() and puts the key in front of what it refuses.

@@ -18,23 +18,22 @@ std::size_t reference(const StudyTable& table, const std::string& key,
 
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key) {
   if (!table.has(key)) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(multibody::rotation_exp(quantity_vector(table, key, "rad")));
+  return Eigen::Quaterniond(multibody::rotation_exp(quantity_vector(table, key)));
 }
 
 TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
                           std::vector<InputFile>& files) {
   if (!table.has(keys.file)) {
     TableColumns columns;
-    columns.x = table.quantities(keys.x, keys.x_unit, 0);
-    columns.y = table.quantities(keys.y, keys.y_unit, columns.x.size());
+    columns.x = table.quantities(keys.x, 0, keys.x_unit);
+    columns.y = table.quantities(keys.y, columns.x.size(), keys.y_unit);
     return columns;
   }
   for (const std::string& key : {keys.x, keys.y})
     if (table.has(key))
       table.refuse(key, "is given twice, here and by the key '" + keys.file + "'");
-  const std::filesystem::path path = table.folder_of(keys.file) / table.text(keys.file);
-  TableColumns columns =
-      read_csv_columns(path, keys.x_unit, keys.y_unit, table.text_or("column", ""));
+  const std::filesystem::path path = table.file(keys.file);
+  TableColumns columns = read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
   files.push_back({path.filename().string(), hash_of_file(path.string())});
   return columns;
 }

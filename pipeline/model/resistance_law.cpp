@@ -14,9 +14,9 @@ namespace {
 
 LoadCurve polynomial(const StudyTable& table, const std::string& prefix,
                      const ResistanceUnits& units) {
-  return LoadCurve::cubic(table.quantity_or(prefix + "stiffness", units.over(""), 0),
-                          table.quantity_or(prefix + "quadratic", units.over("^2"), 0),
-                          table.quantity_or(prefix + "cubic", units.over("^3"), 0));
+  return LoadCurve::cubic(table.quantity(prefix + "stiffness", units.over("")),
+                          table.quantity(prefix + "quadratic", units.over("^2")),
+                          table.quantity(prefix + "cubic", units.over("^3")));
 }
 
 LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units,
@@ -39,9 +39,9 @@ ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUni
                                     std::vector<InputFile>& files) {
   ResistanceSide side;
   side.curve = load_curve(table, units, files);
-  side.stop = table.quantity_or("stop", units.deflection, side.stop);
+  side.stop = table.quantity("stop", units.deflection);
   side.beyond_stop = polynomial(table, "stop_", units);
-  side.unloading_ratio = table.number_or("unloading_ratio", side.unloading_ratio);
+  side.unloading_ratio = table.number("unloading_ratio");
   return side;
 }
 
@@ -57,11 +57,9 @@ Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& u
   };
   side_of("positive", resistance.positive);
   side_of("negative", resistance.negative);
-  resistance.damping =
-      table.quantity_or("damping", units.load + "*s/" + units.deflection, resistance.damping);
-  resistance.friction = table.quantity_or("friction", units.load, resistance.friction);
-  resistance.full_rate =
-      table.quantity_or("full_rate", units.deflection + "/s", resistance.full_rate);
+  resistance.damping = table.quantity("damping", units.load + "*s/" + units.deflection);
+  resistance.friction = table.quantity("friction", units.load);
+  resistance.full_rate = table.quantity("full_rate", units.deflection + "/s");
   return resistance;
 }
 

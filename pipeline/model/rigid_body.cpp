@@ -9,7 +9,7 @@ namespace {
 /// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the
 /// first three: the products carry the tensor's sign, Ixz = -int x z dm.
 Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
-  std::vector<double> i = table.quantities(key, "kg*m^2", 0);
+  std::vector<double> i = table.quantities(key);
   if (i.size() == 3) i.resize(6, 0);
   if (i.size() != 6) {
     table.refuse(key, "expected 3 entries (xx, yy, zz) or 6 (and xy, xz, yz), found " +
@@ -23,8 +23,7 @@ Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
 }  // namespace
 
 multibody::RigidBody read_rigid(const StudyTable& body) {
-  return {body.quantity("mass", "kg"), quantity_vector(body, "center", "m"),
-          inertia(body, "inertia")};
+  return {body.quantity("mass"), quantity_vector(body, "center"), inertia(body, "inertia")};
 }
 
 }  // namespace flexneck::pipeline

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+
 #include "multibody/model/model.h"
 #include "pipeline/document/study_document.h"
 
 namespace flexneck::pipeline {
 
-/// Mass, centre and inertia of a rigid body: the keys mass, center, inertia.
+/// Mass, centre and inertia; of rigid bodies only, so that no other has to have them.
+inline constexpr std::array<Key, 3> kRigidBodyKeys = {{
+    Key::quantity("mass", "kg", kNone, "Of a rigid body: its mass"),
+    Key::quantities("center", "m", kNone, "Centre of mass in the body's frame", {.size = 3}),
+    Key::quantities("inertia", "kg*m^2", kNone,
+                    "Inertia about the centre of mass: three principal moments, or xx, yy, zz, xy, "
+                    "xz, yz of the "
+                    "tensor, whose products carry its sign"),
+}};
+
+/// The keys kRigidBodyKeys.
 multibody::RigidBody read_rigid(const StudyTable& body);
 
 }  // namespace flexneck::pipeline

@@ -11,15 +11,45 @@ namespace flexneck::pipeline {
 
 namespace {
 
+std::vector<std::string> units() { return {"rad", "N*m", "N", "m/s^2", "m"}; }
+
+constexpr Key kCorridorKeys[] = {
+    Key::text("case", kRequired, "Case whose curve it is for"),
+    Key::text("channel", kRequired, "That curve"),
+    Key::text("what", kRequired, "What of the curve is meant"),
+    Key::text("unit", kRequired, "SI unit of the values", {.choices = units}),
+    Key::quantities("velocities", "m/s", kRequired, "Impact velocities that it is for, from and to", {.size = 2}),
+    Key::quantities("times", "s", kRequired, "Times, from and to", {.size = 2}),
+    Key::quantities("values", "rad | N*m | N | m/s^2 | m", kRequired, "Values, from and to", {.size = 2}),
+};
+
+constexpr Key kPulseCorridorKeys[] = {
+    Key::text("what", kRequired, "What the corridor is called"),
+    Key::quantities("times", "s", kRequired, "Times that it is given at"),
+    Key::quantities("low", "m/s^2", kRequired, "Least deceleration at each time"),
+    Key::quantities("high", "m/s^2", kRequired, "Largest deceleration at each time"),
+    Key::quantity("most_after", "m/s^2", kRequired, "Largest deceleration after the last of the times"),
+    Key::quantity("decay_level", "m/s^2", kRequired, "Deceleration that the pulse falls below for good"),
+    Key::quantities("decay_times", "s", kRequired, "When it does, from and to", {.size = 2}),
+};
+
+constexpr Key kKeys[] = {
+    Key::text("corridor_source", kRequired, "Where the corridors are from"),
+    Key::text("corridor_label", kRequired, "What they are called in a figure"),
+    Key::texts("remarks", kRequired, "What the report says of the paper"),
+    Key::tables("corridor", "Corridors behind curves", kCorridorKeys),
+    Key::tables("pulse_corridor", "Corridors of pulses", kPulseCorridorKeys),
+};
+
 Corridor read_corridor(const StudyTable& table) {
   Corridor corridor;
   corridor.experiment = table.text("case");
   corridor.channel = table.text("channel");
   corridor.what = table.text("what");
-  corridor.unit = table.text("unit");
-  const std::vector<double> velocities_m_s = table.quantities("velocities", "m/s", 2);
-  const std::vector<double> times_s = table.quantities("times", "s", 2);
-  const std::vector<double> values = table.quantities("values", corridor.unit, 2);
+  corridor.unit = units()[table.choice("unit")];
+  const std::vector<double> velocities_m_s = table.quantities("velocities");
+  const std::vector<double> times_s = table.quantities("times");
+  const std::vector<double> values = table.quantities("values", 0, corridor.unit);
   table.finish();
   corridor.slowest_m_s = velocities_m_s[0];
   corridor.fastest_m_s = velocities_m_s[1];
@@ -33,12 +63,12 @@ Corridor read_corridor(const StudyTable& table) {
 PulseCorridor read_pulse_corridor(const StudyTable& table) {
   PulseCorridor corridor;
   corridor.what = table.text("what");
-  corridor.times_s = table.quantities("times", "s", 0);
-  corridor.low_m_s2 = table.quantities("low", "m/s^2", corridor.times_s.size());
-  corridor.high_m_s2 = table.quantities("high", "m/s^2", corridor.times_s.size());
-  corridor.most_after_m_s2 = table.quantity("most_after", "m/s^2");
-  corridor.decay_level_m_s2 = table.quantity("decay_level", "m/s^2");
-  const std::vector<double> decay_s = table.quantities("decay_times", "s", 2);
+  corridor.times_s = table.quantities("times");
+  corridor.low_m_s2 = table.quantities("low", corridor.times_s.size());
+  corridor.high_m_s2 = table.quantities("high", corridor.times_s.size());
+  corridor.most_after_m_s2 = table.quantity("most_after");
+  corridor.decay_level_m_s2 = table.quantity("decay_level");
+  const std::vector<double> decay_s = table.quantities("decay_times");
   table.finish();
   corridor.decay_from_s = decay_s[0];
   corridor.decay_to_s = decay_s[1];
@@ -83,8 +113,10 @@ bool is_inside(const PulseSection& pulse, const PulseCorridor& corridor) {
   return decay_s >= corridor.decay_from_s && decay_s <= corridor.decay_to_s;
 }
 
+std::span<const Key> context_keys() { return kKeys; }
+
 PaperContext read_context(const std::filesystem::path& path, const Study& study) {
-  const StudyDocument document(path, {});
+  const StudyDocument document(path, {}, kKeys);
   const StudyTable table = document.root();
   PaperContext context;
   context.corridor_source = table.text("corridor_source");

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "pipeline/document/key.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
@@ -40,6 +42,9 @@ struct PaperContext {
   std::vector<PulseCorridor> pulse_corridors;
   std::vector<std::string> remarks;  ///< where the paper contradicts itself or says too little
 };
+
+/// The table of keys of such a file.
+std::span<const Key> context_keys();
 
 /// What holds for a study: the corridors of cases at their velocities only.
 /// @throws InputError if the file does not say what it must.

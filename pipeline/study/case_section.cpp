@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+
 #include "geometry/foundation/names.h"
-#include "pipeline/document/table_values.h"
 #include "pipeline/study/drop.h"
 #include "pipeline/study/sections.h"
 
@@ -8,22 +9,56 @@ namespace flexneck::pipeline {
 
 namespace {
 
-double positive(const StudyTable& table, const std::string& key, const std::string& si_unit) {
-  const double value = table.quantity(key, si_unit);
-  if (!(value > 0)) table.refuse(key, "expected a positive value");
-  return value;
-}
+std::vector<std::string> case_kinds() { return {"pendulum", "static"}; }
+std::vector<std::string> directions() { return {"flexion", "extension", "lateral"}; }
+std::vector<std::string> pulse_scalings() { return {"amplitude", "duration", "none"}; }
+std::vector<std::string> arms() { return {"translating", "rotating"}; }
+
+constexpr KeyDetails kAbove0 = {.range = kPositive};
+
+/// Keys that [pendulum] and [static] may give for all cases of a kind.
+constexpr auto kCaseKeys = std::to_array<Key>({
+    Key::text("name", kRequired, "Name of the case"),
+    Key::text("kind", kRequired, "Which experiment it is", {.choices = case_kinds}),
+    Key::texts("bodies", kRequired, "Bodies of the model; the joints between them are part of it"),
+    Key::text("direction", kRequired, "Direction of the bending", {.choices = directions}),
+    Key::quantity("duration", "s", kRequired, "Length of the run", kAbove0),
+    Key::texts("forces", kRequired, "Of a static test: its forces"),
+    Key::quantity("drop_angle", "rad", kNone, "Angle that the arm falls from",
+                  {.range = {.low = 0, .high = 3.1416, .has_low = false}}),
+    Key::quantity("effective_length", "m", kNone,
+                  "Length of the mathematical pendulum that falls as the arm does", kAbove0),
+    Key::quantity("impact_velocity", "m/s", kNone, "In place of drop_angle and effective_length",
+                  kAbove0),
+    Key::text("pulse", kRequired, "Of a pendulum: its deceleration"),
+    Key::text("pulse_scaling", "amplitude",
+              "What is scaled so that the pulse takes the whole velocity",
+              {.choices = pulse_scalings}),
+    Key::text("arm", "translating", "How the arm moves while the pulse acts", {.choices = arms}),
+    Key::quantity("pivot_distance", "m", kNone,
+                  "Of a rotating arm: from its pivot to the neck's base", kAbove0),
+    Key::quantity("accelerometer_distance", "m", kNone,
+                  "Of a rotating arm: from its pivot to where velocity and pulse are measured",
+                  kAbove0),
+    Key::text("rigid_neck", kNone, "A [[rigid_neck]] in place of the deformable one"),
+    Key::text("head_spring", kNone, "A [[head_spring]] in place of the head's fixed joint"),
+});
+
+constexpr auto kVariantKeys = joined(
+    std::to_array<Key>({
+        Key::texts("of", kRequired, "Cases that the variant makes others of; a name may end in *"),
+    }),
+    kCaseKeys);
 
 void read_velocity(const StudyTable& table, CaseSection& experiment) {
   if (table.has("drop_angle")) {
-    experiment.drop_angle_rad = positive(table, "drop_angle", "rad");
-    if (*experiment.drop_angle_rad > 3.1416) table.refuse("drop_angle", "expected at most 180 deg");
+    experiment.drop_angle_rad = table.quantity("drop_angle");
   }
   if (table.has("effective_length"))
-    experiment.effective_length_m = positive(table, "effective_length", "m");
+    experiment.effective_length_m = table.quantity("effective_length");
   experiment.velocity_is_given = table.has("impact_velocity");
   if (experiment.velocity_is_given) {
-    experiment.impact_velocity_m_s = positive(table, "impact_velocity", "m/s");
+    experiment.impact_velocity_m_s = table.quantity("impact_velocity");
   } else if (experiment.drop_angle_rad && experiment.effective_length_m) {
     experiment.impact_velocity_m_s =
         drop_velocity(*experiment.effective_length_m, *experiment.drop_angle_rad);
@@ -36,20 +71,16 @@ void read_velocity(const StudyTable& table, CaseSection& experiment) {
 void read_pendulum(const StudyTable& table, CaseSection& experiment) {
   read_velocity(table, experiment);
   experiment.pulse = table.text("pulse");
-  if (table.has("pulse_scaling"))
-    experiment.pulse_scaling =
-        static_cast<PulseFit>(choice(table, "pulse_scaling", {"amplitude", "duration", "none"}));
-  if (table.has("arm"))
-    experiment.arm =
-        static_cast<CaseSection::Arm>(choice(table, "arm", {"translating", "rotating"}));
+  experiment.pulse_scaling = static_cast<PulseFit>(table.choice("pulse_scaling"));
+  experiment.arm = static_cast<CaseSection::Arm>(table.choice("arm"));
   for (const auto& [key, value] :
        {std::pair{"pivot_distance", &experiment.pivot_distance_m},
         std::pair{"accelerometer_distance", &experiment.accelerometer_distance_m}}) {
     if (table.has(key) || experiment.arm == CaseSection::Arm::rotating)
-      *value = positive(table, key, "m");
+      *value = table.quantity(key);
   }
-  experiment.rigid_neck = table.text_or("rigid_neck", "");
-  experiment.head_spring = table.text_or("head_spring", "");
+  experiment.rigid_neck = table.text("rigid_neck");
+  experiment.head_spring = table.text("head_spring");
   if (!experiment.rigid_neck.empty() && !experiment.head_spring.empty())
     table.refuse("head_spring", "a rigid neck has a pivot with a spring there already");
 }
@@ -57,11 +88,10 @@ void read_pendulum(const StudyTable& table, CaseSection& experiment) {
 CaseSection read_case(const StudyTable& table) {
   CaseSection experiment;
   experiment.name = table.text("name");
-  experiment.kind = static_cast<CaseSection::Kind>(choice(table, "kind", {"pendulum", "static"}));
+  experiment.kind = static_cast<CaseSection::Kind>(table.choice("kind"));
   experiment.bodies = table.texts("bodies");
-  experiment.direction = static_cast<CaseSection::Direction>(
-      choice(table, "direction", {"flexion", "extension", "lateral"}));
-  experiment.duration_s = positive(table, "duration", "s");
+  experiment.direction = static_cast<CaseSection::Direction>(table.choice("direction"));
+  experiment.duration_s = table.quantity("duration");
   if (experiment.kind == CaseSection::Kind::pendulum) {
     read_pendulum(table, experiment);
   } else {
@@ -103,13 +133,16 @@ void add_variants(const StudyTable& variant, const std::vector<StudyTable>& tabl
 
 }  // namespace
 
+std::span<const Key> case_keys() { return kCaseKeys; }
+std::span<const Key> variant_keys() { return kVariantKeys; }
+
 std::vector<CaseSection> read_cases(const StudyTable& root) {
   const StudyTable pendulum = root.table("pendulum");
   const StudyTable tester = root.table("static");
   std::vector<StudyTable> tables;
   std::vector<CaseSection> cases;
   for (const StudyTable& own : root.tables("case")) {
-    const bool swings = choice(own, "kind", {"pendulum", "static"}) == 0;
+    const bool swings = own.choice("kind") == 0;
     tables.push_back(own.over(swings ? pendulum : tester));
     cases.push_back(read_case(tables.back()));
     tables.back().finish();

@@ -9,6 +9,54 @@
 
 namespace flexneck::pipeline {
 
+namespace {
+
+constexpr auto kPulseKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the pulse"),
+        Key::quantities("times", "s", kNone, "Times of the decelerations, from the arm's impact"),
+        Key::quantities("deceleration", "m/s^2", kNone,
+                        "Deceleration at each time; linear between them, zero outside"),
+    }),
+    kCsvKeys);
+
+constexpr auto kPivotSideKeys = joined(kResistanceSideKeys, kCsvKeys);
+
+constexpr Key kPivotKeys[] = {
+    Key::quantity("height", "m", kRequired,
+                  "Height of the pivot above the base, on the neck's axis"),
+    Key::quantity("damping", "N*m*s/rad", "0", "Viscous damping"),
+    Key::table("flexion", "Resistance to bending forward", kPivotSideKeys),
+    Key::table("extension", "Resistance to bending backward", kPivotSideKeys),
+    Key::table("lateral", "Resistance to bending sideways", kPivotSideKeys),
+};
+
+constexpr auto kRigidNeckKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the rigid neck"),
+        Key::flag(
+            "matches_neck", "false",
+            "Made to have mass, static stiffness and damping of the deformable neck, in place "
+            "of all that follows"),
+        Key::table("lower", "Pivot below", kPivotKeys),
+        Key::table("upper", "Pivot above", kPivotKeys),
+    }),
+    kRigidBodyKeys);
+
+constexpr auto kHeadSpringKeys =
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the spring"),
+               Key::numbers("axis", kNone, "Axis that the head nods about; y if it is not there",
+                            {.size = 3}),
+           }),
+           joined(kResistanceKeys, kCsvKeys));
+
+}  // namespace
+
+std::span<const Key> pulse_keys() { return kPulseKeys; }
+std::span<const Key> rigid_neck_keys() { return kRigidNeckKeys; }
+std::span<const Key> head_spring_keys() { return kHeadSpringKeys; }
+
 PulseSection read_pulse(const StudyTable& table, std::vector<InputFile>& files) {
   PulseSection pulse;
   pulse.name = table.text("name");
@@ -30,8 +78,8 @@ namespace {
 
 RigidNeckSection::Pivot read_pivot(const StudyTable& table, std::vector<InputFile>& files) {
   RigidNeckSection::Pivot pivot;
-  pivot.height_m = table.quantity("height", "m");
-  pivot.fore_aft.damping = pivot.lateral.damping = table.quantity_or("damping", "N*m*s/rad", 0);
+  pivot.height_m = table.quantity("height");
+  pivot.fore_aft.damping = pivot.lateral.damping = table.quantity("damping");
   const auto side = [&](const char* key) {
     const StudyTable own = table.table(key);
     multibody::ResistanceSide read = read_resistance_side(own, kAngularUnits, files);
@@ -50,7 +98,7 @@ RigidNeckSection::Pivot read_pivot(const StudyTable& table, std::vector<InputFil
 RigidNeckSection read_rigid_neck(const StudyTable& table, std::vector<InputFile>& files) {
   RigidNeckSection neck;
   neck.name = table.text("name");
-  neck.matches_neck = table.flag_or("matches_neck", false);
+  neck.matches_neck = table.flag("matches_neck");
   if (!neck.matches_neck) {
     neck.rigid = read_rigid(table);
     neck.lower = read_pivot(table.table("lower"), files);

@@ -15,6 +15,91 @@
 
 namespace flexneck::pipeline {
 
+namespace {
+
+std::vector<std::string> stiffenings() { return {"none", "unit-loads"}; }
+std::vector<std::string> solvers() { return {"direct", "iterative"}; }
+
+constexpr Key kHeldKeys[] = {
+    Key::text("*", kNone,
+              "Directions, such as \"x\" or \"yz\", that the node set of this name is fixed in"),
+};
+
+constexpr Key kModesKeys[] = {
+    Key::count("count", "10", "Number of elastic modes", {.range = at_least(1)}),
+    Key::text("formulation", "mixed_pressure",
+              "Formulation of the elements: mixed_pressure, displacement or reduced"),
+    Key::flag("certify", "false",
+              "Whether to prove that no mode is missing, and to estimate the error of the mesh",
+              {.changes_results = false}),
+    Key::text("basis", "normal", "Which vectors the basis of a body is made of",
+              {.choices = [] { return fe_modal::basis_names(); }}),
+    Key::texts("rigid_interfaces", kNone, "Interfaces whose nodes move as a rigid body"),
+    Key::texts("basis_interfaces", kNone,
+               "Interfaces whose static shapes join the basis; all if the key is not there"),
+    Key::text("stress_stiffening", "none",
+              "Geometric stiffness of the modes under unit loads at the interfaces",
+              {.choices = stiffenings}),
+    Key::text("solver", "direct", "How the eigenproblem is solved",
+              {.choices = solvers, .changes_results = false}),
+    Key::texts("held", kNone, "Node sets that are fixed in all directions"),
+    Key::table("held_directions", "Node sets that are fixed in some directions", kHeldKeys),
+    Key::texts("rigid_parts", kNone, "Parts whose motion gives the modes their names"),
+    Key::text("attached_body", kNone,
+              "Rigid body attached to an interface for the loaded frequencies"),
+    Key::text("attached_to", kNone, "That interface; the first if the key is not there"),
+};
+
+constexpr auto kSolverKeys = joined(
+    std::to_array<Key>({
+        Key::quantities("gravity", "m/s^2", kNone,
+                        "Gravity of pendulum cases, in the world; 1 gn down if it is not there",
+                        {.size = 3}),
+    }),
+    kStepKeys);
+
+constexpr Key kOutputKeys[] = {
+    Key::quantity("interval", "s", "0.001", "Time between outputs", {.range = kPositive}),
+    Key::file("verification", kNone, "Table of published figures that results are compared with"),
+};
+
+}  // namespace
+
+std::span<const Key> study_keys() {
+  static const std::array kKeys = std::to_array<Key>({
+      Key::table("geometry", "What is meshed", geometry_keys(), UsedBy::mesh),
+      Key::table("mesh", "How it is meshed", mesh_keys(), UsedBy::mesh),
+      Key::table("matrices", "Matrices of another program, in place of a mesh", matrices_keys(),
+                 UsedBy::modes),
+      Key::table("modes", "Modes of the structure", kModesKeys, UsedBy::modes),
+      Key::table("substructures", "Bodies that the structure is cut into", substructures_keys(),
+                 UsedBy::modes),
+      Key::tables("interface", "Where other bodies attach to a structure", interface_keys(),
+                  UsedBy::modes),
+      Key::tables("body", "Bodies of the experiments", body_keys(), UsedBy::all_experiments),
+      Key::tables("marker", "Points of bodies; interfaces of deformable ones are markers",
+                  marker_keys(), UsedBy::all_experiments),
+      Key::tables("joint", "Joints between markers", joint_keys(), UsedBy::all_experiments),
+      Key::tables("force", "Forces of static tests", force_keys(), UsedBy::named_experiments),
+      Key::tables("pulse", "Decelerations of the pendulum's arm", pulse_keys(),
+                  UsedBy::named_experiments),
+      Key::tables("rigid_neck", "Necks that are rigid links between two pivots", rigid_neck_keys(),
+                  UsedBy::named_experiments),
+      Key::tables("head_spring", "Nodding blocks and cable as a pin of the head",
+                  head_spring_keys(), UsedBy::named_experiments),
+      Key::table("pendulum", "Keys that all [[case]] of the pendulum share", case_keys(),
+                 UsedBy::named_experiments),
+      Key::table("static", "Keys that all [[case]] of the static tester share", case_keys(),
+                 UsedBy::named_experiments),
+      Key::tables("case", "Experiments", case_keys(), UsedBy::named_experiments),
+      Key::tables("variant", "Experiments made of others, with keys of their own", variant_keys(),
+                  UsedBy::named_experiments),
+      Key::table("solver", "Integration of the experiments", kSolverKeys, UsedBy::all_experiments),
+      Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
+  });
+  return kKeys;
+}
+
 fe_modal::Formulation read_formulation(const StudyTable& table) {
   try {
     return fe_modal::formulation_from(table.text("formulation"));
@@ -26,14 +111,14 @@ fe_modal::Formulation read_formulation(const StudyTable& table) {
 MeshOrders read_mesh_orders(const StudyTable& mesh) {
   MeshOrders orders;
   if (mesh.has("partitions")) {
-    for (const double count : mesh.numbers("partitions", 0)) {
+    for (const double count : mesh.numbers("partitions")) {
       if (!(count >= 1 && count <= 4096 && count == std::floor(count))) {
         mesh.refuse("partitions", "expected numbers of processes, such as [2, 4]");
       }
       orders.partitions.push_back(static_cast<int>(count));
     }
   }
-  orders.node_order = choice_or_first(mesh, "node_order", {"none", "nested-dissection"}) == 1;
+  orders.node_order = mesh.choice("node_order") == 1;
   return orders;
 }
 
@@ -57,30 +142,27 @@ std::map<std::string, std::array<bool, 3>> read_held_directions(const StudyTable
 
 ModesSection read_modes(const StudyTable& table) {
   ModesSection modes;
-  modes.count = table.count_or("count", 1, modes.count);
-  if (table.has("formulation")) modes.formulation = read_formulation(table);
-  modes.certify = table.flag_or("certify", modes.certify);
-  modes.basis =
-      static_cast<fe_modal::BasisKind>(choice_or_first(table, "basis", fe_modal::basis_names()));
-  modes.rigid_interfaces = table.texts_or_none("rigid_interfaces");
-  modes.basis_interfaces = table.texts_or_none("basis_interfaces");
-  modes.stress_stiffening =
-      choice_or_first(table, "stress_stiffening", {"none", "unit-loads"}) == 1;
-  modes.solver = choice_or_first(table, "solver", {"direct", "iterative"}) == 0
-                     ? fe_modal::Solver::direct
-                     : fe_modal::Solver::iterative;
-  modes.held = table.texts_or_none("held");
+  modes.count = table.count("count");
+  modes.formulation = read_formulation(table);
+  modes.certify = table.flag("certify");
+  modes.basis = static_cast<fe_modal::BasisKind>(table.choice("basis"));
+  modes.rigid_interfaces = table.texts("rigid_interfaces");
+  modes.basis_interfaces = table.texts("basis_interfaces");
+  modes.stress_stiffening = table.choice("stress_stiffening") == 1;
+  modes.solver =
+      table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;
+  modes.held = table.texts("held");
   modes.held_directions = read_held_directions(table.table("held_directions"));
-  modes.rigid_parts = table.texts_or_none("rigid_parts");
-  modes.attached_body = table.text_or("attached_body", "");
-  modes.attached_to = table.text_or("attached_to", "");
+  modes.rigid_parts = table.texts("rigid_parts");
+  modes.attached_body = table.text("attached_body");
+  modes.attached_to = table.text("attached_to");
   table.finish();
   return modes;
 }
 
 void read_solver(const StudyTable& table, Study& study) {
   read_steps(table, study.solver);
-  if (table.has("gravity")) study.gravity_m_s2 = quantity_vector(table, "gravity", "m/s^2");
+  if (table.has("gravity")) study.gravity_m_s2 = quantity_vector(table, "gravity");
   table.finish();
 }
 
@@ -97,11 +179,8 @@ std::vector<Section> read_all(const StudyTable& root, const std::string& key,
 }
 
 void read_output(const StudyTable& table, Study& study) {
-  study.output_interval_s = table.quantity_or("interval", "s", study.output_interval_s);
-  if (!(study.output_interval_s > 0)) table.refuse("interval", "expected a positive time");
-  if (table.has("verification")) {
-    study.verification = table.folder_of("verification") / table.text("verification");
-  }
+  study.output_interval_s = table.quantity("interval");
+  if (table.has("verification")) study.verification = table.file("verification");
   table.finish();
 }
 
@@ -210,7 +289,7 @@ const BodySection& Study::body(const std::string& name) const {
 }
 
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  const StudyDocument document(path, settings);
+  const StudyDocument document(path, settings, study_keys());
   const StudyTable root = document.root();
   Study study;
   study.file = path;

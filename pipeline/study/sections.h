@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+
 #include "pipeline/document/study_document.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
+
+// What the sections may say.
+std::span<const Key> geometry_keys();
+std::span<const Key> structure_keys();  ///< of [geometry], where it is not the neck
+std::span<const Key> mesh_keys();
+std::span<const Key> matrices_keys();
+std::span<const Key> interface_keys();
+std::span<const Key> body_keys();
+std::span<const Key> marker_keys();
+std::span<const Key> joint_keys();
+std::span<const Key> force_keys();
+std::span<const Key> pulse_keys();
+std::span<const Key> rigid_neck_keys();
+std::span<const Key> head_spring_keys();
+std::span<const Key> case_keys();
+std::span<const Key> variant_keys();
 
 /// True if [geometry] describes something else than the neck: a file, or a script without the
 /// neck's dimensions.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/model/model.h"
 #include "multibody/simulation/simulation.h"
+#include "pipeline/document/key.h"
 #include "pipeline/model/pulse.h"
 #include "pipeline/study/structure_section.h"
 #include "pipeline/study/substructure_section.h"
@@ -63,13 +65,6 @@ struct ModesSection {
   std::string attached_to;    ///< that interface; empty: the first
 };
 
-/// Damping of correction modes where a study says nothing; inferred. They stand for what many
-/// higher modes give statically, so a damping of their own has no meaning but to let their ringing
-/// die out. On the neck with the head (four normal, six residual modes) 0 and 0.05 give the same
-/// system damping within 0.3 %, the modes' 0.9 raises it by 4 %; the rate 2 zeta omega stays far
-/// from the explicit step's limit.
-inline constexpr double kCorrectionDamping = 0.05;
-
 /// [[body]]
 struct BodySection {
   enum class Kind { ground, driven, rigid, deformable };
@@ -79,7 +74,7 @@ struct BodySection {
   std::vector<std::string> modes;  ///< of a deformable body
   double damping_ratio = 0;
   /// Of modes that only complete the static compliance.
-  double correction_damping_ratio = kCorrectionDamping;
+  double correction_damping_ratio = 0;
 };
 
 /// [[marker]]; the interfaces of deformable bodies are markers without being listed.
@@ -163,6 +158,9 @@ struct CaseSection {
   std::string rigid_neck;               ///< in place of the deformable one; empty for none
   std::string head_spring;              ///< in place of the head's fixed joint; empty for none
 };
+
+/// The table of keys of study files, by section.
+std::span<const Key> study_keys();
 
 /// Everything that a study file says, checked and in SI units.
 struct Study {

@@ -8,11 +8,26 @@
 namespace flexneck::pipeline {
 namespace {
 
+constexpr Key kPieceKeys[] = {
+    Key::text("name", kRequired, "Name of the piece, and of its file of modes"),
+    Key::texts("parts", kNone, "Parts of the mesh that make the piece"),
+    Key::quantity("up_to", "m", kNone,
+                  "In place of parts: the plane, across the normal, that the piece ends at; the "
+                  "last has none"),
+};
+
+constexpr Key kKeys[] = {
+    Key::tables("piece", "A body that the structure is cut into", kPieceKeys),
+    Key::count("modes", "2", "Modes of each piece with its ends held, besides static shapes",
+               {.range = at_least(0)}),
+    Key::numbers("normal", kNone, "Direction across the planes; z if it is not there", {.size = 3}),
+};
+
 PieceSection read_piece(const StudyTable& table) {
   PieceSection piece;
   piece.name = table.text("name");
   if (table.has("parts")) piece.parts = table.texts("parts");
-  if (table.has("up_to")) piece.up_to_m = table.quantity("up_to", "m");
+  if (table.has("up_to")) piece.up_to_m = table.quantity("up_to");
   if (!piece.parts.empty() && piece.up_to_m) {
     table.refuse("up_to", "expected parts or up_to, found both");
   }
@@ -40,13 +55,15 @@ void check_pieces(const StudyTable& table, const SubstructuresSection& section) 
 
 }  // namespace
 
+std::span<const Key> substructures_keys() { return kKeys; }
+
 SubstructuresSection read_substructures(const StudyTable& table) {
   SubstructuresSection section;
   for (const StudyTable& piece : table.tables("piece")) {
     section.pieces.push_back(read_piece(piece));
   }
   check_names(names_of(section.pieces), "piece");
-  section.modes = table.count_or("modes", 0, section.modes);
+  section.modes = table.count("modes");
   if (table.has("normal")) section.normal = unit_vector(table, "normal");
   if (section.pieces.size() == 1) {
     table.refuse("piece", "expected two pieces at least, found one");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,10 @@ struct SubstructuresSection {
   std::vector<PieceSection> pieces;  ///< none: the structure stays one body
   bool by_planes = false;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  int modes = 2;  ///< of each piece with its ends held, besides the static shapes of the ends
+  int modes = 0;  ///< of each piece with its ends held, besides the static shapes of the ends
 };
 
+std::span<const Key> substructures_keys();
 SubstructuresSection read_substructures(const StudyTable& table);
 
 }  // namespace flexneck::pipeline

@@ -6,16 +6,33 @@
 
 namespace flexneck::pipeline {
 
+namespace {
+
+constexpr Key kKeys[] = {
+    Key::number("tolerance_percent", kRequired, "Of the frequencies of bending and torsion"),
+    Key::quantities("bending", "Hz", kRequired, "Frequencies of bending, ascending"),
+    Key::quantities("torsion", "Hz", kRequired, "Frequencies of torsion, ascending"),
+    Key::texts("mode_order", kRequired, "Kinds of the modes, ascending"),
+    Key::quantity("weight", "kg", kRequired, "Mass of the neck"),
+    Key::quantity("system_frequency", "Hz", kRequired, "First frequency of the neck with the head"),
+    Key::number("frequency_ratio", kRequired, "First frequency of the neck over that"),
+    Key::number("effective_damping", kRequired, "Damping ratio of that mode"),
+};
+
+}  // namespace
+
+std::span<const Key> reference_keys() { return kKeys; }
+
 Reference read_reference(const std::filesystem::path& path) {
-  const StudyDocument document(path, {});
+  const StudyDocument document(path, {}, kKeys);
   const StudyTable table = document.root();
   Reference reference;
   reference.tolerance_percent = table.number("tolerance_percent");
-  reference.bending_Hz = table.quantities("bending", "Hz", 0);
-  reference.torsion_Hz = table.quantities("torsion", "Hz", 0);
+  reference.bending_Hz = table.quantities("bending");
+  reference.torsion_Hz = table.quantities("torsion");
   reference.mode_order = table.texts("mode_order");
-  reference.weight_kg = table.quantity("weight", "kg");
-  reference.system_frequency_Hz = table.quantity("system_frequency", "Hz");
+  reference.weight_kg = table.quantity("weight");
+  reference.system_frequency_Hz = table.quantity("system_frequency");
   reference.frequency_ratio = table.number("frequency_ratio");
   reference.effective_damping = table.number("effective_damping");
   table.finish();

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "pipeline/document/key.h"
 
 namespace flexneck::pipeline {
 
@@ -18,6 +21,9 @@ struct Reference {
   double frequency_ratio = 0;  ///< first bending frequency over the system's
   double effective_damping = 0;
 };
+
+/// The table of keys of such a file.
+std::span<const Key> reference_keys();
 
 /// @throws InputError if the file does not say what it must.
 Reference read_reference(const std::filesystem::path& path);

@@ -11,15 +11,43 @@
 using Catch::Matchers::Contains;
 using flexneck::Origin;
 using flexneck::TemporaryFolder;
-using flexneck::pipeline::StudyDocument;
-using flexneck::pipeline::StudyTable;
+using namespace flexneck::pipeline;
 
 namespace {
+
+constexpr Key kPartKeys[] = {
+    Key::quantity("width", "m", "0.25", "A length"),
+    Key::quantity("height", "m", kRequired, "A length"),
+    Key::quantities("position", "m", kRequired, "A point", {.size = 3}),
+    Key::number("ratio", kRequired, "A number", {.range = {.low = 0, .high = 1}}),
+    Key::number("w", kRequired, "A number"),
+    Key::count("count", kRequired, "A whole number", {.range = at_least(1)}),
+    Key::flag("hollow", "false", "A flag"),
+    Key::text("colour", kNone, "A text"),
+    Key::texts("holes", kNone, "Texts"),
+    Key::quantity("stiffness", "N/m | N*m/rad", "0", "Of two kinds"),
+    Key::quantity("plate_diameter", "m", kNone, "A length"),
+};
+
+constexpr Key kCaseKeys[] = {
+    Key::text("name", kRequired, "A name"),
+    Key::count("count", kRequired, "A whole number", {.range = at_least(0)}),
+};
+
+constexpr Key kFreshKeys[] = {Key::number("*", kRequired, "Any name")};
+
+constexpr Key kKeys[] = {
+    Key::table("part", "A table", kPartKeys),
+    Key::tables("case", "Tables", kCaseKeys),
+    Key::table("fresh", "A table", kFreshKeys),
+    Key::text("x", kRequired, "A text"),
+    Key::number("w", kRequired, "A number"),
+};
 
 StudyDocument document_of(const TemporaryFolder& folder, const std::string& text,
                           const std::vector<std::string>& settings = {}) {
   std::ofstream(folder / "study.toml") << text;
-  return {folder / "study.toml", settings};
+  return {folder / "study.toml", settings, kKeys};
 }
 
 }  // namespace
@@ -35,14 +63,14 @@ ratio = 0.49
 count = 7
 )");
   const StudyTable part = document.root().table("part");
-  CHECK(part.quantity("width", "m") == Approx(0.0508));
-  CHECK(part.quantity("height", "m") == Approx(0.0762));
-  const std::vector<double> position = part.quantities("position", "m", 3);
+  CHECK(part.quantity("width") == Approx(0.0508));
+  CHECK(part.quantity("height") == Approx(0.0762));
+  const std::vector<double> position = part.quantities("position");
   CHECK(position[0] == 0);
   CHECK(position[1] == Approx(0.001));
   CHECK(position[2] == Approx(-0.0254));
   CHECK(part.number("ratio") == 0.49);
-  CHECK(part.count("count", 1) == 7);
+  CHECK(part.count("count") == 7);
   part.finish();
   const auto& parameters = document.parameters();
   REQUIRE(parameters.size() == 5);
@@ -57,15 +85,18 @@ TEST_CASE("what holds for keys that are not given is told beside the values") {
   const TemporaryFolder folder;
   const StudyDocument document = document_of(folder, "[part]\nratio = 0.49\n");
   const StudyTable part = document.root().table("part");
-  CHECK(part.number_or("ratio", 0.3) == 0.49);
-  CHECK(part.quantity_or("width", "m", 0.25) == 0.25);
-  CHECK_FALSE(part.flag_or("hollow", false));
-  CHECK(part.text_or("colour", "").empty());
-  CHECK(part.texts_or_none("holes").empty());
+  CHECK(part.number("ratio") == 0.49);
+  CHECK(part.quantity("width") == 0.25);
+  CHECK_FALSE(part.flag("hollow"));
+  CHECK(part.text("colour").empty());
+  CHECK(part.texts("holes").empty());
+  CHECK(part.quantity("stiffness", "N*m/rad") == 0);
   REQUIRE(document.parameters().size() == 1);
   std::string told;
   for (const auto& each : document.defaults()) told += each.key + " = " + each.value + "\n";
-  CHECK(told == "part.width = 0.25 m\npart.hollow = false\npart.colour = -\npart.holes = -\n");
+  CHECK(told ==
+        "part.width = 0.25 m\npart.hollow = false\npart.colour = -\npart.holes = -\n"
+        "part.stiffness = 0 N*m/rad\n");
 }
 
 TEST_CASE("what a study gets wrong is told with file, line, column, key and remedy") {
@@ -73,16 +104,18 @@ TEST_CASE("what a study gets wrong is told with file, line, column, key and reme
   const auto table = [&](const std::string& line) {
     return document_of(folder, "[part]\n" + line + "\n").root().table("part");
   };
-  CHECK_THROWS_WITH(table("width = 2").quantity("width", "m"),
+  CHECK_THROWS_WITH(table("width = 2").quantity("width"),
                     Contains("study.toml:2:9: part.width: expected a number with its unit"));
-  CHECK_THROWS_WITH(table("width = \"2 s\"").quantity("width", "m"), Contains("something else"));
-  CHECK_THROWS_WITH(table("width = \"2 inn\"").quantity("width", "m"), Contains("unknown unit"));
+  CHECK_THROWS_WITH(table("width = \"2 s\"").quantity("width"), Contains("something else"));
+  CHECK_THROWS_WITH(table("width = \"2 inn\"").quantity("width"), Contains("unknown unit"));
   CHECK_THROWS_WITH(table("ratio = \"0.4 in\"").number("ratio"), Contains("pure number"));
+  CHECK_THROWS_WITH(table("ratio = 1.5").number("ratio"),
+                    Contains("part.ratio: expected a value from 0 to 1, found 1.5"));
   CHECK_THROWS_WITH(table("ratio = nan").number("ratio"), Contains("finite"));
-  CHECK_THROWS_WITH(table("count = 0").count("count", 1), Contains("at least 1, found 0"));
-  CHECK_THROWS_WITH(table("count = 1.5").count("count", 1), Contains("whole number"));
+  CHECK_THROWS_WITH(table("count = 0").count("count"), Contains("at least 1, found 0"));
+  CHECK_THROWS_WITH(table("count = 1.5").count("count"), Contains("whole number"));
   CHECK_THROWS_WITH(table("").number("ratio"), Contains("part.ratio: expected this key"));
-  CHECK_THROWS_WITH(table("p = [\"1 m\"]").quantities("p", "m", 3), Contains("list of 3"));
+  CHECK_THROWS_WITH(table("position = [\"1 m\"]").quantities("position"), Contains("list of 3"));
   CHECK_THROWS_WITH(table("w = { value = 1, origin = \"guessed\" }").number("w"),
                     Contains("part.w: expected the origin published, inferred"));
   CHECK_THROWS_WITH(table("w = { value = 1, orign = \"inferred\" }").number("w"),
@@ -93,7 +126,19 @@ TEST_CASE("what a study gets wrong is told with file, line, column, key and reme
   CHECK_THROWS_WITH(misspelt.finish(),
                     Contains("part.plate_diametre: unknown key (did you mean 'plate_diameter'?)"));
   CHECK_THROWS_WITH(document_of(folder, "[part\nwidth = 1"), Contains("study.toml:1:"));
-  CHECK_THROWS_WITH(StudyDocument(folder / "none.toml", {}), Contains("none.toml: no such file"));
+  CHECK_THROWS_WITH(StudyDocument(folder / "none.toml", {}, kKeys),
+                    Contains("none.toml: no such file"));
+}
+
+TEST_CASE("a reader takes no key and no type but those of the table of keys") {
+  const TemporaryFolder folder;
+  const StudyTable part = document_of(folder, "[part]\nlength = \"1 m\"\n").root().table("part");
+  CHECK_THROWS_AS(part.has("length"), std::logic_error);
+  CHECK_THROWS_AS(part.quantity("length"), std::logic_error);
+  CHECK_THROWS_AS(part.number("width"), std::logic_error);
+  CHECK_THROWS_AS(part.quantity("stiffness"), std::logic_error);
+  CHECK_THROWS_AS(part.quantity("stiffness", "N"), std::logic_error);
+  CHECK_THROWS_AS(part.table("hollow"), std::logic_error);
 }
 
 TEST_CASE("an including file wins over what it includes, key by key") {
@@ -102,8 +147,8 @@ TEST_CASE("an including file wins over what it includes, key by key") {
   const StudyDocument document =
       document_of(folder, "include = [\"base.toml\"]\n[part]\nheight = \"3 m\"\n");
   const StudyTable part = document.root().table("part");
-  CHECK(part.quantity("width", "m") == 1);
-  CHECK(part.quantity("height", "m") == 3);
+  CHECK(part.quantity("width") == 1);
+  CHECK(part.quantity("height") == 3);
   REQUIRE(document.files().size() == 2);
   CHECK(document.files()[0].name == "base.toml");
   CHECK_THROWS_WITH(document_of(folder, "include = [\"study.toml\"]"), Contains("includes itself"));
@@ -124,16 +169,16 @@ count = 2
   const StudyDocument document =
       document_of(folder, text, {"part.width=4 in", "case.second.count=5", "fresh.key=1.5"});
   const StudyTable root = document.root();
-  CHECK(root.table("part").quantity("width", "m") == Approx(0.1016));
+  CHECK(root.table("part").quantity("width") == Approx(0.1016));
   CHECK(document.parameters().back().origin == Origin::synthetic);
-  CHECK(root.tables("case").at(0).count("count", 0) == 1);
-  CHECK(root.tables("case").at(1).count("count", 0) == 5);
+  CHECK(root.tables("case").at(0).count("count") == 1);
+  CHECK(root.tables("case").at(1).count("count") == 5);
   CHECK(root.table("fresh").number("key") == 1.5);
   CHECK_THROWS_WITH(document_of(folder, text, {"part.width"}), Contains("expected key=value"));
   CHECK_THROWS_WITH(document_of(folder, text, {"case.third.count=1"}),
                     Contains("there is no case named 'third'"));
   CHECK_THROWS_WITH(
-      document_of(folder, text, {"part.width=4"}).root().table("part").quantity("width", "m"),
+      document_of(folder, text, {"part.width=4"}).root().table("part").quantity("width"),
       Contains("command line: part.width: expected a number with its unit"));
 }
 
@@ -185,7 +230,7 @@ TEST_CASE(
     INFO(text);
     CHECK_THROWS_WITH(document_of(folder, text), Contains(why) && !Contains("\n"));
   };
-  CHECK_THROWS_WITH(StudyDocument(folder / "pipe", {}),
+  CHECK_THROWS_WITH(StudyDocument(folder / "pipe", {}, kKeys),
                     Contains("pipe: expected a file, found a pipe"));
   refused("include = [\"pipe\"]", "pipe: expected a file, found a pipe");
   refused("include = [\"/dev/zero\"]", "zero: expected a file, found a device");

@@ -21,7 +21,7 @@ import sound_files
 
 MEMORY = 1 << 30  # and twice the file
 SECONDS = 20  # of the processor; on the clock CLOCK times as much, for a machine with other work
-CLOCK = 10
+CLOCK = 30
 # How the death of a child is told.
 CONTAINED = re.compile(r"crashes on it|is not done with it|wants more than|gives up on it|was killed")
 
