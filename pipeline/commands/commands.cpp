@@ -90,6 +90,13 @@ const std::vector<Command>& commands() {
        .options = {folder, settings, mesh_settings, modes_settings},
        .run = study_command,
        .writes_results = false},
+      {.name = "keys",
+       .help = "tell the keys that studies and models may have, with units and defaults",
+       .files = {"TABLE ...", "Such as study, study.case or model.joint.axis; default: all tables"},
+       .options = {},
+       .run = nullptr,
+       .run_on_files = keys_command,
+       .writes_results = false},
   };
   return list;
 }

@@ -32,4 +32,8 @@ bool info_command(const FileInput& input);
 /// @throws InputError for less than two, or one without results.
 bool compare_command(const FileInput& input);
 
+/// What files that users write may say: the keys of studies, models and tables of references.
+/// @throws InputError for a name that is none of a kind of file, a table or a key in it.
+bool keys_command(const FileInput& input);
+
 }  // namespace flexneck::pipeline

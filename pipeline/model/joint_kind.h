@@ -8,6 +8,9 @@
 
 namespace flexneck::pipeline {
 
+/// Names that the key may have, aliases behind those of the field.
+std::vector<std::string> names_of_kinds(std::span<const multibody::JointKind* const> kinds);
+
 /// The kind of joint that the key `kind` names. @throws InputError with the nearest name.
 const multibody::JointKind* joint_kind(const StudyTable& table,
                                        std::span<const multibody::JointKind* const> kinds);

@@ -321,7 +321,7 @@ TEST_CASE("materials that cannot be, and ones that lock, are told") {
   check_refused(run_flexneck("mesh" + out + butyl + "poissons_ratio=0.5"),
                 "material 'butyl': Poisson's ratio must lie between -1 and 0.5");
   check_refused(run_flexneck("mesh" + out + butyl + "static_modulus_ratio=0"),
-                "static_modulus_ratio: expected a positive number");
+                "static_modulus_ratio: expected a positive value, found 0");
   check_refused(run_flexneck("mesh" + out + butyl + "formulation=mixd"),
                 "unknown formulation 'mixd'");
   REQUIRE(run_flexneck("mesh" + out).exit_code == 0);

@@ -122,12 +122,12 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
 
   // OpenCASCADE looks for the end of an edge in what is not there.
   refused("short.brep", brep.substr(0, brep.find("\nEd\n") + 8),
-          "OpenCASCADE or gmsh is not done with it after 10 s");
+          "OpenCASCADE or gmsh is not done with it after ");
 
   // Read without complaint: an edge that is far away in the parameters of its face.
   refused("far.brep",
           with(brep, "Curve2ds 24\n1 0 0 1 0 \n1 0 0 ", "Curve2ds 24\n1 0 0 1 0 \n1 1e19 0 "),
-          "OpenCASCADE or gmsh is not done with it after 9 s");
+          "OpenCASCADE or gmsh is not done with it after ");
 
   // A block of 2^31 - 1 nodes, of which there is none.
   std::istringstream lines(msh.substr(msh.find("$Nodes\n") + 7));

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/document/key_reference.h"
+
+#include <sstream>
+
+#include <fmt/core.h>
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr std::size_t kColumns = 100;
+
+/// Broken between words, each line behind a margin.
+std::string wrapped(const std::string& text, const std::string& margin) {
+  std::istringstream words(text);
+  std::string lines = margin;
+  std::size_t column = margin.size();
+  for (std::string word; words >> word;) {
+    const bool is_first = column == margin.size();
+    if (!is_first && column + 1 + word.size() > kColumns) {
+      lines += "\n" + margin;
+      column = margin.size();
+    } else if (!is_first) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += word.size();
+  }
+  return lines + "\n";
+}
+
+bool is_table(const Key& key) { return key.type == KeyType::table || key.type == KeyType::tables; }
+
+std::string heading(const std::string& path, const Key& table) {
+  return table.type == KeyType::tables ? "[[" + path + "]]" : "[" + path + "]";
+}
+
+/// Type, unit, default and what is allowed.
+std::string kind_text(const Key& key) {
+  std::string text = type_text(key);
+  if (!key.unit.empty()) text += " in " + std::string(key.unit);
+  if (key.details.choices != nullptr) {
+    std::string names;
+    for (const std::string& name : key.details.choices())
+      names += (names.empty() ? "" : " | ") + name;
+    text += ": " + names;
+  }
+  if (const std::string range = key.details.range.text(); !range.empty()) text += ", " + range;
+  if (key.fallback == kRequired) return text + "; required";
+  if (key.fallback == kNone) return text;
+  return text + "; default " + std::string(key.fallback);
+}
+
+}  // namespace
+
+std::string tables_text(std::span<const Key> keys) {
+  std::string text;
+  for (const Key& key : keys) {
+    const std::string name(key.name);
+    text += is_table(key) ? fmt::format("{:<18}{}\n", heading(name, key), key.what)
+                          : fmt::format("{:<18}{}\n", name, key.what);
+  }
+  return text;
+}
+
+std::string key_text(const Key& key) {
+  return wrapped(fmt::format("{} ({})", key.name, kind_text(key)), "  ") +
+         wrapped(std::string(key.what), "      ");
+}
+
+std::string table_text(const std::string& path, const Key& table) {
+  std::string text = heading(path, table) + "  " + std::string(table.what) + "\n";
+  std::string below;
+  for (const Key& key : table.keys) {
+    const std::string name = key.name == "*" ? "<name>" : std::string(key.name);
+    if (is_table(key)) {
+      below += "\n" + table_text(path + "." + name, key);
+    } else {
+      text += key_text(key);
+    }
+  }
+  return text + below;
+}
+
+}  // namespace flexneck::pipeline
