@@ -13,20 +13,24 @@ using multibody::Joint;
 using multibody::JointAxes;
 using multibody::JointKind;
 
+std::vector<std::string> names_of_kinds(std::span<const JointKind* const> kinds) {
+  std::vector<std::string> names;
+  for (const JointKind* const kind : kinds)
+    for (const std::string_view each : {kind->name, kind->alias})
+      if (!each.empty()) names.emplace_back(each);
+  return names;
+}
+
 const JointKind* joint_kind(const StudyTable& table, std::span<const JointKind* const> kinds) {
   const std::string name = table.text("kind");
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const JointKind* kind) {
     return kind->name == name || (!name.empty() && kind->alias == name);
   });
   if (found != kinds.end()) return *found;
-  std::vector<std::string> names;
   std::string expected = "expected one of";
-  for (const JointKind* const kind : kinds) {
-    expected += " \"" + std::string(kind->name) + "\"";
-    for (const std::string_view each : {kind->name, kind->alias})
-      if (!each.empty()) names.emplace_back(each);
-  }
-  table.refuse("kind", expected + ", found \"" + name + "\"" + did_you_mean(names, name));
+  for (const JointKind* const kind : kinds) expected += " \"" + std::string(kind->name) + "\"";
+  table.refuse("kind",
+               expected + ", found \"" + name + "\"" + did_you_mean(names_of_kinds(kinds), name));
 }
 
 std::size_t marker_named(const StudyTable& table, const std::string& key,
@@ -38,7 +42,8 @@ namespace {
 
 constexpr auto kKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the joint"),
-    Key::text("kind", kRequired, "Which motion it leaves"),
+    Key::text("kind", kRequired, "Which motion it leaves",
+              {.choices = [] { return names_of_kinds(multibody::kJointKinds); }}),
     Key::text("lower", kRequired, "Marker of the lower body"),
     Key::text("upper", kRequired,
               "Marker of the upper body, on which the lower one exerts the reaction"),

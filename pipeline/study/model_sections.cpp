@@ -42,7 +42,8 @@ constexpr std::array kJointKinds = {&multibody::kSphericalJoint, &multibody::kRe
 
 constexpr Key kJointKeys[] = {
     Key::text("name", kRequired, "Name of the joint"),
-    Key::text("kind", kRequired, "spherical (ball), revolute (pin) or fixed"),
+    Key::text("kind", kRequired, "Which motion it leaves",
+              {.choices = [] { return names_of_kinds(kJointKinds); }}),
     Key::text("lower", kRequired, "Marker of the lower body"),
     Key::text("upper", kRequired, "Marker of the upper body"),
     Key::numbers("axis", kNone, "Of a revolute joint: its axis, in both markers' axes",
