@@ -67,7 +67,7 @@ void read_force(const StudyTable& table, Assembly& assembly) {
   force.direction = unit_vector(table, "direction");
   force.magnitude_N =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
-  assembly.model.forces.push_back(std::move(force));
+  assembly.model.forces.add(std::move(force));
   table.finish();
 }
 
@@ -78,7 +78,7 @@ void read_torque(const StudyTable& table, Assembly& assembly) {
   torque.direction = unit_vector(table, "direction");
   torque.magnitude_Nm =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N*m"}, assembly);
-  assembly.model.torques.push_back(std::move(torque));
+  assembly.model.forces.add(std::move(torque));
   table.finish();
 }
 
@@ -90,7 +90,7 @@ void read_spring(const StudyTable& table, Assembly& assembly) {
   spring.free_length_m = table.quantity("free_length", "m");
   spring.resistance = read_resistance_law(table, kLinearUnits, assembly.files);
   spring.resistance.tension_only = table.flag_or("tension_only", false);
-  assembly.model.springs.push_back(std::move(spring));
+  assembly.model.forces.add(std::move(spring));
   table.finish();
 }
 
@@ -101,7 +101,7 @@ void read_bushing(const StudyTable& table, Assembly& assembly) {
   bushing.marker_j = marker_named(table, "upper", assembly);
   bushing.stiffness = bushing_matrix(table, "stiffness", "");
   bushing.damping = bushing_matrix(table, "damping", "*s");
-  assembly.model.bushings.push_back(std::move(bushing));
+  assembly.model.forces.add(std::move(bushing));
   table.finish();
 }
 
@@ -114,7 +114,7 @@ void read_resistance(const StudyTable& table, Assembly& assembly) {
   const bool is_linear = resistance.coordinate == JointCoordinate::distance;
   resistance.resistance =
       read_resistance_law(table, is_linear ? kLinearUnits : kAngularUnits, assembly.files);
-  assembly.model.resistances.push_back(std::move(resistance));
+  assembly.model.forces.add(std::move(resistance));
   table.finish();
 }
 
