@@ -18,9 +18,16 @@ using Read = void (*)(const StudyTable&, Assembly&);
 
 /// In the order in which one kind of table may name things of another.
 constexpr std::pair<const char*, Read> kSections[] = {
-    {"body", read_body},     {"marker", read_marker},   {"joint", read_joint},
-    {"motor", read_motor},   {"force", read_force},     {"torque", read_torque},
-    {"spring", read_spring}, {"bushing", read_bushing}, {"resistance", read_resistance},
+    {"body", read_body},
+    {"marker", read_marker},
+    {"joint", read_joint},
+    {"motor", read_motor},
+    {"force", read_force},
+    {"torque", read_torque},
+    {"spring", read_spring},
+    {"bushing", read_bushing},
+    {"resistance", read_resistance},
+    {"line_force", read_line_force},
 };
 
 void read_solver(const StudyTable& table, ModelFile& file) {

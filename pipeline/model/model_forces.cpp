@@ -118,4 +118,15 @@ void read_resistance(const StudyTable& table, Assembly& assembly) {
   table.finish();
 }
 
+void read_line_force(const StudyTable& table, Assembly& assembly) {
+  multibody::LineForce force;
+  force.name = table.text("name");
+  force.marker_i = marker_named(table, "lower", assembly);
+  force.marker_j = marker_named(table, "upper", assembly);
+  force.magnitude_N =
+      load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
+  assembly.model.forces.add(std::move(force));
+  table.finish();
+}
+
 }  // namespace flexneck::pipeline

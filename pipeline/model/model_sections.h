@@ -31,6 +31,7 @@ void read_torque(const StudyTable& table, Assembly& assembly);      ///< [[torqu
 void read_spring(const StudyTable& table, Assembly& assembly);      ///< [[spring]]
 void read_bushing(const StudyTable& table, Assembly& assembly);     ///< [[bushing]]
 void read_resistance(const StudyTable& table, Assembly& assembly);  ///< [[resistance]]
+void read_line_force(const StudyTable& table, Assembly& assembly);  ///< [[line_force]]
 
 /// Position of the thing that a key names. @throws InputError with the nearest name.
 std::size_t reference(const StudyTable& table, const std::string& key,

@@ -114,6 +114,13 @@ cubic = "2 N*m/rad^3"
 stop = "30 deg"
 stop_stiffness = "5 N*m/rad"
 unloading_ratio = 0.5
+[[line_force]]
+name = "piston"
+lower = "ground.hook"
+upper = "lower.tip"
+times = ["0 ms", "10 ms"]
+magnitudes = ["0 kN", "2 kN"]
+outside = "zero"
 )");
   const multibody::Model& model = file.model;
   const double deg = std::numbers::pi / 180;
@@ -134,6 +141,10 @@ unloading_ratio = 0.5
         Approx(2 * 0.6 * 0.6 * 0.6 + 5 * (0.6 - 30 * deg)).epsilon(1e-12));
   CHECK(stop.negative.unloading_ratio == 0.5);
   CHECK(stop.full_rate == Approx(10 * deg));
+  const auto& piston = model.forces.of<multibody::LineForce>()[0];
+  CHECK(model.markers[piston.marker_j].name == "lower.tip");
+  CHECK(piston.magnitude_N.value(0.005) == Approx(1000));
+  CHECK(piston.magnitude_N.value(0.02) == 0);
   CHECK(file.files.size() == 2);
 }
 
