@@ -77,20 +77,25 @@ bool is_same(const TurningFrame& a, const TurningFrame& b) {
          away <= kSame * std::max(1.0, between.norm());
 }
 
+template <ForceElement Kind>
+void check_load(const Kind& element, const Vector3d& axis) {
+  if constexpr (TimedForce<Kind>)
+    if (!is_constant(element.load_over_time())) refuse(title(element) + " changes with time");
+  if constexpr (WorldForce<Kind>)
+    if (!is_along(element.direction, axis))
+      refuse(title(element) + " is not along the axis about which driven bodies turn");
+}
+
 void check_loads(const Model& model, const TurningFrame& frame) {
   const Vector3d& axis = frame.rate_rad_s;
   if (!is_along(model.gravity_m_s2, axis))
     refuse("gravity is not along the axis about which driven bodies turn");
-  const auto check = [&](const std::string& kind, const auto& load, const TimeTable& magnitude) {
-    if (!is_constant(magnitude)) refuse(kind + " '" + load.name + "' changes with time");
-    if (!is_along(load.direction, axis))
-      refuse(kind + " '" + load.name + "' is not along the axis about which driven bodies turn");
-  };
   for (const Joint& joint : model.joints)
     for (const JointMotor& motor : joint.motors)
       if (motor.path.moves()) refuse("motor '" + motor.name + "' moves its joint");
-  for (const PointForce& force : model.forces) check("force", force, force.magnitude_N);
-  for (const Torque& torque : model.torques) check("torque", torque, torque.magnitude_Nm);
+  model.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
+    for (const Kind& element : elements) check_load(element, axis);
+  });
 }
 
 /// Joints between what turns and what does not must let it turn.
@@ -131,8 +136,8 @@ void check_evenness(ReducedDynamics& here, const TurningFrame& frame) {
   const VectorXd load = there.accelerations_at(none) - here.accelerations_at(none);
   if (difference > kEven * largest || load.norm() > kEven / kProbe * largest)
     refuse(
-        "a joint, spring, bushing or resistance between bodies that turn and bodies that do not is "
-        "not the same all round the axis");
+        "a joint or a force element between bodies that turn and bodies that do not is not the "
+        "same all round the axis");
 }
 
 /// Newton's step, and the accelerations that it leaves where nothing resists.

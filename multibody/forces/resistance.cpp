@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "multibody/forces/force_check.h"
+
 namespace flexneck::multibody {
 
 double ResistanceSide::load(double x) const {
@@ -16,6 +18,23 @@ double ResistanceSide::energy(double x) const {
 int ResistanceSide::piece(double x) const {
   // Rows of both curves are passed one by one as x grows.
   return curve.piece(x) + (x > stop ? 1 + beyond_stop.piece(x - stop) : 0);
+}
+
+void check_resistance(const std::string& who, const Resistance& resistance) {
+  check_not_negative(who, "damping", resistance.damping);
+  check_not_negative(who, "friction", resistance.friction);
+  check_not_negative(who, "the rate of full friction", resistance.full_rate);
+  bool needs_rate = resistance.friction > 0;
+  for (const ResistanceSide& side : {resistance.positive, resistance.negative}) {
+    if (!(side.stop >= 0)) refuse_force(who, "a stop must not be negative");
+    if (!(side.unloading_ratio >= 0 && side.unloading_ratio <= 1))
+      refuse_force(who, "the ratio of unloading to loading must be from 0 to 1, but is " +
+                            std::to_string(side.unloading_ratio));
+    needs_rate = needs_rate || side.unloading_ratio < 1;
+  }
+  if (needs_rate && !(resistance.full_rate > 0))
+    refuse_force(who,
+                 "friction and hysteresis need the rate at which they are complete (full_rate)");
 }
 
 namespace {

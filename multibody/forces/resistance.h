@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include "multibody/forces/load_curve.h"
 
@@ -33,6 +34,10 @@ struct Resistance {
   /// Pulls only: nothing at x <= 0, never a push.
   bool tension_only = false;
 };
+
+/// @throws InputError, which begins with `who`: what is negative, a ratio out of its interval, no
+///         full_rate where there is friction or hysteresis.
+void check_resistance(const std::string& who, const Resistance& resistance);
 
 /// A resistance at a deflection x and rate v: the load against growing x, and of its power load * v
 /// what is stored, d(stored)/dt, and what is lost.

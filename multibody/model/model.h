@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "fe_modal/body/modal_body.h"
-#include "multibody/forces/forces.h"
+#include "multibody/forces/force_kinds.h"
 #include "multibody/joints/joint.h"
 #include "multibody/numerics/smooth_motion.h"
 #include "multibody/numerics/time_table.h"
@@ -81,11 +81,7 @@ struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
   std::vector<Joint> joints;
-  std::vector<PointForce> forces;
-  std::vector<Torque> torques;
-  std::vector<MarkerSpring> springs;
-  std::vector<Bushing> bushings;
-  std::vector<JointResistance> resistances;
+  Forces forces;                                           ///< force elements of all kinds
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< world
 
   /// @throws InputError if there is none of that name; the message lists those there are.

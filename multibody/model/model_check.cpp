@@ -9,7 +9,6 @@
 #include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "multibody/model/forces_check.h"
 #include "multibody/model/model.h"
 #include "multibody/model/stress_stiffening.h"
 
@@ -263,6 +262,13 @@ void check_joint(const Joint& joint, const Model& model) {
   check_motors(joint);
 }
 
+ForceSites force_sites(const Model& model) {
+  ForceSites sites{{}, model.joints};
+  for (const Marker& marker : model.markers)
+    sites.marker_bodies.push_back(model.bodies[marker.body].name);
+  return sites;
+}
+
 }  // namespace
 
 void check(const Model& model) {
@@ -273,7 +279,7 @@ void check(const Model& model) {
   for (const Body& body : model.bodies) check_body(body);
   for (const Marker& marker : model.markers) check_marker(marker, model);
   for (const Joint& joint : model.joints) check_joint(joint, model);
-  check_forces(model);
+  model.forces.check(force_sites(model));
 }
 
 }  // namespace flexneck::multibody

@@ -108,8 +108,8 @@ void put_head_spring(const HeadSpringSection& spring, Model& model) {
     if (model.markers[joint.marker_j].name != "head.condyles") continue;
     joint.kind = &multibody::kRevoluteJoint;
     joint.axis = spring.axis;
-    model.resistances.push_back(
-        {spring.name, k, multibody::JointCoordinate::angle, spring.resistance});
+    model.forces.add(multibody::JointResistance{spring.name, k, multibody::JointCoordinate::angle,
+                                                spring.resistance});
   }
 }
 
@@ -165,7 +165,7 @@ Model case_model(const Study& study, const CaseSection& experiment, const fe_mod
     model.joints.push_back(joint);
   }
   for (const std::string& name : experiment.forces) {
-    model.forces.push_back(
+    model.forces.add(
         point_force(study.forces[find_name(names_of(study.forces), name, "force")], model));
   }
   if (!experiment.rigid_neck.empty()) replace_neck(study, experiment, model);

@@ -15,7 +15,8 @@ JointLoad joint_load(const multibody::Model& model, const multibody::History& hi
   const multibody::MarkerHistory& i = history.marker(model.markers[definition.marker_i].name);
   const multibody::MarkerHistory& j = history.marker(model.markers[definition.marker_j].name);
   JointLoad load{reaction.force_N, reaction.moment_Nm};
-  for (const multibody::JointResistance& resistance : model.resistances) {
+  for (const multibody::JointResistance& resistance :
+       model.forces.of<multibody::JointResistance>()) {
     if (resistance.joint != joint || resistance.coordinate != multibody::JointCoordinate::angle)
       continue;
     for (Index k = 0; k < load.moment_Nm.cols(); ++k) {

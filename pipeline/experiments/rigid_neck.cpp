@@ -106,9 +106,9 @@ void put_rigid_neck(const RigidNeckSection& neck, CaseSection::Direction directi
   const auto add_pin = [&](std::size_t joint, const RigidNeckSection::Pivot& pivot) {
     model.joints[joint].kind = &multibody::kRevoluteJoint;
     model.joints[joint].axis = plane.axis;
-    model.resistances.push_back({"pivot of " + model.joints[joint].name, joint,
-                                 multibody::JointCoordinate::angle,
-                                 lateral ? pivot.lateral : pivot.fore_aft});
+    model.forces.add(multibody::JointResistance{"pivot of " + model.joints[joint].name, joint,
+                                                multibody::JointCoordinate::angle,
+                                                lateral ? pivot.lateral : pivot.fore_aft});
   };
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     multibody::Joint& joint = model.joints[k];

@@ -68,7 +68,7 @@ Model static_chain_model(const Study& study, const CaseSection& experiment,
     add_joint("cut " + std::to_string(k + 1), links[k].name + ".to_" + links[k + 1].name,
               links[k + 1].name + ".to_" + links[k].name, model);
   for (const std::string& name : experiment.forces)
-    model.forces.push_back(
+    model.forces.add(
         point_force(study.forces[find_name(names_of(study.forces), name, "force")], model));
   std::vector<bool> placed(model.bodies.size(), false);
   placed[0] = true;

@@ -20,7 +20,7 @@ StaticTestSignals static_test_signals(const multibody::Model& model,
   StaticTestSignals signals;
   signals.time_s = history.time_s;
   signals.load.setZero(history.time_s.size());
-  for (const multibody::PointForce& force : model.forces)
+  for (const multibody::PointForce& force : model.forces.of<multibody::PointForce>())
     signals.load +=
         history.time_s.unaryExpr([&](double time_s) { return force.magnitude_N.value(time_s); });
   signals.rotation = relative_rotation(top, history.marker("neck.base"), plane);

@@ -59,10 +59,12 @@ constexpr Key kOutputKeys[] = {
 };
 
 /// In the order in which one kind of table may name things of another.
-std::array<ModelSection, 9> sections() {
-  return {body_section(),   marker_section(),  joint_section(),
-          motor_section(),  force_section(),   torque_section(),
-          spring_section(), bushing_section(), resistance_section()};
+std::vector<ModelSection> sections() {
+  std::vector<ModelSection> all = {body_section(), marker_section(), joint_section(),
+                                   motor_section()};
+  const std::vector<ModelSection> forces = force_sections();
+  all.insert(all.end(), forces.begin(), forces.end());
+  return all;
 }
 
 void read_solver(const StudyTable& table, ModelFile& file) {

@@ -16,12 +16,9 @@ namespace {
 
 std::vector<std::string> outsides() { return {"constant", "zero"}; }
 
-/// Of a force and a torque.
-constexpr auto kLoadKeys =
+/// A magnitude, or a table of them.
+constexpr auto kMagnitudeKeys =
     joined(std::to_array<Key>({
-               Key::text("name", kRequired, "Name of the load"),
-               Key::text("marker", kRequired, "Marker that it acts at"),
-               Key::numbers("direction", kRequired, "Direction in the world", {.size = 3}),
                Key::quantity("magnitude", "N | N*m", kNone, "Magnitude at all times"),
                Key::quantities("times", "s", kNone, "In place of magnitude: times of a table"),
                Key::quantities("magnitudes", "N | N*m", kNone,
@@ -30,6 +27,23 @@ constexpr auto kLoadKeys =
                          {.choices = outsides}),
            }),
            kCsvKeys);
+
+/// Of a force and a torque.
+constexpr auto kLoadKeys =
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the load"),
+               Key::text("marker", kRequired, "Marker that it acts at"),
+               Key::numbers("direction", kRequired, "Direction in the world", {.size = 3}),
+           }),
+           kMagnitudeKeys);
+
+constexpr auto kLineForceKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the force"),
+        Key::text("lower", kRequired, "Marker at the one end"),
+        Key::text("upper", kRequired, "Marker at the other, which a positive force pushes away"),
+    }),
+    kMagnitudeKeys);
 
 /// A load that is the same at all times under the key `constant`, or a table.
 TimeTable load_over_time(const StudyTable& table, const std::string& constant,
@@ -118,7 +132,7 @@ void read_force(const StudyTable& table, Assembly& assembly) {
   force.direction = unit_vector(table, "direction");
   force.magnitude_N =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
-  assembly.model.forces.push_back(std::move(force));
+  assembly.model.forces.add(std::move(force));
   table.finish();
 }
 
@@ -129,7 +143,7 @@ void read_torque(const StudyTable& table, Assembly& assembly) {
   torque.direction = unit_vector(table, "direction");
   torque.magnitude_Nm =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N*m"}, assembly);
-  assembly.model.torques.push_back(std::move(torque));
+  assembly.model.forces.add(std::move(torque));
   table.finish();
 }
 
@@ -141,7 +155,7 @@ void read_spring(const StudyTable& table, Assembly& assembly) {
   spring.free_length_m = table.quantity("free_length");
   spring.resistance = read_resistance_law(table, kLinearUnits, assembly.files);
   spring.resistance.tension_only = table.flag("tension_only");
-  assembly.model.springs.push_back(std::move(spring));
+  assembly.model.forces.add(std::move(spring));
   table.finish();
 }
 
@@ -152,7 +166,7 @@ void read_bushing(const StudyTable& table, Assembly& assembly) {
   bushing.marker_j = marker_named(table, "upper", assembly);
   bushing.stiffness = bushing_matrix(table, "stiffness", "");
   bushing.damping = bushing_matrix(table, "damping", "*s");
-  assembly.model.bushings.push_back(std::move(bushing));
+  assembly.model.forces.add(std::move(bushing));
   table.finish();
 }
 
@@ -164,32 +178,39 @@ void read_resistance(const StudyTable& table, Assembly& assembly) {
   const bool is_linear = resistance.coordinate == JointCoordinate::distance;
   resistance.resistance =
       read_resistance_law(table, is_linear ? kLinearUnits : kAngularUnits, assembly.files);
-  assembly.model.resistances.push_back(std::move(resistance));
+  assembly.model.forces.add(std::move(resistance));
+  table.finish();
+}
+
+void read_line_force(const StudyTable& table, Assembly& assembly) {
+  multibody::LineForce force;
+  force.name = table.text("name");
+  force.marker_i = marker_named(table, "lower", assembly);
+  force.marker_j = marker_named(table, "upper", assembly);
+  force.magnitude_N =
+      load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
+  assembly.model.forces.add(std::move(force));
   table.finish();
 }
 
 }  // namespace
 
-ModelSection force_section() {
-  return {Key::tables("force", "Forces at markers", kLoadKeys), read_force};
-}
-ModelSection torque_section() {
-  return {Key::tables("torque", "Torques at markers", kLoadKeys), read_torque};
-}
-ModelSection spring_section() {
+std::vector<ModelSection> force_sections() {
   return {
-      Key::tables("spring", "Springs and dampers between the origins of two markers", kSpringKeys),
-      read_spring};
-}
-ModelSection bushing_section() {
-  return {
-      Key::tables("bushing", "Linear springs and dampers between two markers in all six directions",
-                  kBushingKeys),
-      read_bushing};
-}
-ModelSection resistance_section() {
-  return {Key::tables("resistance", "Resistances to the motion of joints", kJointResistanceKeys),
-          read_resistance};
+      {Key::tables("force", "Forces at markers", kLoadKeys), read_force},
+      {Key::tables("torque", "Torques at markers", kLoadKeys), read_torque},
+      {Key::tables("line_force", "Forces between two markers along the line between them",
+                   kLineForceKeys),
+       read_line_force},
+      {Key::tables("spring", "Springs and dampers between the origins of two markers", kSpringKeys),
+       read_spring},
+      {Key::tables("bushing",
+                   "Linear springs and dampers between two markers in all six directions",
+                   kBushingKeys),
+       read_bushing},
+      {Key::tables("resistance", "Resistances to the motion of joints", kJointResistanceKeys),
+       read_resistance},
+  };
 }
 
 }  // namespace flexneck::pipeline

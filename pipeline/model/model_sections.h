@@ -32,11 +32,7 @@ ModelSection body_section();
 ModelSection marker_section();
 ModelSection joint_section();
 ModelSection motor_section();
-ModelSection force_section();
-ModelSection torque_section();
-ModelSection spring_section();
-ModelSection bushing_section();
-ModelSection resistance_section();
+std::vector<ModelSection> force_sections();  ///< of each kind of force element
 
 /// Position of the thing that a key names. @throws InputError with the nearest name.
 std::size_t reference(const StudyTable& table, const std::string& key,

@@ -66,12 +66,12 @@ void add_springs(Model& model) {
   law.negative = law.positive;
   law.friction = 0.1;
   law.full_rate = 0.01;
-  model.springs.push_back({"spring", 0, 3, 0.1, law});
-  model.bushings.push_back({"bushing", 0, 3, {}, {}});
-  model.bushings[0].stiffness.setIdentity();
-  model.bushings[0].damping.setIdentity();
-  model.resistances.push_back({"turning", 1, JointCoordinate::angle, law});
-  model.resistances.push_back({"bending", 1, JointCoordinate::flexion, law});
+  model.forces.add(MarkerSpring{"spring", 0, 3, 0.1, law});
+  model.forces.add(Bushing{"bushing", 0, 3, {}, {}});
+  model.forces.of<Bushing>()[0].stiffness.setIdentity();
+  model.forces.of<Bushing>()[0].damping.setIdentity();
+  model.forces.add(JointResistance{"turning", 1, JointCoordinate::angle, law});
+  model.forces.add(JointResistance{"bending", 1, JointCoordinate::flexion, law});
 }
 
 Model neck_and_head(bool stiffens) {
@@ -88,8 +88,8 @@ Model neck_and_head(bool stiffens) {
   model.bodies.push_back({"head", head, {body.interface("tip").position_m}});
   model.markers = {{"wall", 0, ""}, {"root", 1, "root"}, {"tip", 1, "tip"}, {"head", 2, ""}};
   model.joints = {{"base", &kFixedJoint, 0, 1}, {"top", &kRevoluteJoint, 2, 3}};
-  model.forces.push_back(
-      {"push", 3, Vector3d::UnitX(), TimeTable({0, 1}, {0, 9}, TimeTable::Outside::constant)});
+  model.forces.add(PointForce{"push", 3, Vector3d::UnitX(),
+                              TimeTable({0, 1}, {0, 9}, TimeTable::Outside::constant)});
   add_springs(model);
   return model;
 }

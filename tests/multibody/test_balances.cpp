@@ -82,28 +82,28 @@ void add_force(Model& model, int kind) {
   const auto resist = [&](const JointKind* of, JointCoordinate coordinate) {
     for (std::size_t k = 0; k < model.joints.size(); ++k)
       if (model.joints[k].kind == of)
-        model.resistances.push_back(
-            {"resistance " + std::to_string(k), k, coordinate, make_resistance()});
+        model.forces.add(
+            JointResistance{"resistance " + std::to_string(k), k, coordinate, make_resistance()});
   };
   switch (kind) {
     case 0:
-      model.springs.push_back(
-          {"spring", marker("root end"), marker("inner 5"), 0.1, make_resistance()});
+      model.forces.add(
+          MarkerSpring{"spring", marker("root end"), marker("inner 5"), 0.1, make_resistance()});
       return;
     case 1: {
       Resistance rope;
       rope.positive.curve = LoadCurve::cubic(80);
       rope.damping = 2;
       rope.tension_only = true;
-      model.springs.push_back({"rope", marker("soft tip"), marker("inner 6"), 0.1, rope});
+      model.forces.add(MarkerSpring{"rope", marker("soft tip"), marker("inner 6"), 0.1, rope});
       return;
     }
     case 2: {
       RandomNumbers random(91);
       Eigen::Matrix<double, 6, 6> root;
       random.fill(root);
-      model.bushings.push_back({"bushing", marker("soft tip"), marker("inner 4"),
-                                20 * root * root.transpose(), 0.2 * root.transpose() * root});
+      model.forces.add(Bushing{"bushing", marker("soft tip"), marker("inner 4"),
+                               20 * root * root.transpose(), 0.2 * root.transpose() * root});
       return;
     }
     case 3:

@@ -164,8 +164,8 @@ TEST_CASE("a spring takes in the work that a turning body does on it") {
   const auto ground = build.ground();
   Resistance stretch;
   stretch.positive.curve = stretch.negative.curve = LoadCurve::cubic(500);
-  build.model.springs.push_back({"spring", build.marker("wall", ground, {1, 0.2, 0}),
-                                 build.model.marker_index("rim"), 0.5, stretch});
+  build.model.forces.add(MarkerSpring{"spring", build.marker("wall", ground, {1, 0.2, 0}),
+                                      build.model.marker_index("rim"), 0.5, stretch});
   const SolverOptions solver = short_steps();
   const EnergyHistory energy = simulate(build.model, solver, {kEnd_s, 0.01}).energy;
   const Eigen::VectorXd balance = energy.kinetic_J + energy.strain_J - energy.work_J;

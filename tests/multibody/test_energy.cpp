@@ -89,14 +89,15 @@ void add_all_forces(Model& model) {
   stiff.damping = 0.05;
   stiff.friction = 0.3;
   stiff.full_rate = 0.5;
-  model.torques.push_back({"twist", marker("bar top"), Vector3d::UnitZ(),
-                           TimeTable({0, 0.3, 0.6}, {0, 3, 0}, TimeTable::Outside::zero)});
-  model.springs.push_back({"spring", marker("ground"), marker("head joint"), 0.9, stiff});
-  model.bushings.push_back({"bushing", marker("eye"), marker("bar base"),
-                            40 * Eigen::Matrix<double, 6, 6>::Identity(),
-                            0.2 * Eigen::Matrix<double, 6, 6>::Identity()});
-  model.resistances = {{"hinge", model.joint_index("pivot"), JointCoordinate::angle, stiff},
-                       {"shoulder", model.joint_index("ball"), JointCoordinate::flexion, stiff}};
+  model.forces.add(Torque{"twist", marker("bar top"), Vector3d::UnitZ(),
+                          TimeTable({0, 0.3, 0.6}, {0, 3, 0}, TimeTable::Outside::zero)});
+  model.forces.add(MarkerSpring{"spring", marker("ground"), marker("head joint"), 0.9, stiff});
+  model.forces.add(Bushing{"bushing", marker("eye"), marker("bar base"),
+                           40 * Eigen::Matrix<double, 6, 6>::Identity(),
+                           0.2 * Eigen::Matrix<double, 6, 6>::Identity()});
+  model.forces.of<JointResistance>() = {
+      {"hinge", model.joint_index("pivot"), JointCoordinate::angle, stiff},
+      {"shoulder", model.joint_index("ball"), JointCoordinate::flexion, stiff}};
 }
 
 VectorXd balance(const EnergyHistory& energy) {

@@ -68,8 +68,8 @@ TEST_CASE("a side force holds a pendulum where the moments balance, from whereve
   const double start = GENERATE(0.0, -1.2, 2.0, -2.0, 3.1, -2.9);
   CAPTURE(start);
   Model model = pendulum(start);
-  model.forces.push_back(
-      {"pull", 2, Vector3d::UnitX(), TimeTable({0, 1}, {5, 50}, TimeTable::Outside::constant)});
+  model.forces.add(PointForce{"pull", 2, Vector3d::UnitX(),
+                              TimeTable({0, 1}, {5, 50}, TimeTable::Outside::constant)});
   const VectorXd Q = equilibrium_of(model);
   const Quaterniond q(Q[3], Q[4], Q[5], Q[6]);
   const Vector3d down = q * -Vector3d::UnitZ();
@@ -131,8 +131,8 @@ TEST_CASE("a quasi-static ramp is a row of equilibria, in closed form, with the 
   // A pendulum pulled sideways at its end: tan(angle) = 2 F / (m g).
   Model model = pendulum(0);
   constexpr double kLargest_N = 60;
-  model.forces.push_back({"pull", 2, Vector3d::UnitX(),
-                          TimeTable({0, 1}, {0, kLargest_N}, TimeTable::Outside::constant)});
+  model.forces.add(PointForce{"pull", 2, Vector3d::UnitX(),
+                              TimeTable({0, 1}, {0, kLargest_N}, TimeTable::Outside::constant)});
   SolverOptions solver;
   solver.formulation = GENERATE(Formulation::descriptor, Formulation::recursive);
   const History history = settle(model, solver, {.end_time_s = 1, .interval_s = 0.125});
@@ -167,8 +167,8 @@ TEST_CASE("a quasi-static ramp ends where nothing holds any more, and keeps what
   model.gravity_m_s2.setZero();
   model.joints[0].kind = &kPrismaticJoint;
   model.joints[0].axis = Vector3d::UnitX();
-  model.forces.push_back({"pull", 2, Vector3d::UnitX(),
-                          TimeTable({0, 0.5, 1}, {0, 0, 5}, TimeTable::Outside::constant)});
+  model.forces.add(PointForce{"pull", 2, Vector3d::UnitX(),
+                              TimeTable({0, 0.5, 1}, {0, 0, 5}, TimeTable::Outside::constant)});
   try {
     settle(model, {}, {.end_time_s = 1, .interval_s = 0.1});
     FAIL("a block that nothing holds was found at rest");

@@ -28,11 +28,7 @@ template <typename Keep>
 void check_power(Keep&& keep) {
   Model model = forest();
   const Model all = forest();
-  model.forces.clear();
-  model.torques.clear();
-  model.springs.clear();
-  model.bushings.clear();
-  model.resistances.clear();
+  model.forces = {};
   keep(all, model);
   ForceSet forces(model);
   RandomNumbers random(91);
@@ -90,15 +86,19 @@ ModelBuilder sliding_block(double speed_m_s) {
 
 TEST_CASE("what every force between bodies stores and loses is what its loads take in") {
   SECTION("springs") {
-    check_power([](const Model& all, Model& model) { model.springs = all.springs; });
+    check_power([](const Model& all, Model& model) {
+      model.forces.of<MarkerSpring>() = all.forces.of<MarkerSpring>();
+    });
   }
   SECTION("bushings") {
-    check_power([](const Model& all, Model& model) { model.bushings = all.bushings; });
+    check_power([](const Model& all, Model& model) {
+      model.forces.of<Bushing>() = all.forces.of<Bushing>();
+    });
   }
   SECTION("joint resistances across the axis") {
     check_power([](const Model& all, Model& model) {
-      for (const JointResistance& each : all.resistances)
-        if (each.coordinate != JointCoordinate::angle) model.resistances.push_back(each);
+      for (const JointResistance& each : all.forces.of<JointResistance>())
+        if (each.coordinate != JointCoordinate::angle) model.forces.add(each);
     });
   }
 }
@@ -111,7 +111,7 @@ TEST_CASE("friction stops a block where it must") {
   JointResistance brake{"brake", 0, JointCoordinate::distance, {}};
   brake.resistance.friction = kFriction_N;
   brake.resistance.full_rate = kFull;
-  build.model.resistances.push_back(brake);
+  build.model.forces.add(brake);
   const History history =
       simulate(build.model, solver_of(1e-9, 1e-12), {.end_time_s = 3, .interval_s = 1.5});
   // Constant friction down to the full rate, then a decay of time constant m full / friction.
@@ -134,7 +134,7 @@ TEST_CASE("a stop with hysteresis gives back the share of energy that it is told
   buffer.resistance.positive.beyond_stop = LoadCurve::cubic(500, 0, 1e5);
   buffer.resistance.positive.unloading_ratio = kRatio;
   buffer.resistance.full_rate = 1e-4 * kSpeed;
-  build.model.resistances.push_back(buffer);
+  build.model.forces.add(buffer);
   const History history =
       simulate(build.model, solver_of(1e-9, 1e-12), {.end_time_s = 0.6, .interval_s = 1e-3});
   const Eigen::Index last = history.time_s.size() - 1;
@@ -158,8 +158,8 @@ TEST_CASE("steps end where a stop is met and left, and the kinks cost neither or
     side->stop = kStop_m;
     side->beyond_stop = LoadCurve::cubic(kStiffness);
   }
-  build.model.resistances.push_back({"idle", 0, JointCoordinate::distance, {}});
-  build.model.resistances.push_back(stops);
+  build.model.forces.add(JointResistance{"idle", 0, JointCoordinate::distance, {}});
+  build.model.forces.add(stops);
   // To the stop, half a swing of sqrt(m / k) in it, back through the middle to the other one, half
   // a swing, and back to where it began.
   const double swing_s = std::numbers::pi * std::sqrt(2 / kStiffness);
@@ -195,9 +195,9 @@ TEST_CASE("a block comes to rest in a hard stop at the end of a soft spring") {
   buffer.resistance.negative.curve = LoadCurve::cubic(1);
   buffer.resistance.positive.stop = kStop_m;
   buffer.resistance.positive.beyond_stop = LoadCurve::cubic(kHard);
-  build.model.resistances.push_back(buffer);
-  build.model.forces.push_back({"pull", build.model.marker_index("block"), Vector3d::UnitX(),
-                                TimeTable({0}, {kPull_N}, TimeTable::Outside::constant)});
+  build.model.forces.add(buffer);
+  build.model.forces.add(PointForce{"pull", build.model.marker_index("block"), Vector3d::UnitX(),
+                                    TimeTable({0}, {kPull_N}, TimeTable::Outside::constant)});
   SolverOptions solver;
   solver.formulation = GENERATE(Formulation::descriptor, Formulation::recursive);
   const History history = settle(build.model, solver, {.end_time_s = 1, .interval_s = 1});
@@ -209,8 +209,8 @@ TEST_CASE("a torque with a time table spins a rotor by its integral") {
   ModelBuilder build;
   const auto rotor =
       build.body("rotor", RigidBody{1, Vector3d::Zero(), 0.2 * Matrix3d::Identity()});
-  build.model.torques.push_back({"motor", build.marker("rotor", rotor), Vector3d::UnitX(),
-                                 TimeTable({0, 1, 2}, {0, 6, 0}, TimeTable::Outside::zero)});
+  build.model.forces.add(Torque{"motor", build.marker("rotor", rotor), Vector3d::UnitX(),
+                                TimeTable({0, 1, 2}, {0, 6, 0}, TimeTable::Outside::zero)});
   const History history =
       simulate(build.model, solver_of(1e-9, 1e-12), {.end_time_s = 3, .interval_s = 1});
   CHECK(history.marker("rotor").angular_velocity_rad_s(0, 1) == Approx(3 / 0.2).epsilon(1e-9));
@@ -230,7 +230,7 @@ TEST_CASE("a body on a bushing has the frequencies of its springs") {
   bushing.damping.setZero();
   const Vector3d stiffness(10, 20, 50);
   bushing.stiffness.diagonal().tail<3>() = stiffness;
-  build.model.bushings.push_back(bushing);
+  build.model.forces.add(bushing);
   const std::vector<SystemMode> modes = system_modes(build.model);
   REQUIRE(modes.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -245,7 +245,7 @@ TEST_CASE("a spring that only pulls lets go when slack") {
   MarkerSpring rope{"rope", 0, 1, 0.5, {}};
   rope.resistance.positive.curve = LoadCurve::cubic(200);
   rope.resistance.tension_only = true;
-  build.model.springs.push_back(rope);
+  build.model.forces.add(rope);
   // Slack for 0.5 s, half a period sqrt(m / k) pi taut, then back at the same speed.
   const double half_period = std::numbers::pi * std::sqrt(2.0 / 200);
   const History history = simulate(build.model, solver_of(1e-10, 1e-13),
@@ -290,27 +290,27 @@ TEST_CASE("forces that make no sense are refused by name") {
     return std::string();
   };
   CHECK_THAT(refusal([](Model& m) {
-               m.torques.push_back({"t", 7, Vector3d::UnitX(), {}});
+               m.forces.add(Torque{"t", 7, Vector3d::UnitX(), {}});
              }),
              Contains("torque 't'") && Contains("marker"));
   CHECK_THAT(refusal([](Model& m) {
-               m.springs.push_back({"s", 0, 0, 0.1, {}});
+               m.forces.add(MarkerSpring{"s", 0, 0, 0.1, {}});
              }),
              Contains("spring 's'") && Contains("two bodies"));
   CHECK_THAT(refusal([](Model& m) {
-               m.resistances.push_back({"r", 0, JointCoordinate::angle, {}});
+               m.forces.add(JointResistance{"r", 0, JointCoordinate::angle, {}});
              }),
              Contains("resistance 'r'") && Contains("revolute"));
   CHECK_THAT(refusal([](Model& m) {
-               m.resistances.push_back({"r", 0, JointCoordinate::distance, {}});
-               m.resistances.back().resistance.friction = 1;
+               m.forces.add(JointResistance{"r", 0, JointCoordinate::distance, {}});
+               m.forces.of<JointResistance>().back().resistance.friction = 1;
              }),
              Contains("full_rate"));
   CHECK_THAT(refusal([](Model& m) {
-               m.bushings.push_back({"b", 0, 1, {}, {}});
-               m.bushings.back().stiffness.setZero();
-               m.bushings.back().damping.setZero();
-               m.bushings.back().stiffness(0, 0) = -1;
+               m.forces.add(Bushing{"b", 0, 1, {}, {}});
+               m.forces.of<Bushing>().back().stiffness.setZero();
+               m.forces.of<Bushing>().back().damping.setZero();
+               m.forces.of<Bushing>().back().stiffness(0, 0) = -1;
              }),
              Contains("bushing 'b'") && Contains("eigenvalue"));
 }

@@ -230,7 +230,7 @@ TEST_CASE("generalised-alpha keeps the books of energy, damped and not, in close
   Resistance stretch;
   stretch.positive.curve = stretch.negative.curve = LoadCurve::cubic(kStiffness);
   stretch.damping = 2 * zeta * omega * kMass_kg;
-  build.model.springs.push_back({"spring", wall, hook, kFree_m, stretch});
+  build.model.forces.add(MarkerSpring{"spring", wall, hook, kFree_m, stretch});
   build.force("push", hook, Vector3d::UnitX(), constant_table(kForce_N));
   SolverOptions solver = solver_of(1e-9, 1e-12);
   solver.integrator = Integrator::generalised_alpha;

@@ -122,7 +122,7 @@ TEST_CASE("Vectors that should be of unit length and driven bodies' motions are 
                m.bodies[0].initial_velocity_m_s = {1, 0, 0};
              }),
              Contains("body 'base': it is driven"));
-  CHECK_THAT(complaint([](Model& m) { m.forces[0].direction.setZero(); }),
+  CHECK_THAT(complaint([](Model& m) { m.forces.of<PointForce>()[0].direction.setZero(); }),
              Contains("force 'push': direction"));
   CHECK_THAT(complaint([](Model& m) {
                m.joints[0].kind = &kRevoluteJoint;

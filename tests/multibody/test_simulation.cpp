@@ -235,8 +235,9 @@ TEST_CASE("joints that repeat each other are named and move nothing") {
 /// A force beyond every bound, from 5 ms on.
 Model wild_sled() {
   Model wild = sled();
-  wild.forces.push_back({"huge", 3, Vector3d::UnitX(),
-                         TimeTable({0, 0.005, 0.05}, {0, 0, 1e300}, TimeTable::Outside::constant)});
+  wild.forces.add(
+      PointForce{"huge", 3, Vector3d::UnitX(),
+                 TimeTable({0, 0.005, 0.05}, {0, 0, 1e300}, TimeTable::Outside::constant)});
   return wild;
 }
 

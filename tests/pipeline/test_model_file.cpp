@@ -114,25 +114,37 @@ cubic = "2 N*m/rad^3"
 stop = "30 deg"
 stop_stiffness = "5 N*m/rad"
 unloading_ratio = 0.5
+[[line_force]]
+name = "piston"
+lower = "ground.hook"
+upper = "lower.tip"
+times = ["0 ms", "10 ms"]
+magnitudes = ["0 kN", "2 kN"]
+outside = "zero"
 )");
   const multibody::Model& model = file.model;
   const double deg = std::numbers::pi / 180;
   const double lbf = 4.4482216152605;
-  CHECK(model.forces[0].direction.isApprox(Eigen::Vector3d(0, 0.6, 0.8)));
-  CHECK(model.forces[0].magnitude_N.value(0.0025) == Approx(3 * lbf));
-  CHECK(model.forces[0].magnitude_N.value(0.006) == 0);
-  CHECK(model.torques[0].magnitude_Nm.value(7) == Approx(12 * 0.0254 * lbf));
-  CHECK(model.springs[0].resistance.positive.load(0.02) == Approx(10));
-  CHECK(model.springs[0].resistance.tension_only);
-  CHECK(model.bushings[0].stiffness(2, 2) == Approx(3000));
-  CHECK(model.bushings[0].stiffness(4, 4) == Approx(1 / deg));
-  CHECK(model.bushings[0].damping(0, 0) == Approx(1));
-  const multibody::Resistance& stop = model.resistances[0].resistance;
+  CHECK(
+      model.forces.of<multibody::PointForce>()[0].direction.isApprox(Eigen::Vector3d(0, 0.6, 0.8)));
+  CHECK(model.forces.of<multibody::PointForce>()[0].magnitude_N.value(0.0025) == Approx(3 * lbf));
+  CHECK(model.forces.of<multibody::PointForce>()[0].magnitude_N.value(0.006) == 0);
+  CHECK(model.forces.of<multibody::Torque>()[0].magnitude_Nm.value(7) == Approx(12 * 0.0254 * lbf));
+  CHECK(model.forces.of<multibody::MarkerSpring>()[0].resistance.positive.load(0.02) == Approx(10));
+  CHECK(model.forces.of<multibody::MarkerSpring>()[0].resistance.tension_only);
+  CHECK(model.forces.of<multibody::Bushing>()[0].stiffness(2, 2) == Approx(3000));
+  CHECK(model.forces.of<multibody::Bushing>()[0].stiffness(4, 4) == Approx(1 / deg));
+  CHECK(model.forces.of<multibody::Bushing>()[0].damping(0, 0) == Approx(1));
+  const multibody::Resistance& stop = model.forces.of<multibody::JointResistance>()[0].resistance;
   CHECK(stop.positive.load(deg) == Approx(1));
   CHECK(stop.negative.load(0.6) ==
         Approx(2 * 0.6 * 0.6 * 0.6 + 5 * (0.6 - 30 * deg)).epsilon(1e-12));
   CHECK(stop.negative.unloading_ratio == 0.5);
   CHECK(stop.full_rate == Approx(10 * deg));
+  const auto& piston = model.forces.of<multibody::LineForce>()[0];
+  CHECK(model.markers[piston.marker_j].name == "lower.tip");
+  CHECK(piston.magnitude_N.value(0.005) == Approx(1000));
+  CHECK(piston.magnitude_N.value(0.02) == 0);
   CHECK(file.files.size() == 2);
 }
 

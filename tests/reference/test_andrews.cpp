@@ -85,8 +85,8 @@ Model mechanism() {
   pin("E6", K2, {-d, 0, 0}, K6, {zf, 0, 0});
   for (int k = 1; k <= 7; ++k)
     build.marker("frame " + std::to_string(k), build.model.body_index("K" + std::to_string(k)));
-  build.model.torques.push_back({"drive", build.model.marker_index("frame 1"), Vector3d::UnitZ(),
-                                 constant_table(kTorque_Nm)});
+  build.model.forces.add(Torque{"drive", build.model.marker_index("frame 1"), Vector3d::UnitZ(),
+                                constant_table(kTorque_Nm)});
   MarkerSpring spring{"spring",
                       build.marker("C", ground, C),
                       build.marker("D", K3, {sd, -sc, 0}),
@@ -94,7 +94,7 @@ Model mechanism() {
                       {}};
   spring.resistance.positive.curve = LoadCurve::cubic(kStiffness_N_m);
   spring.resistance.negative.curve = LoadCurve::cubic(kStiffness_N_m);
-  build.model.springs.push_back(spring);
+  build.model.forces.add(spring);
   return build.model;
 }
 

@@ -96,7 +96,7 @@ Rotor rotor(double rate_rad_s, double damping = 0) {
   Bushing shaft{"shaft", made.hub, made.disc};
   shaft.stiffness.diagonal() << kStiffness, kStiffness, kAxialStiffness, kTilt, kTilt, kTwist;
   shaft.damping.diagonal().head<2>().setConstant(damping);
-  build.model.bushings.push_back(shaft);
+  build.model.forces.add(shaft);
   return made;
 }
 
@@ -111,7 +111,7 @@ void add_bearing(Rotor& made, double along_x, double along_y, double damping) {
   Bushing bearing{"bearing", made.ground, made.disc};
   bearing.stiffness.diagonal().head<2>() << along_x, along_y;
   bearing.damping.diagonal().head<2>().setConstant(damping);
-  made.build.model.bushings.push_back(bearing);
+  made.build.model.forces.add(bearing);
 }
 
 }  // namespace
@@ -155,7 +155,7 @@ TEST_CASE("a mass on a slider that turns is stretched outwards and softened") {
   build.joint("rail", &kPrismaticJoint, centre, on_block, Vector3d::UnitX());
   MarkerSpring spring{"spring", centre, on_block, kLength, {}};
   spring.resistance.positive.curve = LoadCurve::cubic(kLinear, 0, kCubic);
-  build.model.springs.push_back(spring);
+  build.model.forces.add(spring);
   check_frequencies(build.model, {std::sqrt((kLinear + 3 * kCubic * kStretch * kStretch) / kBlock -
                                             rate * rate)});
 }
@@ -252,16 +252,16 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
     made = rotor(10);
     Model& model = made.build.model;
     std::get<RigidBody>(model.bodies.back().kind).inertia_kg_m2 *= size * size;
-    model.bushings.back().stiffness.diagonal().tail<3>() *= size * size;
+    model.forces.of<Bushing>().back().stiffness.diagonal().tail<3>() *= size * size;
     for (const Vector3d& from :
          {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(-1, 0, 0), Vector3d(0, -1, 0)}) {
-      const std::string name = "spring " + std::to_string(model.springs.size());
+      const std::string name = "spring " + std::to_string(model.forces.of<MarkerSpring>().size());
       MarkerSpring spring{name, made.build.marker(name, 0, size * from), made.disc, 0.9 * size, {}};
       spring.resistance.positive.curve = LoadCurve::cubic(50);
-      model.springs.push_back(spring);
+      model.forces.add(spring);
     }
     CHECK(system_modes(model).size() == 6);
-    model.springs.pop_back();
+    model.forces.of<MarkerSpring>().pop_back();
     refused(model, "not the same all round the axis");
   }
 
@@ -288,7 +288,8 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
   made.build.force("push", made.disc, Vector3d::UnitZ(),
                    TimeTable({0, 1}, {0, 1}, TimeTable::Outside::constant));
   refused(made.build.model, "force 'push' changes with time");
-  made.build.model.forces[0] = {"push", made.disc, Vector3d::UnitX(), constant_table(1)};
+  made.build.model.forces.of<PointForce>()[0] = {"push", made.disc, Vector3d::UnitX(),
+                                                 constant_table(1)};
   refused(made.build.model, "force 'push' is not along the axis");
 
   CHECK_THROWS_WITH(campbell_diagram(rotor(0).build.model, {0, 1}),

@@ -175,8 +175,8 @@ History spin_up(const SpinUp& law, bool stiffens, const OutputOptions& output) {
     times.push_back(law.duration_s * k / kRows);
     torques.push_back(spun.hub_inertia_kg_m2 * law.spin_rate_rad_s2(times.back()));
   }
-  spun.build.model.torques.push_back(
-      {"motor", spun.hub, Vector3d::UnitY(), TimeTable(times, torques, TimeTable::Outside::zero)});
+  spun.build.model.forces.add(Torque{"motor", spun.hub, Vector3d::UnitY(),
+                                     TimeTable(times, torques, TimeTable::Outside::zero)});
   return simulate(spun.build.model, solver_of(1e-9, 1e-12), output);
 }
 

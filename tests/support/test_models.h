@@ -45,7 +45,8 @@ struct ModelBuilder {
   }
   void force(const std::string& name, std::size_t marker, const Eigen::Vector3d& direction,
              multibody::TimeTable magnitude_N) {
-    model.forces.push_back({name, marker, direction.normalized(), std::move(magnitude_N)});
+    model.forces.add(
+        multibody::PointForce{name, marker, direction.normalized(), std::move(magnitude_N)});
   }
 };
 

@@ -32,21 +32,23 @@ void add_forces(ModelBuilder& build, RandomNumbers& random) {
   rope.positive.curve = LoadCurve::cubic(40);
   rope.damping = 2;
   rope.tension_only = true;
-  model.torques.push_back(
-      {"twist", model.marker_index("c e"), random.vector().normalized(), constant_table(4)});
-  model.springs = {
+  model.forces.add(multibody::Torque{"twist", model.marker_index("c e"),
+                                     random.vector().normalized(), constant_table(4)});
+  model.forces.of<multibody::MarkerSpring>() = {
       {"spring", model.marker_index("d end"), model.marker_index("k g"), 0.4, resistance},
       {"rope", model.marker_index("sled a"), model.marker_index("g h"), 0.1, rope}};
   Eigen::Matrix<double, 6, 6> root;
   random.fill(root);
-  model.bushings.push_back({"bushing", model.marker_index("a b"), model.marker_index("h g"),
-                            10 * root * root.transpose(), root.transpose() * root});
+  model.forces.add(multibody::Bushing{"bushing", model.marker_index("a b"),
+                                      model.marker_index("h g"), 10 * root * root.transpose(),
+                                      root.transpose() * root});
   using multibody::JointCoordinate;
-  model.resistances = {{"hinge", 0, JointCoordinate::angle, resistance},
-                       {"flexion", 1, JointCoordinate::flexion, resistance},
-                       {"slide", 3, JointCoordinate::distance, resistance},
-                       {"turn", 3, JointCoordinate::angle, resistance},
-                       {"rail", 4, JointCoordinate::distance, resistance}};
+  model.forces.of<multibody::JointResistance>() = {
+      {"hinge", 0, JointCoordinate::angle, resistance},
+      {"flexion", 1, JointCoordinate::flexion, resistance},
+      {"slide", 3, JointCoordinate::distance, resistance},
+      {"turn", 3, JointCoordinate::angle, resistance},
+      {"rail", 4, JointCoordinate::distance, resistance}};
 }
 
 multibody::Model forest(bool stiffens) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "multibody/forces/force_element.h"
+
+namespace flexneck::multibody {
+
+/// A linear spring and damper in all six directions between two markers: e = [d; theta], d the
+/// place of j and theta the rotation vector of j, both against i and in i's axes. Its energy is
+/// e^T K e / 2, so that its moment is the exact one of a finite rotation; the damper's load is
+/// C [d'; angular velocity of j against i].
+struct Bushing {
+  static constexpr std::string_view kName = "bushing";
+
+  std::string name;
+  std::size_t marker_i = 0;
+  std::size_t marker_j = 0;
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();  ///< N, N m; m, rad
+  Eigen::Matrix<double, 6, 6> damping = Eigen::Matrix<double, 6, 6>::Zero();    ///< per s
+
+  void check(const std::string& who, const ForceSites& sites) const;
+  std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
+    return {marker_i, marker_j};
+  }
+  void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
+};
+
+}  // namespace flexneck::multibody

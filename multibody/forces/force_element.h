@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/forces/force_check.h"
+#include "multibody/forces/resistance.h"
+#include "multibody/joints/joint.h"
+#include "multibody/numerics/time_table.h"
+
+namespace flexneck::multibody {
+
+/// Below this distance (m) or angle (rad) a direction is not defined, and nothing acts.
+inline constexpr double kNoDirection = 1e-12;
+
+/// A marker's motion, world axes, SI.
+struct MarkerKinematics {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< marker axes to world
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();
+};
+
+/// What a force element sees when it acts; one with a single marker finds it both as i and as j.
+struct ForceInput {
+  const MarkerKinematics& i;
+  const MarkerKinematics& j;
+  const std::vector<Joint>& joints;  ///< of the model
+  double time_s;
+};
+
+/// The load of a force element, world axes, on j's body at j's origin. On i's body, if i is another
+/// marker, the opposite acts at the same point.
+struct ForceLoad {
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
+  LawPiece piece;  ///< of a PiecewiseForce; comes with the value of the last evaluation
+};
+
+/// Sums over force elements. The loads give the bodies the power work_W - d(stored_J)/dt - lost_W.
+struct ForceEnergies {
+  double stored_J = 0;  ///< potential energy of the elements
+  double lost_W = 0;    ///< dissipated power
+  double work_W = 0;    ///< power that comes from outside of the model
+  /// What loads would still give if they stayed as they are, where that can be told: equilibria are
+  /// minima of it and the stored energy.
+  double potential_J = 0;
+};
+
+/// A kind of force element: an aggregate that is all the rest of the program knows of it.
+/// - Kind::kName: its name in files and messages; name: the element's own
+/// - check(who, sites): throws InputError, which begins with `who`, if the element makes no sense
+/// - markers(joints): indices of the markers that it loads, a std::array of one, or of i and j
+/// - act(input, load, sums): sets the load, which is zero, and adds to the sums; allocates nothing
+template <class Kind>
+concept ForceElement = requires(const Kind& element, const std::string& who,
+                                const ForceSites& sites, const std::vector<Joint>& joints,
+                                const ForceInput& input, ForceLoad& load, ForceEnergies& sums) {
+  { Kind::kName } -> std::convertible_to<std::string_view>;
+  { element.name } -> std::convertible_to<const std::string&>;
+  { element.check(who, sites) } -> std::same_as<void>;
+  { element.markers(joints).front() } -> std::convertible_to<std::size_t>;
+  { element.act(input, load, sums) } -> std::same_as<void>;
+};
+
+/// Its load follows a table of time: steps end at the table's rows.
+template <class Kind>
+concept TimedForce = requires(const Kind& element) {
+  { element.load_over_time() } -> std::same_as<const TimeTable&>;
+};
+
+/// Its load keeps a direction in the world, a unit vector.
+template <class Kind>
+concept WorldForce = requires(const Kind& element) {
+  { element.direction } -> std::convertible_to<const Eigen::Vector3d&>;
+};
+
+/// Its load has kinks along a motion, and it says on which smooth piece it is.
+template <class Kind>
+concept PiecewiseForce = requires {
+  requires Kind::kHasKinks;
+};
+
+/// How messages call an element: spring 'rope'.
+template <ForceElement Kind>
+std::string title(const Kind& element) {
+  return std::string(Kind::kName) + " '" + element.name + "'";
+}
+
+}  // namespace flexneck::multibody

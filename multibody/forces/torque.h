@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "multibody/forces/force_element.h"
+
+namespace flexneck::multibody {
+
+/// A torque on a marker's body, fixed in the world's axes. It has no potential.
+struct Torque {
+  static constexpr std::string_view kName = "torque";
+
+  std::string name;
+  std::size_t marker = 0;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector in the world
+  TimeTable magnitude_Nm;
+
+  void check(const std::string& who, const ForceSites& sites) const {
+    check_marker(who, marker, sites);
+    check_direction(who, direction);
+  }
+  std::array<std::size_t, 1> markers(const std::vector<Joint>&) const { return {marker}; }
+  const TimeTable& load_over_time() const { return magnitude_Nm; }
+  void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const {
+    load.moment_Nm = magnitude_Nm.value(input.time_s) * direction;
+    sums.work_W += load.moment_Nm.dot(input.j.w);
+  }
+};
+
+}  // namespace flexneck::multibody
