@@ -7,8 +7,8 @@
 
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/output_file.h"
+#include "pipeline/document/assemblies.h"
 #include "pipeline/document/study_node.h"
-#include "pipeline/document/toml_source.h"
 
 namespace flexneck::pipeline {
 
@@ -171,8 +171,7 @@ void StudyTable::refuse(const std::string& key, const std::string& problem) cons
 StudyDocument::StudyDocument(const std::filesystem::path& path,
                              const std::vector<std::string>& settings)
     : impl_(std::make_shared<Impl>()) {
-  impl_->root = parse_with_includes(path, impl_->files);
-  for (const std::string& setting : settings) apply_setting(impl_->root, setting);
+  impl_->root = read_document(path, settings, impl_->files, impl_->records.parameters);
 }
 
 StudyTable StudyDocument::root() const {
