@@ -149,13 +149,15 @@ class Reading {
     return from ? fs::path(*from).parent_path() / name : fs::path(name);
   }
 
-  void check_depth(const toml::table& assembly, const fs::path& path,
-                   const std::string& key) const {
+  void check_depth(toml::table& assembly, const fs::path& path, const std::string& key) const {
     const std::string place = key + ".file";
     std::error_code error;
     const fs::path canonical = fs::weakly_canonical(path, error);
     if (!error && std::find(open_.begin(), open_.end(), canonical) != open_.end())
       refuse_at(assembly, place, "expected another file, found one that holds this assembly");
+    if (!fs::exists(path, error))
+      refuse_at(*text_node(assembly, "file"), place,
+                "expected a file, found none of the name " + path.string());
     if (open_.size() >= kDeepestInclude || count_ >= kMaxFiles)
       refuse_at(assembly, place,
                 "expected at most " + std::to_string(kMaxFiles) + " files, and " +
