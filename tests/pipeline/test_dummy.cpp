@@ -25,8 +25,9 @@ ModelFile dummy(std::vector<std::string> settings = {}) {
 ModelFile dummy_on_sled(const std::string& formulation) {
   return dummy({"body.seat.kind=driven",
                 "body.seat.acceleration=-100 * sin(pi * t / 0.08) * (t < 0.08)",
-                "solver.formulation=" + formulation, "solver.relative_tolerance=1e-11",
-                "solver.absolute_tolerance=1e-12", "solver.end_time=0.12 s"});
+                "solver.formulation=" + formulation, "solver.integrator=dormand_prince",
+                "solver.relative_tolerance=1e-11", "solver.absolute_tolerance=1e-12",
+                "solver.end_time=0.12 s"});
 }
 
 History run(const ModelFile& file) {

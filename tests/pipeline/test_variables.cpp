@@ -143,11 +143,11 @@ TEST_CASE("variables that are undefined, unused, cyclic or no numbers are refuse
   refused(used + "x = [1]", "3:5: variables.x: expected a number");
   refused(used + "x = inf", "3:5: variables.x: expected a finite number");
   refused(used + "x = \"wide\"", "3:5: variables.x: expected a product of numbers and variables");
-  refused(used + "x = { value = 1, origin = \"guessed\" }", "variables.x: expected the origin");
+  refused(used + "x = { value = 1, origin = \"guessed\" }", "3:27: variables.x: expected the origin");
   refused(used + "x = { of = 1 }", "3:5: variables.x: expected a value or { value");
-  refused(used + "\"x y\" = 1", "variables.x y: expected a name of letters, digits and '_'");
+  refused(used + "\"x y\" = 1", "3:9: variables.x y: expected a name of letters, digits and '_'");
   refused("variables = 1", "1:13: variables: expected a table [variables]");
-  for (const std::string text : {"2*$", "$x*", "$x*$", "2 m*$x", "$x $x", "--$x", "1e999*$x"})
+  for (const std::string text : {"2*$", "$x*m", "$x*$", "2 m*$x", "$x $x", "--$x", "1e999*$x"})
     refused("w = \"" + text + " $x\"\n[variables]\nx = 1",
             "1:5: w: expected a product of numbers and variables with a unit at most");
   refused("w = \"$x*$x\"\n[variables]\nx = \"1 m\"",
@@ -156,7 +156,7 @@ TEST_CASE("variables that are undefined, unused, cyclic or no numbers are refuse
   std::string chain = "w = \"$a0\"\n[variables]\na60 = 1\n";
   for (int k = 0; k < 60; ++k)
     chain += "a" + std::to_string(k) + " = \"$a" + std::to_string(k + 1) + "\"\n";
-  refused(chain, "35:6: variables.a32: expected at most 32 variables");
+  refused(chain, "36:7: variables.a32: expected at most 32 variables");
   CHECK_THROWS_WITH(document_of(folder, used + "x = 1", {"variables.x=\"$q\""}),
                     Contains("command line: variables.x: expected a variable"));
 }
