@@ -88,8 +88,9 @@ class Reading {
       names.push_back(text(table, "name", key));
       check_name(table, names, key);
       const std::string full = prefix + names.back();
-      for (const std::string& setting : taken(settings_, "assembly." + full + "."))
-        apply_setting(table, setting.substr(sizeof("assembly.") + full.size()));
+      const std::string beginning = "assembly." + full + ".";
+      for (const std::string& setting : taken(settings_, beginning))
+        apply_setting(table, setting.substr(beginning.size()));
       scope.substitute(table);
       toml::table content = instance(table, full);
       prefix_names(content, names.back());

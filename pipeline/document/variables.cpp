@@ -62,6 +62,8 @@ Variables::Variables(toml::table&& table, std::string path)
     const std::string name(key.str());
     if (!is_variable_name(name))
       refuse_at(node, path_ + "." + name, "expected a name of letters, digits and '_'");
+    if (name == "value" || name == "origin" || name == "note")
+      refuse_at(node, path_ + "." + name, "expected another name: this one labels values");
     variables_[name] = {};
   }
   for (const auto& [name, ignored] : variables_) value_of(name);

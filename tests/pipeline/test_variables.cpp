@@ -143,9 +143,11 @@ TEST_CASE("variables that are undefined, unused, cyclic or no numbers are refuse
   refused(used + "x = [1]", "3:5: variables.x: expected a number");
   refused(used + "x = inf", "3:5: variables.x: expected a finite number");
   refused(used + "x = \"wide\"", "3:5: variables.x: expected a product of numbers and variables");
-  refused(used + "x = { value = 1, origin = \"guessed\" }", "3:27: variables.x: expected the origin");
+  refused(used + "x = { value = 1, origin = \"guessed\" }",
+          "3:27: variables.x: expected the origin");
   refused(used + "x = { of = 1 }", "3:5: variables.x: expected a value or { value");
   refused(used + "\"x y\" = 1", "3:9: variables.x y: expected a name of letters, digits and '_'");
+  refused("w = \"$value\"\n[variables]\nvalue = 1", "3:9: variables.value: expected another name");
   refused("variables = 1", "1:13: variables: expected a table [variables]");
   for (const std::string text : {"2*$", "$x*m", "$x*$", "2 m*$x", "$x $x", "--$x", "1e999*$x"})
     refused("w = \"" + text + " $x\"\n[variables]\nx = 1",
