@@ -110,8 +110,8 @@ TEST_CASE("the dummy moves alike in both formulations, and its left side as its 
   for (const multibody::MarkerHistory& marker : descriptor.markers) {
     CAPTURE(marker.name);
     const multibody::MarkerHistory& other = recursive.marker(marker.name);
-    CHECK(largest_difference(marker.position_m, other.position_m) < 1e-9);
-    CHECK(largest_difference(marker.velocity_m_s, other.velocity_m_s) < 1e-7);
+    CHECK(largest_difference(marker.position_m, other.position_m) < 1e-11);
+    CHECK(largest_difference(marker.velocity_m_s, other.velocity_m_s) < 1e-9);
   }
   // The head is thrown forward against the seat.
   const Eigen::Matrix3Xd way =
