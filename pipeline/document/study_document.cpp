@@ -9,8 +9,8 @@
 
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/output_file.h"
+#include "pipeline/document/assemblies.h"
 #include "pipeline/document/study_node.h"
-#include "pipeline/document/toml_source.h"
 
 namespace flexneck::pipeline {
 
@@ -223,8 +223,7 @@ StudyDocument::StudyDocument(const std::filesystem::path& path,
                              const std::vector<std::string>& settings, std::span<const Key> keys)
     : impl_(std::make_shared<Impl>()) {
   impl_->keys = keys;
-  impl_->root = parse_with_includes(path, impl_->files);
-  for (const std::string& setting : settings) apply_setting(impl_->root, setting);
+  impl_->root = read_document(path, settings, impl_->files, impl_->records.parameters);
 }
 
 StudyTable StudyDocument::root() const {

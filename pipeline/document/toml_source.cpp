@@ -16,8 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxBytes = 4U << 20U;  ///< of a file; long lists belong into CSV files
-constexpr std::size_t kMaxFiles = 100;
-constexpr std::size_t kDeepestInclude = 16;
 
 /// Moves what `over` holds into `base`; tables are merged key by key, everything else replaced.
 /// Nodes are moved because a copy would lose its line and column.

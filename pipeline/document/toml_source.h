@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "geometry/foundation/provenance.h"
 
 namespace flexneck::pipeline {
+
+inline constexpr std::size_t kMaxFiles = 100;       ///< included, or of assemblies
+inline constexpr std::size_t kDeepestInclude = 16;  ///< files within one another
 
 /// Parses a file and everything it includes into one table. The files read are appended to `files`.
 toml::table parse_with_includes(const std::filesystem::path& path, std::vector<InputFile>& files);

@@ -86,7 +86,8 @@ class Runs:
         others = [self.simulate("static_chain", "hybrid3_chain", discs),
                   self.simulate("static_test", "hybrid3", self.modes(neck="hybrid3")),
                   self.simulate("andrews", "mechanisms"),
-                  self.simulate("four_bar", "mechanisms")]
+                  self.simulate("four_bar", "mechanisms"),
+                  self.simulate("dummy", "mechanisms")]
         yield self.peaks("models", pendulums + chains + others)
         yield self.system("system_modes", ONE_SOLUTION, pendulums)
         yield self.system("system_modes_of_chains", A_RUN, chains)

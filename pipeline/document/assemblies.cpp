@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/document/assemblies.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "geometry/foundation/names.h"
+#include "pipeline/document/assembly_names.h"
+#include "pipeline/document/toml_nodes.h"
+#include "pipeline/document/toml_source.h"
+#include "pipeline/document/variables.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> keys_of(const toml::table& table) {
+  std::vector<std::string> keys;
+  for (const auto& [key, ignored] : table) keys.emplace_back(key.str());
+  return keys;
+}
+
+/// Takes out of the settings those whose keys begin in a way.
+std::vector<std::string> taken(std::vector<std::string>& settings, const std::string& beginning) {
+  const auto others = std::stable_partition(
+      settings.begin(), settings.end(),
+      [&](const std::string& setting) { return !setting.starts_with(beginning); });
+  std::vector<std::string> result(std::make_move_iterator(others),
+                                  std::make_move_iterator(settings.end()));
+  settings.erase(others, settings.end());
+  return result;
+}
+
+class Reading {
+ public:
+  Reading(const std::vector<std::string>& settings, std::vector<InputFile>& files,
+          std::vector<Parameter>& parameters)
+      : settings_(settings), files_(files), parameters_(parameters) {}
+
+  toml::table document(const fs::path& path) {
+    toml::table root = file(path);
+    for (const std::string& setting : taken(settings_, "variables.")) apply_setting(root, setting);
+    Variables variables(taken_table(root, "variables", "variables"), "variables");
+    variables.substitute(root);
+    expand(root, "", variables);
+    for (const std::string& setting : taken(settings_, "assembly."))
+      throw InputError("--set " + setting + ": there is no assembly of that name");
+    for (const std::string& setting : settings_) apply_setting(root, setting);
+    variables.substitute(root);  // What the settings say may be made of variables, too.
+    record(variables);
+    return root;
+  }
+
+ private:
+  /// The file with what it includes; it stays open until close().
+  toml::table file(const fs::path& path) {
+    std::vector<InputFile> read;
+    toml::table table = parse_with_includes(path, read);
+    open_.push_back(fs::weakly_canonical(path));
+    count_ += read.size();
+    for (InputFile& each : read)
+      if (std::none_of(files_.begin(), files_.end(), [&](const InputFile& other) {
+            return other.name == each.name && other.hash == each.hash;
+          }))
+        files_.push_back(std::move(each));
+    return table;
+  }
+
+  void record(const Variables& variables) {
+    variables.finish();
+    for (Parameter& each : variables.parameters()) parameters_.push_back(std::move(each));
+  }
+
+  /// Replaces the assemblies of a file by what they consist of.
+  void expand(toml::table& holder, const std::string& prefix, Variables& scope) {
+    toml::node* const node = holder.get("assembly");
+    if (node == nullptr) return;
+    if (!node->is_array_of_tables()) refuse_at(*node, "assembly", "expected tables [[assembly]]");
+    toml::array assemblies = std::move(*node->as_array());
+    holder.erase("assembly");
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < assemblies.size(); ++k) {
+      toml::table& table = *assemblies[k].as_table();
+      const std::string key = element_path("assembly", table, k);
+      names.push_back(text(table, "name", key));
+      check_name(table, names, key);
+      const std::string full = prefix + names.back();
+      const std::string beginning = "assembly." + full + ".";
+      for (const std::string& setting : taken(settings_, beginning))
+        apply_setting(table, setting.substr(beginning.size()));
+      scope.substitute(table);
+      toml::table content = instance(table, full);
+      prefix_names(content, names.back());
+      append_sections(holder, std::move(content));
+    }
+  }
+
+  /// The content of an assembly's file, under the names that it has there.
+  /// @param name  with the prefixes of the assemblies that it belongs to
+  toml::table instance(toml::table& assembly, const std::string& name) {
+    const std::string key = "assembly." + name;
+    check_keys(assembly, key);
+    const fs::path path = path_of(assembly, key);
+    check_depth(assembly, path, key);
+    parameters_.push_back({key + ".file", text(assembly, "file", key), Origin::synthetic, {}});
+    toml::table content = file(path);
+    const std::string own = key + ".variables";
+    toml::table given = taken_table(content, "variables", "variables");
+    override_variables(given, taken_table(assembly, "variables", own), own, path);
+    Variables variables(std::move(given), own);
+    variables.substitute(content);
+    expand(content, name + ":", variables);
+    record(variables);
+    open_.pop_back();
+    return content;
+  }
+
+  static std::string text(toml::table& table, const std::string& which, const std::string& key) {
+    const toml::value<std::string>* const node = text_node(table, which);
+    if (node == nullptr) refuse_at(table, key + "." + which, "expected a text in quotes");
+    return node->get();
+  }
+
+  static void check_name(const toml::table& table, const std::vector<std::string>& names,
+                         const std::string& key) {
+    const std::string& name = names.back();
+    if (name.empty() || name.find_first_of(".:/") != std::string::npos)
+      refuse_at(table, key + ".name",
+                "expected a name without '.', ':' and '/', found '" + name + "'");
+    if (std::count(names.begin(), names.end(), name) > 1)
+      refuse_at(table, key + ".name", "expected a name of its own, found that of another assembly");
+  }
+
+  static void check_keys(const toml::table& assembly, const std::string& key) {
+    const std::vector<std::string> known = {"name", "file", "variables"};
+    for (const auto& [each, node] : assembly) {
+      const std::string found(each.str());
+      if (std::find(known.begin(), known.end(), found) == known.end())
+        refuse_at(node, key + "." + found, "unknown key" + did_you_mean(known, found));
+    }
+  }
+
+  /// From the folder of the file that names it.
+  static fs::path path_of(toml::table& assembly, const std::string& key) {
+    const std::string name = text(assembly, "file", key);
+    const toml::source_path_ptr& from = text_node(assembly, "file")->source().path;
+    return from ? fs::path(*from).parent_path() / name : fs::path(name);
+  }
+
+  void check_depth(toml::table& assembly, const fs::path& path, const std::string& key) const {
+    const std::string place = key + ".file";
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(path, error);
+    if (!error && std::find(open_.begin(), open_.end(), canonical) != open_.end())
+      refuse_at(assembly, place, "expected another file, found one that holds this assembly");
+    if (!fs::exists(path, error))
+      refuse_at(*text_node(assembly, "file"), place,
+                "expected a file, found none of the name " + path.string());
+    if (open_.size() >= kDeepestInclude || count_ >= kMaxFiles)
+      refuse_at(assembly, place,
+                "expected at most " + std::to_string(kMaxFiles) + " files, and " +
+                    std::to_string(kDeepestInclude) + " within one another, found more");
+  }
+
+  static void override_variables(toml::table& given, toml::table&& over, const std::string& key,
+                                 const fs::path& path) {
+    const std::vector<std::string> names = keys_of(given);
+    for (auto&& [each, node] : over) {
+      const std::string name(each.str());
+      if (!given.contains(name))
+        refuse_at(node, key + "." + name,
+                  "expected a variable of " + path.string() + ", found another" +
+                      did_you_mean(names, name));
+      node.visit([&](auto& value) { given.insert_or_assign(name, std::move(value)); });
+    }
+  }
+
+  std::vector<std::string> settings_;  ///< not applied yet
+  std::vector<InputFile>& files_;
+  std::vector<Parameter>& parameters_;
+  std::vector<fs::path> open_;  ///< the file that is read and those whose assembly it is
+  std::size_t count_ = 0;       ///< of files read
+};
+
+}  // namespace
+
+toml::table read_document(const fs::path& path, const std::vector<std::string>& settings,
+                          std::vector<InputFile>& files, std::vector<Parameter>& parameters) {
+  return Reading(settings, files, parameters).document(path);
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <toml++/toml.h>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::pipeline {
+
+/// @throws InputError "<file>:<line>:<column>: <key>: <problem>"
+[[noreturn]] void refuse_at(const toml::node& node, const std::string& key,
+                            const std::string& problem);
+
+/// Calls make() and puts place and key in front of what it refuses.
+template <class Make>
+auto at_node(const toml::node& node, const std::string& key, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    refuse_at(node, key, error.what());
+  }
+}
+
+/// True for { value = … } with or without an origin and a note.
+bool is_labelled(const toml::table& table);
+
+/// The text of a key, out of its { value = … } where it has one; null if it is none.
+toml::value<std::string>* text_node(toml::table& table, const std::string& key);
+
+/// "path.key", or the key alone where the path is empty.
+std::string dotted(const std::string& path, const std::string& key);
+/// The path of an element of an array of tables: by its name, or by its number from 1.
+std::string element_path(const std::string& path, const toml::table& element, std::size_t index);
+
+/// Gives a new node the file, line and column of the one that it replaces.
+void set_source(toml::node& node, const toml::source_region& source);
+
+/// The table that a key holds, out of its tree; empty if there is none.
+/// @throws InputError if the key holds something else.
+toml::table taken_table(toml::table& tree, const std::string& key, const std::string& path);
+
+}  // namespace flexneck::pipeline
