@@ -17,7 +17,7 @@ constexpr double kPound_kg = 0.45359237;
 constexpr double kGravity_m_s2 = 9.80665;
 const std::string kFolder = std::string(FLEXNECK_SOURCE_DIR) + "/pipeline/models/";
 
-ModelFile dummy(std::vector<std::string> settings = {}) {
+ModelFile dummy(const std::vector<std::string>& settings = {}) {
   return read_model_file(kFolder + "dummy.toml", settings);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Models. A table and the modes of a body lie beside the file.
+// Models. A table, the file of an assembly and the modes of a body lie beside the file.
 #include <cmath>
 
 #include "fe_modal/body/modal_body_file.h"
@@ -11,10 +11,23 @@ using namespace flexneck;
 
 namespace {
 
+const std::string kPart = R"(
+[[body]]
+name = "part"
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
+position = ["$side*1 m", "0 m", "0 m"]
+[variables]
+side = 1
+)";
+
 class ModelFolder : public fuzz::InputFolder {
  public:
   ModelFolder() {
     static_cast<void>(with("pulse.csv", "time [ms], acceleration [gn]\n0, 0\n5, 4\n20, 0\n"));
+    static_cast<void>(with("part.toml", kPart));
     fe_modal::ModalBodyFile modes;
     modes.body = testing::make_point_mass_body(1, 2, 5).body;
     fe_modal::write_modal_body(path() / "modes.h5", modes);

@@ -166,6 +166,7 @@ def _beside(text):
     """With the names of files that the target has beside its input."""
     text = re.sub(r'"[^"]*\.csv"', '"pulse.csv"', text)
     text = re.sub(r'"[^"]*modes\.h5"', '"modes.h5"', text)
+    text = re.sub(r'file = "[^"]*\.toml"', 'file = "part.toml"', text)
     return re.sub(r'include = \[[^]]*\]', "", text)
 
 
