@@ -62,6 +62,7 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
   const StudyChoice choice = choose_study(line, console);
   const Study study =
       read_study(choice.study.empty() ? built_in_study() : choice.study, choice.settings);
+  for (const std::string& warning : study.warnings) console.warning(warning);
   take_lock();
   if (ranks != nullptr && command.name != "modes" && command.name != "run") {
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");

@@ -20,7 +20,6 @@ inline constexpr JointMotionLaw kPrismaticMotion{
 
 /// Slides along an axis (ATB's slip joint).
 inline constexpr JointKind kPrismaticJoint{.name = "prismatic",
-                                           .alias = "slider",
                                            .translation = HeldTranslation::across_axis,
                                            .rotation = HeldRotation::all,
                                            .axes = JointAxes::common,

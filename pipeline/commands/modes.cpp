@@ -58,7 +58,7 @@ fe_modal::ModalOptions neck_options(const Study& study) {
 fe_modal::ModalOptions modal_options(const Study& study, mesher::Mesh& mesh) {
   fe_modal::ModalOptions options =
       study.geometry ? neck_options(study) : structure_options(study, mesh);
-  options.held_directions = study.modes.held_directions;
+  options.held_directions = study.modes.fixed_directions;
   for (const std::string& name : study.modes.rigid_interfaces) {
     try {
       if (name == options.held_interface) throw InputError("'" + name + "' is held");

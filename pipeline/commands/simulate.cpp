@@ -100,6 +100,7 @@ bool simulate_command(const FileInput& input) {
     throw InputError("simulate: name one model, 'flexneck simulate MODEL.toml'");
   const std::filesystem::path& model = input.files.front();
   const ModelFile file = read_model_file(model, input.settings);
+  for (const std::string& warning : file.warnings) input.console.warning(warning);
   input.console.step("Simulating " + model.string());
   const auto linearisation = linearised(file);
   const auto diagram = campbell(file);

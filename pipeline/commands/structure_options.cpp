@@ -31,7 +31,7 @@ std::string held_set(const std::vector<std::string>& held, mesher::Mesh& mesh) {
 }
 
 void add_interfaces(const Study& study, fe_modal::ModalOptions& options) {
-  const std::vector<std::string>& held = study.modes.held;
+  const std::vector<std::string>& held = study.modes.fixed;
   for (const InterfaceSection& interface : study.interfaces) {
     if (std::find(held.begin(), held.end(), interface.set) == held.end()) {
       options.interfaces.push_back({interface.name, interface.set, interface.position_m});
@@ -83,7 +83,7 @@ fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh)
   options.rigid_parts = study.modes.rigid_parts;
   options.length_m = mesher::bounding_box(mesh).extent_m().norm();
   try {
-    options.held_set = held_set(study.modes.held, mesh);
+    options.held_set = held_set(study.modes.fixed, mesh);
     add_interfaces(study, options);
     attach_body(study, options);
   } catch (const InputError& error) {
@@ -102,16 +102,16 @@ std::string free_boundary(const Study& study, const mesher::Mesh& mesh) {
     const std::vector<std::int32_t>& nodes = mesh.node_set(name).nodes;
     held.insert(nodes.begin(), nodes.end());
   };
-  for (const std::string& name : study.modes.held) add(name);
-  for (const auto& [name, directions] : study.modes.held_directions) add(name);
+  for (const std::string& name : study.modes.fixed) add(name);
+  for (const auto& [name, directions] : study.modes.fixed_directions) add(name);
   for (const mesher::NodeSet& set : mesh.node_sets) {
     if (mesher::upper_case(set.name) != "BOUNDARY") continue;
     const auto free = std::count_if(set.nodes.begin(), set.nodes.end(),
                                     [&](std::int32_t node) { return held.count(node) == 0; });
     if (free == 0) return {};
     return file->file.string() + ": *BOUNDARY holds " + std::to_string(set.nodes.size()) +
-           " nodes, of which the study leaves " + std::to_string(free) + " free; modes.held = [\"" +
-           set.name + "\"] holds them";
+           " nodes, of which the study leaves " + std::to_string(free) +
+           " free; modes.fixed = [\"" + set.name + "\"] holds them";
   }
   return {};
 }

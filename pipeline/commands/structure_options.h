@@ -15,8 +15,8 @@ namespace flexneck::pipeline {
 /// @throws InputError naming study and key, with the nearest set where one is unknown.
 fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh);
 
-/// A line about nodes that *BOUNDARY of the study's .inp holds, but neither modes.held nor
-/// modes.held_directions; empty if there are none.
+/// A line about nodes that *BOUNDARY of the study's .inp holds, but neither modes.fixed nor
+/// modes.fixed_directions; empty if there are none.
 std::string free_boundary(const Study& study, const mesher::Mesh& mesh);
 
 /// The formulation of each material: its own, or that of [modes].

@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/names.h"
 #include "pipeline/document/assembly_names.h"
+#include "pipeline/document/former_names.h"
 #include "pipeline/document/toml_nodes.h"
 #include "pipeline/document/toml_source.h"
 #include "pipeline/document/variables.h"
@@ -16,6 +17,17 @@ namespace flexneck::pipeline {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr Key kVariablesKeys[] = {
+    Key::number_or_quantity("*", "", kRequired,
+                            "A number, or a number with its unit, that values name as \"$name\""),
+};
+
+constexpr Key kAssemblyKeys[] = {
+    Key::text("name", kRequired, "Name of the assembly; its tables are called name:their_name"),
+    Key::file("file", kRequired, "Model file whose bodies, joints, forces and channels join"),
+    Key::table("variables", "Values in place of those of that file's [variables]", kVariablesKeys),
+};
 
 std::vector<std::string> keys_of(const toml::table& table) {
   std::vector<std::string> keys;
@@ -36,12 +48,14 @@ std::vector<std::string> taken(std::vector<std::string>& settings, const std::st
 
 class Reading {
  public:
-  Reading(const std::vector<std::string>& settings, std::vector<InputFile>& files,
-          std::vector<Parameter>& parameters)
-      : settings_(settings), files_(files), parameters_(parameters) {}
+  Reading(const std::vector<std::string>& settings, std::span<const Key> keys) : keys_(keys) {
+    for (const std::string& setting : settings)
+      settings_.push_back(with_current_names(setting, keys, content_.warnings));
+  }
 
-  toml::table document(const fs::path& path) {
-    toml::table root = file(path);
+  DocumentContent document(const fs::path& path) {
+    toml::table& root = content_.root;
+    root = file(path);
     for (const std::string& setting : taken(settings_, "variables.")) apply_setting(root, setting);
     Variables variables(taken_table(root, "variables", "variables"), "variables");
     variables.substitute(root);
@@ -49,29 +63,33 @@ class Reading {
     for (const std::string& setting : taken(settings_, "assembly."))
       throw InputError("--set " + setting + ": there is no assembly of that name");
     for (const std::string& setting : settings_) apply_setting(root, setting);
-    variables.substitute(root);  // What the settings say may be made of variables, too.
+    // What the settings say may be of an earlier version, or made of variables, too.
+    use_current_names(root, keys_, "", content_.warnings);
+    variables.substitute(root);
     record(variables);
-    return root;
+    return std::move(content_);
   }
 
  private:
   /// The file with what it includes; it stays open until close().
   toml::table file(const fs::path& path) {
     std::vector<InputFile> read;
-    toml::table table = parse_with_includes(path, read);
+    toml::table table = parse_with_includes(path, read, [&](toml::table& each) {
+      use_current_names(each, keys_, "", content_.warnings);
+    });
     open_.push_back(fs::weakly_canonical(path));
     count_ += read.size();
     for (InputFile& each : read)
-      if (std::none_of(files_.begin(), files_.end(), [&](const InputFile& other) {
+      if (std::none_of(content_.files.begin(), content_.files.end(), [&](const InputFile& other) {
             return other.name == each.name && other.hash == each.hash;
           }))
-        files_.push_back(std::move(each));
+        content_.files.push_back(std::move(each));
     return table;
   }
 
   void record(const Variables& variables) {
     variables.finish();
-    for (Parameter& each : variables.parameters()) parameters_.push_back(std::move(each));
+    for (Parameter& each : variables.parameters()) content_.parameters.push_back(std::move(each));
   }
 
   /// Replaces the assemblies of a file by what they consist of.
@@ -105,7 +123,8 @@ class Reading {
     check_keys(assembly, key);
     const fs::path path = path_of(assembly, key);
     check_depth(assembly, path, key);
-    parameters_.push_back({key + ".file", text(assembly, "file", key), Origin::synthetic, {}});
+    content_.parameters.push_back(
+        {key + ".file", text(assembly, "file", key), Origin::synthetic, {}});
     toml::table content = file(path);
     const std::string own = key + ".variables";
     toml::table given = taken_table(content, "variables", "variables");
@@ -135,7 +154,8 @@ class Reading {
   }
 
   static void check_keys(const toml::table& assembly, const std::string& key) {
-    const std::vector<std::string> known = {"name", "file", "variables"};
+    std::vector<std::string> known;
+    for (const Key& row : kAssemblyKeys) known.emplace_back(row.name);
     for (const auto& [each, node] : assembly) {
       const std::string found(each.str());
       if (std::find(known.begin(), known.end(), found) == known.end())
@@ -178,18 +198,27 @@ class Reading {
     }
   }
 
+  std::span<const Key> keys_;
   std::vector<std::string> settings_;  ///< not applied yet
-  std::vector<InputFile>& files_;
-  std::vector<Parameter>& parameters_;
+  DocumentContent content_;
   std::vector<fs::path> open_;  ///< the file that is read and those whose assembly it is
   std::size_t count_ = 0;       ///< of files read
 };
 
 }  // namespace
 
-toml::table read_document(const fs::path& path, const std::vector<std::string>& settings,
-                          std::vector<InputFile>& files, std::vector<Parameter>& parameters) {
-  return Reading(settings, files, parameters).document(path);
+Key variables_key() {
+  return Key::table("variables", "Values that others are made of", kVariablesKeys);
+}
+
+Key assembly_key() {
+  return Key::tables("assembly", "Models that join this one, under names of their own",
+                     kAssemblyKeys);
+}
+
+DocumentContent read_document(const fs::path& path, const std::vector<std::string>& settings,
+                              std::span<const Key> keys) {
+  return Reading(settings, keys).document(path);
 }
 
 }  // namespace flexneck::pipeline

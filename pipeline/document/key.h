@@ -52,11 +52,19 @@ enum class UsedBy {
   named_experiments,  ///< those that name the table, as a case names its pulse
 };
 
+/// A text that an earlier version had for another.
+struct FormerText {
+  std::string_view was;
+  std::string_view is;
+};
+
 struct KeyDetails {
   Range range = {};
   std::size_t size = 0;                             ///< of a list; 0: any
   std::vector<std::string> (*choices)() = nullptr;  ///< the texts that are allowed; none: all
   Origin origin = Origin::synthetic;                ///< of the fallback
+  std::string_view formerly = {};                   ///< name of the key in earlier versions
+  std::span<const FormerText> former_texts = {};
   UsedBy used_by = UsedBy::table;
   bool changes_results = true;  ///< not so: how they are computed, or what is stored beside them
 };
@@ -121,8 +129,9 @@ struct Key {
     return {name, KeyType::expression_or_quantities, unit, fallback, what, {}, {}};
   }
   static constexpr Key table(Text name, Text what, std::span<const Key> keys,
-                             UsedBy used_by = UsedBy::table) {
-    return {name, KeyType::table, {}, kNone, what, {.used_by = used_by}, keys};
+                             UsedBy used_by = UsedBy::table, Text formerly = {}) {
+    return {name, KeyType::table, {}, kNone, what, {.formerly = formerly, .used_by = used_by},
+            keys};
   }
   static constexpr Key tables(Text name, Text what, std::span<const Key> keys,
                               UsedBy used_by = UsedBy::table) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/document/key_reference.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/core.h>
@@ -56,11 +57,15 @@ std::string kind_text(const Key& key) {
 }  // namespace
 
 std::string tables_text(std::span<const Key> keys) {
+  std::size_t width = 0;
+  const auto label = [](const Key& key) {
+    return is_table(key) ? heading(std::string(key.name), key) : std::string(key.name);
+  };
+  for (const Key& key : keys) width = std::max(width, label(key).size() + 2);
   std::string text;
   for (const Key& key : keys) {
-    const std::string name(key.name);
-    text += is_table(key) ? fmt::format("{:<18}{}\n", heading(name, key), key.what)
-                          : fmt::format("{:<18}{}\n", name, key.what);
+    const std::string what = wrapped(std::string(key.what), std::string(width, ' '));
+    text += fmt::format("{:<{}}", label(key), width) + what.substr(width);
   }
   return text;
 }
@@ -71,7 +76,7 @@ std::string key_text(const Key& key) {
 }
 
 std::string table_text(const std::string& path, const Key& table) {
-  std::string text = heading(path, table) + "  " + std::string(table.what) + "\n";
+  std::string text = wrapped(heading(path, table) + " " + std::string(table.what), "");
   std::string below;
   for (const Key& key : table.keys) {
     const std::string name = key.name == "*" ? "<name>" : std::string(key.name);

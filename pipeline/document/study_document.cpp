@@ -15,8 +15,7 @@
 namespace flexneck::pipeline {
 
 struct StudyDocument::Impl {
-  toml::table root;
-  std::vector<InputFile> files;
+  DocumentContent content;
   std::span<const Key> keys;
   StudyRecords records;
 };
@@ -223,19 +222,21 @@ StudyDocument::StudyDocument(const std::filesystem::path& path,
                              const std::vector<std::string>& settings, std::span<const Key> keys)
     : impl_(std::make_shared<Impl>()) {
   impl_->keys = keys;
-  impl_->root = read_document(path, settings, impl_->files, impl_->records.parameters);
+  impl_->content = read_document(path, settings, keys);
+  impl_->records.parameters = impl_->content.parameters;
 }
 
 StudyTable StudyDocument::root() const {
   auto node = std::make_shared<StudyTable::Node>();
-  node->table = &impl_->root;
+  node->table = &impl_->content.root;
   node->keys = impl_->keys;
   // Shares the ownership of the document: a table may outlive it.
   node->records = std::shared_ptr<StudyRecords>(impl_, &impl_->records);
   return StudyTable(std::move(node));
 }
 
-const std::vector<InputFile>& StudyDocument::files() const { return impl_->files; }
+const std::vector<InputFile>& StudyDocument::files() const { return impl_->content.files; }
+const std::vector<std::string>& StudyDocument::warnings() const { return impl_->content.warnings; }
 const std::vector<Parameter>& StudyDocument::parameters() const {
   return impl_->records.parameters;
 }

@@ -90,6 +90,8 @@ class StudyDocument {
   StudyTable root() const;
   /// The files read, in the order of inclusion, with the hash of their contents.
   const std::vector<InputFile>& files() const;
+  /// What the files say in words of an earlier version, a line each.
+  const std::vector<std::string>& warnings() const;
   /// Every value read through the tables so far, in the order of reading.
   const std::vector<Parameter>& parameters() const;
   /// The values that the getters with a fallback have returned for keys that are not there.

@@ -48,12 +48,14 @@ toml::table parse(const fs::path& path, const std::string& text) {
 /// Reads a file and what it includes.
 class Reading {
  public:
-  explicit Reading(std::vector<InputFile>& files) : files_(files) {}
+  Reading(std::vector<InputFile>& files, const Preparation& prepare)
+      : files_(files), prepare_(prepare) {}
 
   toml::table merged(const fs::path& path) {
     open(path);
     const std::string text = read_text(path, kMaxBytes);
     toml::table own = parse(path, text);
+    prepare_(own);
     toml::table table;
     if (toml::node* const include = own.get("include")) {
       if (!include->is_array() || !include->as_array()->is_homogeneous<std::string>()) {
@@ -87,6 +89,7 @@ class Reading {
   }
 
   std::vector<InputFile>& files_;
+  const Preparation& prepare_;
   std::vector<fs::path> open_;  ///< the file that is read and those that include it
   std::size_t count_ = 0;
 };
@@ -120,8 +123,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 }  // namespace
 
-toml::table parse_with_includes(const fs::path& path, std::vector<InputFile>& files) {
-  return Reading(files).merged(path);
+toml::table parse_with_includes(const fs::path& path, std::vector<InputFile>& files,
+                                const Preparation& prepare) {
+  return Reading(files, prepare).merged(path);
 }
 
 void apply_setting(toml::table& root, const std::string& setting) {

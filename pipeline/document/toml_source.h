@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,12 @@ namespace flexneck::pipeline {
 inline constexpr std::size_t kMaxFiles = 100;       ///< included, or of assemblies
 inline constexpr std::size_t kDeepestInclude = 16;  ///< files within one another
 
+/// What is done to the table of each file before the one that includes it is put over it.
+using Preparation = std::function<void(toml::table&)>;
+
 /// Parses a file and everything it includes into one table. The files read are appended to `files`.
-toml::table parse_with_includes(const std::filesystem::path& path, std::vector<InputFile>& files);
+toml::table parse_with_includes(const std::filesystem::path& path, std::vector<InputFile>& files,
+                                const Preparation& prepare);
 
 /// Applies one "dotted.key=value" from the command line.
 void apply_setting(toml::table& root, const std::string& setting);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/foundation/error.h"
+#include "pipeline/document/former_names.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/version.h"
 
@@ -33,6 +34,12 @@ std::vector<std::string> named_by(const CaseSection& experiment) {
   add("head_spring", experiment.head_spring);
   for (const std::string& force : experiment.forces) add("force", force);
   return prefixes;
+}
+
+/// Values by the names that their keys have now; a folder may be of an earlier version.
+std::vector<Parameter> with_current_names(std::vector<Parameter> parameters) {
+  for (Parameter& each : parameters) each.key = current_name(each.key, study_keys());
+  return parameters;
 }
 
 /// What other programs write of their keys may not be in the table.
@@ -155,7 +162,8 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
     throw InputError(file.string() + ": was made " + difference + "; make it again with '" +
                      made_by + "'");
   };
-  for (const Parameter& then : made_from.parameters) {
+  const std::vector<Parameter> made_with = with_current_names(made_from.parameters);
+  for (const Parameter& then : made_with) {
     if (!matters(then.key)) continue;
     const std::string with = "with " + then.key + " = " + then.value + ", the study has ";
     const Parameter* now = find(study.parameters, then.key);
@@ -164,7 +172,7 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
     if (now->value != then.value) refuse(with + now->value);
   }
   for (const Parameter& now : expected) {
-    if (find(made_from.parameters, now.key) == nullptr && matters(now.key))
+    if (find(made_with, now.key) == nullptr && matters(now.key))
       refuse("without " + now.key + ", the study has " + now.value);
   }
 }
@@ -186,20 +194,21 @@ bool has_more_than_mesh(const fs::path& file) {
 
 std::string replaced_values(const fs::path& file, const FileFormat& format, const Provenance& now) {
   if (!has_more_than_mesh(file)) return {};
-  const Provenance then = provenance_in(file, format);
-  if (then.program.empty()) return {};
+  const Provenance made_from = provenance_in(file, format);
+  if (made_from.program.empty()) return {};
+  const std::vector<Parameter> then = with_current_names(made_from.parameters);
   const auto text = [](const Parameter* parameter) {
     return parameter == nullptr ? "none" : parameter->value;
   };
   const auto difference = [&](const std::string& key) -> std::string {
-    const Parameter* const before = find(then.parameters, key);
+    const Parameter* const before = find(then, key);
     const Parameter* const after = find(now.parameters, key);
     if (!matters(key) || text(before) == text(after)) return {};
     return file.string() + ": was made with " + key + " = " + text(before) + ", now with " +
            text(after) + ": other results in the folder are of the former; 'flexneck run' makes " +
            "all of them of one study";
   };
-  for (const auto* const parameters : {&then.parameters, &now.parameters}) {
+  for (const auto* const parameters : {&then, &now.parameters}) {
     for (const Parameter& parameter : *parameters) {
       if (std::string found = difference(parameter.key); !found.empty()) return found;
     }

@@ -44,8 +44,7 @@ std::string death_of(const ChildEnd& end, const ChildLimits& limits) {
   }
   if (end.signal == SIGXCPU)
     return fmt::format("is not done with it after {:.0f} s", end.processor_s);
-  if (end.signal == SIGALRM)
-    return fmt::format("is not done with it after {:.0f} s", end.clock_s);
+  if (end.signal == SIGALRM) return fmt::format("is not done with it after {:.0f} s", end.clock_s);
   if (end.signal == SIGKILL) return "was killed while it read it, perhaps for want of memory";
   if (end.signal != 0) return fmt::format("crashes on it ({})", strsignal(end.signal));
   return fmt::format("gives up on it (exit code {})", end.exit_code);

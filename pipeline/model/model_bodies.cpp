@@ -16,12 +16,13 @@ using multibody::RigidBody;
 
 namespace {
 
-std::vector<std::string> kinds() { return {"ground", "driven", "rigid", "deformable"}; }
+std::vector<std::string> kinds() { return {"ground", "prescribed", "rigid", "deformable"}; }
 
 constexpr auto kOwnKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the body"),
-        Key::text("kind", kRequired, "What the body is", {.choices = kinds}),
+        Key::text("kind", kRequired, "What the body is",
+                  {.choices = kinds, .former_texts = kFormerBodyKinds}),
         Key::quantities(
             "position", "m", kNone,
             "Where its frame is at the start, in the world; the joints place it if neither "

@@ -3,6 +3,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/document/assemblies.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/channel_section.h"
 #include "pipeline/model/model_check.h"
@@ -39,8 +40,8 @@ constexpr auto kSolverKeys = joined(
         Key::number(
             "spectral_radius", "0.8",
             "Of generalised_alpha: by what a step multiplies vibrations that it does not resolve"),
-        Key::count("most_steps", "10000000", "Steps after which a run is given up",
-                   {.range = at_least(1)}),
+        Key::count("max_steps", "10000000", "Steps after which a run is given up",
+                   {.range = at_least(1), .formerly = "most_steps"}),
     }),
     kStepKeys);
 
@@ -69,7 +70,7 @@ std::vector<ModelSection> sections() {
 
 void read_solver(const StudyTable& table, ModelFile& file) {
   read_steps(table, file.solver);
-  file.solver.max_steps = table.count("most_steps");
+  file.solver.max_steps = table.count("max_steps");
   file.solver.formulation = static_cast<multibody::Formulation>(table.choice("formulation"));
   file.solver.integrator = static_cast<multibody::Integrator>(table.choice("integrator"));
   file.solver.spectral_radius = table.number("spectral_radius");
@@ -139,6 +140,8 @@ void assemble(Assembly& assembly, ModelFile& file) {
 std::span<const Key> model_keys() {
   static const std::vector<Key> keys = [] {
     std::vector<Key> all = {
+        variables_key(),
+        assembly_key(),
         Key::table("solver", "Length, start and integration of the run", kSolverKeys),
         Key::table("linearisation",
                    "Frequencies, damping ratios and shapes of small motions, besides the run",
@@ -178,6 +181,7 @@ ModelFile read_model_file(const std::filesystem::path& path,
   file.files = document.files();
   file.files.insert(file.files.end(), assembly.files.begin(), assembly.files.end());
   file.parameters = document.parameters();
+  file.warnings = document.warnings();
   return file;
 }
 

@@ -49,6 +49,7 @@ struct ModelFile {
 
   std::vector<InputFile> files;  ///< everything that was read
   std::vector<Parameter> parameters;
+  std::vector<std::string> warnings;  ///< of names of earlier versions
 };
 
 /// The table of keys of model files, by section.

@@ -40,10 +40,13 @@ std::size_t marker_named(const StudyTable& table, const std::string& key,
 
 namespace {
 
+constexpr FormerText kFormerKinds[] = {{"slider", "prismatic"}};
+
 constexpr auto kKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the joint"),
     Key::text("kind", kRequired, "Which motion it leaves",
-              {.choices = [] { return names_of_kinds(multibody::kJointKinds); }}),
+              {.choices = [] { return names_of_kinds(multibody::kJointKinds); },
+               .former_texts = kFormerKinds}),
     Key::text("lower", kRequired, "Marker of the lower body"),
     Key::text("upper", kRequired,
               "Marker of the upper body, on which the lower one exerts the reaction"),

@@ -8,6 +8,9 @@
 
 namespace flexneck::pipeline {
 
+/// Of the key kind of bodies.
+inline constexpr FormerText kFormerBodyKinds[] = {{"driven", "prescribed"}};
+
 /// Mass, centre and inertia; of rigid bodies only, so that no other has to have them.
 inline constexpr std::array<Key, 3> kRigidBodyKeys = {{
     Key::quantity("mass", "kg", kNone, "Of a rigid body: its mass"),

@@ -6,10 +6,10 @@ namespace flexneck::pipeline {
 void read_steps(const StudyTable& table, multibody::SolverOptions& options) {
   options.relative_tolerance = table.number("relative_tolerance");
   options.absolute_tolerance = table.number("absolute_tolerance");
-  options.max_step_s = table.quantity("largest_step");
-  options.min_step_s = table.quantity("smallest_step");
+  options.max_step_s = table.quantity("max_step");
+  options.min_step_s = table.quantity("min_step");
   if (!(options.max_step_s > options.min_step_s)) {
-    table.refuse("largest_step", "expected 0 < smallest_step < largest_step");
+    table.refuse("max_step", "expected 0 < min_step < max_step");
   }
 }
 

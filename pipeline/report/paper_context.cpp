@@ -18,9 +18,11 @@ constexpr Key kCorridorKeys[] = {
     Key::text("channel", kRequired, "That curve"),
     Key::text("what", kRequired, "What of the curve is meant"),
     Key::text("unit", kRequired, "SI unit of the values", {.choices = units}),
-    Key::quantities("velocities", "m/s", kRequired, "Impact velocities that it is for, from and to", {.size = 2}),
+    Key::quantities("velocities", "m/s", kRequired, "Impact velocities that it is for, from and to",
+                    {.size = 2}),
     Key::quantities("times", "s", kRequired, "Times, from and to", {.size = 2}),
-    Key::quantities("values", "rad | N*m | N | m/s^2 | m", kRequired, "Values, from and to", {.size = 2}),
+    Key::quantities("values", "rad | N*m | N | m/s^2 | m", kRequired, "Values, from and to",
+                    {.size = 2}),
 };
 
 constexpr Key kPulseCorridorKeys[] = {
@@ -28,8 +30,10 @@ constexpr Key kPulseCorridorKeys[] = {
     Key::quantities("times", "s", kRequired, "Times that it is given at"),
     Key::quantities("low", "m/s^2", kRequired, "Least deceleration at each time"),
     Key::quantities("high", "m/s^2", kRequired, "Largest deceleration at each time"),
-    Key::quantity("most_after", "m/s^2", kRequired, "Largest deceleration after the last of the times"),
-    Key::quantity("decay_level", "m/s^2", kRequired, "Deceleration that the pulse falls below for good"),
+    Key::quantity("most_after", "m/s^2", kRequired,
+                  "Largest deceleration after the last of the times"),
+    Key::quantity("decay_level", "m/s^2", kRequired,
+                  "Deceleration that the pulse falls below for good"),
     Key::quantities("decay_times", "s", kRequired, "When it does, from and to", {.size = 2}),
 };
 

@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-std::vector<std::string> body_kinds() { return {"ground", "driven", "rigid", "deformable"}; }
+std::vector<std::string> body_kinds() { return {"ground", "prescribed", "rigid", "deformable"}; }
 
 // Correction modes stand for what many higher modes give statically, so a damping of their own has
 // no meaning but to let their ringing die out. On the neck with the head (four normal, six residual
@@ -20,7 +20,8 @@ std::vector<std::string> body_kinds() { return {"ground", "driven", "rigid", "de
 constexpr auto kBodyKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the body"),
-        Key::text("kind", kRequired, "What the body is", {.choices = body_kinds}),
+        Key::text("kind", kRequired, "What the body is",
+                  {.choices = body_kinds, .former_texts = kFormerBodyKinds}),
         Key::texts("modes", kNone, "Of a deformable body: names of its modes"),
         Key::number("damping_ratio", kNone, "Of a deformable body: damping ratio of its modes"),
         Key::number(

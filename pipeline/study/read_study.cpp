@@ -9,6 +9,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/document/assemblies.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/solver_steps.h"
 #include "pipeline/study/sections.h"
@@ -20,7 +21,7 @@ namespace {
 std::vector<std::string> stiffenings() { return {"none", "unit-loads"}; }
 std::vector<std::string> solvers() { return {"direct", "iterative"}; }
 
-constexpr Key kHeldKeys[] = {
+constexpr Key kFixedKeys[] = {
     Key::text("*", kNone,
               "Directions, such as \"x\" or \"yz\", that the node set of this name is fixed in"),
 };
@@ -42,8 +43,9 @@ constexpr Key kModesKeys[] = {
               {.choices = stiffenings}),
     Key::text("solver", "direct", "How the eigenproblem is solved",
               {.choices = solvers, .changes_results = false}),
-    Key::texts("held", kNone, "Node sets that are fixed in all directions"),
-    Key::table("held_directions", "Node sets that are fixed in some directions", kHeldKeys),
+    Key::texts("fixed", kNone, "Node sets that are fixed in all directions", {.formerly = "held"}),
+    Key::table("fixed_directions", "Node sets that are fixed in some directions", kFixedKeys,
+               UsedBy::table, "held_directions"),
     Key::texts("rigid_parts", kNone, "Parts whose motion gives the modes their names"),
     Key::text("attached_body", kNone,
               "Rigid body attached to an interface for the loaded frequencies"),
@@ -67,6 +69,8 @@ constexpr Key kOutputKeys[] = {
 
 std::span<const Key> study_keys() {
   static const std::array kKeys = std::to_array<Key>({
+      variables_key(),
+      assembly_key(),
       Key::table("geometry", "What is meshed", geometry_keys(), UsedBy::mesh),
       Key::table("mesh", "How it is meshed", mesh_keys(), UsedBy::mesh),
       Key::table("matrices", "Matrices of another program, in place of a mesh", matrices_keys(),
@@ -125,7 +129,7 @@ MeshOrders read_mesh_orders(const StudyTable& mesh) {
 namespace {
 
 /// left = "x", bottom = "yz"
-std::map<std::string, std::array<bool, 3>> read_held_directions(const StudyTable& table) {
+std::map<std::string, std::array<bool, 3>> read_fixed_directions(const StudyTable& table) {
   std::map<std::string, std::array<bool, 3>> held;
   for (const std::string& set : table.keys()) {
     const std::string letters = table.text(set);
@@ -151,8 +155,8 @@ ModesSection read_modes(const StudyTable& table) {
   modes.stress_stiffening = table.choice("stress_stiffening") == 1;
   modes.solver =
       table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;
-  modes.held = table.texts("held");
-  modes.held_directions = read_held_directions(table.table("held_directions"));
+  modes.fixed = table.texts("fixed");
+  modes.fixed_directions = read_fixed_directions(table.table("fixed_directions"));
   modes.rigid_parts = table.texts("rigid_parts");
   modes.attached_body = table.text("attached_body");
   modes.attached_to = table.text("attached_to");
@@ -222,7 +226,7 @@ void check_geometry(const Study& study) {
 void refuse_what_the_neck_ignores(const Study& study) {
   if (!study.geometry) return;
   const std::array<std::pair<const char*, bool>, 4> keys = {
-      {{"modes.held", !study.modes.held.empty()},
+      {{"modes.fixed", !study.modes.fixed.empty()},
        {"modes.rigid_parts", !study.modes.rigid_parts.empty()},
        {"modes.attached_to", !study.modes.attached_to.empty()},
        {"[[interface]]", !study.interfaces.empty()}}};
@@ -324,6 +328,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.files = document.files();
   study.parameters = document.parameters();
   study.defaults = document.defaults();
+  study.warnings = document.warnings();
   forget_fit_of_changed_neck(study);
   return study;
 }

@@ -57,9 +57,9 @@ struct ModesSection {
   bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
   std::vector<std::string> rigid_interfaces;  ///< whose nodes are tied to move rigidly
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
-  bool certify = false;           ///< prove that no mode is missing, estimate the error of the mesh
-  std::vector<std::string> held;  ///< node sets held in all directions
-  std::map<std::string, std::array<bool, 3>> held_directions;  ///< others, in some of x, y, z
+  bool certify = false;  ///< prove that no mode is missing, estimate the error of the mesh
+  std::vector<std::string> fixed;  ///< node sets held in all directions
+  std::map<std::string, std::array<bool, 3>> fixed_directions;  ///< others, in some of x, y, z
   std::vector<std::string> rigid_parts;  ///< parts whose motion names the modes
   std::string attached_body;  ///< rigid body set on an interface for the loaded frequencies
   std::string attached_to;    ///< that interface; empty: the first
@@ -189,7 +189,8 @@ struct Study {
   std::vector<InputFile> files;   ///< of the study itself
   std::vector<InputFile> tables;  ///< CSV files that it names
   std::vector<Parameter> parameters;
-  std::vector<Parameter> defaults;  ///< what holds for keys that the study does not give
+  std::vector<std::string> warnings;  ///< of names of earlier versions
+  std::vector<Parameter> defaults;    ///< what holds for keys that the study does not give
 
   const BodySection& body(const std::string& name) const;
   const MaterialModels& material_models() const;

@@ -49,7 +49,7 @@ gravity = ["0 gn", "0 gn", "-1 gn"]
 interval = "0.1 s"
 [[body]]
 name = "table"
-kind = "driven"
+kind = "prescribed"
 [body.turn]
 axis = [0, 0, 1]
 initial_rate = "{SPIN} rad/s"

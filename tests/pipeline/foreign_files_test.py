@@ -35,7 +35,7 @@ density = "{DENSITY} kg/m^3"
 parts = ["bar"]
 [modes]
 count = 3
-held = ["clamp"]
+fixed = ["clamp"]
 """
 
 # A massless rod along z, clamped at z = 0, with crosses of four masses on it, each mode one parabola.

@@ -136,20 +136,20 @@ TEST_CASE("an assembly has all that its file gives, under names and references w
         "frame.centre left:bar.top frame.left:corner right:bar.top frame.right:corner");
   CHECK(joined(model.joints) == "left:pin right:pin");
   CHECK(joined(model.joints[1].motors) == "right:drive");
-  CHECK(joined(model.forces) == "left:push right:push");
-  CHECK(joined(model.torques) == "left:turn right:turn");
-  CHECK(joined(model.springs) == "left:spring right:spring");
-  CHECK(joined(model.bushings) == "left:bush right:bush");
-  CHECK(joined(model.resistances) == "left:rub right:rub");
+  CHECK(joined(model.forces.of<multibody::PointForce>()) == "left:push right:push");
+  CHECK(joined(model.forces.of<multibody::Torque>()) == "left:turn right:turn");
+  CHECK(joined(model.forces.of<multibody::MarkerSpring>()) == "left:spring right:spring");
+  CHECK(joined(model.forces.of<multibody::Bushing>()) == "left:bush right:bush");
+  CHECK(joined(model.forces.of<multibody::JointResistance>()) == "left:rub right:rub");
   CHECK(joined(file.output.channels) == "left:way left:load right:way right:load");
   const auto marker = [&](std::size_t index) { return model.markers.at(index).name; };
   CHECK(marker(model.joints[1].marker_i) == "frame.right:corner");
   CHECK(marker(model.joints[1].marker_j) == "right:bar.top");
-  CHECK(marker(model.forces[1].marker) == "right:bar.top");
-  CHECK(marker(model.torques[1].marker) == "right:bar.top");
-  CHECK(marker(model.springs[1].marker_i) == "frame.centre");
-  CHECK(marker(model.bushings[1].marker_i) == "frame.right:corner");
-  CHECK(model.resistances[1].joint == 1);
+  CHECK(marker(model.forces.of<multibody::PointForce>()[1].marker) == "right:bar.top");
+  CHECK(marker(model.forces.of<multibody::Torque>()[1].marker) == "right:bar.top");
+  CHECK(marker(model.forces.of<multibody::MarkerSpring>()[1].marker_i) == "frame.centre");
+  CHECK(marker(model.forces.of<multibody::Bushing>()[1].marker_i) == "frame.right:corner");
+  CHECK(model.forces.of<multibody::JointResistance>()[1].joint == 1);
   CHECK(marker(file.output.channels[2].source) == "right:bar.top");
   CHECK(marker(*file.output.channels[2].relative_to) == "frame.right:corner");
   CHECK(marker(*file.output.channels[2].axes) == "frame.centre");
@@ -201,8 +201,10 @@ magnitude = "1 N"
   const ModelFile file = files.model(text);
   CHECK(joined(file.model.bodies) == "frame outer:inner:bar");
   CHECK(joined(file.model.markers) == "frame.centre outer:inner:bar.top frame.outer:inner:corner");
-  CHECK(joined(file.model.forces) == "mine outer:pull outer:inner:push");
-  CHECK(file.model.forces[1].marker == file.model.forces[0].marker);
+  CHECK(joined(file.model.forces.of<multibody::PointForce>()) ==
+        "mine outer:pull outer:inner:push");
+  CHECK(file.model.forces.of<multibody::PointForce>()[1].marker ==
+        file.model.forces.of<multibody::PointForce>()[0].marker);
   CHECK(rigid(file, "outer:inner:bar").mass_kg == 9);
   CHECK(joined(file.files) == "model.toml loads.toml pair.toml bar.toml");
   const ModelFile set = files.model(

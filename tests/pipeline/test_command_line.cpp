@@ -193,8 +193,8 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
     check_refused(
         run_flexneck("modes -o " + out + kCoarse + " --set modes.rigid_interfaces='[\"tip\"]'"),
         "modes.rigid_interfaces: there is no interface 'tip' (did you mean 'top'?)");
-    check_refused(run_flexneck("modes -o " + out + kCoarse + " --set modes.held_directions.top=w"),
-                  "modes.held_directions.top: expected directions such as \"x\" or \"yz\"");
+    check_refused(run_flexneck("modes -o " + out + kCoarse + " --set modes.fixed_directions.top=w"),
+                  "modes.fixed_directions.top: expected directions such as \"x\" or \"yz\"");
   }
   SECTION("info tells what is in a file and what made it") {
     const CommandOutcome mesh = run_flexneck("info " + out + "/mesh.h5");

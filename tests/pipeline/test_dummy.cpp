@@ -23,7 +23,7 @@ ModelFile dummy(const std::vector<std::string>& settings = {}) {
 
 /// The seat pulls back by 100 m/s^2 at most, within 80 ms.
 ModelFile dummy_on_sled(const std::string& formulation) {
-  return dummy({"body.seat.kind=driven",
+  return dummy({"body.seat.kind=prescribed",
                 "body.seat.acceleration=-100 * sin(pi * t / 0.08) * (t < 0.08)",
                 "solver.formulation=" + formulation, "solver.integrator=dormand_prince",
                 "solver.relative_tolerance=1e-11", "solver.absolute_tolerance=1e-12",

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLargeSteps = " --set 'solver.smallest_step=0.3 ms'";
+constexpr const char* kLargeSteps = " --set 'solver.min_step=0.3 ms'";
 
 CommandOutcome run_coarse(const fs::path& folder, const std::string& arguments) {
   return testing::run_flexneck(arguments + " -q -o " + folder.string() + testing::kCoarseNeck);

@@ -37,7 +37,7 @@ density = "2700 kg/m^3"
 parts = ["bar"]
 [modes]
 count = 6
-held = ["clamp"]
+fixed = ["clamp"]
 [[interface]]
 name = "tip"
 position = ["0.5 m", "0 m", "0 m"]
@@ -79,7 +79,7 @@ TEST_CASE("an .inp comes back from its export with the same frequencies, and Cal
                        (folder / "bar.inp").string())
               .exit_code == 0);
   std::ofstream(folder / "again.toml")
-      << "[geometry]\nfile = \"bar.inp\"\n[modes]\ncount = 6\nheld = [\"boundary\"]\n";
+      << "[geometry]\nfile = \"bar.inp\"\n[modes]\ncount = 6\nfixed = [\"boundary\"]\n";
   run_study((folder / "again.toml").string(), folder / "again", displacement);
   const Eigen::VectorXd after = frequencies_in(folder / "again");
   CHECK((after - before).cwiseQuotient(before).cwiseAbs().maxCoeff() < 1e-10);

@@ -151,7 +151,7 @@ outside = "zero"
 TEST_CASE("a driven body follows a table, a pulse or an expression, and one of them only") {
   const TemporaryFolder folder;
   const auto sled = [&](const std::string& motion) {
-    return with(double_pendulum_text(), "kind = \"ground\"", "kind = \"driven\"\n" + motion);
+    return with(double_pendulum_text(), "kind = \"ground\"", "kind = \"prescribed\"\n" + motion);
   };
   const auto driven = [&](const std::string& motion) {
     return std::get<multibody::DrivenBody>(read(folder, sled(motion)).model.bodies[0].kind);
@@ -204,7 +204,7 @@ TEST_CASE("a driven body turns by the same kinds of motion, and its body starts 
   const TemporaryFolder folder;
   const auto turntable = [&](const std::string& motion) {
     return with(double_pendulum_text(), "kind = \"ground\"",
-                "kind = \"driven\"\n[body.turn]\naxis = [0, 0, 1]\n" + motion);
+                "kind = \"prescribed\"\n[body.turn]\naxis = [0, 0, 1]\n" + motion);
   };
   const auto turn = [&](const std::string& motion) {
     return std::get<multibody::DrivenBody>(read(folder, turntable(motion)).model.bodies[0].kind)
@@ -284,7 +284,7 @@ TEST_CASE("a body that two driven ones hold is driven twice") {
   const std::string sled = R"(
 [[body]]
 name = "sled"
-kind = "driven"
+kind = "prescribed"
 initial_velocity = "1 m/s"
 )";
   CHECK_THAT(refusal(folder, double_pendulum_text() + sled + origin_marker_text("sled", "seat") +

@@ -96,7 +96,7 @@ about = "equilibrium"
 rates = ["0 rad/s", "10 rad/s", "30 rad/s"]
 [[body]]
 name = "hub"
-kind = "driven"
+kind = "prescribed"
 [body.turn]
 axis = [0, 0, 1]
 initial_rate = "30 rad/s"
@@ -198,7 +198,7 @@ TEST_CASE("what a terminal would obey reaches it spelt out, in one line of bound
 TEST_CASE("a run that cannot go on says when and why and keeps what it has, marked incomplete") {
   const TemporaryFolder folder;
   const fs::path model = write_text(folder / "stuck.toml", double_pendulum_text());
-  const CommandOutcome outcome = simulate(model, folder / "out", " -q --set solver.most_steps=20");
+  const CommandOutcome outcome = simulate(model, folder / "out", " -q --set solver.max_steps=20");
   INFO(outcome.text);
   CHECK(outcome.exit_code == 3);
   CHECK(lines_in(outcome.text) == 1);

@@ -110,7 +110,7 @@ TEST_CASE("weight densities, free supports and decks without pressures are warne
   const std::string out = " -o " + folder.path().string();
   const std::string study = kExamples + "cantilever_inp.toml" + out;
   CHECK_THAT(run_flexneck("run " + study).text, !Contains("Warning"));
-  CHECK_THAT(run_flexneck("modes --set 'modes.held=[]' " + study).text,
+  CHECK_THAT(run_flexneck("modes --set 'modes.fixed=[]' " + study).text,
              Contains("Warning: ") && Contains("cantilever.inp: *BOUNDARY holds 8 nodes, of which "
                                                "the study leaves 8 free"));
   CHECK_THAT(run_flexneck("export " + study + " --to " + (folder / "bar.inp").string()).text,
@@ -160,7 +160,7 @@ TEST_CASE("a wrong unit is noticed, and wrong names are refused with near ones")
   CHECK(metres.exit_code == 0);
   CHECK_THAT(metres.text, Contains("Warning: the largest extent is 500 m; were millimetres"));
   CHECK_THAT(run_flexneck("mesh " + study).text, !Contains("Warning"));
-  check_refused(run_flexneck("modes -q --set 'modes.held=[\"clmp\"]' " + study),
+  check_refused(run_flexneck("modes -q --set 'modes.fixed=[\"clmp\"]' " + study),
                 "did you mean 'clamp'");
   std::ofstream(folder / "apart.geo") << R"(
 SetFactory("OpenCASCADE");

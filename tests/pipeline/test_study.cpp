@@ -190,7 +190,7 @@ TEST_CASE("what cannot be is refused before anything is computed") {
 
 TEST_CASE("keys that the neck does not obey are refused, and not written down as if it did") {
   for (const char* const setting :
-       {"modes.held=[\"base\"]", "modes.rigid_parts=[\"plate_1\"]", "modes.attached_to=top"}) {
+       {"modes.fixed=[\"base\"]", "modes.rigid_parts=[\"plate_1\"]", "modes.attached_to=top"}) {
     const std::string key = std::string(setting).substr(0, std::string(setting).find('='));
     CHECK_THROWS_WITH(built_in({setting}), Contains(key + " has no effect on the neck"));
   }

@@ -9,15 +9,33 @@
 
 using Catch::Matchers::Contains;
 using flexneck::TemporaryFolder;
-using flexneck::pipeline::StudyDocument;
-using flexneck::pipeline::StudyTable;
+using namespace flexneck::pipeline;
 
 namespace {
+
+constexpr Key kPartKeys[] = {
+    Key::quantity("mass", "kg", kRequired, "A mass"),
+    Key::quantity("half", "kg", kRequired, "A mass"),
+    Key::quantities("point", "m", kRequired, "A point", {.size = 3}),
+    Key::numbers("axis", kRequired, "An axis", {.size = 3}),
+    Key::quantity("area", "m^2", kRequired, "An area"),
+    Key::count("count", kRequired, "A whole number"),
+    Key::text("file", kRequired, "A text"),
+    Key::text("price", kRequired, "A text"),
+    Key::quantities("both", "m", kRequired, "Lengths"),
+    Key::quantities("mixed", "m", kRequired, "Lengths"),
+    Key::quantity("*", "m", kRequired, "A length"),
+};
+
+constexpr Key kKeys[] = {
+    Key::table("part", "A table", kPartKeys),
+    Key::text("variables", kNone, "Nothing that is left of a document"),
+};
 
 StudyDocument document_of(const TemporaryFolder& folder, const std::string& text,
                           const std::vector<std::string>& settings = {}) {
   std::ofstream(folder / "study.toml") << text;
-  return {folder / "study.toml", settings};
+  return {folder / "study.toml", settings, kKeys};
 }
 
 /// "value, origin, note" of a parameter; "none" if there is none.
@@ -53,15 +71,15 @@ count = 4
 )");
   const StudyTable part = document.root().table("part");
   constexpr double kInch = 0.0254;
-  CHECK(part.quantity("mass", "kg") == Approx(27.426 * 0.45359237).epsilon(1e-15));
-  CHECK(part.quantity("half", "kg") == Approx(-6.8565 * 0.45359237).epsilon(1e-15));
-  const std::vector<double> point = part.quantities("point", "m", 3);
+  CHECK(part.quantity("mass") == Approx(27.426 * 0.45359237).epsilon(1e-15));
+  CHECK(part.quantity("half") == Approx(-6.8565 * 0.45359237).epsilon(1e-15));
+  const std::vector<double> point = part.quantities("point");
   CHECK(point[0] == Approx(-3 * kInch));
   CHECK(point[1] == Approx(3 * kInch));
   CHECK(point[2] == Approx(-3.15 * kInch));
-  CHECK(part.numbers("axis", 3) == std::vector<double>{0, -1, 1});
-  CHECK(part.quantity("area", "m^2") == 0.25);
-  CHECK(part.count("count", 1) == 4);
+  CHECK(part.numbers("axis") == std::vector<double>{0, -1, 1});
+  CHECK(part.quantity("area") == 0.25);
+  CHECK(part.count("count") == 4);
   CHECK(part.text("file") == "a$b.h5");
   CHECK(part.text("price") == "$5");
   CHECK_FALSE(document.root().has("variables"));
@@ -89,7 +107,7 @@ side = -1
 )");
   const StudyTable part = document.root().table("part");
   for (const std::string& key : part.keys())
-    part.is_list(key) ? part.quantities(key, "m", 0).front() : part.quantity(key, "m");
+    part.is_list(key) ? part.quantities(key).front() : part.quantity(key);
   CHECK(parameter(document, "part.plain") == "1 m, published, a book");
   CHECK(parameter(document, "part.own") == "1 m, calibrated, fitted");
   CHECK(parameter(document, "part.noted") == "2 m, published, twice");
@@ -112,7 +130,7 @@ TEST_CASE(
       << "[part]\nwidth = \"$width\"\nheight = \"2*$width\"\n[variables]\nwidth = \"1 m\"\n";
   const std::string text = "include = [\"base.toml\"]\n[variables]\nwidth = \"3 m\"\n";
   const auto part = [&](const std::vector<std::string>& settings, const std::string& key) {
-    return document_of(folder, text, settings).root().table("part").quantity(key, "m");
+    return document_of(folder, text, settings).root().table("part").quantity(key);
   };
   CHECK(part({}, "height") == 6);
   CHECK(part({"variables.width=5 m"}, "height") == 10);
@@ -170,6 +188,6 @@ mass =   "$length"
 [variables]
 length = { value = "2 m", origin = "published" }
 )");
-  CHECK_THROWS_WITH(document.root().table("part").quantity("mass", "kg"),
+  CHECK_THROWS_WITH(document.root().table("part").quantity("mass"),
                     Contains("study.toml:2:10: part.mass: expected a unit such as 'kg'"));
 }

@@ -16,7 +16,7 @@ parts = ["{part}"]
 
 [modes]
 count = 3
-held = ["{held}"]
+fixed = ["{held}"]
 formulation = "displacement"
 
 [[interface]]
@@ -67,7 +67,7 @@ interval = "1 ms"
 
 [[body]]
 name = "sled"
-kind = "driven"
+kind = "prescribed"
 direction = [1, 0, 0]
 table = "pulse.csv"
 

@@ -11,7 +11,7 @@ namespace {
 
 /// The neck stands on its bolts.
 std::vector<std::string> held_sets(const Study& study) {
-  return study.geometry ? std::vector<std::string>{"bolts"} : study.modes.held;
+  return study.geometry ? std::vector<std::string>{"bolts"} : study.modes.fixed;
 }
 
 /// A line about materials whose elements have pressures of their own, which a deck cannot say;
@@ -36,7 +36,7 @@ void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
   const fe_modal::FormulationChoice choice = formulation_of(study);
   mesher::InpOptions options{.reduced = {},
                              .held = held_sets(study),
-                             .held_directions = study.modes.held_directions,
+                             .held_directions = study.modes.fixed_directions,
                              .mode_count = study.modes.count};
   for (const mesher::Material& material : mesh.materials) {
     if (choice.of(material) == fe_modal::Formulation::reduced) {

@@ -11,9 +11,9 @@ namespace flexneck::pipeline {
 
 void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
   const Study& study = input.study;
-  if (!study.modes.held_directions.empty() || !study.modes.rigid_interfaces.empty()) {
+  if (!study.modes.fixed_directions.empty() || !study.modes.rigid_interfaces.empty()) {
     throw InputError(
-        "matrices are written with three directions a node: leave out modes.held_directions and "
+        "matrices are written with three directions a node: leave out modes.fixed_directions and "
         "modes.rigid_interfaces");
   }
   const std::string held =

@@ -145,7 +145,7 @@ VERIFICATION = {"format": "flexneck verification", "schema_version": 1, "passed"
                 "provenance": TABLES["provenance"]}
 SETTINGS = ["modes.count=4", "body.head.mass=2 kg\nbody.base.mass={ value = \"1 kg\" }",
             "solver.gravity=[\"0 gn\", \"0 gn\", \"9.81 m/s^2\"]", "a.b.c.d=1\na.b=2", "modes=1",
-            "modes.held=[\"x\"]\nmodes.count=\"\"\"x\"\"\"", "body.head={ name = \"x\" }"]
+            "modes.fixed=[\"x\"]\nmodes.count=\"\"\"x\"\"\"", "body.head={ name = \"x\" }"]
 EXPRESSIONS = ["0.05 * sin(2 * pi * 3 * t)", "t < 1 ? gn * t^2 : max(1, t, 3)", "(t > 0) && (t < 1)",
                "1e-3 * exp(-t / 0.01)", "-t^-2", "rint(t) % 2"]
 MATRIX_MARKET = "%%MatrixMarket matrix coordinate real symmetric\n% two\n2 2 3\n1 1 4.\n2 1 -1\n2 2 3\n"

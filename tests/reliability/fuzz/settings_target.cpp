@@ -14,7 +14,7 @@ constexpr const char* kStudy = R"(
 gravity = ["0 gn", "0 gn", "-1 gn"]
 [modes]
 count = { value = 3, origin = "published", note = "three" }
-held = ["clamp"]
+fixed = ["clamp"]
 [[body]]
 name = "head"
 mass = "1 kg"
