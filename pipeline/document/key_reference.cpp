@@ -38,6 +38,10 @@ std::string heading(const std::string& path, const Key& table) {
   return table.type == KeyType::tables ? "[[" + path + "]]" : "[" + path + "]";
 }
 
+std::string shown_name(const Key& key) {
+  return key.name == "*" ? "<name>" : std::string(key.name);
+}
+
 /// Type, unit, default and what is allowed.
 std::string kind_text(const Key& key) {
   std::string text = type_text(key);
@@ -71,7 +75,7 @@ std::string tables_text(std::span<const Key> keys) {
 }
 
 std::string key_text(const Key& key) {
-  return wrapped(fmt::format("{} ({})", key.name, kind_text(key)), "  ") +
+  return wrapped(fmt::format("{} ({})", shown_name(key), kind_text(key)), "  ") +
          wrapped(std::string(key.what), "      ");
 }
 
@@ -79,9 +83,8 @@ std::string table_text(const std::string& path, const Key& table) {
   std::string text = wrapped(heading(path, table) + " " + std::string(table.what), "");
   std::string below;
   for (const Key& key : table.keys) {
-    const std::string name = key.name == "*" ? "<name>" : std::string(key.name);
     if (is_table(key)) {
-      below += "\n" + table_text(path + "." + name, key);
+      below += "\n" + table_text(path + "." + shown_name(key), key);
     } else {
       text += key_text(key);
     }

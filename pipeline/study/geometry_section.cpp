@@ -30,7 +30,7 @@ constexpr Key kMaterialsKeys[] = {
 
 /// Besides those of the neck's dimensions and of other structures.
 constexpr auto kGeometryKeys = std::to_array<Key>({
-    Key::file("script", kRequired, "gmsh script that draws and meshes the structure"),
+    Key::file("script", kNone, "gmsh script that draws and meshes the structure"),
     Key::table("materials", "Materials of the parts", kMaterialsKeys),
     Key::text("slits", "none", "Slits: not there, cut but tied shut, or open",
               {.choices = slit_states}),
@@ -42,8 +42,9 @@ constexpr auto kGeometryKeys = std::to_array<Key>({
     Key::number("slit_depth", kNone,
                 "Of the neck: share of the rubber between rim and hole that is cut"),
     Key::texts("slit_faces", kNone, "Of other scripts: physical surfaces that the slits lie on"),
-    Key::quantities("joint_point", "m", kRequired,
-                    "Of the neck: head joint, for the mass properties about it", {.size = 3}),
+    Key::quantities("joint_point", "m", kNone,
+                    "Of the neck, which needs it: head joint, for the mass properties about it",
+                    {.size = 3}),
     Key::texts("fitted_to", kNone, "Published figures that the neck's dimensions were fitted to"),
 });
 
@@ -147,10 +148,16 @@ bool has_values_from_elsewhere(const StudyTable& geometry) {
 }  // namespace
 
 std::span<const Key> geometry_keys() {
+  static const std::vector<std::string> meanings = [] {
+    std::vector<std::string> all;
+    for (const geometry::NeckDimension& dimension : geometry::neck_dimensions())
+      all.push_back("Of the neck, which needs it: " + std::string(dimension.meaning));
+    return all;
+  }();
   static const std::vector<Key> keys = [] {
     std::vector<Key> all(kGeometryKeys.begin(), kGeometryKeys.end());
-    for (const geometry::NeckDimension& dimension : geometry::neck_dimensions())
-      all.push_back(Key::quantity(dimension.name, "m", kRequired, dimension.meaning));
+    for (std::size_t k = 0; k < meanings.size(); ++k)
+      all.push_back(Key::quantity(geometry::neck_dimensions()[k].name, "m", kNone, meanings[k]));
     const std::span<const Key> others = structure_keys();
     all.insert(all.end(), others.begin(), others.end());
     return all;
