@@ -99,6 +99,9 @@ void read_shapes(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   }
 }
 
+constexpr const char* kEnergyFractions = "/basis/energy_fractions";
+constexpr const char* kFormerly = "/basis/shares";  ///< in files of earlier versions
+
 void write_basis(Hdf5Writer& file, const ModalBody& body) {
   std::vector<std::string> kinds;
   std::vector<double> shares;
@@ -111,7 +114,7 @@ void write_basis(Hdf5Writer& file, const ModalBody& body) {
   const std::size_t m = body.modes.size();
   file.write("/mode_names", names_of(body.modes));
   file.write("/basis/kind", kinds);
-  file.write("/basis/shares", shares, {m, 4}, "percent");
+  file.write(kEnergyFractions, shares, {m, 4}, "percent");
   file.write("/basis/residual", residuals, {m}, "1");
   file.write_attribute("/basis", "boundary", std::string_view(body.boundary));
   if (!body.solver.empty()) file.write("/basis/solver", std::vector<std::string>{body.solver});
@@ -122,9 +125,9 @@ void write_basis_table(Hdf5Writer& file, const ModalBody& body) {
   const BasisTable table = basis_table(body);
   write_matrix(file, "/basis/effective_mass", table.effective_mass_kg, "kg");
   write_matrix(file, "/basis/effective_inertia", table.effective_inertia_kg_m2, "kg m^2");
-  write_matrix(file, "/basis/inertia_captured", table.inertia_percent, "percent");
+  write_matrix(file, "/basis/inertia_cumulative_fractions", table.inertia_percent, "percent");
   for (const BasisTable::Captured& captured : table.compliance) {
-    write_matrix(file, "/interfaces/" + captured.interface + "/compliance_captured",
+    write_matrix(file, "/interfaces/" + captured.interface + "/compliance_cumulative_fractions",
                  captured.percent, "percent");
   }
 }
@@ -134,7 +137,8 @@ void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   const std::vector<std::string> kinds = file.read_strings("/basis/kind");
   if (names.size() != m) file.refuse("/mode_names", "not as many names as frequencies");
   if (kinds.size() != m) file.refuse("/basis/kind", "not as many kinds as frequencies");
-  const std::vector<double> shares = file.read_doubles("/basis/shares", {m, 4}, "percent");
+  const std::string fractions = file.has(kEnergyFractions) ? kEnergyFractions : kFormerly;
+  const std::vector<double> shares = file.read_doubles(fractions, {m, 4}, "percent");
   const std::vector<double> residuals = file.read_doubles("/basis/residual", {m}, "1");
   for (std::size_t k = 0; k < m; ++k) {
     ModeRecord mode{names[k], kinds[k], {}, residuals[k]};

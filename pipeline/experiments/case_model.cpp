@@ -77,13 +77,13 @@ std::optional<std::size_t> deformable_body(const Model& model) {
   return {};
 }
 
-/// The section that a case names, matched to the deformable neck if it says so.
+/// The section that a case names, made equivalent to the deformable neck if it says so.
 RigidNeckSection rigid_neck_for(const Study& study, const CaseSection& experiment,
                                 const multibody::DeformableBody& neck) {
   const RigidNeckSection& section =
       study
           .rigid_necks[find_name(names_of(study.rigid_necks), experiment.rigid_neck, "rigid_neck")];
-  return section.matches_neck ? matched_neck(neck, experiment.direction) : section;
+  return section.is_equivalent ? equivalent_neck(neck, experiment.direction) : section;
 }
 
 /// The neck of the older model in place of the deformable one.

@@ -19,7 +19,7 @@ multibody::Model case_model(const Study& study, const CaseSection& experiment,
 /// A force of the study on a model that has its marker.
 multibody::PointForce point_force(const ForceSection& section, const multibody::Model& model);
 
-/// The rigid neck of a case that has one, matched to the deformable one if it is to be.
+/// The rigid neck of a case that has one, made equivalent to the deformable one if it is to be.
 /// @throws InputError if the case has no deformable body to put it in the place of.
 RigidNeckSection rigid_neck_of(const Study& study, const CaseSection& experiment,
                                const fe_modal::ModalBody& body);

@@ -60,8 +60,8 @@ PlaneCompliance compliance(const multibody::DeformableBody& neck, const BendingP
 
 }  // namespace
 
-RigidNeckSection matched_neck(const multibody::DeformableBody& neck,
-                              CaseSection::Direction direction) {
+RigidNeckSection equivalent_neck(const multibody::DeformableBody& neck,
+                                 CaseSection::Direction direction) {
   const PlaneCompliance c = compliance(neck, bending_plane(direction));
   const double top_m = neck.modes.interface("top").position_m.z();
   if (!(c.uF > 0) || !(c.uM > 0))
@@ -72,7 +72,7 @@ RigidNeckSection matched_neck(const multibody::DeformableBody& neck,
   if (length_m > top_m || !(upper_compliance > 0))
     throw InputError("no link with two springs has the static stiffness of the neck's modes");
   RigidNeckSection result;
-  result.matches_neck = true;
+  result.is_equivalent = true;
   result.rigid = rigid_body_of(neck.modes.invariants);
   result.lower.height_m = top_m - length_m;
   result.lower.fore_aft = result.lower.lateral = spring_and_damper(lower, c.damping_time_s);

@@ -15,8 +15,8 @@ namespace flexneck::pipeline {
 /// in the plane, 2 zeta / omega.
 /// @param neck  with the modes that the case uses, and the interface "top"
 /// @throws InputError if no such link exists: no mode in the plane, or a pivot outside the neck.
-RigidNeckSection matched_neck(const multibody::DeformableBody& neck,
-                              CaseSection::Direction direction);
+RigidNeckSection equivalent_neck(const multibody::DeformableBody& neck,
+                                 CaseSection::Direction direction);
 
 /// Puts a rigid neck in the place of a model's deformable body, which has the interfaces "base" and
 /// "top": its joints there become pins about the axis of bending, with springs and dampers.

@@ -35,9 +35,10 @@ constexpr auto kRigidNeckKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the rigid neck"),
         Key::flag(
-            "matches_neck", "false",
+            "equivalent", "false",
             "Made to have mass, static stiffness and damping of the deformable neck, in place "
-            "of all that follows"),
+            "of all that follows",
+            {.formerly = "matches_neck"}),
         Key::table("lower", "Pivot below", kPivotKeys),
         Key::table("upper", "Pivot above", kPivotKeys),
     }),
@@ -98,8 +99,8 @@ RigidNeckSection::Pivot read_pivot(const StudyTable& table, std::vector<InputFil
 RigidNeckSection read_rigid_neck(const StudyTable& table, std::vector<InputFile>& files) {
   RigidNeckSection neck;
   neck.name = table.text("name");
-  neck.matches_neck = table.flag("matches_neck");
-  if (!neck.matches_neck) {
+  neck.is_equivalent = table.flag("equivalent");
+  if (!neck.is_equivalent) {
     neck.rigid = read_rigid(table);
     neck.lower = read_pivot(table.table("lower"), files);
     neck.upper = read_pivot(table.table("upper"), files);

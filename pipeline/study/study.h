@@ -118,7 +118,7 @@ struct RigidNeckSection {
   };
   std::string name;
   /// Made to have the mass, the static stiffness and the damping of the deformable neck.
-  bool matches_neck = false;
+  bool is_equivalent = false;
   multibody::RigidBody rigid;  ///< otherwise: neck frame,
   Pivot lower, upper;          ///< and these
 };

@@ -11,7 +11,7 @@ import numpy as np
 # "own": each has its own; "all": that of the largest; "blocks": that of the largest in a 3 x 3 block
 # (translations, rotations and their coupling).
 VALUES = {"frequencies": "own", "invariants/mass": "own", "invariants/S1": "all",
-          "invariants/J0": "all", "invariants/Maa": "all", "basis/shares": "all"}
+          "invariants/J0": "all", "invariants/Maa": "all", "basis/energy_fractions": "all"}
 INTERFACE_VALUES = {"position": "all", "compliance": "blocks"}
 ATTACHED_VALUES = {"frequencies": "own", "mass_matrix": "blocks"}
 # Those that do, and their axes that run over the modes.

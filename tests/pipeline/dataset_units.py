@@ -18,7 +18,7 @@ UNITS = {
         r"interfaces/\w+/rotation": "kg^-0.5 m^-1",
         r"interfaces/\w+/compliance": "m/N, 1/N; 1/N, 1/(N m)",
         r"interfaces/\w+/response_mass": "kg m^2/N^2, kg m/N^2; kg m/N^2, kg/N^2",
-        r"interfaces/\w+/compliance_captured|basis/(shares|inertia_captured)": "percent",
+        r"interfaces/\w+/compliance_cumulative_fractions|basis/(energy|inertia_cumulative)_fractions": "percent",
         r"basis/effective_mass|invariants/mass": "kg",
         r"basis/effective_inertia|invariants/J0": "kg m^2",
         r"invariants/S1": "kg m",

@@ -150,7 +150,7 @@ def write_modes(path):
                           for j in both], "1"),
         "invariants/Maa": ([[total(np.sum(shapes[j] * shapes[l], axis=1)) for l in both]
                             for j in both], "1"),
-        "basis/shares": (np.zeros((2, 4)), "percent"),
+        "basis/energy_fractions": (np.zeros((2, 4)), "percent"),
         "basis/residual": (np.zeros(2), "1"),
         "certificate/orthogonality": ([0.0], "1"),
     }

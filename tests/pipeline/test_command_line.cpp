@@ -55,7 +55,7 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
     for (const char* const angle : {"20", "40", "60", "80", "120"})
       drops.push_back(std::string(way) + angle);
   for (const std::string& drop : drops)
-    for (const char* const variant : {"", "-rigid", "-matched"})
+    for (const char* const variant : {"", "-rigid", "-equivalent"})
       add_case("pendulum-" + drop + variant);
   for (const char* const variant :
        {"flexion-20-duration", "flexion-40-duration", "extension-20-duration",

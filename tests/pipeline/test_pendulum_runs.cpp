@@ -131,7 +131,7 @@ TEST_CASE("a small pulse moves head and neck as modal superposition says") {
 TEST_CASE("moments at the condyles are what moves the head, whatever holds it") {
   const Experiment experiment;
   const char* const name = GENERATE("flexion-60", "flexion-60-spring", "flexion-60-rigid",
-                                    "extension-60-matched", "lateral-65", "flexion-60-rotating");
+                                    "extension-60-equivalent", "lateral-65", "flexion-60-rotating");
   INFO(name);
   CaseSection section = experiment.named(name);
   section.duration_s = 0.1;
@@ -210,7 +210,7 @@ TEST_CASE("an arm with a pivot far away is one that translates") {
   CHECK(std::abs(velocity.tail<1>()[0]) < 1e-9);
 }
 
-TEST_CASE("a matched rigid neck is as stiff and as quick as the deformable one") {
+TEST_CASE("a equivalent rigid neck is as stiff and as quick as the deformable one") {
   const Experiment experiment;
   for (const char* const name : {"flexion-60", "lateral-65"}) {
     INFO(name);
@@ -218,7 +218,7 @@ TEST_CASE("a matched rigid neck is as stiff and as quick as the deformable one")
     const multibody::Model model = pendulum_model(experiment.study, section, experiment.body);
     const auto& neck =
         std::get<multibody::DeformableBody>(model.bodies[model.body_index("neck")].kind);
-    const RigidNeckSection rigid = matched_neck(neck, section.direction);
+    const RigidNeckSection rigid = equivalent_neck(neck, section.direction);
     const double length_m = rigid.upper.height_m - rigid.lower.height_m;
     const auto stiffness = [](const multibody::Resistance& law) {
       return law.positive.load(1e-6) / 1e-6;
@@ -254,9 +254,9 @@ TEST_CASE("a matched rigid neck is as stiff and as quick as the deformable one")
                                false);
     };
     const multibody::SystemMode deformable = frequency("");
-    const multibody::SystemMode matched = frequency("-matched");
-    CHECK(matched.frequency_Hz == Approx(deformable.frequency_Hz).epsilon(0.01));
-    CHECK(matched.damping_ratio == Approx(deformable.damping_ratio).epsilon(0.15));
+    const multibody::SystemMode equivalent = frequency("-equivalent");
+    CHECK(equivalent.frequency_Hz == Approx(deformable.frequency_Hz).epsilon(0.01));
+    CHECK(equivalent.damping_ratio == Approx(deformable.damping_ratio).epsilon(0.15));
   }
 }
 

@@ -113,8 +113,8 @@ TEST_CASE("a case is made from its own values, those of the case it varies and o
     INFO(other);
     CHECK_FALSE(has("flexion-60-spring", other));
   }
-  CHECK(has("extension-60-rigid", "rigid_neck.sourced."));
-  CHECK_FALSE(has("extension-60-matched", "rigid_neck.sourced."));
+  CHECK(has("extension-60-rigid", "rigid_neck.literature."));
+  CHECK_FALSE(has("extension-60-equivalent", "rigid_neck.literature."));
   CHECK_FALSE(has("flexion-60", "variant."));
   CHECK(has("flexion", "force.forward load."));
   CHECK_FALSE(has("flexion", "force.rearward load."));

@@ -155,7 +155,8 @@ TEST_CASE("an experiment that cannot be is refused with what there is") {
   CHECK_THROWS_WITH(built_in({"variant.rigid.of=[\"flexoin-20\"]"}),
                     Contains("variant.rigid.of: there is no case 'flexoin-20'") &&
                         Contains("did you mean 'flexion-20'?"));
-  CHECK_THROWS_WITH(built_in({"variant.rigid.rigid_nek=sourced"}), Contains("rigid_nek: unknown"));
+  CHECK_THROWS_WITH(built_in({"variant.rigid.rigid_nek=literature"}),
+                    Contains("rigid_nek: unknown"));
   CHECK_THROWS_WITH(built_in({"pendulum.pulse=flection"}),
                     Contains("there is no pulse 'flection' (did you mean 'flexion'?)"));
   CHECK_THROWS_WITH(built_in({"pendulum.puls=flexion"}), Contains("pendulum.puls: unknown key"));

@@ -37,7 +37,7 @@ struct ResponseFigure {
 std::vector<CurveSpec> deformable_and_rigid(const std::string& channel) {
   return {{"flexion-20", channel},
           {"flexion-20-rigid", channel, true},
-          {"flexion-20-matched", channel, true}};
+          {"flexion-20-equivalent", channel, true}};
 }
 
 std::vector<CurveSpec> rotations(const std::string& experiment) {
