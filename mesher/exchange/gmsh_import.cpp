@@ -88,7 +88,8 @@ double estimated_nodes(double size) {
   }
   double nodes = 0;
   for (int dim = 1; dim <= 3; ++dim) {
-    nodes += kNodesPerEdgeToThe[dim] * measure_of_all(dim) / std::pow(size, dim);
+    nodes += kNodesPerEdgeToThe.at(static_cast<std::size_t>(dim)) * measure_of_all(dim) /
+             std::pow(size, dim);
   }
   return nodes;
 }

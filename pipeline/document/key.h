@@ -71,7 +71,7 @@ struct KeyDetails {
 
 /// What stands for a fallback where a key must be there, and where nothing holds without it: a
 /// reader asks by has() first, and texts are empty.
-inline constexpr std::string_view kRequired = "";
+inline constexpr std::string_view kRequired;
 inline constexpr std::string_view kNone = "-";
 
 /// A key that files of a format may have: the one place that says what it is. Readers take type,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -174,12 +175,15 @@ std::vector<StudyTable> StudyTable::tables(const std::string& key) const {
   const toml::node* const node = node_->find(key);
   if (node == nullptr) return result;
   if (!node->is_array_of_tables()) refuse(key, "expected tables [[" + node_->dotted(key) + "]]");
+  std::map<std::string, int> seen;
   for (const toml::node& element : *node->as_array()) {
     auto child = std::make_shared<Node>();
     child->records = node_->records;
     child->keys = rows;
     child->table = element.as_table();
-    const std::string name = (*child->table)["name"].value_or(std::to_string(result.size() + 1));
+    std::string name = (*child->table)["name"].value_or(std::to_string(result.size() + 1));
+    // Such as markers of different bodies: none of their values may be lost among the parameters.
+    if (const int count = ++seen[name]; count > 1) name += "#" + std::to_string(count);
     child->path = node_->dotted(key) + "." + name;
     result.emplace_back(std::move(child));
   }

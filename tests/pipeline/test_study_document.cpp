@@ -99,6 +99,19 @@ TEST_CASE("what holds for keys that are not given is told beside the values") {
         "part.stiffness = 0 N*m/rad\n");
 }
 
+TEST_CASE("values of tables of the same name, such as markers of two bodies, are all remembered") {
+  const TemporaryFolder folder;
+  const StudyDocument document = document_of(folder,
+                                             "[[case]]\nname = \"a\"\ncount = 1\n"
+                                             "[[case]]\nname = \"a\"\ncount = 2\n");
+  int sum = 0;
+  for (const StudyTable& table : document.root().tables("case")) sum += table.count("count");
+  CHECK(sum == 3);
+  std::string told;
+  for (const auto& each : document.parameters()) told += each.key + " = " + each.value + "\n";
+  CHECK(told == "case.a.count = 1\ncase.a#2.count = 2\n");
+}
+
 TEST_CASE("what a study gets wrong is told with file, line, column, key and remedy") {
   const TemporaryFolder folder;
   const auto table = [&](const std::string& line) {
