@@ -13,7 +13,6 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/regular_file.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "geometry/neck/neck_measures.h"
 #include "mesher/exchange/foreign_file.h"
 #include "mesher/exchange/import_check.h"
 #include "mesher/exchange/mesh_import.h"
@@ -32,28 +31,10 @@ using mesher::ForeignFormat;
 /// other meshes it.
 constexpr const char* kShapeLibraries = "OpenCASCADE or gmsh";
 
-mesher::ScriptMeshOptions neck_options(const GeometrySection& geometry) {
-  mesher::ScriptMeshOptions options;
-  options.script = geometry.script;
-  options.constants = geometry::script_constants(geometry.neck, geometry.divisions);
-  options.materials = geometry.materials;
-  options.constants.merge(geometry::script_constants(geometry.slits));
-  if (geometry.element == mesher::ElementKind::tet10) options.constants["recombine"] = 0;
-  options.element = geometry.element;
-  options.slits = geometry::slit_face_sets(geometry.slits);
-  options.slits_tied = geometry.slits.state == geometry::SlitState::closed;
-  options.material_of_part = geometry.material_of_part;
-  const auto centres = geometry::bolt_centres(geometry.neck);
-  options.patches = {
-      {"bolts", "base", {centres.begin(), centres.end()}, geometry.neck.bolt_patch_radius}};
-  return options;
-}
-
 /// What is called with a number of nodes once a shape is read; see ImportOptions.
 using WhenRead = std::function<void(double nodes)>;
 
-mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines,
-                            const WhenRead& when_read) {
+mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, const WhenRead& when_read) {
   const auto& source = study.structure->source;
   if (const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&source)) {
     mesher::Mesh mesh = mesher::mesh_script(*script, lines.detail, lines.warning);
@@ -70,12 +51,6 @@ mesher::Mesh structure_mesh(const Study& study, const ChildLines& lines,
   return mesher::import_mesh(options, lines.detail, lines.warning);
 }
 
-mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, const WhenRead& when_read) {
-  return study.structure
-             ? structure_mesh(study, lines, when_read)
-             : mesher::mesh_script(neck_options(*study.geometry), lines.detail, lines.warning);
-}
-
 bool is_shipped(const fs::path& script) {
   std::error_code none;
   return fs::equivalent(script, fs::path(FLEXNECK_DATA_DIR) / "geometry/neck.geo", none);
@@ -89,10 +64,10 @@ std::optional<IsolatedTask> task_of(const Study& study) {
   const auto available = static_cast<std::uint64_t>(std::min(available_memory(), 1e18));
   task.limits.memory_bytes = available;
   task.advice = "correct the script";
-  task.file = study.structure ? study.structure->file() : study.geometry->script;
+  task.file = study.structure->file();
   const std::uint64_t size = size_of_file(task.file);
-  if (!study.structure) return is_shipped(task.file) ? std::nullopt : std::optional(task);
-  if (std::holds_alternative<mesher::ScriptMeshOptions>(study.structure->source)) return task;
+  if (std::holds_alternative<mesher::ScriptMeshOptions>(study.structure->source))
+    return is_shipped(task.file) ? std::nullopt : std::optional(task);
   const ForeignFormat format = mesher::foreign_format_of(task.file);
   if (format == ForeignFormat::inp) return std::nullopt;  // read by us, not by gmsh
   const bool is_shape = format == ForeignFormat::step || format == ForeignFormat::brep;

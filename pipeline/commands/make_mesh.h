@@ -19,7 +19,7 @@ namespace flexneck::pipeline {
 ///    since how fine a mesh becomes is the study's choice.
 ///  - Shapes and scripts may take the memory that is free.
 /// What OpenCASCADE complains of, though it makes a shape of it, is a warning.
-/// @pre study.geometry or study.structure
+/// @pre study.structure
 /// @throws InputError or ComputationError as the mesher does; InputError if the child dies.
 mesher::Mesh make_mesh(const Study& study, const Console& console);
 

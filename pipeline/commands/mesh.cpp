@@ -18,26 +18,20 @@ namespace flexneck::pipeline {
 
 namespace {
 
-ExactVolumes exact_volumes(const GeometrySection& geometry) {
-  std::map<std::string, double> density_kg_m3;
-  for (const auto& entry : geometry.material_of_part) {  // part and material
-    const auto found = std::find_if(geometry.materials.begin(), geometry.materials.end(),
-                                    [&](const auto& m) { return m.name == entry.second; });
-    density_kg_m3[entry.first] = found->density_kg_m3;
-  }
+/// Known of the neck only.
+ExactVolumes exact_volumes(const StructureSection& structure) {
   ExactVolumes volumes;
-  for (const auto& part : geometry::measure(geometry.neck, density_kg_m3).parts) {
-    volumes[part.part] = part.volume_m3;
-  }
+  if (!structure.neck) return volumes;
+  for (const auto& part : measure_neck(structure).parts) volumes[part.part] = part.volume_m3;
   return volumes;
 }
 
 /// Within a twentieth of what the mesher makes: the nodes of one element alone, and those that its
 /// neighbours do not share on the surface.
-double estimated_nodes(const GeometrySection& geometry) {
-  const double elements = geometry::hexahedra(geometry.divisions);
+double estimated_nodes(const NeckSection& neck, mesher::ElementKind element) {
+  const double elements = geometry::hexahedra(neck.divisions);
   const double surface = std::pow(elements, 2.0 / 3);
-  switch (geometry.element) {
+  switch (element) {
     case mesher::ElementKind::hex8:
       return elements + 4.4 * surface;
     case mesher::ElementKind::hex20:
@@ -55,40 +49,35 @@ double estimated_bytes(double nodes) {
   return kProgram + kBytesPerNode * nodes;
 }
 
-/// "about 8.8e+03 nodes, 0.104 GB"
-std::string needs_text(const GeometrySection& geometry) {
-  const double nodes = estimated_nodes(geometry);
-  return fmt::format("about {:.3g} nodes, {}", nodes, memory_text(estimated_bytes(nodes)));
-}
-
-void require_meshable(const GeometrySection& geometry) {
-  const double nodes = estimated_nodes(geometry);
+/// ": about 8.8e+03 nodes, 0.104 GB", which is known of the neck before it is meshed.
+/// @throws InputError where that is more than there is
+std::string required_text(const StructureSection& structure) {
+  if (!structure.neck) return {};
+  const auto& script = std::get<mesher::ScriptMeshOptions>(structure.source);
+  const double nodes = estimated_nodes(*structure.neck, *script.element);
   const std::string what = fmt::format("a mesh of about {:.3g} nodes", nodes);
   const std::string advice = "lower mesh.refine or the other divisions";
   if (3 * nodes > std::numeric_limits<std::int32_t>::max()) {
     throw InputError(what + " has more degrees of freedom than 32-bit integers count: " + advice);
   }
   require_memory(what, estimated_bytes(nodes), advice);
+  return fmt::format(": about {:.3g} nodes, {}", nodes, memory_text(estimated_bytes(nodes)));
 }
 
 }  // namespace
 
 bool mesh_command(const CommandInput& input) {
   const Study& study = input.study;
-  if (!study.geometry && !study.structure) {
+  if (!study.structure) {
     throw InputError(study.file.string() + ": there is no [geometry], so nothing to mesh");
   }
-  if (study.geometry) require_meshable(*study.geometry);
+  const std::string required = required_text(*study.structure);
   input.folder.make();
-  const std::filesystem::path& source =
-      study.structure ? study.structure->file() : study.geometry->script;
-  input.console.step("Meshing " + source.filename().string() +
-                     (study.geometry ? ": " + needs_text(*study.geometry) : ""));
+  input.console.step("Meshing " + study.structure->file().filename().string() + required);
   mesher::MeshFile file;
   file.mesh = make_mesh(study, input.console);
   file.provenance = mesh_provenance(study);
-  finish_mesh(input, std::move(file),
-              study.geometry ? exact_volumes(*study.geometry) : ExactVolumes());
+  finish_mesh(input, std::move(file), exact_volumes(*study.structure));
   return true;
 }
 

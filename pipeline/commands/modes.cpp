@@ -12,14 +12,13 @@
 #include "fe_modal/system/memory_needs.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
-#include "geometry/foundation/names.h"
 #include "geometry/foundation/step_times.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/mode_table.h"
-#include "pipeline/commands/structure_options.h"
+#include "pipeline/commands/modes_options.h"
 #include "pipeline/commands/substructures.h"
 #include "pipeline/isolation/result_files.h"
 
@@ -27,54 +26,10 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Attaches the study's body to an interface. Its frame has the axes of the structure and its
-/// origin at the interface.
-void attach_body(const Study& study, const fe_modal::InterfaceDefinition& interface,
-                 fe_modal::ModalOptions& options) {
-  const multibody::RigidBody& body = study.body(study.modes.attached_body).rigid;
-  options.attachments = {{study.modes.attached_body, interface.name, body.mass_kg,
-                          interface.position_m + body.center_m, body.inertia_kg_m2}};
-}
-
-fe_modal::ModalOptions neck_options(const Study& study) {
-  const GeometrySection& geometry = *study.geometry;
-  fe_modal::ModalOptions options;
-  options.mode_count = study.modes.count;
-  options.formulation = formulation_of(study);
-  options.basis = study.modes.basis;
-  options.basis_interfaces = study.modes.basis_interfaces;
-  options.geometric_stiffness = study.modes.stress_stiffening;
-  options.certify = study.modes.certify;
-  options.held_set = "bolts";
-  options.held_interface = "base";
-  options.interfaces = {{"top", "top", geometry.joint_point_m}};
-  options.rigid_parts = {"base_plate", "plate_1", "plate_2", "plate_3", "top_plate"};
-  options.length_m = geometry.neck.length;
-  options.sign_interface = "top";
-  if (!study.modes.attached_body.empty()) attach_body(study, options.interfaces.front(), options);
-  return options;
-}
-
-fe_modal::ModalOptions modal_options(const Study& study, mesher::Mesh& mesh) {
-  fe_modal::ModalOptions options =
-      study.geometry ? neck_options(study) : structure_options(study, mesh);
-  options.held_directions = study.modes.fixed_directions;
-  for (const std::string& name : study.modes.rigid_interfaces) {
-    try {
-      if (name == options.held_interface) throw InputError("'" + name + "' is held");
-      const std::size_t which = find_name(names_of(options.interfaces), name, "interface");
-      options.interfaces[which].is_rigid = true;
-    } catch (const InputError& error) {
-      throw InputError(study.file.string() + ": modes.rigid_interfaces: " + error.what());
-    }
-  }
-  return options;
-}
-
 /// The neck's paper weighs in pounds.
 std::string mass_text(const Study& study, double mass_kg) {
-  return study.geometry ? fmt::format("{:.3f} lb", mass_kg * factor_from_si("kg", "lb"))
-                        : fmt::format("{:.4g} kg", mass_kg);
+  return study.neck() != nullptr ? fmt::format("{:.3f} lb", mass_kg * factor_from_si("kg", "lb"))
+                                 : fmt::format("{:.4g} kg", mass_kg);
 }
 
 /// Tells the analysis what stands in the mesh file for it.
@@ -168,16 +123,14 @@ bool modes_command(const CommandInput& input) {
   mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),
                       "flexneck mesh");
-  if (!input.study.geometry && !input.study.structure) {
+  if (!input.study.structure) {
     throw InputError(input.study.file.string() +
                      ": there is no [geometry] that names the interfaces");
   }
-  fe_modal::ModalOptions options = modal_options(input.study, mesh.mesh);
+  fe_modal::ModalOptions options = modes_options(input.study, mesh.mesh);
   share_work(input, mesh, options);
-  if (input.study.structure) {
-    const std::string line = free_boundary(input.study, mesh.mesh);
-    if (!line.empty()) input.console.warning(line);
-  }
+  if (const std::string line = free_boundary(input.study, mesh.mesh); !line.empty())
+    input.console.warning(line);
   for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, options.formulation)) {
     input.console.warning(line);
   }

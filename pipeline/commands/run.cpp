@@ -60,21 +60,23 @@ Provenance without_studies(Provenance provenance, const Study& study) {
   return provenance;
 }
 
-/// Up to the experiments that are one stage; of another structure than the neck all stages.
+bool has_cases(const Study& study, CaseSection::Kind kind) {
+  return std::any_of(study.cases.begin(), study.cases.end(),
+                     [&](const CaseSection& experiment) { return experiment.kind == kind; });
+}
+
+/// Up to the experiments that are one stage.
 std::vector<Stage> stages_before_cases(const Study& study) {
   if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
   std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
                                {"modes", modes_provenance(study), {"mesh"}, modes_command},
                                {"pictures", {}, {"mesh", "modes"}, pictures_command}};
-  if (study.structure) {  // the experiments below are the neck's
-    stages.push_back(
-        {"report", provenance_of(study), {"mesh", "modes", "pictures"}, report_command});
-    return stages;
+  if (has_cases(study, CaseSection::Kind::static_test)) {
+    stages.push_back({"static",
+                      experiment_provenance(study, CaseSection::Kind::static_test),
+                      {"modes"},
+                      static_command});
   }
-  stages.push_back({"static",
-                    experiment_provenance(study, CaseSection::Kind::static_test),
-                    {"modes"},
-                    static_command});
   return stages;
 }
 
@@ -93,13 +95,17 @@ std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults&
     runs.push_back(stage_of(*experiment));
   std::vector<std::string> results = runs;
   results.insert(results.end(), {"mesh", "pictures", "static", "pendulum", "verify"});
-  return {{"pendulum", experiment_provenance(study, CaseSection::Kind::pendulum), runs,
-           [&known](const CommandInput& input) {
-             write_pendulum_tables(input, known);
-             return true;
-           }},
-          {"verify", everything, runs, verify_command},
-          {"report", everything, results, report_command}};
+  std::vector<Stage> stages;
+  if (has_cases(study, CaseSection::Kind::pendulum)) {
+    stages.push_back({"pendulum", experiment_provenance(study, CaseSection::Kind::pendulum), runs,
+                      [&known](const CommandInput& input) {
+                        write_pendulum_tables(input, known);
+                        return true;
+                      }});
+  }
+  if (!study.verification.empty()) stages.push_back({"verify", everything, runs, verify_command});
+  if (!study.matrices) stages.push_back({"report", everything, results, report_command});
+  return stages;
 }
 
 void print_kept(const CommandInput& input, const std::string& stage) {
@@ -144,10 +150,8 @@ PendulumResults make_cases(const CommandInput& input, Stages& records) {
 
 bool run_stages(const CommandInput& input, StepTimes& times) {
   const Study& study = input.study;
-  if (study.geometry) {
-    input.console.result("Inputs by origin: " + origin_counts(study) + " (flexneck study)");
-    input.console.table(origin_table(study));
-  }
+  input.console.result("Inputs by origin: " + origin_counts(study) + " (flexneck study)");
+  input.console.table(origin_table(study));
   Stages records(input.folder.path(), input.redo);
   const auto make_all = [&](const std::vector<Stage>& stages) {
     for (const Stage& stage : stages) {
@@ -156,11 +160,11 @@ bool run_stages(const CommandInput& input, StepTimes& times) {
     }
   };
   make_all(stages_before_cases(study));
-  if (!study.geometry) return true;
   times.start("pendulum cases");
   const PendulumResults known = make_cases(input, records);
   make_all(stages_after_cases(study, known));
-  return read_verification(input.folder.verification()).table.passed();
+  return study.verification.empty() ||
+         read_verification(input.folder.verification()).table.passed();
 }
 
 }  // namespace

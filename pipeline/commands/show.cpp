@@ -36,26 +36,15 @@ std::string dimension_table(const Study& study) {
   for (const geometry::NeckDimension& dimension : geometry::neck_dimensions()) {
     add(dimension.name, dimension.meaning);
   }
-  add("joint_point", "where the head's joint is put");
   add("slits", "none, closed or open: at mid-height, front half");
-  if (study.geometry->slits.depth) {
+  if (study.neck()->slits.depth) {
     add("slit_parts", "rubber sections with slits");
     add("slit_depth", "share of the rubber from rim to hole that is cut");
   }
   return text_table(rows, {0, 1, 2, 3});
 }
 
-std::map<std::string, double> densities(const GeometrySection& geometry) {
-  std::map<std::string, double> density_of_part;
-  for (const auto& [part, name] : geometry.material_of_part) {
-    for (const mesher::Material& material : geometry.materials) {
-      if (material.name == name) density_of_part[part] = material.density_kg_m3;
-    }
-  }
-  return density_of_part;
-}
-
-std::string derived_table(const GeometrySection& geometry, const geometry::NeckMeasures& measures) {
+std::string derived_table(const NeckSection& neck, const geometry::NeckMeasures& measures) {
   const double in = factor_from_si("m", "in");
   const double lb = factor_from_si("kg", "lb");
   const double lb_in2 = factor_from_si("kg*m^2", "lb*in^2");
@@ -65,7 +54,7 @@ std::string derived_table(const GeometrySection& geometry, const geometry::NeckM
     rows.push_back(
         {what, fmt::format("{:.4g} {}", si * factor, unit), fmt::format("{:.6g} {}", si, si_unit)});
   };
-  add("height of each rubber section", geometry::rubber_height(geometry.neck), in, "in", "m");
+  add("height of each rubber section", geometry::rubber_height(neck.dimensions), in, "in", "m");
   for (const geometry::PartMeasure& part : measures.parts) {
     add("mass of " + part.part, part.mass_kg, lb, "lb", "kg");
   }
@@ -81,14 +70,16 @@ std::string derived_table(const GeometrySection& geometry, const geometry::NeckM
   return text_table(rows);
 }
 
-std::string division_line(const GeometrySection& geometry) {
-  const geometry::NeckDivisions& d = geometry.divisions;
+std::string division_line(const StructureSection& structure) {
+  const geometry::NeckDivisions& d = structure.neck->divisions;
+  const mesher::ElementKind element =
+      *std::get<mesher::ScriptMeshOptions>(structure.source).element;
   std::string line = fmt::format(
       "Mesh of {}: {} a quadrant, {} + {} rings, {} a rubber section, {} a plate, {} an end plate",
-      name_of(geometry.element), d.quadrant, d.inner_ring, d.outer_ring, d.rubber_layers,
-      d.plate_layers, d.end_plate_layers);
+      name_of(element), d.quadrant, d.inner_ring, d.outer_ring, d.rubber_layers, d.plate_layers,
+      d.end_plate_layers);
   if (d.refine > 0) line += fmt::format("; every element cut in {0} x {0} x {0}", d.refine + 1);
-  if (geometry.element != mesher::ElementKind::tet10) {
+  if (element != mesher::ElementKind::tet10) {
     line += fmt::format(": {:.0f} elements", geometry::hexahedra(d));
   }
   return line;
@@ -97,17 +88,17 @@ std::string division_line(const GeometrySection& geometry) {
 }  // namespace
 
 bool show_command(const CommandInput& input) {
-  if (!input.study.geometry) {
+  const NeckSection* const neck = input.study.neck();
+  if (neck == nullptr) {
     throw InputError(input.study.file.string() +
                      ": --dry-run describes the neck, but [geometry] gives none");
   }
-  const GeometrySection& geometry = *input.study.geometry;
-  const geometry::NeckMeasures measures = geometry::measure(geometry.neck, densities(geometry));
-  input.console.result(dimension_table(input.study) + "\n\n" + derived_table(geometry, measures) +
-                       "\n\n" + geometry::drawn_section(geometry.neck, geometry.slits) + "\n\n" +
-                       division_line(geometry));
+  const geometry::NeckMeasures measures = measure_neck(*input.study.structure);
+  input.console.result(dimension_table(input.study) + "\n\n" + derived_table(*neck, measures) +
+                       "\n\n" + geometry::drawn_section(neck->dimensions, neck->slits) + "\n\n" +
+                       division_line(*input.study.structure));
   for (const std::string& remark : geometry::implausibilities(
-           std::max(geometry.neck.length, geometry.neck.plate_diameter), measures.mass_kg)) {
+           std::max(neck->dimensions.length, neck->dimensions.plate_diameter), measures.mass_kg)) {
     input.console.warning(remark);
   }
   return true;

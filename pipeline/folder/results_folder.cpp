@@ -126,7 +126,7 @@ std::vector<Parameter> mesh_values(const Study& study) {
 
 Provenance mesh_provenance(const Study& study) {
   Provenance provenance = provenance_of(study.files, mesh_values(study));
-  const fs::path& source = study.structure ? study.structure->file() : study.geometry->script;
+  const fs::path& source = study.structure->file();
   provenance.inputs.push_back({source.filename().string(), hash_of_file(source.string())});
   return provenance;
 }

@@ -228,19 +228,19 @@ std::map<std::string, std::string> page_sections(const Results& results, const S
   std::vector<std::string> remarks = context.remarks;
   const std::vector<std::string> on_pulses = pulse_remarks(study, context);
   if (!remarks.empty()) remarks.insert(remarks.end(), on_pulses.begin(), on_pulses.end());
-  return {
-      {"study", html_text(study.file.filename().string())},
-      {"warnings", warnings_html(results)},
-      {"subject", study.geometry ? "From the geometry of a crash-test dummy's neck to its motion: "
-                                   "modes by finite elements, the static neck tester and the "
-                                   "head/neck pendulum."
-                                 : "From a geometry to its modes by finite elements."},
-      {"verification", verification_html(results, study)},
-      {"tables", tables_html(results, study)},
-      {"modes", modes_html(results)},
-      {"remarks", html_list(remarks)},
-      {"parameters", parameters_html(study)},
-      {"provenance", provenance_html(results, study) + missing_html(results)}};
+  return {{"study", html_text(study.file.filename().string())},
+          {"warnings", warnings_html(results)},
+          {"subject", study.neck() != nullptr
+                          ? "From the geometry of a crash-test dummy's neck to its motion: "
+                            "modes by finite elements, the static neck tester and the "
+                            "head/neck pendulum."
+                          : "From a geometry to its modes by finite elements."},
+          {"verification", verification_html(results, study)},
+          {"tables", tables_html(results, study)},
+          {"modes", modes_html(results)},
+          {"remarks", html_list(remarks)},
+          {"parameters", parameters_html(study)},
+          {"provenance", provenance_html(results, study) + missing_html(results)}};
 }
 
 }  // namespace flexneck::pipeline

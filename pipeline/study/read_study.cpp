@@ -188,53 +188,13 @@ void read_output(const StudyTable& table, Study& study) {
   table.finish();
 }
 
-/// A dimension that the user has set is no longer the one that was fitted.
-void forget_fit_of_changed_neck(Study& study) {
-  const auto is_changed = [](const Parameter& parameter) {
-    return parameter.key.starts_with("geometry.") && parameter.origin == Origin::synthetic &&
-           !parameter.key.ends_with(".script") && !parameter.key.ends_with(".fitted_to") &&
-           !parameter.key.ends_with(".parts") && !parameter.key.starts_with("geometry.slit");
-  };
-  if (!study.geometry) return;
-  // Slits change the neck only when they are open.
-  if (study.geometry->slits.state == geometry::SlitState::open ||
-      std::any_of(study.parameters.begin(), study.parameters.end(), is_changed)) {
-    study.geometry->fitted_to.clear();
-  }
-}
-
-void read_what_is_meshed(const StudyTable& geometry, const StudyTable& mesh, Study& study) {
-  if (is_structure(geometry)) {
-    study.structure = read_structure(geometry, mesh);
-  } else {
-    study.geometry = read_geometry(geometry, mesh);
-  }
-}
-
-void check_geometry(const Study& study) {
-  if (!study.geometry) return;
+/// What concerns several sections; these messages name no line.
+void check_sections(const StudyTable& root, const Study& study) {
+  if (study.neck() == nullptr) return;
   try {
-    geometry::check(study.geometry->neck);
-    geometry::check(study.geometry->divisions);
-    geometry::check(study.geometry->slits, study.geometry->divisions);
+    check_neck(root, *study.neck());
   } catch (const InputError& error) {
     throw InputError(study.file.string() + ": " + error.what());
-  }
-}
-
-/// The neck stands on its bolts and has interfaces of its own.
-void refuse_what_the_neck_ignores(const Study& study) {
-  if (!study.geometry) return;
-  const std::array<std::pair<const char*, bool>, 4> keys = {
-      {{"modes.fixed", !study.modes.fixed.empty()},
-       {"modes.rigid_parts", !study.modes.rigid_parts.empty()},
-       {"modes.attached_to", !study.modes.attached_to.empty()},
-       {"[[interface]]", !study.interfaces.empty()}}};
-  for (const auto& [key, is_given] : keys) {
-    if (!is_given) continue;
-    throw InputError(study.file.string() + ": " + key +
-                     " has no effect on the neck, which is held at its bolts and has the "
-                     "interfaces base and top; leave it out");
   }
 }
 
@@ -279,7 +239,11 @@ void check_references(const Study& study) {
 
 const MaterialModels& Study::material_models() const {
   static const MaterialModels none;
-  return geometry ? geometry->material_models : structure ? structure->material_models : none;
+  return structure ? structure->material_models : none;
+}
+
+const NeckSection* Study::neck() const {
+  return structure && structure->neck ? &*structure->neck : nullptr;
 }
 
 bool Study::has_static_moduli() const {
@@ -300,7 +264,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.settings = settings;
   const StudyTable mesh = root.table("mesh");
   study.mesh_orders = read_mesh_orders(mesh);
-  if (root.has("geometry")) read_what_is_meshed(root.table("geometry"), mesh, study);
+  if (root.has("geometry")) study.structure = read_structure(root.table("geometry"), mesh);
   if (root.has("matrices")) {
     if (root.has("geometry")) {
       root.refuse("matrices", "expected [geometry] or [matrices], not both");
@@ -322,14 +286,14 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   root.finish();
-  check_geometry(study);
-  refuse_what_the_neck_ignores(study);
+  check_sections(root, study);
   check_references(study);
   study.files = document.files();
   study.parameters = document.parameters();
   study.defaults = document.defaults();
   study.warnings = document.warnings();
-  forget_fit_of_changed_neck(study);
+  if (study.neck() != nullptr)
+    forget_fit_of_changed_neck(root, study.parameters, *study.structure->neck);
   return study;
 }
 

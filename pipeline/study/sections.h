@@ -10,7 +10,7 @@ namespace flexneck::pipeline {
 
 // What the sections may say.
 std::span<const Key> geometry_keys();
-std::span<const Key> structure_keys();  ///< of [geometry], where it is not the neck
+std::span<const Key> materials_keys();
 std::span<const Key> mesh_keys();
 std::span<const Key> matrices_keys();
 std::span<const Key> interface_keys();
@@ -24,19 +24,14 @@ std::span<const Key> head_spring_keys();
 std::span<const Key> case_keys();
 std::span<const Key> variant_keys();
 
-/// True if [geometry] describes something else than the neck: a file, or a script without the
-/// neck's dimensions.
-bool is_structure(const StudyTable& geometry);
 StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh);
 MatricesSection read_matrices(const StudyTable& matrices);
 InterfaceSection read_interface(const StudyTable& interface);
-/// What [geometry] and [mesh] say of a script that is not the neck's: element, slits, slit_faces.
-void read_script_options(const StudyTable& geometry, const StudyTable& mesh,
-                         mesher::ScriptMeshOptions& options);
+/// The key slits. @throws InputError if there is none of that name.
+geometry::SlitState read_slit_state(const StudyTable& geometry);
 /// [geometry.materials]
 MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
                               std::map<std::string, std::string>& material_of_part);
-GeometrySection read_geometry(const StudyTable& geometry, const StudyTable& mesh);
 /// The keys partitions and node_order of [mesh].
 MeshOrders read_mesh_orders(const StudyTable& mesh);
 /// The key formulation. @throws InputError if there is none of that name.

@@ -18,9 +18,21 @@ const std::filesystem::path& StructureSection::file() const {
   return script != nullptr ? script->script : std::get<mesher::ImportOptions>(source).file;
 }
 
+geometry::NeckMeasures measure_neck(const StructureSection& structure) {
+  const auto& script = std::get<mesher::ScriptMeshOptions>(structure.source);
+  std::map<std::string, double> density_kg_m3;
+  for (const auto& [part, name] : script.material_of_part)
+    for (const mesher::Material& material : script.materials)
+      if (material.name == name) density_kg_m3[part] = material.density_kg_m3;
+  return geometry::measure(structure.neck->dimensions, density_kg_m3);
+}
+
 namespace {
 
 std::vector<std::string> coincident_nodes() { return {"refuse", "keep"}; }
+std::vector<std::string> slit_states() { return {"none", "closed", "open"}; }
+std::vector<std::string> node_orders() { return {"none", "nested-dissection"}; }
+std::vector<std::string> elements() { return {"hex27", "hex20", "hex8", "tet10"}; }
 
 constexpr Key kConstantKeys[] = {
     Key::number_or_quantity("*", "m", kNone, "A constant of the script, a number or a length"),
@@ -33,16 +45,33 @@ constexpr Key kSetKeys[] = {
     Key::quantities("to", "m", kRequired, "Opposite corner", {.size = 3}),
 };
 
-constexpr Key kKeys[] = {
+/// Besides those of the neck.
+constexpr auto kKeys = std::to_array<Key>({
+    Key::file("script", kNone, "gmsh script that draws and meshes the structure"),
     Key::file("file", kNone, "In place of a script: a mesh or a shape to be meshed"),
     Key::text("unit", "m", "Length that the number 1 stands for in a script or a file"),
     Key::text("force_unit", "N", "Of an .inp: force that the number 1 stands for"),
     Key::table("constants", "Values of constants of the script", kConstantKeys),
+    Key::text("slits", "none", "Slits: not there, cut but tied shut, or open",
+              {.choices = slit_states}),
+    Key::texts("slit_faces", kNone, "Of a script: physical surfaces that the slits lie on"),
     Key::text("coincident_nodes", "refuse",
               "Nodes of a file in the same place: a mistake, or meant, as at a crack",
               {.choices = coincident_nodes}),
     Key::tables("set", "A face set and node set of what lies in a box", kSetKeys),
-};
+});
+
+constexpr auto kMeshKeys = std::to_array<Key>({
+    Key::numbers("partitions", kNone, "Numbers of processes to share the elements out to",
+                 {.changes_results = false}),
+    Key::text("node_order", "none", "Order of elimination stored with the mesh",
+              {.choices = node_orders, .changes_results = false}),
+    Key::text("element", "hex27", "Kind of element that a script's mesh has",
+              {.choices = elements}),
+    Key::quantity("size", "m", "0",
+                  "Of STEP and BREP shapes: size of the elements; 0 is gmsh's choice",
+                  {.range = at_least(0)}),
+});
 
 constexpr Key kMatricesKeys[] = {
     Key::file("stiffness", kRequired, "Stiffness matrix in N/m, without directions that are fixed"),
@@ -96,11 +125,41 @@ std::vector<mesher::BoxSet> read_box_sets(const StudyTable& geometry) {
   return boxes;
 }
 
-mesher::ScriptMeshOptions read_script(const StudyTable& geometry) {
+mesher::ElementKind read_element(const StudyTable& table) {
+  using mesher::ElementKind;
+  constexpr std::array kKinds = {ElementKind::hex27, ElementKind::hex20, ElementKind::hex8,
+                                 ElementKind::tet10};
+  return kKinds.at(table.choice("element"));
+}
+
+/// The slits of a script that does not draw the neck.
+void read_slit_faces(const StudyTable& geometry, mesher::ScriptMeshOptions& options) {
+  const geometry::SlitState state = read_slit_state(geometry);
+  const std::vector<std::string> faces = geometry.texts("slit_faces");
+  if (state == geometry::SlitState::none) return;
+  if (faces.empty()) {
+    geometry.refuse("slit_faces",
+                    "slits need the script's physical surfaces that they lie on, found none");
+  }
+  options.slits = faces;
+  options.slits_tied = state == geometry::SlitState::closed;
+}
+
+/// The dimensions of the neck are constants of its script, in m.
+mesher::ScriptMeshOptions read_script(const StudyTable& geometry, const StudyTable& mesh,
+                                      std::optional<NeckSection>& neck) {
   mesher::ScriptMeshOptions options;
   options.script = geometry.file("script");
+  if (has_neck(geometry)) {
+    options.element = read_element(mesh);
+    neck = read_neck(geometry, mesh);
+    add_neck(*neck, options);
+    return options;
+  }
   options.length_unit_m = unit(geometry, "unit", "m");
   options.constants = read_constants(geometry.table("constants"), options.length_unit_m);
+  if (mesh.has("element")) options.element = read_element(mesh);
+  read_slit_faces(geometry, options);
   return options;
 }
 
@@ -129,16 +188,32 @@ mesher::ImportOptions read_file(const StudyTable& geometry, const StudyTable& me
 
 }  // namespace
 
-std::span<const Key> structure_keys() { return kKeys; }
+std::span<const Key> geometry_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all(kKeys.begin(), kKeys.end());
+    all.push_back(Key::table("materials", "Materials of the parts", materials_keys()));
+    all.insert(all.end(), neck_geometry_keys().begin(), neck_geometry_keys().end());
+    return all;
+  }();
+  return keys;
+}
+
+std::span<const Key> mesh_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all(kMeshKeys.begin(), kMeshKeys.end());
+    all.insert(all.end(), neck_mesh_keys().begin(), neck_mesh_keys().end());
+    return all;
+  }();
+  return keys;
+}
+
 std::span<const Key> matrices_keys() { return kMatricesKeys; }
 std::span<const Key> interface_keys() { return kInterfaceKeys; }
 
-bool is_structure(const StudyTable& geometry) {
-  if (geometry.has("file")) return true;
-  constexpr std::array<const char*, 4> kOfTheNeck = {"length", "plate_diameter", "hole_diameter",
-                                                     "plate_thickness"};
-  return geometry.has("script") && std::none_of(kOfTheNeck.begin(), kOfTheNeck.end(),
-                                                [&](const char* key) { return geometry.has(key); });
+geometry::SlitState read_slit_state(const StudyTable& table) {
+  using geometry::SlitState;
+  constexpr std::array kStates = {SlitState::none, SlitState::closed, SlitState::open};
+  return kStates.at(table.choice("slits"));
 }
 
 StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh) {
@@ -147,9 +222,7 @@ StructureSection read_structure(const StudyTable& geometry, const StudyTable& me
     if (geometry.has("script")) geometry.refuse("file", "expected file or script, found both");
     section.source = read_file(geometry, mesh);
   } else {
-    mesher::ScriptMeshOptions options = read_script(geometry);
-    read_script_options(geometry, mesh, options);
-    section.source = std::move(options);
+    section.source = read_script(geometry, mesh, section.neck);
   }
   std::visit(
       [&](auto& options) {

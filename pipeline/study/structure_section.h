@@ -10,8 +10,10 @@
 #include <Eigen/Core>
 
 #include "fe_modal/element/formulation.h"
+#include "geometry/neck/neck_measures.h"
 #include "mesher/exchange/mesh_import.h"
 #include "mesher/gmsh/script_mesher.h"
+#include "pipeline/study/neck_section.h"
 
 namespace flexneck::pipeline {
 
@@ -23,13 +25,17 @@ struct MaterialModel {
 /// By the materials' names.
 using MaterialModels = std::map<std::string, MaterialModel>;
 
-/// [geometry] and [mesh] of a structure that is not the neck: a gmsh script, or a file.
+/// [geometry] and [mesh]: a gmsh script, or a file.
 struct StructureSection {
   std::variant<mesher::ScriptMeshOptions, mesher::ImportOptions> source;
   MaterialModels material_models;
+  std::optional<NeckSection> neck;  ///< of a script that draws it
 
   const std::filesystem::path& file() const;
 };
+
+/// Volumes and masses of the neck in closed form. @pre structure.neck
+geometry::NeckMeasures measure_neck(const StructureSection& structure);
 
 /// [matrices]: K and M in place of a mesh. The files' endings tell their formats.
 struct MatricesSection {

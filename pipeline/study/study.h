@@ -16,8 +16,6 @@
 #include "fe_modal/system/solver.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/foundation/units.h"
-#include "geometry/neck/neck_slits.h"
-#include "mesher/mesh/mesh.h"
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/model/model.h"
 #include "multibody/simulation/simulation.h"
@@ -27,20 +25,6 @@
 #include "pipeline/study/substructure_section.h"
 
 namespace flexneck::pipeline {
-
-/// [geometry] and [mesh]: what is meshed.
-struct GeometrySection {
-  std::filesystem::path script;
-  geometry::NeckParameters neck;
-  geometry::NeckDivisions divisions;
-  geometry::NeckSlits slits;
-  mesher::ElementKind element = mesher::ElementKind::hex27;
-  std::vector<mesher::Material> materials;
-  std::map<std::string, std::string> material_of_part;
-  MaterialModels material_models;
-  Eigen::Vector3d joint_point_m = Eigen::Vector3d::Zero();
-  std::vector<std::string> fitted_to;  ///< published figures that the dimensions were fitted to
-};
 
 /// [mesh]: what is stored with the mesh for those who solve on it.
 struct MeshOrders {
@@ -166,10 +150,9 @@ std::span<const Key> study_keys();
 struct Study {
   std::filesystem::path file;
   std::vector<std::string> settings;          ///< in place of the file's values: key=value
-  std::optional<GeometrySection> geometry;    ///< the neck, or …
-  std::optional<StructureSection> structure;  ///< … another structure
-  std::optional<MatricesSection> matrices;    ///< … or matrices from elsewhere
-  std::vector<InterfaceSection> interfaces;   ///< of another structure; the neck has its own
+  std::optional<StructureSection> structure;  ///< what is meshed, or …
+  std::optional<MatricesSection> matrices;    ///< … matrices from elsewhere
+  std::vector<InterfaceSection> interfaces;
   MeshOrders mesh_orders;
   ModesSection modes;
   SubstructuresSection substructures;
@@ -194,6 +177,8 @@ struct Study {
 
   const BodySection& body(const std::string& name) const;
   const MaterialModels& material_models() const;
+  /// What is known of the neck; null if the structure is another one.
+  const NeckSection* neck() const;
   /// True if a material has another modulus in static tests than in the modes.
   bool has_static_moduli() const;
 };

@@ -17,8 +17,8 @@ namespace {
 using Status = VerificationRow::Status;
 
 bool is_fitted(const Study& study, const std::string& what) {
-  if (!study.geometry) return false;
-  const auto& fitted = study.geometry->fitted_to;
+  if (study.neck() == nullptr) return false;
+  const auto& fitted = study.neck()->fitted_to;
   return std::find(fitted.begin(), fitted.end(), what) != fitted.end();
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
+#include "pipeline/study/study.h"
 #include "tests/pipeline/structure_runs.h"
 #include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"
@@ -103,6 +105,45 @@ TEST_CASE("a run of a structure ends with a report of what it has, without the p
                        Contains("cantilever.toml") && Contains("href=\"#inputs\""));
   CHECK_THAT(page, !Contains("id=\"figures\"") && !Contains("id=\"verification\"") &&
                        !Contains("fore-aft"));
+}
+
+TEST_CASE("the neck is what its script makes of the same constants, as of any other structure") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> coarse = {"mesh.rubber_layers=1", "mesh.inner_ring=2",
+                                           "modes.count=4", "modes.fixed=[\"base\"]",
+                                           "interface.base.set=base"};
+  const pipeline::Study neck = pipeline::read_study(pipeline::built_in_study(), coarse);
+  std::string settings;
+  for (const std::string& setting : coarse) settings += " --set '" + setting + "'";
+  const std::string out = " -o " + (folder / "neck").string() + settings;
+  REQUIRE(run_flexneck("mesh" + out).exit_code == 0);
+  REQUIRE(run_flexneck("modes" + out).exit_code == 0);
+
+  const auto& script = std::get<mesher::ScriptMeshOptions>(neck.structure->source);
+  std::ofstream study(folder / "script.toml");
+  study << "[geometry]\nscript = \"" << script.script.string() << "\"\n[geometry.constants]\n"
+        << std::setprecision(17);
+  for (const auto& [name, value] : script.constants) study << name << " = " << value << "\n";
+  for (const mesher::Material& material : script.materials) {
+    study << "[geometry.materials." << material.name << "]\nyoungs_modulus = \""
+          << material.youngs_modulus_Pa << " Pa\"\npoissons_ratio = " << material.poissons_ratio
+          << "\ndensity = \"" << material.density_kg_m3 << " kg/m^3\"\nparts = [";
+    for (const auto& [part, of] : script.material_of_part)
+      if (of == material.name) study << '"' << part << "\", ";
+    study << "]\n";
+  }
+  study << "[modes]\ncount = 4\nfixed = [\"base\"]\n";
+  study.close();
+  run_study((folder / "script.toml").string(), folder / "script");
+  CHECK(frequencies_in(folder / "script") == frequencies_in(folder / "neck"));
+}
+
+TEST_CASE("an interface needs a face set, or a node set that is fixed") {
+  const TemporaryFolder folder;
+  const std::string out = " -q -o " + folder.path().string();
+  REQUIRE(run_flexneck("mesh" + out).exit_code == 0);
+  check_refused(run_flexneck("modes --set 'modes.fixed=[]'" + out),
+                "interface.base.set: there is no face set 'bolts'");
 }
 
 TEST_CASE("weight densities, free supports and decks without pressures are warned about") {

@@ -37,7 +37,7 @@ TEST_CASE("every shipped study reads, and its dimensions say where they come fro
   for (const std::string name : {"hybrid3", "hybrid3_a", "hybrid3_b", "hybrid3_c_prime"}) {
     INFO(name);
     const Study study = read_study(built_in_study().parent_path() / (name + ".toml"), {});
-    REQUIRE(study.geometry);
+    REQUIRE(study.neck());
     CHECK(study.cases.size() == 47);  // 3 static, 11 pendulum, 33 variants
     for (const Parameter& parameter : study.parameters) {
       if (!parameter.key.starts_with("geometry.") || !is_physical(parameter)) continue;
@@ -50,12 +50,13 @@ TEST_CASE("every shipped study reads, and its dimensions say where they come fro
 }
 
 TEST_CASE("a neck with a dimension of the user's own no longer counts as fitted") {
-  CHECK(built_in().geometry->fitted_to.size() == 3);
-  CHECK(built_in({"geometry.plate_thickness=0.33 in"}).geometry->fitted_to.empty());
-  CHECK(built_in({"mesh.quadrant=6"}).geometry->fitted_to.size() == 3);
+  CHECK(built_in().neck()->fitted_to.size() == 3);
+  CHECK(built_in({"geometry.plate_thickness=0.33 in"}).neck()->fitted_to.empty());
+  CHECK(built_in({"mesh.quadrant=6"}).neck()->fitted_to.size() == 3);
   const auto fits_with_slits = [](const std::string& state) {
     return built_in({"geometry.slits=" + state, "geometry.slit_depth=0.5", "mesh.rubber_layers=4"})
-        .geometry->fitted_to.size();
+        .neck()
+        ->fitted_to.size();
   };
   CHECK(fits_with_slits("none") == 3);
   CHECK(fits_with_slits("closed") == 3);  // tied shut: the same neck
@@ -70,13 +71,13 @@ TEST_CASE("a neck with a dimension of the user's own no longer counts as fitted"
     std::ofstream(folder / "mine.toml") << "include = [\"" << built_in_study().string() << "\"]\n"
                                         << line << "\n";
     INFO(line);
-    CHECK(read_study(folder / "mine.toml", {}).geometry->fitted_to.empty());
+    CHECK(read_study(folder / "mine.toml", {}).neck()->fitted_to.empty());
   }
 }
 
 TEST_CASE("a preset gives the divisions that are not given otherwise") {
   const auto divisions = [](const std::vector<std::string>& settings) {
-    return built_in(settings).geometry->divisions;
+    return built_in(settings).neck()->divisions;
   };
   CHECK(geometry::hexahedra(divisions({})) == 896);
   CHECK(geometry::hexahedra(divisions({"mesh.preset=paper"})) == 2400);
@@ -92,18 +93,21 @@ TEST_CASE("a preset gives the divisions that are not given otherwise") {
 TEST_CASE("elements and slits are read, or refused with what there is") {
   using geometry::SlitState;
   using mesher::ElementKind;
-  CHECK(built_in().geometry->element == ElementKind::hex27);
-  CHECK(built_in({"mesh.element=tet10"}).geometry->element == ElementKind::tet10);
+  const auto element = [](const Study& study) {
+    return std::get<mesher::ScriptMeshOptions>(study.structure->source).element;
+  };
+  CHECK(element(built_in()) == ElementKind::hex27);
+  CHECK(element(built_in({"mesh.element=tet10"})) == ElementKind::tet10);
   CHECK_THROWS_WITH(built_in({"mesh.element=hex21"}), Contains("did you mean 'hex2"));
-  CHECK(built_in().geometry->slits.state == SlitState::none);
-  CHECK_FALSE(built_in().geometry->slits.depth);
+  CHECK(built_in().neck()->slits.state == SlitState::none);
+  CHECK_FALSE(built_in().neck()->slits.depth);
 
   const std::vector<std::string> open = {"geometry.slits=open", "mesh.rubber_layers=4",
                                          "geometry.slit_parts=[\"rubber_1\"]"};
   const auto with = [&](const std::string& setting) {
     std::vector<std::string> settings = open;
     settings.push_back(setting);
-    return built_in(settings).geometry->slits;
+    return built_in(settings).neck()->slits;
   };
   CHECK(with("geometry.slit_depth=0.25").state == SlitState::open);
   CHECK(with("geometry.slit_depth=0.25").depth == 0.25);
@@ -189,20 +193,37 @@ TEST_CASE("what cannot be is refused before anything is computed") {
   CHECK_THROWS_WITH(built_in({"solver.relative_tolerance=0"}), Contains("positive"));
 }
 
-TEST_CASE("keys that the neck does not obey are refused, and not written down as if it did") {
-  for (const char* const setting :
-       {"modes.fixed=[\"base\"]", "modes.rigid_parts=[\"plate_1\"]", "modes.attached_to=top"}) {
-    const std::string key = std::string(setting).substr(0, std::string(setting).find('='));
-    CHECK_THROWS_WITH(built_in({setting}), Contains(key + " has no effect on the neck"));
-  }
+TEST_CASE("supports, interfaces and parts of the neck are those that its study names") {
+  const Study shipped = built_in();
+  CHECK(shipped.modes.fixed == std::vector<std::string>{"bolts"});
+  CHECK(shipped.modes.rigid_parts.size() == 5);
+  REQUIRE(shipped.interfaces.size() == 2);
+  CHECK(shipped.interfaces[0].name == "top");
+  CHECK(shipped.interfaces[0].position_m.z() == shipped.neck()->dimensions.length);
+  CHECK(shipped.interfaces[1].set == "bolts");
+
+  const Study changed = built_in({"modes.fixed=[\"base\"]", "modes.attached_to=middle",
+                                  "interface.top.position=[\"0 in\", \"0 in\", \"6 in\"]"});
+  CHECK(changed.modes.fixed == std::vector<std::string>{"base"});
+  CHECK(changed.modes.attached_to == "middle");
+  CHECK(changed.neck()->fitted_to.empty());  // to the head's joint that it had
+}
+
+TEST_CASE("a neck whose study does not say what it stands on is refused") {
   const TemporaryFolder folder;
-  std::ofstream(folder / "neck.toml") << "include = [\"" << built_in_study().string() << R"("]
-[[interface]]
-name = "middle"
-position = ["0 m", "0 m", "0.07 m"]
-)";
-  CHECK_THROWS_WITH(read_study(folder / "neck.toml", {}),
-                    Contains("neck.toml: [[interface]] has no effect on the neck"));
+  const std::filesystem::path mine = folder / "mine.toml";
+  const auto write = [&](const std::string& modes) {
+    std::ofstream file(mine);
+    file << "[geometry]\nscript = \"neck.geo\"\n";
+    for (const geometry::NeckDimension& dimension : geometry::neck_dimensions())
+      file << dimension.name << " = \"" << built_in().neck()->dimensions.*dimension.member * 1e3
+           << " mm\"\n";
+    file << modes;
+  };
+  write("");
+  CHECK_THROWS_WITH(read_study(mine, {}), Contains("modes.fixed: expected the node sets"));
+  write("[modes]\nfixed = []\n");
+  CHECK(read_study(mine, {}).modes.fixed.empty());
 }
 
 TEST_CASE("the basis is chosen by its name") {
@@ -220,6 +241,6 @@ TEST_CASE("a study without geometry is a model and needs no geometry keys") {
   const TemporaryFolder folder;
   std::ofstream(folder / "model.toml") << "[[body]]\nname = \"ground\"\nkind = \"ground\"\n";
   const Study study = read_study(folder / "model.toml", {});
-  CHECK_FALSE(study.geometry);
+  CHECK_FALSE(study.structure);
   CHECK(study.bodies.size() == 1);
 }

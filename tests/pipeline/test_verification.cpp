@@ -87,7 +87,7 @@ TEST_CASE("a frequency beyond the tolerance, or missing, fails the verification"
 
 TEST_CASE("fitted is said beside what the geometry was fitted to, and only there") {
   Study study;
-  study.geometry.emplace().fitted_to = {"frequencies"};
+  study.structure.emplace().neck.emplace().fitted_to = {"frequencies"};
   const VerificationTable table = verify(
       study, body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}, {"torsion 1", 20}}),
       {}, example());

@@ -3,16 +3,11 @@
 
 #include "mesher/exchange/inp_writer.h"
 #include "pipeline/commands/exports/export_formats.h"
-#include "pipeline/commands/structure_options.h"
+#include "pipeline/commands/modes_options.h"
 
 namespace flexneck::pipeline {
 
 namespace {
-
-/// The neck stands on its bolts.
-std::vector<std::string> held_sets(const Study& study) {
-  return study.geometry ? std::vector<std::string>{"bolts"} : study.modes.fixed;
-}
 
 /// A line about materials whose elements have pressures of their own, which a deck cannot say;
 /// empty if there are none.
@@ -35,7 +30,7 @@ void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
   const Study& study = input.study;
   const fe_modal::FormulationChoice choice = formulation_of(study);
   mesher::InpOptions options{.reduced = {},
-                             .held = held_sets(study),
+                             .held = study.modes.fixed,
                              .held_directions = study.modes.fixed_directions,
                              .mode_count = study.modes.count};
   for (const mesher::Material& material : mesh.materials) {

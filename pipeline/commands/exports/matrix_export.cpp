@@ -5,7 +5,7 @@
 #include "fe_modal/exchange/exported_matrices.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/exports/export_formats.h"
-#include "pipeline/commands/structure_options.h"
+#include "pipeline/commands/modes_options.h"
 
 namespace flexneck::pipeline {
 
@@ -16,8 +16,7 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
         "matrices are written with three directions a node: leave out modes.fixed_directions and "
         "modes.rigid_interfaces");
   }
-  const std::string held =
-      study.structure ? structure_options(study, mesh).held_set : std::string("bolts");
+  const std::string held = modes_options(study, mesh).held_set;
   const fe_modal::DofMap dof_map(
       mesh, held.empty() ? std::vector<std::int32_t>{} : mesh.node_set(held).nodes);
   std::optional<fe_modal::PetscSession> session;

@@ -71,7 +71,7 @@ std::string html_of(const DrawnFigure& drawn) {
 
 std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study,
                                       const PaperContext& context, const fs::path& folder) {
-  if (!study.geometry) return {};
+  if (study.neck() == nullptr) return {};
   const TemporaryFolder workshop;
   std::vector<DrawnFigure> drawn;
   std::string script;

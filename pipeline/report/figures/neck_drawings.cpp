@@ -66,7 +66,7 @@ void add_frame(Drawing& drawing, const Vector2d& origin, const Matrix2d& axes, d
   }
 }
 
-Figure kinematics(const Results& results, const GeometrySection& geometry) {
+Figure kinematics(const Results& results, const geometry::NeckParameters& neck) {
   Figure figure{1, "Kinematics of a deformable body",
                 "The neck as the deformable body, its first mode as the deformation."};
   if (!results.modes) {
@@ -74,16 +74,17 @@ Figure kinematics(const Results& results, const GeometrySection& geometry) {
     return figure;
   }
   const fe_modal::ModalBody& body = *results.modes;
-  const double length = geometry.neck.length;
+  const double length = neck.length;
   const Vector3d tip_shape = body.interface("top").translation.col(0);
   const double amplitude = 0.22 * length / tip_shape.norm();
-  const NeckOutline undeformed(geometry.neck);
+  const NeckOutline undeformed(neck);
   NeckOutline deformed = undeformed;
   deformed.deform(body, {0}, Eigen::VectorXd::Constant(1, amplitude));
 
   const Matrix2d turn = turned(-0.35);
   const Vector2d origin(5, 2.5);
-  const Vector2d joint(inches(geometry.joint_point_m.x()), inches(geometry.joint_point_m.z()));
+  const Vector3d& top_m = body.interface("top").position_m;
+  const Vector2d joint(inches(top_m.x()), inches(top_m.z()));
   const Vector2d moved = joint + inches(amplitude) * Vector2d(tip_shape.x(), tip_shape.z());
   Drawing drawing;
   drawing.unit = "in";
@@ -121,7 +122,7 @@ std::string origins_of_dimensions(const Study& study) {
 }
 
 Figure section(const Study& study) {
-  const GeometrySection& geometry = *study.geometry;
+  const geometry::NeckParameters& neck = study.neck()->dimensions;
   Figure figure{2, "Hybrid III dummy neck",
                 "Section in the plane of symmetry, front to the right; light: plates, dark: rubber "
                 "sections. Its dimensions by origin: " +
@@ -129,15 +130,15 @@ Figure section(const Study& study) {
   Drawing drawing;
   drawing.unit = "in";
   drawing.height = 620;
-  drawing.shapes = NeckOutline(geometry.neck).shapes(Matrix2d::Identity(), Vector2d::Zero());
-  const double hole = inches(geometry.neck.hole_diameter / 2);
-  const double top = inches(geometry.neck.length);
+  drawing.shapes = NeckOutline(neck).shapes(Matrix2d::Identity(), Vector2d::Zero());
+  const double hole = inches(neck.hole_diameter / 2);
+  const double top = inches(neck.length);
   drawing.shapes.push_back(box("hole", -hole, hole, 0, top, "#ffffff"));
   double right = 0;
-  for (const geometry::NeckLayer& layer : geometry::layers_of(geometry.neck)) {
+  for (const geometry::NeckLayer& layer : geometry::layers_of(neck)) {
     right = std::max(right, inches(layer.offset_m + layer.diameter_m / 2));
   }
-  for (const geometry::NeckLayer& layer : geometry::layers_of(geometry.neck)) {
+  for (const geometry::NeckLayer& layer : geometry::layers_of(neck)) {
     const double height = inches(layer.bottom_m + layer.thickness_m / 2);
     drawing.shapes.push_back(line(layer.part + " leader",
                                   {inches(layer.offset_m + layer.diameter_m / 2), height},
@@ -167,7 +168,6 @@ bool pushes_forward_at_top(const Study& study, const std::string& name) {
 }
 
 Figure static_tester(const Results& results, const Study& study) {
-  const GeometrySection& geometry = *study.geometry;
   Figure figure{5, "Static test neck model",
                 "Clamped at the base, loaded at the occipital condyles; drawn at the end of the "
                 "ramp, dashed without load. The load keeps its direction in space."};
@@ -182,7 +182,7 @@ Figure static_tester(const Results& results, const Study& study) {
     figure.missing = "a static test 'flexion' with these modes";
     return figure;
   }
-  const NeckOutline undeformed(geometry.neck);
+  const NeckOutline undeformed(study.neck()->dimensions);
   NeckOutline deformed = undeformed;
   deformed.deform(*results.modes, bent->modes, bent->coordinates);
   Drawing drawing;
@@ -211,11 +211,12 @@ Eigen::Index farthest(const multibody::History& history) {
 }
 
 /// The pendulum as it hangs: what points up in the neck's frame points down.
-Drawing pendulum_drawing(const fe_modal::ModalBody& body, const GeometrySection& geometry,
-                         const BentNeck& bent, const HeadShape& head) {
+Drawing pendulum_drawing(const fe_modal::ModalBody& body,
+                         const geometry::NeckParameters& dimensions, const BentNeck& bent,
+                         const HeadShape& head) {
   Matrix2d hanging = Matrix2d::Identity();
   hanging(1, 1) = -1;
-  NeckOutline neck(geometry.neck);
+  NeckOutline neck(dimensions);
   neck.deform(body, bent.modes, bent.coordinates);
   const Vector2d joint = hanging * inches_in_plane(joint_of(body, bent));
   const double phi = tip_angle(body, bent);
@@ -280,16 +281,16 @@ Figure pendulum(const Results& results, const Study& study) {
     return figure;
   }
   figure.remark += fmt::format(" Drawn: {} at {:.0f} ms.", run->name, 1e3 * history.time_s[time]);
-  draw(pendulum_drawing(*results.modes, *study.geometry, *bent, *head), figure);
+  draw(pendulum_drawing(*results.modes, study.neck()->dimensions, *bent, *head), figure);
   return figure;
 }
 
 }  // namespace
 
 std::vector<Figure> neck_drawings(const Results& results, const Study& study) {
-  if (!study.geometry) return {};
-  return {kinematics(results, *study.geometry), section(study), static_tester(results, study),
-          pendulum(results, study)};
+  if (study.neck() == nullptr) return {};
+  return {kinematics(results, study.neck()->dimensions), section(study),
+          static_tester(results, study), pendulum(results, study)};
 }
 
 }  // namespace flexneck::pipeline

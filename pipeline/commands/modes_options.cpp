@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/commands/structure_options.h"
+#include "pipeline/commands/modes_options.h"
 
 #include <algorithm>
 #include <set>
@@ -30,10 +30,21 @@ std::string held_set(const std::vector<std::string>& held, mesher::Mesh& mesh) {
   return "held";
 }
 
-void add_interfaces(const Study& study, fe_modal::ModalOptions& options) {
+/// @throws InputError if an interface that is not fixed has no face set to move with.
+void require_face_set(const mesher::Mesh& mesh, const InterfaceSection& interface) {
+  try {
+    static_cast<void>(mesh.face_set(interface.set));
+  } catch (const InputError& error) {
+    throw InputError("interface." + interface.name + ".set: " + error.what() +
+                     "; a node set will do if modes.fixed names it");
+  }
+}
+
+void add_interfaces(const Study& study, const mesher::Mesh& mesh, fe_modal::ModalOptions& options) {
   const std::vector<std::string>& held = study.modes.fixed;
   for (const InterfaceSection& interface : study.interfaces) {
     if (std::find(held.begin(), held.end(), interface.set) == held.end()) {
+      require_face_set(mesh, interface);
       options.interfaces.push_back({interface.name, interface.set, interface.position_m});
       continue;
     }
@@ -62,6 +73,18 @@ void attach_body(const Study& study, fe_modal::ModalOptions& options) {
                           interface.position_m + body.center_m, body.inertia_kg_m2}};
 }
 
+void tie_interfaces(const Study& study, fe_modal::ModalOptions& options) {
+  for (const std::string& name : study.modes.rigid_interfaces) {
+    try {
+      if (name == options.held_interface) throw InputError("'" + name + "' is held");
+      const std::size_t which = find_name(names_of(options.interfaces), name, "interface");
+      options.interfaces[which].is_rigid = true;
+    } catch (const InputError& error) {
+      throw InputError("modes.rigid_interfaces: " + std::string(error.what()));
+    }
+  }
+}
+
 }  // namespace
 
 fe_modal::FormulationChoice formulation_of(const Study& study) {
@@ -72,7 +95,7 @@ fe_modal::FormulationChoice formulation_of(const Study& study) {
   return choice;
 }
 
-fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh) {
+fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
   fe_modal::ModalOptions options;
   options.mode_count = study.modes.count;
   options.formulation = formulation_of(study);
@@ -81,11 +104,13 @@ fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh)
   options.geometric_stiffness = study.modes.stress_stiffening;
   options.certify = study.modes.certify;
   options.rigid_parts = study.modes.rigid_parts;
-  options.length_m = mesher::bounding_box(mesh).extent_m().norm();
+  options.held_directions = study.modes.fixed_directions;
+  options.length_m = mesher::bounding_box(mesh).extent_m().maxCoeff();
   try {
     options.held_set = held_set(study.modes.fixed, mesh);
-    add_interfaces(study, options);
+    add_interfaces(study, mesh, options);
     attach_body(study, options);
+    tie_interfaces(study, options);
   } catch (const InputError& error) {
     throw InputError(study.file.string() + ": " + error.what());
   }

@@ -8,12 +8,11 @@
 
 namespace flexneck::pipeline {
 
-/// What `flexneck modes` computes of a structure that is not the neck: [modes] and [[interface]].
-/// An interface on a set that is held is the held interface. If several sets are held, their union
-/// joins the mesh as the node set "held". Signs follow the first other interface.
-/// @pre study.structure
+/// What `flexneck modes` computes: [modes] and [[interface]]. An interface on a set that is fixed
+/// is the fixed interface. If several sets are fixed, their union joins the mesh as the node set
+/// "held". Signs follow the first other interface.
 /// @throws InputError naming study and key, with the nearest set where one is unknown.
-fe_modal::ModalOptions structure_options(const Study& study, mesher::Mesh& mesh);
+fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh);
 
 /// A line about nodes that *BOUNDARY of the study's .inp holds, but neither modes.fixed nor
 /// modes.fixed_directions; empty if there are none.

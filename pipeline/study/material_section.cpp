@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr Key kMaterialKeys[] = {
+    Key::quantity("youngs_modulus", "Pa", kRequired, "Young's modulus"),
+    Key::number("poissons_ratio", kRequired, "Poisson's ratio"),
+    Key::quantity("density", "kg/m^3", kRequired, "Density; a weight density is refused"),
+    Key::texts("parts", kRequired, "Parts of the mesh that are made of it"),
+    Key::text("formulation", kNone, "In place of that of [modes]", {.used_by = UsedBy::modes}),
+    Key::number("static_modulus_ratio", "1",
+                "Young's modulus in static tests over that of the modes",
+                {.range = kPositive, .used_by = UsedBy::modes}),
+};
+
+constexpr Key kMaterialsKeys[] = {
+    Key::table("*", "A material by its name", kMaterialKeys),
+};
+
+}  // namespace
+
+std::span<const Key> materials_keys() { return kMaterialsKeys; }
+
+MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
+                              std::map<std::string, std::string>& material_of_part) {
+  MaterialModels models;
+  const StudyTable table = geometry.table("materials");
+  for (const std::string& name : table.keys()) {
+    const StudyTable material = table.table(name);
+    materials.push_back({name, material.quantity("youngs_modulus"),
+                         material.number("poissons_ratio"), material.quantity("density")});
+    MaterialModel& model = models[name];
+    if (material.has("formulation")) model.formulation = read_formulation(material);
+    model.static_modulus_ratio = material.number("static_modulus_ratio");
+    for (const std::string& part : material.texts("parts")) {
+      if (!material_of_part.emplace(part, name).second) {
+        material.refuse("parts", "the part '" + part + "' has another material already");
+      }
+    }
+    material.finish();
+  }
+  return models;
+}
+
+}  // namespace flexneck::pipeline
