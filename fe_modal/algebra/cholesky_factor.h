@@ -18,7 +18,7 @@ inline constexpr double kBytesPerFactorEntry = 10.4;
 
 /// What is said of a matrix that has no Cholesky factor.
 inline constexpr const char* kNotDefinite =
-    "the stiffness matrix is not positive definite: a part of the body is not held, or elements "
+    "the stiffness matrix is not positive definite: a part of the body is not fixed, or elements "
     "with reduced integration stand in a single row, or Poisson's ratio is too near 1/2";
 
 /// Sparse Cholesky factor of K - shift M, made once and used by every solve, by CHOLMOD.

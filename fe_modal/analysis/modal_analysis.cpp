@@ -30,7 +30,7 @@ namespace {
 constexpr Eigen::Index kAttachedCount = 6;
 
 [[noreturn]] void refuse_mechanism(const std::string& motions) {
-  throw InputError("the body is a mechanism: " + motions + "; hold it or bond it to its neighbour");
+  throw InputError("the body is a mechanism: " + motions + "; fix it or bond it to its neighbour");
 }
 
 /// A stiffness that is not definite is that of a mechanism, or of elements that are none.
@@ -49,10 +49,10 @@ std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh
 
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
 void check_no_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
-                        const Eigen::VectorXd& values, bool held) {
-  const Eigen::Index rigid = held ? 0 : 6;
+                        const Eigen::VectorXd& values, bool fixed) {
+  const Eigen::Index rigid = fixed ? 0 : 6;
   if (values.size() <= rigid || values[rigid] > kStrainless * eigenvalue_scale(mesh)) return;
-  if (const auto motions = describe_mechanism(mesh, dof_map, system, held)) {
+  if (const auto motions = describe_mechanism(mesh, dof_map, system, fixed)) {
     refuse_mechanism(*motions);
   }
 }
@@ -68,8 +68,8 @@ std::vector<Interface> reduce_interfaces(const ModalOptions& options,
   const auto m = static_cast<Eigen::Index>(shapes.size());
   const Eigen::Matrix3Xd zero = Eigen::Matrix3Xd::Zero(3, m);
   std::vector<Interface> interfaces;
-  if (!options.held_interface.empty()) {
-    interfaces.push_back({options.held_interface, options.held_position_m, zero, zero});
+  if (!options.fixed_interface.empty()) {
+    interfaces.push_back({options.fixed_interface, options.fixed_position_m, zero, zero});
   }
   for (std::size_t k = 0; k < averages.size(); ++k) {
     Interface interface { options.interfaces[k].name, averages[k].point_m(), zero, zero };
@@ -140,7 +140,7 @@ std::pair<Reduction, std::string> reduced_basis(const mesher::Mesh& mesh, const 
   }
   auto [pairs, certificate] =
       lowest_modes(system, inverse, options.mode_count, options.certify, warn);
-  check_no_mechanism(mesh, dof_map, system, pairs.values, options.is_held());
+  check_no_mechanism(mesh, dof_map, system, pairs.values, options.is_fixed());
   check_eigenvalues(pairs.values, inverse.shift());
   for (double& value : pairs.values) {
     if (value < kStrainless * -inverse.shift()) value = 0;
@@ -180,15 +180,15 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
 
 /// "fixed: bolts, x of left", or "free".
 std::string boundary_of(const ModalOptions& options) {
-  std::string held = options.held_set;
-  for (const auto& [set, directions] : options.held_directions) {
-    if (!held.empty()) held += ", ";
+  std::string fixed = options.fixed_set;
+  for (const auto& [set, directions] : options.fixed_directions) {
+    if (!fixed.empty()) fixed += ", ";
     for (std::size_t a = 0; a < 3; ++a) {
-      if (directions[a]) held += "xyz"[a];
+      if (directions[a]) fixed += "xyz"[a];
     }
-    held += " of " + set;
+    fixed += " of " + set;
   }
-  return held.empty() ? "free" : "fixed: " + held;
+  return fixed.empty() ? "free" : "fixed: " + fixed;
 }
 
 }  // namespace
@@ -202,7 +202,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   };
   check_options(mesh, options);
   check_memory(mesh, options);
-  const bool held = options.is_held();
+  const bool fixed = options.is_fixed();
   const DofMap dof_map = dof_map_of(mesh, options);
   report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
          " degrees of freedom");
@@ -212,8 +212,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
 
   times.start("order and factorise");
   report("factorising the stiffness");
-  // A held body has a definite stiffness; a free one is shifted below zero.
-  const double shift = held ? 0 : -eigenvalue_scale(mesh);
+  // A fixed body has a definite stiffness; a free one is shifted below zero.
+  const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
   const std::unique_ptr<const ShiftInverse> inverse =
       factorise_or_refuse(mesh, dof_map, system, shift);
   report(inverse->describe());

@@ -9,9 +9,9 @@ namespace flexneck::fe_modal {
 
 /// What a body is reduced to.
 enum class BasisKind {
-  normal,    ///< eigenvectors of the body, held or free
-  residual,  ///< of a held body, with what the static shapes of interface loads have beyond them
-  craig_bampton,  ///< modes with the interfaces held as well, and the static shapes
+  normal,    ///< eigenvectors of the body, fixed or free
+  residual,  ///< of a fixed body, with what the static shapes of interface loads have beyond them
+  craig_bampton,  ///< modes with the interfaces fixed as well, and the static shapes
   inertia_relief  ///< eigenvectors of a free body, with what the static shapes of interface loads
                   ///< and balancing inertia forces have beyond them
 };

@@ -19,7 +19,7 @@ struct BasisTable {
   /// (m, 3): (int rho ~s0 psi)_i^2, the same about the axes of the body frame.
   Eigen::MatrixX3d effective_inertia_kg_m2;
   /// (m, 6): sums over this and all modes before it, per cent of the mass (3) and of the inertia
-  /// about the frame's axes (3). Held nodes keep the whole a little below 100.
+  /// about the frame's axes (3). Fixed nodes keep the whole a little below 100.
   Eigen::MatrixXd inertia_percent;
 
   /// Of an interface's static compliance, translation under a force (3) and rotation under a

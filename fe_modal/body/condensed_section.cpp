@@ -60,10 +60,10 @@ CondensedSection condense(const ModalBody& body, const std::string& base, const 
         "a section between two faces has 6 modes, the static shapes of its top; found " +
         std::to_string(body.mode_count()));
   }
-  const Interface& held = body.interface(base);
+  const Interface& fixed = body.interface(base);
   const Interface& free = body.interface(top);
   CondensedSection section;
-  section.base_m = held.position_m;
+  section.base_m = fixed.position_m;
   section.top_m = free.position_m;
 
   // [frame; modes] from [base; top]: the frame rides on the base, and the modes are what the top

@@ -18,10 +18,10 @@ struct CondensedSection {
   Eigen::Matrix<double, 12, 12> mass = Eigen::Matrix<double, 12, 12>::Zero();
 };
 
-/// Static condensation (Guyan, AIAA J. 3 (1965) 380) of a body whose base is held and whose modes
+/// Static condensation (Guyan, AIAA J. 3 (1965) 380) of a body whose base is fixed and whose modes
 /// are the static shapes of one interface: the base's rigid motion and the six modes become the
 /// motions of base and top. Small motions about the undeformed shape.
-/// @param base  the interface on the held nodes
+/// @param base  the interface on the fixed nodes
 /// @param top   the other
 /// @throws InputError unless there are six modes, and unless they move the top in six independent
 /// ways.

@@ -41,7 +41,7 @@ struct Interface {
   Eigen::Vector3d position_m;    ///< of the undeformed interface, body frame
   Eigen::Matrix3Xd translation;  ///< psi at the interface, (3, m)
   Eigen::Matrix3Xd rotation;     ///< mu at the interface, (3, m)
-  std::optional<StaticResponse> response = std::nullopt;  ///< none where nodes are held
+  std::optional<StaticResponse> response = std::nullopt;  ///< none where nodes are fixed
 };
 
 /// Geometric stiffness of the modes, int grad(psi_i)^T sigma grad(psi_j), (m, m) each, for the
@@ -91,12 +91,12 @@ struct AttachedFrequencies {
   std::optional<Eigen::Matrix<double, 6, 6>> mass_matrix = std::nullopt;
 };
 
-/// A deformable body reduced to m mass-normalised modes in its body frame, which rides on the held
+/// A deformable body reduced to m mass-normalised modes in its body frame, which rides on the fixed
 /// nodes. Row k of a shape belongs to row k of `nodes_m`.
 struct ModalBody {
   Eigen::VectorXd frequencies_Hz;        ///< (m), ascending
   std::vector<ModeRecord> modes;         ///< m of them
-  std::string boundary;                  ///< what was held, e.g. "fixed: bolts"
+  std::string boundary;                  ///< what was fixed, e.g. "fixed: bolts"
   std::string certificate;               ///< "not certified" until completeness has been proved
   std::string solver;                    ///< how the modes were solved for; may be empty
   double orthogonality = 0;              ///< largest |Psi^T M Psi - I|

@@ -13,11 +13,11 @@ ConstrainedElement::ConstrainedElement(std::span<const std::int32_t> nodes, cons
     numbers_.push_back(dof_map.index(nodes[i]));
   }
   const std::size_t own_count = numbers_.size();
-  const bool has_held = std::any_of(numbers_.begin(), numbers_.end(), [&](std::int32_t number) {
-    return number >= 0 &&
-           (dof_map.is_held(number, 0) || dof_map.is_held(number, 1) || dof_map.is_held(number, 2));
+  const bool has_fixed = std::any_of(numbers_.begin(), numbers_.end(), [&](std::int32_t number) {
+    return number >= 0 && (dof_map.is_fixed(number, 0) || dof_map.is_fixed(number, 1) ||
+                           dof_map.is_fixed(number, 2));
   });
-  if (own_count == nodes.size() && !has_held) return;
+  if (own_count == nodes.size() && !has_fixed) return;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::int32_t coupling = dof_map.coupling(nodes[i]);
     if (coupling < 0) continue;
@@ -37,7 +37,7 @@ ConstrainedElement::ConstrainedElement(std::span<const std::int32_t> nodes, cons
     const auto column = static_cast<Eigen::Index>(place[static_cast<std::size_t>(i)]);
     const std::int32_t number = numbers_[static_cast<std::size_t>(column)];
     for (Eigen::Index a = 0; a < 3; ++a) {
-      if (number < 0 || !dof_map.is_held(number, a)) motion_(a * n + i, a * m + column) = 1;
+      if (number < 0 || !dof_map.is_fixed(number, a)) motion_(a * n + i, a * m + column) = 1;
     }
     if (dof_map.coupling(node) < 0) continue;
     const Eigen::Vector3d arm = dof_map.arm_m(node);

@@ -41,7 +41,7 @@ class TiedNodes {
 
 }  // namespace
 
-DofMap::DofMap(std::size_t node_count, std::span<const std::int32_t> held,
+DofMap::DofMap(std::size_t node_count, std::span<const std::int32_t> fixed,
                std::span<const mesher::Slit> slits)
     : indices_(node_count, 0) {
   TiedNodes tied(node_count);
@@ -49,7 +49,7 @@ DofMap::DofMap(std::size_t node_count, std::span<const std::int32_t> held,
     if (!slit.tied) continue;
     for (std::size_t p = 0; p < slit.lower.size(); ++p) tied.coupling(slit.lower[p], slit.upper[p]);
   }
-  for (const std::int32_t node : held) {
+  for (const std::int32_t node : fixed) {
     indices_.at(static_cast<std::size_t>(tied.lowest(node))) = -1;
   }
   std::int32_t next = 0;
@@ -64,11 +64,12 @@ DofMap::DofMap(std::size_t node_count, std::span<const std::int32_t> held,
   free_count_ = next;
 }
 
-DofMap::DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> held,
-               std::span<const RigidCoupling> couplings, std::span<const HeldDirections> directions)
-    : DofMap(mesh.nodes.size(), held, mesh.slits) {
+DofMap::DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> fixed,
+               std::span<const RigidCoupling> couplings,
+               std::span<const FixedDirections> directions)
+    : DofMap(mesh.nodes.size(), fixed, mesh.slits) {
   if (!couplings.empty()) couple_rigidly(mesh, couplings);
-  if (!directions.empty()) hold(directions, couplings);
+  if (!directions.empty()) fix(directions, couplings);
 }
 
 void DofMap::couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupling> couplings) {
@@ -77,7 +78,7 @@ void DofMap::couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupl
   for (std::size_t t = 0; t < couplings.size(); ++t) {
     for (const std::int32_t node : couplings[t].nodes) {
       if (index(node) < 0) {
-        throw InputError("rigid interface '" + couplings[t].name + "' has nodes that are held");
+        throw InputError("rigid interface '" + couplings[t].name + "' has nodes that are fixed");
       }
       std::int32_t& coupling = coupling_of_number[static_cast<std::size_t>(index(node))];
       if (coupling >= 0 && coupling != static_cast<std::int32_t>(t)) {
@@ -107,35 +108,36 @@ void DofMap::couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupl
   }
 }
 
-void DofMap::hold(std::span<const HeldDirections> directions,
-                  std::span<const RigidCoupling> couplings) {
-  held_.assign(static_cast<std::size_t>(free_count_), {});
-  for (const HeldDirections& held : directions) {
-    for (const std::int32_t node : held.nodes) {
+void DofMap::fix(std::span<const FixedDirections> directions,
+                 std::span<const RigidCoupling> couplings) {
+  fixed_.assign(static_cast<std::size_t>(free_count_), {});
+  for (const FixedDirections& fixed : directions) {
+    for (const std::int32_t node : fixed.nodes) {
       if (coupling(node) >= 0) {
         throw InputError("rigid interface '" +
                          couplings[static_cast<std::size_t>(coupling(node))].name +
-                         "' has nodes that are held");
+                         "' has nodes that are fixed");
       }
       if (index(node) < 0) continue;
       for (std::size_t a = 0; a < 3; ++a) {
-        bool& is_held = held_[static_cast<std::size_t>(index(node))][a];
-        is_held = is_held || held.is_held[a];
+        bool& is_fixed = fixed_[static_cast<std::size_t>(index(node))][a];
+        is_fixed = is_fixed || fixed.is_fixed[a];
       }
     }
   }
 }
 
-Eigen::Index DofMap::held_direction_count() const {
+Eigen::Index DofMap::fixed_direction_count() const {
   Eigen::Index count = 0;
-  for (const std::array<bool, 3>& held : held_) count += std::count(held.begin(), held.end(), true);
+  for (const std::array<bool, 3>& fixed : fixed_)
+    count += std::count(fixed.begin(), fixed.end(), true);
   return count;
 }
 
-void DofMap::clear_held(Eigen::VectorXd& values) const {
-  for (std::size_t k = 0; k < held_.size(); ++k) {
+void DofMap::clear_fixed(Eigen::VectorXd& values) const {
+  for (std::size_t k = 0; k < fixed_.size(); ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
-      if (held_[k][a]) values[static_cast<Eigen::Index>(3 * k + a)] = 0;
+      if (fixed_[k][a]) values[static_cast<Eigen::Index>(3 * k + a)] = 0;
     }
   }
 }
@@ -160,7 +162,7 @@ Eigen::VectorXd DofMap::restrict(const Eigen::Matrix3Xd& field) const {
         values.segment<6>(3 * static_cast<Eigen::Index>(translation(static_cast<std::int32_t>(t))));
     six = matrices[t].ldlt().solve(Eigen::Matrix<double, 6, 1>(six)).eval();
   }
-  clear_held(values);
+  clear_fixed(values);
   return values;
 }
 
@@ -171,7 +173,7 @@ Eigen::Matrix3Xd DofMap::expand(const Eigen::VectorXd& free_values) const {
     auto displacement = field.col(static_cast<Eigen::Index>(k));
     displacement = free_values.segment<3>(3 * indices_[k]);
     for (Eigen::Index a = 0; a < 3; ++a) {
-      if (is_held(indices_[k], a)) displacement[a] = 0;
+      if (is_fixed(indices_[k], a)) displacement[a] = 0;
     }
   }
   for (std::int32_t k = 0; has_rigid_couplings() && k < node_count(); ++k) {
@@ -194,7 +196,7 @@ Eigen::VectorXd DofMap::gather(const Eigen::Matrix3Xd& forces) const {
     values.segment<3>(3 * translation(coupling(k))) += force;
     values.segment<3>(3 * rotation(coupling(k))) += arm_m(k).cross(force);
   }
-  clear_held(values);
+  clear_fixed(values);
   return values;
 }
 

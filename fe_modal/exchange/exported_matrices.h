@@ -7,8 +7,8 @@
 
 namespace flexneck::fe_modal {
 
-/// K and M of a mesh for other programs, without what is held; of nodes that are tied the first one
-/// stands for all.
+/// K and M of a mesh for other programs, without what is fixed; of nodes that are tied the first
+/// one stands for all.
 /// @throws what assemble() throws.
 ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                              const FormulationChoice& formulation);

@@ -9,7 +9,7 @@
 namespace flexneck::fe_modal {
 
 /// A body from another program: matrices of n free nodes in place of a mesh. Degree of freedom
-/// 3 k + a is direction a of node k; what is held has been left out.
+/// 3 k + a is direction a of node k; what is fixed has been left out.
 struct ImportedBody {
   UpperMatrix stiffness;  ///< (3n, 3n), N/m
   UpperMatrix mass;       ///< (3n, 3n), kg
@@ -23,7 +23,7 @@ UpperMatrix expand_mass(const NodalMass& nodal);
 /// solid elements is: then the inertia invariants follow from it.
 void check(const ImportedBody& body);
 
-/// Normal modes of a body that is held, with its invariants; it has no interfaces.
+/// Normal modes of a body that is fixed, with its invariants; it has no interfaces.
 /// @param warn takes a line if the number of modes cuts a cluster of equal frequencies; may be
 /// empty
 /// @throws InputError as check(), or for more modes than degrees of freedom.

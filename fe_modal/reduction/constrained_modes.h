@@ -11,7 +11,7 @@ namespace flexneck::fe_modal {
 
 /// P^T M P as an operator, with P the K-orthogonal projector to the fields on which C x = 0:
 /// P = I - X (C X)^-1 C with K X = C^T. The eigenpairs of K x = lambda P^T M P x with finite lambda
-/// are the modes of the body whose interfaces' average motions C x are held: K^-1 P^T = P K^-1
+/// are the modes of the body whose interfaces' average motions C x are fixed: K^-1 P^T = P K^-1
 /// symmetric, so that x = lambda P K^-1 M P x has C x = 0.
 class ConstrainedMass {
  public:

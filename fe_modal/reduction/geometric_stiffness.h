@@ -25,7 +25,7 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
     const std::vector<Eigen::Matrix3Xd>& modes, const std::vector<Eigen::Matrix3Xd>& displacements);
 
 /// The same for the stresses of unit accelerations, angular accelerations, products of angular
-/// velocities, modal accelerations and interface loads of a held body, from static solutions.
+/// velocities, modal accelerations and interface loads of a fixed body, from static solutions.
 /// @param nodal_mass of all nodes
 GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
                                        const FormulationChoice& formulation, const DofMap& dof_map,

@@ -13,7 +13,7 @@ struct BodyOperators {
   BlockOperator stiffness;     ///< K x, N/m
   BlockOperator mass;          ///< M x, kg
   BlockOperator precondition;  ///< (K - shift M)^-1 f, or near it
-  double shift = 0;            ///< zero for a held body, below zero for a free one, 1/s^2
+  double shift = 0;            ///< zero for a fixed body, below zero for a free one, 1/s^2
 };
 
 /// @param system, inverse must outlive the operators

@@ -50,10 +50,10 @@ Reduction complete_modes(const BodyOperators& body, const EigenPairs& normal,
                          const std::vector<InterfaceLoads>& interfaces, BasisKind kind,
                          const Progress& progress);
 
-/// Modes with the average motions of the interfaces held, and the interfaces' static shapes (Craig
+/// Modes with the average motions of the interfaces fixed, and the interfaces' static shapes (Craig
 /// and Bampton, AIAA J. 6 (1968)), made orthonormal by the reduced eigenproblem. Of its vectors the
 /// `count` lowest, perhaps none, stand for modes, the others are corrections.
-/// @pre the body is held
+/// @pre the body is fixed
 Reduction craig_bampton(const BodyOperators& body, Mat mass, const ModeSolver& solve_modes,
                         Eigen::Index count, const std::vector<InterfaceLoads>& interfaces,
                         const Progress& progress);

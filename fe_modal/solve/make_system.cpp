@@ -40,8 +40,8 @@ std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const DofMap&
   const bool alone = options.ranks == nullptr || options.ranks->count() == 1;
   if (dof_map.is_constrained() && (options.solver == Solver::iterative || !alone)) {
     throw InputError(
-        "rigid interfaces and held directions are for the direct solver in one process: take "
-        "averages and hold sets as a whole, or leave out --solver iterative and mpirun");
+        "rigid interfaces and fixed directions are for the direct solver in one process: take "
+        "averages and fix sets as a whole, or leave out --solver iterative and mpirun");
   }
   if (options.solver == Solver::iterative) {
     if (!alone) {

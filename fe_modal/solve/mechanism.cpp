@@ -19,7 +19,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Motions without strain are looked for in this number: two bodies that nothing holds have twelve.
+/// Motions without strain are looked for in this number: two bodies that nothing fixes have twelve.
 constexpr Eigen::Index kMaxMotions = 12;
 /// A singular value, or a deviation from a rigid motion, below this share of the largest is none.
 constexpr double kNone = 1e-3;
@@ -139,7 +139,7 @@ std::optional<std::string> describe_part(const Part& part, const Eigen::MatrixXd
   const double whole = fields.cwiseAbs().maxCoeff();
   const Eigen::Index ways = (svd.singularValues().array() > kNone * whole).count();
   if (ways == 0) return std::nullopt;
-  if (ways == 6) return "is not held: it moves freely in every way";
+  if (ways == 6) return "is not fixed: it moves freely in every way";
   if (ways > 1) return "moves freely in " + std::to_string(ways) + " ways";
   return describe_motion(part, svd.matrixU().col(0), length_m);
 }
@@ -156,11 +156,11 @@ double eigenvalue_scale(const mesher::Mesh& mesh) {
 }
 
 std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map,
-                                              const ModalSystem& system, bool is_held) {
+                                              const ModalSystem& system, bool is_fixed) {
   const double length_m = mesher::bounding_box(mesh).extent_m().norm();
   const std::vector<Part> parts = rigid_parts_of(mesh);
   Eigen::MatrixXd fields = strainless_fields(dof_map, system, eigenvalue_scale(mesh));
-  if (!is_held && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
+  if (!is_fixed && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
   std::string text;
   for (const Part& part : parts) {
     const auto motion = fields.cols() == 0 ? std::nullopt : describe_part(part, fields, length_m);

@@ -17,12 +17,12 @@ double eigenvalue_scale(const mesher::Mesh& mesh);
 inline constexpr double kStrainless = 1e-6;
 
 /// Which parts move without strain, and how, e.g. "part 'pin' turns freely about z through (0, 0,
-/// 0.1) m". Of a body that nothing holds the motion as a whole does not count: the heaviest part
+/// 0.1) m". Of a body that nothing fixes the motion as a whole does not count: the heaviest part
 /// stands still.
-/// @param is_held whether a node set is held
+/// @param is_fixed whether a node set is fixed
 /// @return nothing if every such motion is too large for parts as rigid bodies: then it bends
 /// @throws ComputationError if the motions cannot be computed.
 std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map,
-                                              const ModalSystem& system, bool is_held);
+                                              const ModalSystem& system, bool is_fixed);
 
 }  // namespace flexneck::fe_modal

@@ -125,7 +125,7 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, cons
 }
 
 /// Each fixed degree of freedom gets the mean diagonal entry as its only stiffness, and no mass.
-void stiffen_held(const DofMap& dof_map, SymmetricMatrix& stiffness) {
+void stiffen_fixed(const DofMap& dof_map, SymmetricMatrix& stiffness) {
   double sum = 0;
   const auto for_each = [&](const auto& action) {
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(dof_map.free_count()); ++k) {
@@ -135,7 +135,7 @@ void stiffen_held(const DofMap& dof_map, SymmetricMatrix& stiffness) {
   for_each([&](std::int32_t /*k*/, int /*a*/, double entry) { sum += entry; });
   const double mean = sum / static_cast<double>(dof_map.dof_count());
   for_each([&](std::int32_t k, int a, double& entry) {
-    if (dof_map.is_held(k, a)) entry = mean;
+    if (dof_map.is_fixed(k, a)) entry = mean;
   });
 }
 
@@ -151,7 +151,7 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
   for (const mesher::ElementBlock& block : mesh.blocks) {
     add_block(mesh, block, dof_map, formulation, stiffness, nodal_mass, constrained_mass);
   }
-  if (dof_map.held_direction_count() > 0) stiffen_held(dof_map, stiffness);
+  if (dof_map.fixed_direction_count() > 0) stiffen_fixed(dof_map, stiffness);
   MassMatrix mass(nodal_mass, graph, dof_map);
   SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass),
                         std::move(constrained_mass)};

@@ -18,8 +18,8 @@ struct SystemMatrices {
   SymmetricMatrix stiffness;  ///< of the free degrees of freedom, N/m
   NodalMass nodal_mass;       ///< of all nodes, kg
   MassMatrix mass;            ///< of the free degrees of freedom, kg; void with constraints
-  /// Where there are rigid couplings or held directions: of the free degrees of freedom, the
-  /// couplings' included; zero where a direction is held.
+  /// Where there are rigid couplings or fixed directions: of the free degrees of freedom, the
+  /// couplings' included; zero where a direction is fixed.
   std::optional<SymmetricMatrix> constrained_mass;
 
   Mat mass_operator() const { return constrained_mass ? constrained_mass->get() : mass.get(); }

@@ -10,13 +10,13 @@ DofMap dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options) {
     couplings.push_back({interface.name, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
                          interface.position_m});
   }
-  std::vector<HeldDirections> directions;
-  for (const auto& [set, is_held] : options.held_directions) {
-    directions.push_back({mesh.node_set(set).nodes, is_held});
+  std::vector<FixedDirections> directions;
+  for (const auto& [set, is_fixed] : options.fixed_directions) {
+    directions.push_back({mesh.node_set(set).nodes, is_fixed});
   }
   return {mesh,
-          options.held_set.empty() ? std::vector<std::int32_t>{}
-                                   : mesh.node_set(options.held_set).nodes,
+          options.fixed_set.empty() ? std::vector<std::int32_t>{}
+                                    : mesh.node_set(options.fixed_set).nodes,
           couplings, directions};
 }
 

@@ -20,10 +20,10 @@ namespace flexneck::fe_modal {
 class Ranks;
 
 /// The least-squares rigid motion of a face set about a point: minimises
-/// int |u - t - theta x (x - position)|^2 dA. On a held face set or node set it is zero.
+/// int |u - t - theta x (x - position)|^2 dA. On a fixed face set or node set it is zero.
 struct InterfaceDefinition {
   std::string name;
-  std::string set;  ///< a face set; for the held interface a node set
+  std::string set;  ///< a face set; for the fixed interface a node set
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   /// Its nodes are tied to one another and move rigidly, as if a stiff plate were glued on.
   bool is_rigid = false;
@@ -45,15 +45,15 @@ struct ModalOptions {
   BasisKind basis = BasisKind::normal;
   /// Interfaces whose static shapes join the basis; empty: all.
   std::vector<std::string> basis_interfaces;
-  bool geometric_stiffness = false;  ///< of the modes under unit loads; of a held body
+  bool geometric_stiffness = false;  ///< of the modes under unit loads; of a fixed body
   /// Count the modes by inertia too, which costs a factorisation by MUMPS, and estimate the error
   /// of the mesh, which costs a solution with eight times the elements. Not of Craig-Bampton.
   bool certify = false;
-  std::string held_set;  ///< node set held in all directions; empty: none
-  /// Node sets held in some of x, y and z only.
-  std::map<std::string, std::array<bool, 3>> held_directions = {};
-  std::string held_interface;  ///< name of the interface on the held nodes, modes zero there
-  Eigen::Vector3d held_position_m = Eigen::Vector3d::Zero();
+  std::string fixed_set;  ///< node set fixed in all directions; empty: none
+  /// Node sets fixed in some of x, y and z only.
+  std::map<std::string, std::array<bool, 3>> fixed_directions = {};
+  std::string fixed_interface;  ///< name of the interface on the fixed nodes, modes zero there
+  Eigen::Vector3d fixed_position_m = Eigen::Vector3d::Zero();
   std::vector<InterfaceDefinition> interfaces;
   std::vector<std::string> rigid_parts;  ///< parts whose rigid motions name the modes: the plates
   double length_m = 0;                   ///< turns rotations into lengths for the sign rule
@@ -63,7 +63,7 @@ struct ModalOptions {
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
 
-  bool is_held() const { return !held_set.empty() || !held_directions.empty(); }
+  bool is_fixed() const { return !fixed_set.empty() || !fixed_directions.empty(); }
 };
 
 /// The nodes that the options leave free. @throws InputError for unknown sets, and as DofMap.

@@ -14,14 +14,14 @@ namespace flexneck::fe_modal {
 namespace {
 
 /// Three nodes that are not on a line keep a body from turning.
-void check_held(const mesher::Mesh& mesh, const std::string& set) {
+void check_fixed(const mesher::Mesh& mesh, const std::string& set) {
   Eigen::Matrix3Xd positions = mesher::positions_of(mesh, mesh.node_set(set).nodes);
   positions.colwise() -= positions.rowwise().mean().eval();
   Eigen::ColPivHouseholderQR<Eigen::Matrix3Xd> decomposition(positions);
   decomposition.setThreshold(1e-6);
   if (decomposition.rank() < 2) {
-    throw InputError("held set '" + set + "' has " + std::to_string(positions.cols()) +
-                     " nodes on one line: the body can turn about it; hold an area");
+    throw InputError("fixed set '" + set + "' has " + std::to_string(positions.cols()) +
+                     " nodes on one line: the body can turn about it; fix an area");
   }
 }
 
@@ -60,20 +60,20 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
   for (const RigidAttachment& attachment : options.attachments) {
     static_cast<void>(find_name(names, attachment.interface, "interface"));
-    if (!options.is_held()) {
+    if (!options.is_fixed()) {
       throw InputError("rigid body '" + attachment.name +
-                       "' is attached to a free body: name a set of nodes to hold");
+                       "' is attached to a free body: name a set of nodes to fix");
     }
     if (!(attachment.mass_kg >= 0)) {
       throw InputError("the mass of rigid body '" + attachment.name + "' is negative");
     }
   }
-  if (!options.held_interface.empty()) {
-    if (options.held_set.empty()) {
-      throw InputError("interface '" + options.held_interface +
-                       "' is to lie on held nodes, but no set is held");
+  if (!options.fixed_interface.empty()) {
+    if (options.fixed_set.empty()) {
+      throw InputError("interface '" + options.fixed_interface +
+                       "' is to lie on fixed nodes, but no set is fixed");
     }
-    names.push_back(options.held_interface);
+    names.push_back(options.fixed_interface);
   }
   check_names(names, "interface");
   check_names(names_of(options.attachments), "attachment");
@@ -83,20 +83,20 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
   if (options.basis == BasisKind::normal) return;
   const std::string who =
       "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
-  const bool held = options.is_held();
-  if (options.basis == BasisKind::inertia_relief && held) {
+  const bool fixed = options.is_fixed();
+  if (options.basis == BasisKind::inertia_relief && fixed) {
     const std::string& set =
-        options.held_set.empty() ? options.held_directions.begin()->first : options.held_set;
+        options.fixed_set.empty() ? options.fixed_directions.begin()->first : options.fixed_set;
     throw InputError(who + " is for a free body, but '" + set +
-                     "' is held; take 'residual' or hold nothing");
+                     "' is fixed; take 'residual' or fix nothing");
   }
-  if (options.basis != BasisKind::inertia_relief && !held) {
-    throw InputError(who + " is for a held body, but nothing is held; take 'inertia-relief'");
+  if (options.basis != BasisKind::inertia_relief && !fixed) {
+    throw InputError(who + " is for a fixed body, but nothing is fixed; take 'inertia-relief'");
   }
   if (options.interfaces.empty()) {
     throw InputError(who +
                      " adds the static shapes of interface loads: name an interface that is "
-                     "not held");
+                     "not fixed");
   }
   const std::vector<std::string> names = names_of(options.interfaces);
   for (const std::string& name : options.basis_interfaces) {
@@ -106,7 +106,7 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
       6 * (options.basis_interfaces.empty() ? names.size() : options.basis_interfaces.size()));
   if (options.basis == BasisKind::craig_bampton && options.mode_count + constraints > dofs) {
     throw InputError(who + ": " + std::to_string(options.mode_count) + " modes with " +
-                     std::to_string(constraints) + " held interface motions are more than the " +
+                     std::to_string(constraints) + " fixed interface motions are more than the " +
                      std::to_string(dofs) + " degrees of freedom");
   }
 }
@@ -116,12 +116,12 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   mesher::check(mesh);
   check_parts(mesh, options);
-  // With directions held besides, a line of nodes may be enough; if not, the mechanism is named.
-  if (!options.held_set.empty() && options.held_directions.empty()) {
-    check_held(mesh, options.held_set);
+  // With directions fixed besides, a line of nodes may be enough; if not, the mechanism is named.
+  if (!options.fixed_set.empty() && options.fixed_directions.empty()) {
+    check_fixed(mesh, options.fixed_set);
   }
   const DofMap dof_map = dof_map_of(mesh, options);
-  const Eigen::Index dofs = dof_map.dof_count() - dof_map.held_direction_count();
+  const Eigen::Index dofs = dof_map.dof_count() - dof_map.fixed_direction_count();
   // Static shapes alone make a basis too.
   const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
   if (options.mode_count < least || options.mode_count > dofs) {
@@ -131,10 +131,10 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
   check_interfaces(mesh, options);
   check_basis(options, dofs);
-  if (options.geometric_stiffness && !options.is_held()) {
+  if (options.geometric_stiffness && !options.is_fixed()) {
     throw InputError(
-        "the geometric stiffness under unit loads is that of a held body: name a set "
-        "of nodes to hold");
+        "the geometric stiffness under unit loads is that of a fixed body: name a set "
+        "of nodes to fix");
   }
 }
 

@@ -44,7 +44,7 @@ constexpr std::array<NeckDimension, 14> kDimensions = {{
     {"bolt_circle_radius", &NeckParameters::bolt_circle_radius, false,
      "bolts stand at 45, 135, 225 and 315 deg on it"},
     {"bolt_patch_radius", &NeckParameters::bolt_patch_radius, false,
-     "base-face nodes this close to a bolt are held"},
+     "base-face nodes this close to a bolt are fixed"},
 }};
 
 void check_range(const NeckDimension& dimension, double value_m) {

@@ -27,7 +27,7 @@ struct NeckParameters {
   double top_rubber_diameter = 0;  ///< of rubber 4
   double top_rubber_offset = 0;
   double bolt_circle_radius = 0;
-  double bolt_patch_radius = 0;  ///< base-face nodes this close to a bolt's centre are held
+  double bolt_patch_radius = 0;  ///< base-face nodes this close to a bolt's centre are fixed
 };
 
 /// What is known of one of the dimensions.

@@ -197,7 +197,7 @@ void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int3
     mesh.node_sets.push_back(std::move(set));
   };
   for (const auto& [key, set] : model.nsets) add(node_set_of(set.name, set.members, index_of));
-  if (model.nsets.count("BOUNDARY") == 0) add(node_set_of("boundary", model.held, index_of));
+  if (model.nsets.count("BOUNDARY") == 0) add(node_set_of("boundary", model.fixed, index_of));
 }
 
 /// Nodes of side S<n> of an element in the order of its kind of face, outwards.

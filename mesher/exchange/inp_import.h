@@ -15,7 +15,7 @@ namespace flexneck::mesher {
 ///    is MPa and t/mm^3.
 ///  - Sets: each NSET is a node set, and a face set of those faces of the mesh's surface whose
 ///    nodes all belong to it, if there are any; each SURFACE is a face set, and a node set if no
-///    NSET has its name. Nodes that *BOUNDARY holds are the node set "boundary".
+///    NSET has its name. Nodes that *BOUNDARY fixes are the node set "boundary".
 ///  - Names keep the case in which they are first written; to the file both cases are one.
 /// Nodes without elements are left out, and so are loads and the like: `left_out` gets their
 /// number, that of elements whose integration is none of ours (C3D8I, C3D8R; C3D20R unless the

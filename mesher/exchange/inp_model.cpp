@@ -38,7 +38,7 @@ class ModelReader {
     if (model_.elements.empty()) throw InputError(file.string() + ": it has no *ELEMENT");
     std::sort(model_.elements.begin(), model_.elements.end(),
               [](const InpElement& a, const InpElement& b) { return a.number < b.number; });
-    collect_held(file);
+    collect_fixed(file);
     return std::move(model_);
   }
 
@@ -78,7 +78,7 @@ class ModelReader {
   template <class Known>
   void check_members(const InpSets& sets, const std::string& kind, const std::string& member,
                      const Known& known);
-  void collect_held(const std::filesystem::path& file);
+  void collect_fixed(const std::filesystem::path& file);
 
   struct OtherType {
     std::size_t count = 0;
@@ -90,8 +90,8 @@ class ModelReader {
   std::string preload_;  ///< place of the last *STATIC
   std::set<std::int64_t> element_numbers_;
   std::map<std::string, OtherType> other_types_;
-  std::map<std::int64_t, unsigned> held_directions_;  ///< bits 1, 2, 4
-  std::vector<std::int64_t> held_by_number_;
+  std::map<std::int64_t, unsigned> fixed_directions_;  ///< bits 1, 2, 4
+  std::vector<std::int64_t> fixed_by_number_;
 };
 
 const std::map<std::string, ModelReader::Handler>& ModelReader::handlers() {
@@ -229,8 +229,8 @@ void ModelReader::boundary(const InpCard& card) {
   if (card.has("TYPE") && upper_case(card.parameter("TYPE")) != "DISPLACEMENT") {
     card.refuse("only displacements are supported");
   }
-  if (card.has("OP") && upper_case(card.parameter("OP")) == "NEW" && !held_directions_.empty()) {
-    card.refuse("OP=NEW lets go what was held before; give one *BOUNDARY for the modes");
+  if (card.has("OP") && upper_case(card.parameter("OP")) == "NEW" && !fixed_directions_.empty()) {
+    card.refuse("OP=NEW lets go what was fixed before; give one *BOUNDARY for the modes");
   }
   for (const InpData& line : card.data) {
     unsigned directions = 0;
@@ -249,9 +249,9 @@ void ModelReader::boundary(const InpCard& card) {
       throw InputError(line.place.text() + "*BOUNDARY: expected displacements of zero");
     }
     const std::vector<std::int64_t> nodes = inp_members_of(line, 0, model_.nsets, "NSET");
-    if (!is_inp_set(line, 0, model_.nsets)) held_by_number_.push_back(nodes.front());
+    if (!is_inp_set(line, 0, model_.nsets)) fixed_by_number_.push_back(nodes.front());
     for (const std::int64_t node : nodes) {
-      held_directions_[node] |= directions;
+      fixed_directions_[node] |= directions;
     }
   }
 }
@@ -287,20 +287,21 @@ void ModelReader::check_members(const InpSets& sets, const std::string& kind,
   }
 }
 
-void ModelReader::collect_held(const std::filesystem::path& file) {
-  for (const std::int64_t node : held_by_number_) {
+void ModelReader::collect_fixed(const std::filesystem::path& file) {
+  for (const std::int64_t node : fixed_by_number_) {
     if (model_.nodes.count(node) > 0) continue;
-    throw InputError("*BOUNDARY holds node " + std::to_string(node) +
+    throw InputError("*BOUNDARY fixes node " + std::to_string(node) +
                      ", which *NODE does not give");
   }
-  for (const auto& [node, directions] : held_directions_) {
-    if (directions == 7) model_.held.push_back(node);
+  for (const auto& [node, directions] : fixed_directions_) {
+    if (directions == 7) model_.fixed.push_back(node);
     if (directions == 7 || directions == 0) continue;
-    throw InputError(file.string() + ": *BOUNDARY holds node " + std::to_string(node) +
-                     " in some directions only; a node is held in all three or in none");
+    throw InputError(file.string() + ": *BOUNDARY fixes node " + std::to_string(node) +
+                     " in some directions only; a node is fixed in all three or in none");
   }
   const auto named = model_.nsets.find("BOUNDARY");
-  if (named != model_.nsets.end() && !model_.held.empty() && named->second.members != model_.held) {
+  if (named != model_.nsets.end() && !model_.fixed.empty() &&
+      named->second.members != model_.fixed) {
     throw InputError("the NSET '" + named->second.name +
                      "' has other nodes than *BOUNDARY, which gives a set of that name; rename it");
   }

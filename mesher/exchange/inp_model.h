@@ -65,7 +65,7 @@ struct InpModel {
   std::vector<InpSurface> surfaces;
   std::vector<InpMaterial> materials;
   std::vector<InpSection> sections;
-  std::vector<std::int64_t> held;    ///< nodes that *BOUNDARY holds in directions 1, 2 and 3
+  std::vector<std::int64_t> fixed;   ///< nodes that *BOUNDARY fixes in directions 1, 2 and 3
   std::vector<std::string> ignored;  ///< keywords that were passed over, each once
   std::map<std::string, std::size_t> types;  ///< number of elements by TYPE=, in capitals
   LeftOut left_out;                          ///< loads, prestress, damping, numbers of nothing

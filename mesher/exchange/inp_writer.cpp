@@ -145,18 +145,18 @@ void write_materials(OutputFile& out, const Mesh& mesh) {
   }
 }
 
-using HeldNodes = std::map<std::int32_t, std::array<bool, 3>>;
+using FixedNodes = std::map<std::int32_t, std::array<bool, 3>>;
 
-/// The upper node of a pair follows the lower one, unless both are held anyway.
-void write_ties(OutputFile& out, const Mesh& mesh, const HeldNodes& held) {
+/// The upper node of a pair follows the lower one, unless both are fixed anyway.
+void write_ties(OutputFile& out, const Mesh& mesh, const FixedNodes& fixed) {
   for (const Slit& slit : mesh.slits) {
     if (!slit.tied) continue;
     for (std::size_t p = 0; p < slit.lower.size(); ++p) {
-      const auto found = held.find(slit.upper[p]);
+      const auto found = fixed.find(slit.upper[p]);
       const std::string upper = std::to_string(slit.upper[p] + 1);
       const std::string lower = std::to_string(slit.lower[p] + 1);
       for (std::size_t a = 0; a < 3; ++a) {
-        if (found != held.end() && found->second[a]) continue;
+        if (found != fixed.end() && found->second[a]) continue;
         const std::string direction = std::to_string(a + 1);
         out.write("*EQUATION\n2\n" + upper + "," + direction + ",1.," + lower + "," + direction +
                   ",-1.\n");
@@ -166,25 +166,25 @@ void write_ties(OutputFile& out, const Mesh& mesh, const HeldNodes& held) {
 }
 
 void write_boundary(OutputFile& out, const InpOptions& options) {
-  if (options.held.empty() && options.held_directions.empty()) return;
+  if (options.fixed.empty() && options.fixed_directions.empty()) return;
   out.write("*BOUNDARY\n");
-  for (const std::string& name : options.held) out.write(name + ",1,3\n");
-  for (const auto& [name, directions] : options.held_directions) {
+  for (const std::string& name : options.fixed) out.write(name + ",1,3\n");
+  for (const auto& [name, directions] : options.fixed_directions) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (directions[a]) out.write(name + "," + std::to_string(a + 1) + "\n");
     }
   }
 }
 
-HeldNodes held_nodes(const Mesh& mesh, const InpOptions& options) {
-  HeldNodes nodes;
-  const auto hold = [&](const std::string& name, const std::array<bool, 3>& directions) {
+FixedNodes fixed_nodes(const Mesh& mesh, const InpOptions& options) {
+  FixedNodes nodes;
+  const auto fix = [&](const std::string& name, const std::array<bool, 3>& directions) {
     for (const std::int32_t node : mesh.node_set(name).nodes) {
       for (std::size_t a = 0; a < 3; ++a) nodes[node][a] = nodes[node][a] || directions[a];
     }
   };
-  for (const std::string& name : options.held) hold(name, {true, true, true});
-  for (const auto& [name, directions] : options.held_directions) hold(name, directions);
+  for (const std::string& name : options.fixed) fix(name, {true, true, true});
+  for (const auto& [name, directions] : options.fixed_directions) fix(name, directions);
   return nodes;
 }
 
@@ -198,7 +198,7 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   for (const ElementBlock& block : mesh.blocks) {
     static_cast<void>(type_of(mesh, block, options));
   }
-  const HeldNodes held = held_nodes(mesh, options);
+  const FixedNodes fixed = fixed_nodes(mesh, options);
 
   OutputFile out(file);
   out.write("*HEADING\nflexneck: lengths in m, forces in N, stresses in Pa, densities in kg/m^3\n");
@@ -207,7 +207,7 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   write_node_sets(out, mesh);
   write_surfaces(out, mesh);
   write_materials(out, mesh);
-  write_ties(out, mesh, held);
+  write_ties(out, mesh, fixed);
   write_boundary(out, options);
   out.write("*STEP\n*FREQUENCY\n" + std::to_string(options.mode_count) + "\n*END STEP\n");
   out.commit();

@@ -13,10 +13,10 @@
 namespace flexneck::mesher {
 
 struct InpOptions {
-  std::set<std::string> reduced;  ///< materials of C3D20R instead of C3D20
-  std::vector<std::string> held;  ///< node sets for *BOUNDARY
-  std::map<std::string, std::array<bool, 3>> held_directions = {};  ///< others, in x, y, z
-  int mode_count = 10;                                              ///< of *FREQUENCY
+  std::set<std::string> reduced;   ///< materials of C3D20R instead of C3D20
+  std::vector<std::string> fixed;  ///< node sets for *BOUNDARY
+  std::map<std::string, std::array<bool, 3>> fixed_directions = {};  ///< others, in x, y, z
+  int mode_count = 10;                                               ///< of *FREQUENCY
 };
 
 /// Writes a deck in SI units that CalculiX solves for the modes and Abaqus reads: *NODE, *ELEMENT

@@ -24,7 +24,7 @@ struct MeshSummary {
   std::vector<PartSummary> parts;  ///< in the order of the mesh's blocks
   std::size_t elements = 0;
   std::size_t nodes = 0;
-  std::size_t degrees_of_freedom = 0;  ///< three a node, before any is held
+  std::size_t degrees_of_freedom = 0;  ///< three a node, before any is fixed
   double volume_m3 = 0;
   double mass_kg = 0;
   double smallest_scaled_jacobian = 0;

@@ -20,7 +20,7 @@ struct RefinedMesh {
 /// Cuts every element along the planes that halve its reference element. The geometry stays what
 /// the mesh made of it, curved elements included, and every field of the mesh before is one of the
 /// new mesh too. Nodes keep their numbers and new ones follow. A new node belongs to a set if all
-/// nodes do that its position hangs on: a held face, edge or single node stays just that. Slits
+/// nodes do that its position hangs on: a fixed face, edge or single node stays just that. Slits
 /// keep the pairs; their normals and areas, which no solver needs, are left out.
 /// @pre the mesh is one that check() accepts
 RefinedMesh refine(const Mesh& mesh);

@@ -61,30 +61,30 @@ Vector3d crossed_axes_bias(const NodeKinematics& i, const NodeKinematics& j,
   return {-turning.dot(i.Om - j.Om), 0, 0};
 }
 
-RotationRows rotation_rows(HeldRotation held) {
+RotationRows rotation_rows(RotationConstraint held) {
   switch (held) {
-    case HeldRotation::none:
+    case RotationConstraint::none:
       return {0, no_orientation, no_bias};
-    case HeldRotation::all:
+    case RotationConstraint::all:
       return {3, same_orientation, no_bias};
-    case HeldRotation::common_axis:
+    case RotationConstraint::common_axis:
       return {2, common_axis, common_axis_bias};
-    case HeldRotation::crossed_axes:
+    case RotationConstraint::crossed_axes:
       return {1, crossed_axes, crossed_axes_bias};
   }
   throw std::logic_error("unknown rows of an orientation");
 }
 
-Index translation_row_count(HeldTranslation held) {
+Index translation_row_count(TranslationConstraint held) {
   switch (held) {
-    case HeldTranslation::none:
+    case TranslationConstraint::none:
       return 0;
-    case HeldTranslation::all:
+    case TranslationConstraint::all:
       return 3;
-    case HeldTranslation::across_axis:
+    case TranslationConstraint::across_axis:
       return 2;
-    case HeldTranslation::along_axis:
-    case HeldTranslation::distance:
+    case TranslationConstraint::along_axis:
+    case TranslationConstraint::distance:
       return 1;
   }
   throw std::logic_error("unknown rows of a position");
@@ -93,7 +93,7 @@ Index translation_row_count(HeldTranslation held) {
 /// Unit vectors that turn with marker i, along which a gap is held where the markers may part, in
 /// its axes; zero beyond the rows that there are.
 TwoRows held_directions(const Joint& joint) {
-  if (joint.kind->translation == HeldTranslation::across_axis) return across(joint.axis);
+  if (joint.kind->translation == TranslationConstraint::across_axis) return across(joint.axis);
   TwoRows along = TwoRows::Zero();
   along.row(0) = joint.axis.transpose();
   return along;
@@ -101,8 +101,8 @@ TwoRows held_directions(const Joint& joint) {
 
 /// Marker j may slide on i, along an axis or in a plane.
 bool slides(const JointRows& joint) {
-  return joint.translation == HeldTranslation::across_axis ||
-         joint.translation == HeldTranslation::along_axis;
+  return joint.translation == TranslationConstraint::across_axis ||
+         joint.translation == TranslationConstraint::along_axis;
 }
 
 /// Of a marker that is on one that slides, or at a distance.
@@ -166,12 +166,13 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
     joint.D.topRows<2>().noalias() = joint.held_i * i.R.transpose();
     for (Index r = 0; r < 2; ++r) joint.L.row(r) = Vector3d(joint.D.row(r)).cross(gap).transpose();
   }
-  if (joint.translation == HeldTranslation::distance) {
+  if (joint.translation == TranslationConstraint::distance) {
     joint.D.row(0) = gap.normalized().transpose();
     joint.D.row(1).setZero();
   }
   joint.position_residual.head(n) = joint.D.topRows(n) * gap;
-  if (joint.translation == HeldTranslation::distance) joint.position_residual[0] -= joint.length_m;
+  if (joint.translation == TranslationConstraint::distance)
+    joint.position_residual[0] -= joint.length_m;
   if (joint.rotation.count > 0)
     joint.position_residual.segment<3>(n) = joint.rotation.orientation(i, j, joint);
   fill_rows(i, joint, 1, joint.B_i);
@@ -209,7 +210,7 @@ void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRo
   }
   if (joint.rotation.count > 0)
     joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.rotation.bias(i, j, joint);
-  if (joint.translation == HeldTranslation::distance) {
+  if (joint.translation == TranslationConstraint::distance) {
     // (|gap|)'' has besides what the gap's turning adds.
     const Vector3d parting = i.pd - j.pd;
     const Vector3d gap = i.p - j.p;

@@ -48,7 +48,7 @@ struct JointRows {
   TwoRows held_i;          ///< directions of D that turn with i, in the axes of marker i
   TwoRows across_j;        ///< unit vectors across axis_j, in the axes of marker j
   RotationRows rotation;
-  HeldTranslation translation;
+  TranslationConstraint translation;
   Eigen::Index translation_rows;           ///< of D
   double length_m;                         ///< of a distance joint
   std::vector<CoordinateRow> coordinates;  ///< whose rows come last

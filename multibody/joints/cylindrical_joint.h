@@ -26,8 +26,8 @@ inline constexpr JointMotionLaw kCylindricalMotion{
 
 /// Slides along an axis and turns about it.
 inline constexpr JointKind kCylindricalJoint{.name = "cylindrical",
-                                             .translation = HeldTranslation::across_axis,
-                                             .rotation = HeldRotation::common_axis,
+                                             .translation = TranslationConstraint::across_axis,
+                                             .rotation = RotationConstraint::common_axis,
                                              .axes = JointAxes::common,
                                              .has_distance = true,
                                              .has_angle = true,

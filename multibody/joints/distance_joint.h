@@ -7,7 +7,7 @@ namespace flexneck::multibody {
 
 /// A massless rod with a spherical joint at each end. It holds too little for a tree.
 inline constexpr JointKind kDistanceJoint{.name = "distance",
-                                          .translation = HeldTranslation::distance,
+                                          .translation = TranslationConstraint::distance,
                                           .length = {.key = "length", .value = &Joint::length_m}};
 
 }  // namespace flexneck::multibody

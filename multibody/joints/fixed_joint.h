@@ -13,8 +13,8 @@ inline constexpr JointMotionLaw kFixedMotion{
 
 /// All is held.
 inline constexpr JointKind kFixedJoint{.name = "fixed",
-                                       .translation = HeldTranslation::all,
-                                       .rotation = HeldRotation::all,
+                                       .translation = TranslationConstraint::all,
+                                       .rotation = RotationConstraint::all,
                                        .motion = &kFixedMotion};
 
 }  // namespace flexneck::multibody

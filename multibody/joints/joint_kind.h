@@ -10,7 +10,7 @@ namespace flexneck::multibody {
 struct Joint;
 
 /// What a joint holds of the positions of its markers' origins. The axis is that of marker i.
-enum class HeldTranslation {
+enum class TranslationConstraint {
   none,
   all,          ///< they are one point
   across_axis,  ///< that of marker j is on the axis through that of marker i
@@ -19,7 +19,7 @@ enum class HeldTranslation {
 };
 
 /// What a joint holds of the orientations of its markers.
-enum class HeldRotation {
+enum class RotationConstraint {
   none,
   all,          ///< they are the same
   common_axis,  ///< the axes of i and j are the same
@@ -44,8 +44,8 @@ struct JointLength {
 struct JointKind {
   std::string_view name;
   std::string_view alias = {};  ///< another name in files
-  HeldTranslation translation = HeldTranslation::none;
-  HeldRotation rotation = HeldRotation::none;
+  TranslationConstraint translation = TranslationConstraint::none;
+  RotationConstraint rotation = RotationConstraint::none;
   JointAxes axes = JointAxes::none;
   bool has_distance = false;  ///< of marker j along the axis, a joint coordinate
   bool has_angle = false;     ///< of marker j about the axis, a joint coordinate
@@ -56,7 +56,7 @@ struct JointKind {
   const JointMotionLaw* motion = nullptr;
 
   constexpr bool holds_nothing() const {
-    return translation == HeldTranslation::none && rotation == HeldRotation::none;
+    return translation == TranslationConstraint::none && rotation == RotationConstraint::none;
   }
 };
 

@@ -27,8 +27,8 @@ inline constexpr JointMotionLaw kPlanarMotion{
 
 /// Slides in the plane across an axis and turns about the axis.
 inline constexpr JointKind kPlanarJoint{.name = "planar",
-                                        .translation = HeldTranslation::along_axis,
-                                        .rotation = HeldRotation::common_axis,
+                                        .translation = TranslationConstraint::along_axis,
+                                        .rotation = RotationConstraint::common_axis,
                                         .axes = JointAxes::common,
                                         .has_angle = true,
                                         .motion = &kPlanarMotion};

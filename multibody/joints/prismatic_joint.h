@@ -20,8 +20,8 @@ inline constexpr JointMotionLaw kPrismaticMotion{
 
 /// Slides along an axis (ATB's slip joint).
 inline constexpr JointKind kPrismaticJoint{.name = "prismatic",
-                                           .translation = HeldTranslation::across_axis,
-                                           .rotation = HeldRotation::all,
+                                           .translation = TranslationConstraint::across_axis,
+                                           .rotation = RotationConstraint::all,
                                            .axes = JointAxes::common,
                                            .has_distance = true,
                                            .motion = &kPrismaticMotion};

@@ -19,8 +19,8 @@ inline constexpr JointMotionLaw kRevoluteMotion{
 /// Turns about an axis.
 inline constexpr JointKind kRevoluteJoint{.name = "revolute",
                                           .alias = "pin",
-                                          .translation = HeldTranslation::all,
-                                          .rotation = HeldRotation::common_axis,
+                                          .translation = TranslationConstraint::all,
+                                          .rotation = RotationConstraint::common_axis,
                                           .axes = JointAxes::common,
                                           .has_angle = true,
                                           .motion = &kRevoluteMotion};

@@ -32,8 +32,8 @@ inline constexpr JointMotionLaw kScrewMotion{
 /// Turns about an axis and advances along it by the lead at every turn.
 inline constexpr JointKind kScrewJoint{
     .name = "screw",
-    .translation = HeldTranslation::across_axis,
-    .rotation = HeldRotation::common_axis,
+    .translation = TranslationConstraint::across_axis,
+    .rotation = RotationConstraint::common_axis,
     .axes = JointAxes::common,
     .has_angle = true,
     .length = {.key = "lead", .value = &Joint::lead_m, .may_be_negative = true},

@@ -24,7 +24,7 @@ inline constexpr JointMotionLaw kSphericalMotion{
 /// Turns in every direction about a point.
 inline constexpr JointKind kSphericalJoint{.name = "spherical",
                                            .alias = "ball",
-                                           .translation = HeldTranslation::all,
+                                           .translation = TranslationConstraint::all,
                                            .motion = &kSphericalMotion};
 
 }  // namespace flexneck::multibody

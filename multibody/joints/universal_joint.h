@@ -31,8 +31,8 @@ inline constexpr JointMotionLaw kUniversalMotion{
 
 /// An axis of i stays perpendicular to one of j (ATB's Euler joint).
 inline constexpr JointKind kUniversalJoint{.name = "universal",
-                                           .translation = HeldTranslation::all,
-                                           .rotation = HeldRotation::crossed_axes,
+                                           .translation = TranslationConstraint::all,
+                                           .rotation = RotationConstraint::crossed_axes,
                                            .axes = JointAxes::two,
                                            .motion = &kUniversalMotion};
 

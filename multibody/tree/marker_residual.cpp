@@ -34,42 +34,42 @@ SquaredResidual::SquaredResidual(const Joint& joint, const MarkerState& i, const
   const Vector3d gap = i.position_m - j.position_m;
   const Vector3d parting = i.velocity_m_s - j.velocity_m_s;
   switch (kind.translation) {
-    case HeldTranslation::none:
+    case TranslationConstraint::none:
       break;
-    case HeldTranslation::all:
+    case TranslationConstraint::all:
       position.translation = gap.squaredNorm();
       velocity.translation = parting.squaredNorm();
       break;
-    case HeldTranslation::across_axis: {
+    case TranslationConstraint::across_axis: {
       const Vector3d axis = i.rotation * joint.axis;
       position.translation = across(gap, axis).squaredNorm();
       velocity.translation =
           across(parting - i.angular_velocity_rad_s.cross(gap), axis).squaredNorm();
       break;
     }
-    case HeldTranslation::along_axis: {
+    case TranslationConstraint::along_axis: {
       const Vector3d axis = i.rotation * joint.axis;
       position.translation = square(axis.dot(gap));
       velocity.translation = square(axis.dot(parting - i.angular_velocity_rad_s.cross(gap)));
       break;
     }
-    case HeldTranslation::distance: {
+    case TranslationConstraint::distance: {
       const double distance = gap.norm();
       position.translation = square(distance - joint.length_m);
       velocity.translation = square(gap.dot(parting) / distance);
       break;
     }
   }
-  if (kind.rotation == HeldRotation::none) return;
+  if (kind.rotation == RotationConstraint::none) return;
   const Vector3d turning = i.angular_velocity_rad_s - j.angular_velocity_rad_s;
-  if (kind.rotation == HeldRotation::all) {
+  if (kind.rotation == RotationConstraint::all) {
     // Of an angle t between the orientations the difference is sqrt(8) sin(t / 2).
     position.rotation = 0.5 * (i.rotation - j.rotation).squaredNorm();
     velocity.rotation = turning.squaredNorm();
     return;
   }
   const Vector3d axis_i = i.rotation * joint.axis;
-  if (kind.rotation == HeldRotation::common_axis) {
+  if (kind.rotation == RotationConstraint::common_axis) {
     position.rotation = (axis_i - j.rotation * joint.axis).squaredNorm();
     velocity.rotation = across(turning, axis_i).squaredNorm();
     if (kind.advances) add_advance(joint, i, j);

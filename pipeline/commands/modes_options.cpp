@@ -14,20 +14,20 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// The name of the one held set, or of the union of several.
-std::string held_set(const std::vector<std::string>& held, mesher::Mesh& mesh) {
-  if (held.empty()) return {};
-  if (held.size() == 1) return mesh.node_set(held.front()).name;
-  mesher::NodeSet all{"held", {}};
-  for (const std::string& name : held) {
+/// The name of the one fixed set, or of the union of several, which joins the mesh.
+std::string fixed_set(const std::vector<std::string>& fixed, mesher::Mesh& mesh) {
+  if (fixed.empty()) return {};
+  if (fixed.size() == 1) return mesh.node_set(fixed.front()).name;
+  mesher::NodeSet all;
+  for (const std::string& name : fixed) {
     const std::vector<std::int32_t>& nodes = mesh.node_set(name).nodes;
+    all.name += (all.name.empty() ? "" : ", ") + name;
     all.nodes.insert(all.nodes.end(), nodes.begin(), nodes.end());
   }
   std::sort(all.nodes.begin(), all.nodes.end());
   all.nodes.erase(std::unique(all.nodes.begin(), all.nodes.end()), all.nodes.end());
-  std::erase_if(mesh.node_sets, [](const mesher::NodeSet& set) { return set.name == "held"; });
-  mesh.node_sets.push_back(std::move(all));
-  return "held";
+  mesh.node_sets.push_back(all);
+  return all.name;
 }
 
 /// @throws InputError if an interface that is not fixed has no face set to move with.
@@ -41,19 +41,19 @@ void require_face_set(const mesher::Mesh& mesh, const InterfaceSection& interfac
 }
 
 void add_interfaces(const Study& study, const mesher::Mesh& mesh, fe_modal::ModalOptions& options) {
-  const std::vector<std::string>& held = study.modes.fixed;
+  const std::vector<std::string>& fixed = study.modes.fixed;
   for (const InterfaceSection& interface : study.interfaces) {
-    if (std::find(held.begin(), held.end(), interface.set) == held.end()) {
+    if (std::find(fixed.begin(), fixed.end(), interface.set) == fixed.end()) {
       require_face_set(mesh, interface);
       options.interfaces.push_back({interface.name, interface.set, interface.position_m});
       continue;
     }
-    if (!options.held_interface.empty()) {
-      throw InputError("interface." + interface.name + ": interface '" + options.held_interface +
-                       "' lies on the held nodes already; one can");
+    if (!options.fixed_interface.empty()) {
+      throw InputError("interface." + interface.name + ": interface '" + options.fixed_interface +
+                       "' lies on fixed nodes already; only one interface can");
     }
-    options.held_interface = interface.name;
-    options.held_position_m = interface.position_m;
+    options.fixed_interface = interface.name;
+    options.fixed_position_m = interface.position_m;
   }
   if (!options.interfaces.empty()) options.sign_interface = options.interfaces.front().name;
 }
@@ -76,7 +76,7 @@ void attach_body(const Study& study, fe_modal::ModalOptions& options) {
 void tie_interfaces(const Study& study, fe_modal::ModalOptions& options) {
   for (const std::string& name : study.modes.rigid_interfaces) {
     try {
-      if (name == options.held_interface) throw InputError("'" + name + "' is held");
+      if (name == options.fixed_interface) throw InputError("'" + name + "' is fixed");
       const std::size_t which = find_name(names_of(options.interfaces), name, "interface");
       options.interfaces[which].is_rigid = true;
     } catch (const InputError& error) {
@@ -104,10 +104,10 @@ fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
   options.geometric_stiffness = study.modes.stress_stiffening;
   options.certify = study.modes.certify;
   options.rigid_parts = study.modes.rigid_parts;
-  options.held_directions = study.modes.fixed_directions;
+  options.fixed_directions = study.modes.fixed_directions;
   options.length_m = mesher::bounding_box(mesh).extent_m().maxCoeff();
   try {
-    options.held_set = held_set(study.modes.fixed, mesh);
+    options.fixed_set = fixed_set(study.modes.fixed, mesh);
     add_interfaces(study, mesh, options);
     attach_body(study, options);
     tie_interfaces(study, options);
@@ -122,21 +122,21 @@ std::string free_boundary(const Study& study, const mesher::Mesh& mesh) {
   if (file == nullptr || mesher::foreign_format_of(file->file) != mesher::ForeignFormat::inp) {
     return {};
   }
-  std::set<std::int32_t> held;
+  std::set<std::int32_t> fixed;
   const auto add = [&](const std::string& name) {
     const std::vector<std::int32_t>& nodes = mesh.node_set(name).nodes;
-    held.insert(nodes.begin(), nodes.end());
+    fixed.insert(nodes.begin(), nodes.end());
   };
   for (const std::string& name : study.modes.fixed) add(name);
   for (const auto& [name, directions] : study.modes.fixed_directions) add(name);
   for (const mesher::NodeSet& set : mesh.node_sets) {
     if (mesher::upper_case(set.name) != "BOUNDARY") continue;
     const auto free = std::count_if(set.nodes.begin(), set.nodes.end(),
-                                    [&](std::int32_t node) { return held.count(node) == 0; });
+                                    [&](std::int32_t node) { return fixed.count(node) == 0; });
     if (free == 0) return {};
-    return file->file.string() + ": *BOUNDARY holds " + std::to_string(set.nodes.size()) +
+    return file->file.string() + ": *BOUNDARY fixes " + std::to_string(set.nodes.size()) +
            " nodes, of which the study leaves " + std::to_string(free) +
-           " free; modes.fixed = [\"" + set.name + "\"] holds them";
+           " free; modes.fixed = [\"" + set.name + "\"] fixes them";
   }
   return {};
 }

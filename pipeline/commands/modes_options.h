@@ -10,7 +10,7 @@ namespace flexneck::pipeline {
 
 /// What `flexneck modes` computes: [modes] and [[interface]]. An interface on a set that is fixed
 /// is the fixed interface. If several sets are fixed, their union joins the mesh as the node set
-/// "held". Signs follow the first other interface.
+/// "fixed". Signs follow the first other interface.
 /// @throws InputError naming study and key, with the nearest set where one is unknown.
 fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh);
 

@@ -66,12 +66,12 @@ void hold_at_earlier(const std::vector<std::string>& names, std::size_t piece,
     const std::string cut = mesher::cut_name(names[earlier]);
     const mesher::FaceSet* const faces = face_set(mesh, cut);
     if (faces == nullptr) continue;
-    options.held_set = options.held_interface = cut;
-    options.held_position_m = middle_of(mesh, *faces);
+    options.fixed_set = options.fixed_interface = cut;
+    options.fixed_position_m = middle_of(mesh, *faces);
     return;
   }
   throw InputError("substructure '" + names[piece] +
-                   "' meets none of those before it; list them from the held end on");
+                   "' meets none of those before it; list them from the fixed end on");
 }
 
 fe_modal::ModalOptions options_of(const SubstructuresSection& section,
@@ -93,7 +93,7 @@ fe_modal::ModalOptions options_of(const SubstructuresSection& section,
   for (const std::string& name : names) {
     const std::string cut = mesher::cut_name(name);
     const mesher::FaceSet* const faces = face_set(mesh, cut);
-    if (faces == nullptr || cut == options.held_set) continue;
+    if (faces == nullptr || cut == options.fixed_set) continue;
     options.interfaces.push_back({cut, cut, middle_of(mesh, *faces)});
   }
   for (auto& interface : interfaces_on(mesh, whole, whole_options)) {
@@ -137,7 +137,7 @@ void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
                          const fe_modal::ModalOptions& whole, const Provenance& provenance) {
   if (input.study.substructures.pieces.empty()) return;
   std::vector<std::vector<std::string>> rows = {
-      {"substructure", "held", "interfaces", "modes", "kg", "Hz", "file"}};
+      {"substructure", "fixed", "interfaces", "modes", "kg", "Hz", "file"}};
   for (const Substructure& piece : pieces_of(input.study, mesh, whole)) {
     input.console.step("Reducing substructure " + piece.name);
     const std::filesystem::path path = input.folder.substructure(piece.name);
@@ -147,7 +147,7 @@ void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
     file.provenance = provenance;
     fe_modal::write_modal_body(path, file);
     const Eigen::VectorXd& frequencies = file.body.frequencies_Hz;
-    rows.push_back({piece.name, piece.options.held_set,
+    rows.push_back({piece.name, piece.options.fixed_set,
                     fmt::format("{}", fmt::join(names_of(piece.options.interfaces), ", ")),
                     std::to_string(frequencies.size()),
                     fmt::format("{:.4f}", file.body.invariants.mass),

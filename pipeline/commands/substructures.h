@@ -18,7 +18,7 @@ struct Substructure {
   fe_modal::ModalOptions options;
 };
 
-/// Cuts the structure and says how each piece is analysed: the first is held as the whole is, each
+/// Cuts the structure and says how each piece is analysed: the first is fixed as the whole is, each
 /// other where it meets the earliest of those before it. All other cuts, and the whole's interfaces
 /// on the piece, are interfaces whose static shapes are kept. The interface on a cut has the cut's
 /// name (mesher::cut_name) and lies in the middle of its nodes, so that two pieces meet at a point.

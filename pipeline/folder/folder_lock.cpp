@@ -47,12 +47,12 @@ FolderLock::FolderLock(fs::path folder, const std::string& command, const Progre
   is_made_ = !fs::exists(folder_);
   try {
     take();
-    if (is_held_) sign(command);
+    if (is_fixed_) sign(command);
   } catch (...) {
     release();
     throw;
   }
-  if (!is_held_) {
+  if (!is_fixed_) {
     warn(folder_.string() +
          ": this file system has no locks; see to it that no other command "
          "writes there");
@@ -62,7 +62,7 @@ FolderLock::FolderLock(fs::path folder, const std::string& command, const Progre
 FolderLock::~FolderLock() { release(); }
 
 void FolderLock::release() noexcept {
-  if (is_held_) ::unlink(path_.c_str());
+  if (is_fixed_) ::unlink(path_.c_str());
   if (is_made_) ::rmdir(folder_.c_str());  // not if there is anything in it
 }
 
@@ -91,7 +91,7 @@ void FolderLock::take() {
     }
     refuse("is in use by " + holder() + "; wait for it");
   } while (!is_in_place());
-  is_held_ = true;
+  is_fixed_ = true;
   lock_cleanup_ = SignalCleanup(Action::remove_file, path_);
 }
 

@@ -37,8 +37,8 @@ class FolderLock {
   std::filesystem::path folder_;
   std::filesystem::path path_;
   FileDescriptor file_;
-  bool is_made_ = false;  ///< the folder, by this
-  bool is_held_ = false;  ///< the lock, by this
+  bool is_made_ = false;   ///< the folder, by this
+  bool is_fixed_ = false;  ///< the lock, by this
   SignalCleanup lock_cleanup_;
   SignalCleanup folder_cleanup_;
 };

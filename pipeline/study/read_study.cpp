@@ -130,16 +130,16 @@ namespace {
 
 /// left = "x", bottom = "yz"
 std::map<std::string, std::array<bool, 3>> read_fixed_directions(const StudyTable& table) {
-  std::map<std::string, std::array<bool, 3>> held;
+  std::map<std::string, std::array<bool, 3>> fixed;
   for (const std::string& set : table.keys()) {
     const std::string letters = table.text(set);
     if (letters.empty() || letters.find_first_not_of("xyz") != std::string::npos) {
       table.refuse(set, "expected directions such as \"x\" or \"yz\", found \"" + letters + "\"");
     }
-    for (const char letter : letters) held[set][static_cast<std::size_t>(letter - 'x')] = true;
+    for (const char letter : letters) fixed[set][static_cast<std::size_t>(letter - 'x')] = true;
   }
   table.finish();
-  return held;
+  return fixed;
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ geometry::NeckMeasures measure_neck(const StructureSection& structure);
 
 /// [matrices]: K and M in place of a mesh. The files' endings tell their formats.
 struct MatricesSection {
-  std::filesystem::path stiffness;  ///< (3n, 3n), N/m, without what is held
+  std::filesystem::path stiffness;  ///< (3n, 3n), N/m, without what is fixed
   std::filesystem::path mass;       ///< likewise, kg
   std::filesystem::path nodes;      ///< (n, 3), m
 };
@@ -47,7 +47,7 @@ struct MatricesSection {
 /// [[interface]]: where other bodies attach.
 struct InterfaceSection {
   std::string name;
-  std::string set;  ///< a face set, or a held set
+  std::string set;  ///< a face set, or a fixed set
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
 };
 

@@ -42,7 +42,7 @@ struct ModesSection {
   std::vector<std::string> rigid_interfaces;  ///< whose nodes are tied to move rigidly
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
   bool certify = false;  ///< prove that no mode is missing, estimate the error of the mesh
-  std::vector<std::string> fixed;  ///< node sets held in all directions
+  std::vector<std::string> fixed;  ///< node sets fixed in all directions
   std::map<std::string, std::array<bool, 3>> fixed_directions;  ///< others, in some of x, y, z
   std::vector<std::string> rigid_parts;  ///< parts whose motion names the modes
   std::string attached_body;  ///< rigid body set on an interface for the loaded frequencies

@@ -18,7 +18,7 @@ constexpr Key kPieceKeys[] = {
 
 constexpr Key kKeys[] = {
     Key::tables("piece", "A body that the structure is cut into", kPieceKeys),
-    Key::count("modes", "2", "Modes of each piece with its ends held, besides static shapes",
+    Key::count("modes", "2", "Modes of each piece with its ends fixed, besides static shapes",
                {.range = at_least(0)}),
     Key::numbers("normal", kNone, "Direction across the planes; z if it is not there", {.size = 3}),
 };

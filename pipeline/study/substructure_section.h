@@ -24,7 +24,7 @@ struct SubstructuresSection {
   std::vector<PieceSection> pieces;  ///< none: the structure stays one body
   bool by_planes = false;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  int modes = 0;  ///< of each piece with its ends held, besides the static shapes of the ends
+  int modes = 0;  ///< of each piece with its ends fixed, besides the static shapes of the ends
 };
 
 std::span<const Key> substructures_keys();

@@ -20,9 +20,9 @@ using namespace flexneck;
 using namespace flexneck::fe_modal;
 using mesher::ElementKind;
 
-ModalOptions options_of(const std::string& held, int count) {
+ModalOptions options_of(const std::string& fixed, int count) {
   ModalOptions options;
-  options.held_set = held;
+  options.fixed_set = fixed;
   options.mode_count = count;
   return options;
 }

@@ -25,7 +25,7 @@ using namespace flexneck;
 using namespace flexneck::fe_modal;
 using mesher::ElementKind;
 
-/// 80 x 80 mm, held below: 20 mm of rubber and on it 10 mm of steel.
+/// 80 x 80 mm, fixed below: 20 mm of rubber and on it 10 mm of steel.
 mesher::Mesh pad(int refinement, double poissons_ratio) {
   testing::BlockMesh block =
       testing::box({4 * refinement, 4 * refinement, 1}, {0.08, 0.08, 0.03}, {});

@@ -46,10 +46,10 @@ TEST_CASE("assembled matrices are symmetric, and a free body resists no rigid mo
 
 TEST_CASE("holding nodes takes their rows and columns out and leaves the others as they were") {
   const mesher::Mesh mesh = bent_sandwich();
-  const std::vector<std::int32_t> held = {0, 3, 17, 40};
+  const std::vector<std::int32_t> fixed = {0, 3, 17, 40};
   const SystemMatrices free_system = assemble(mesh, DofMap(mesh, {}));
-  const DofMap dof_map(mesh, held);
-  const SystemMatrices held_system = assemble(mesh, dof_map);
+  const DofMap dof_map(mesh, fixed);
+  const SystemMatrices fixed_system = assemble(mesh, dof_map);
   std::vector<Eigen::Index> kept;
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes.size()); ++node) {
     if (dof_map.index(node) < 0) continue;
@@ -57,8 +57,8 @@ TEST_CASE("holding nodes takes their rows and columns out and leaves the others 
   }
   REQUIRE(static_cast<Eigen::Index>(kept.size()) == dof_map.dof_count());
   CHECK(dof_map.dof_count() == static_cast<Eigen::Index>(3 * (mesh.nodes.size() - 4)));
-  CHECK(dense(held_system.stiffness.get()) == dense(free_system.stiffness.get())(kept, kept));
-  CHECK(dense(held_system.mass.get()) == dense(free_system.mass.get())(kept, kept));
+  CHECK(dense(fixed_system.stiffness.get()) == dense(free_system.stiffness.get())(kept, kept));
+  CHECK(dense(fixed_system.mass.get()) == dense(free_system.mass.get())(kept, kept));
 }
 
 TEST_CASE("the mass acts alike in each direction and equals the nodal mass") {
@@ -86,7 +86,7 @@ TEST_CASE("a shift takes the mass off the stiffness") {
 }
 
 TEST_CASE("a field comes back from its free values, and forces do the same work on them") {
-  const std::vector<std::int32_t> held = {1, 4};
+  const std::vector<std::int32_t> fixed = {1, 4};
   // Nodes 2 and 5 are one, and so are 0, 6 and 7, where two cuts cross.
   std::vector<mesher::Slit> slits(2);
   slits[0].tied = true;
@@ -95,7 +95,7 @@ TEST_CASE("a field comes back from its free values, and forces do the same work 
   slits[1].tied = true;
   slits[1].lower = {6};
   slits[1].upper = {0};
-  const DofMap dof_map(9, held, slits);
+  const DofMap dof_map(9, fixed, slits);
   REQUIRE(dof_map.free_count() == 4);  // {0, 6, 7}, {2, 5}, 3, 8
   const Eigen::VectorXd values = Eigen::VectorXd::Random(12);
   const Eigen::Matrix3Xd field = dof_map.expand(values);
@@ -110,14 +110,14 @@ TEST_CASE("a field comes back from its free values, and forces do the same work 
         Approx(forces.cwiseProduct(field).sum()).epsilon(1e-14));
 }
 
-TEST_CASE("a node tied to a held one is held, an open slit ties nothing") {
-  const std::vector<std::int32_t> held = {3};
+TEST_CASE("a node tied to a fixed one is fixed, an open slit ties nothing") {
+  const std::vector<std::int32_t> fixed = {3};
   mesher::Slit slit;
   slit.lower = {0};
   slit.upper = {3};
-  CHECK(DofMap(4, held, std::span(&slit, 1)).free_count() == 3);
+  CHECK(DofMap(4, fixed, std::span(&slit, 1)).free_count() == 3);
   slit.tied = true;
-  const DofMap dof_map(4, held, std::span(&slit, 1));
+  const DofMap dof_map(4, fixed, std::span(&slit, 1));
   CHECK(dof_map.free_count() == 2);
   CHECK(dof_map.index(0) == -1);
 }

@@ -52,7 +52,7 @@ TEST_CASE("frequencies with a body attached agree with a dense solution") {
   const Eigen::Vector3d point(0.01, -0.01, 0.2);
   const Eigen::Vector3d center(0.03, 0.01, 0.25);
   ModalOptions options;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", point}};
   options.attachments = {{"head", "tip", 4.5, center, full_inertia()}};
 
@@ -97,7 +97,7 @@ TEST_CASE("a heavy body on a light cantilever swings as the beam's two tip sprin
       testing::box({2, 2, 20}, {kSide, kSide, kLength}, {"light", kYoung, 0, 0.0125}).make();
   ModalOptions options;
   options.mode_count = 1;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", {0, 0, kLength}}};
   options.attachments = {{"mass",
                           "tip",

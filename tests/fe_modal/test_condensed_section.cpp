@@ -21,15 +21,15 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 
-/// Static shapes of "top" alone, with "bottom" held.
+/// Static shapes of "top" alone, with "bottom" fixed.
 ModalOptions section_options(const std::string& bottom, const Eigen::Vector3d& base_m,
                              const std::string& top, const Eigen::Vector3d& top_m) {
   ModalOptions options;
   options.basis = BasisKind::craig_bampton;
   options.mode_count = 0;
-  options.held_set = bottom;
-  options.held_interface = "base";
-  options.held_position_m = base_m;
+  options.fixed_set = bottom;
+  options.fixed_interface = "base";
+  options.fixed_position_m = base_m;
   options.interfaces = {{"top", top, top_m}};
   return options;
 }
@@ -43,7 +43,7 @@ Vector12d rigid_motion(const CondensedSection& section, const Eigen::Vector3d& t
   return motion;
 }
 
-/// Frequencies of a chain of sections whose first base is held.
+/// Frequencies of a chain of sections whose first base is fixed.
 Eigen::VectorXd chain_frequencies_Hz(const std::vector<CondensedSection>& chain) {
   const auto size = static_cast<Eigen::Index>(6 * (chain.size() + 1));
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
@@ -88,7 +88,7 @@ TEST_CASE("a section of a slender bar is a beam element between two faces") {
   const double shear = 5.0 / 6 * material.youngs_modulus_Pa / 2 * area;
   const double phi = 12 * bending / (shear * kLength * kLength);
   const double transverse = 12 * bending / (std::pow(kLength, 3) * (1 + phi));
-  constexpr double kClampedFaces = 1e-3;  // warping is held at the base
+  constexpr double kClampedFaces = 1e-3;  // warping is fixed at the base
   CHECK(section.stiffness(6, 6) == Approx(transverse).epsilon(kClampedFaces));
   CHECK(section.stiffness(6, 10) == Approx(-transverse * kLength / 2).epsilon(kClampedFaces));
   CHECK(section.stiffness(0, 6) == Approx(-transverse).epsilon(kClampedFaces));
@@ -118,20 +118,20 @@ TEST_CASE("a chain of condensed sections has the modes of the whole neck within 
   double base_z = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const mesher::Mesh& mesh = pieces[k].mesh;
-    const std::string held = k == 0 ? "bolts" : mesher::cut_name(names[k - 1]);
+    const std::string fixed = k == 0 ? "bolts" : mesher::cut_name(names[k - 1]);
     const std::string top = k + 1 == names.size() ? "top" : mesher::cut_name(names[k + 1]);
     const auto node = static_cast<std::size_t>(mesh.node_set(top).nodes.front());
     const double top_z = mesh.nodes[node][2];
-    chain.push_back(
-        condense(analyse_modes(mesh, section_options(held, {0, 0, base_z}, top, {0, 0, top_z}), {}),
-                 "base", "top"));
+    chain.push_back(condense(
+        analyse_modes(mesh, section_options(fixed, {0, 0, base_z}, top, {0, 0, top_z}), {}), "base",
+        "top"));
     base_z = top_z;
   }
   const Eigen::VectorXd found = chain_frequencies_Hz(chain);
 
   ModalOptions options;
   options.mode_count = 6;
-  options.held_set = "bolts";
+  options.fixed_set = "bolts";
   const Eigen::VectorXd expected = analyse_modes(neck, options, {}).frequencies_Hz;
   for (Eigen::Index k = 0; k < expected.size(); ++k) {
     CAPTURE(k, expected[k], found[k]);

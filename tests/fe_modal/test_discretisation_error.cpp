@@ -14,9 +14,9 @@ namespace {
 
 const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
-ModalOptions held_at_bottom(int mode_count, bool certify) {
+ModalOptions fixed_at_bottom(int mode_count, bool certify) {
   ModalOptions options;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.mode_count = mode_count;
   options.certify = certify;
   return options;
@@ -24,15 +24,15 @@ ModalOptions held_at_bottom(int mode_count, bool certify) {
 
 /// With 4 x 4 x 4 elements in place of each.
 Eigen::VectorXd reference_Hz(const mesher::Mesh& mesh, int count) {
-  return analyse_modes(mesher::refine(mesher::refine(mesh).mesh).mesh, held_at_bottom(count, false),
-                       {})
+  return analyse_modes(mesher::refine(mesher::refine(mesh).mesh).mesh,
+                       fixed_at_bottom(count, false), {})
       .frequencies_Hz;
 }
 
 /// Estimated over true error of each mode.
 std::vector<double> effectivity(const mesher::Mesh& mesh, const Eigen::VectorXd& truth_Hz) {
   const ModalBody body =
-      analyse_modes(mesh, held_at_bottom(static_cast<int>(truth_Hz.size()), true), {});
+      analyse_modes(mesh, fixed_at_bottom(static_cast<int>(truth_Hz.size()), true), {});
   std::vector<double> ratios;
   for (Eigen::Index k = 0; k < truth_Hz.size(); ++k) {
     const MeshError& estimate = body.modes[static_cast<std::size_t>(k)].mesh_error.value();
@@ -52,13 +52,13 @@ void check_between_one_and_five(const std::vector<double>& ratios) {
 }  // namespace
 
 TEST_CASE("the mesh's error is estimated one to five times: stretch of a bar, closed form") {
-  // nu = 0: a rod held at one end, f = (2n - 1)/4L sqrt(E / rho), n = 1, 2; the slender bar would
+  // nu = 0: a rod fixed at one end, f = (2n - 1)/4L sqrt(E / rho), n = 1, 2; the slender bar would
   // bend first, so it is short and thick: stretch is told by its frequency.
   constexpr double kLength = 0.1;
   const mesher::Mesh mesh =
       testing::box({1, 1, 2}, {0.2, 0.2, kLength}, {"steel", 2.1e11, 0, 7850}).make();
   const double closed_form = std::sqrt(2.1e11 / 7850) / (4 * kLength);
-  const ModalBody body = analyse_modes(mesh, held_at_bottom(6, true), {});
+  const ModalBody body = analyse_modes(mesh, fixed_at_bottom(6, true), {});
   int found = 0;
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
     const double truth = body.frequencies_Hz[k] / closed_form - 1;
@@ -83,7 +83,7 @@ TEST_CASE("the mesh's error is estimated one to five times: a plate rocking on b
 TEST_CASE("the mesh's error is estimated one to five times: bending and twist of a steel tube") {
   const mesher::Mesh mesh = testing::tube({1, 6, 2}, 0.04, 0.06, 0.2, kSteel).make();
   const Eigen::VectorXd reference = reference_Hz(mesh, 3);
-  // Twist: no singularity beside the held end, and a closed form.
+  // Twist: no singularity beside the fixed end, and a closed form.
   const double wave_m_s = std::sqrt(kSteel.youngs_modulus_Pa / 2.6 / kSteel.density_kg_m3);
   CHECK(reference[2] == Approx(wave_m_s / 0.8).epsilon(1e-4));
   check_between_one_and_five(effectivity(mesh, reference));
@@ -105,7 +105,7 @@ TEST_CASE("rigid-body motions of a free body have no error, its elastic modes ha
 
 TEST_CASE("without --certify nothing is estimated") {
   const ModalBody body = analyse_modes(testing::box({1, 1, 2}, {0.1, 0.1, 0.3}, kSteel).make(),
-                                       held_at_bottom(2, false), {});
+                                       fixed_at_bottom(2, false), {});
   CHECK_FALSE(body.modes.front().mesh_error.has_value());
 }
 

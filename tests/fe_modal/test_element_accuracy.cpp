@@ -52,8 +52,8 @@ double lame_mode_error(ElementKind kind, Formulation formulation, int n) {
     return kSide / 2 * p.cwiseProduct(Eigen::Vector3d(1, 1, 0.25));
   };
   const mesher::Mesh mesh = testing::with_kind(block.make(), kind);
-  std::vector<HeldDirections> rollers(3);
-  for (std::size_t a = 0; a < 3; ++a) rollers[a].is_held[a] = true;
+  std::vector<FixedDirections> rollers(3);
+  for (std::size_t a = 0; a < 3; ++a) rollers[a].is_fixed[a] = true;
   for (std::size_t k = 0; k < mesh.nodes.size(); ++k)
     for (std::size_t a = 0; a < 3; ++a)
       if (mesh.nodes[k][a] == 0) rollers[a].nodes.push_back(static_cast<std::int32_t>(k));

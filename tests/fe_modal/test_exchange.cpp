@@ -25,7 +25,7 @@ TEST_CASE("matrices that went out and came back have the frequencies of the mesh
   const mesher::Mesh mesh = column();
   ModalOptions options;
   options.mode_count = 5;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   const ModalBody truth = analyse_modes(mesh, options, {});
   const ImportedBody out = matrices(mesh);
   for (const std::string ending : {".mtx", ".petsc"}) {
@@ -41,7 +41,7 @@ TEST_CASE("matrices that went out and came back have the frequencies of the mesh
     CHECK(body.frequencies_Hz.isApprox(truth.frequencies_Hz, 1e-9));
     CHECK(body.certificate.starts_with("certified"));
     CHECK(body.orthogonality < 1e-9);
-    // What moves: the mass but for that on the held nodes, S2 but for its share of them, which is
+    // What moves: the mass but for that on the fixed nodes, S2 but for its share of them, which is
     // zero.
     CHECK(body.invariants.mass < truth.invariants.mass);
     CHECK(body.invariants.Maa.isApprox(truth.invariants.Maa, 1e-9));

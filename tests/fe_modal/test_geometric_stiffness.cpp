@@ -30,7 +30,7 @@ ModalBody beam(const Eigen::Vector2d& section_m, std::array<int, 3> divisions, i
   options.mode_count = count;
   options.basis = BasisKind::residual;
   options.geometric_stiffness = true;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", {0, 0, kLength}}};
   options.sign_interface = "tip";
   options.length_m = kLength;
@@ -104,7 +104,7 @@ ModalBody stub(mesher::ElementKind kind, Formulation formulation, const Eigen::M
   options.formulation.of_others = formulation;
   options.basis = BasisKind::residual;
   options.geometric_stiffness = true;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", turn * Eigen::Vector3d(0.02, 0, 0.2)}};
   options.sign_interface = "tip";
   options.length_m = 0.2;

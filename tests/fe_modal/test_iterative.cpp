@@ -58,7 +58,7 @@ TEST_CASE(
   const mesher::Mesh mesh = mesher::mesh_script(testing::neck_mesh_options(neck, divisions), {});
   ModalOptions options;
   options.mode_count = 6;
-  options.held_set = "bolts";
+  options.fixed_set = "bolts";
   options.interfaces = {{"top", "top", {0, 0, neck.length}}};
   options.attachments = {
       {"head", "top", 4.5, {0, 0, neck.length + 0.05}, 0.02 * Eigen::Matrix3d::Identity()}};
@@ -70,11 +70,11 @@ TEST_CASE("by iteration double frequencies, rigid-body motions and inertia relie
       testing::box({2, 2, 4}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
   ModalOptions options;
   options.mode_count = 5;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"top", "top", {0, 0, 0.3}}};
   check_same_modes(mesh, options);
   options.mode_count = 9;
-  options.held_set = "";
+  options.fixed_set = "";
   check_same_modes(mesh, options);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("the iterative solver does not factorise the whole to certify") {
       testing::box({1, 1, 2}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
   ModalOptions options;
   options.mode_count = 2;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.solver = Solver::iterative;
   options.certify = true;
   CHECK_THROWS_AS(analyse_modes(mesh, options, {}), InputError);

@@ -28,9 +28,9 @@ mesher::Mesh post_and_pin(const std::function<bool(const Eigen::Vector3d&)>& bon
   return mesh;
 }
 
-std::string refusal(const mesher::Mesh& mesh, const std::string& held) {
+std::string refusal(const mesher::Mesh& mesh, const std::string& fixed) {
   ModalOptions options;
-  options.held_set = held;
+  options.fixed_set = fixed;
   options.mode_count = 8;
   try {
     static_cast<void>(analyse_modes(mesh, options, {}));
@@ -42,7 +42,7 @@ std::string refusal(const mesher::Mesh& mesh, const std::string& held) {
 
 }  // namespace
 
-TEST_CASE("a hinge is named with its part and its axis, held or free") {
+TEST_CASE("a hinge is named with its part and its axis, fixed or free") {
   const mesher::Mesh mesh =
       post_and_pin([](const Eigen::Vector3d& x) { return std::abs(x[0] - 0.05) < 1e-9; });
   CHECK_THAT(refusal(mesh, "bottom"),
@@ -59,7 +59,7 @@ TEST_CASE("a part that hangs by a point, or by nothing, is named") {
               "bottom"),
       Contains("part 'pin' moves freely in 3 ways"));
   CHECK_THAT(refusal(post_and_pin([](const Eigen::Vector3d&) { return false; }), "bottom"),
-             Contains("part 'pin' is not held: it moves freely in every way"));
+             Contains("part 'pin' is not fixed: it moves freely in every way"));
 }
 
 TEST_CASE("parts that hang together are no mechanism") {

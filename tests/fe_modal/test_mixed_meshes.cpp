@@ -285,7 +285,7 @@ TEST_CASE("frequencies of a bar of three families bound those of a finer bar fro
   ModalOptions options;
   options.formulation.of_others = Formulation::displacement;
   options.mode_count = 4;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   const auto position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return p.cwiseProduct(Eigen::Vector3d(0.1, 0.04, 0.2));
   };
@@ -309,7 +309,7 @@ TEST_CASE("a closed slit is no slit, an open one lowers the frequencies") {
   constexpr double kSame = 1e-9;
   ModalOptions options;
   options.mode_count = 4;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", {0, 0, 0.2}}};
   options.attachments = {{"head", "tip", 1.0, {0, 0, 0.25}, 1e-3 * Eigen::Matrix3d::Identity()}};
   for (const ElementKind kind : {ElementKind::hex27, ElementKind::tet10}) {

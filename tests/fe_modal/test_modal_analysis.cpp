@@ -17,12 +17,12 @@ namespace {
 
 const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
-ModalOptions held_at_bottom(int mode_count, double height_m) {
+ModalOptions fixed_at_bottom(int mode_count, double height_m) {
   ModalOptions options;
   options.mode_count = mode_count;
-  options.held_set = "bottom";
-  options.held_interface = "root";
-  options.held_position_m = {0.01, 0.02, 0};
+  options.fixed_set = "bottom";
+  options.fixed_interface = "root";
+  options.fixed_position_m = {0.01, 0.02, 0};
   options.interfaces = {{"tip", "top", {0, 0, height_m}}};
   options.rigid_parts = {"block"};
   options.sign_interface = "tip";
@@ -41,7 +41,7 @@ double euler_cantilever(double young, double density, double side, double length
          std::sqrt(young * side * side / 12 / (density * std::pow(length, 4)));
 }
 
-/// Lowest frequency of a bar held at the bottom, in either formulation.
+/// Lowest frequency of a bar fixed at the bottom, in either formulation.
 double lowest_frequency(const mesher::Mesh& mesh, Formulation formulation) {
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
   const SystemMatrices system = assemble(mesh, dof_map, {formulation});
@@ -60,7 +60,7 @@ TEST_CASE("a slender cantilever bends at Euler's frequency less shear and rotary
   constexpr double kSide = 0.02, kLength = 0.4;
   const mesher::Material material{"steel", 2.1e11, 0, 7850};
   const mesher::Mesh mesh = testing::box({2, 2, 20}, {kSide, kSide, kLength}, material).make();
-  const ModalBody body = analyse_modes(mesh, held_at_bottom(2, kLength), {});
+  const ModalBody body = analyse_modes(mesh, fixed_at_bottom(2, kLength), {});
   const double ratio = kSide * kSide / 12 / (kLength * kLength);
   const double expected =
       euler_cantilever(2.1e11, 7850, kSide, kLength) * (1 - 4.648 / 2 * ratio * (1 + 2 * 6.0 / 5));
@@ -76,7 +76,7 @@ TEST_CASE("a round tube twists and stretches at the frequencies of waves in a ro
   constexpr double kLength = 0.3;
   const mesher::Material material{"steel", 2.1e11, 0, 7850};
   const mesher::Mesh mesh = testing::tube({1, 8, 6}, 0.04, 0.06, kLength, material).make();
-  const ModalBody body = analyse_modes(mesh, held_at_bottom(6, kLength), {});
+  const ModalBody body = analyse_modes(mesh, fixed_at_bottom(6, kLength), {});
   const double stretch = std::sqrt(2.1e11 / 7850) / (4 * kLength);
   CHECK(std::abs(frequency(body, "axial 1") / stretch - 1) < kTolerance);
   CHECK(std::abs(frequency(body, "torsion 1") / (stretch * std::sqrt(0.5)) - 1) < kTolerance);
@@ -108,7 +108,7 @@ TEST_CASE("frequencies scale with stiffness, size and density, to the last bit")
     const mesher::Material material{"rubber", young, 0.49, density};
     const mesher::Mesh mesh =
         testing::box({2, 1, 3}, {0.05 * length, 0.04 * length, 0.1 * length}, material).make();
-    return analyse_modes(mesh, held_at_bottom(5, 0.1 * length), {}).frequencies_Hz;
+    return analyse_modes(mesh, fixed_at_bottom(5, 0.1 * length), {}).frequencies_Hz;
   };
   const Eigen::VectorXd base = frequencies(8e6, 1, 1000);
   constexpr double kRounding = 1e-12;  // left for a library that scales by something of its own
@@ -121,7 +121,7 @@ TEST_CASE("frequencies scale with stiffness, size and density, to the last bit")
 }
 
 TEST_CASE("rubber bonded to a plate does not lock at a Poisson's ratio of 0.49") {
-  // A flat pad held below and bonded to a steel plate above, which rocks on it. Twice as many
+  // A flat pad fixed below and bonded to a steel plate above, which rocks on it. Twice as many
   // elements in each direction change the mixed frequency by less than 0.1 % and 0.2 % is asked;
   // the displacement formulation starts 2.9 % too high and comes down towards the same value.
   constexpr double kTolerance = 2e-3;
@@ -158,9 +158,9 @@ TEST_CASE("a coarse cantilever bends alike at Poisson's ratios of 0 and 0.49") {
   CHECK(over_euler(0.49, Formulation::displacement) / reference - 1 > 0.15);
 }
 
-TEST_CASE("the held interface does not move, and shapes are zero where nodes are held") {
+TEST_CASE("the fixed interface does not move, and shapes are zero where nodes are fixed") {
   const mesher::Mesh mesh = testing::box({1, 1, 3}, {0.05, 0.05, 0.3}, kSteel).make();
-  const ModalBody body = analyse_modes(mesh, held_at_bottom(4, 0.3), {});
+  const ModalBody body = analyse_modes(mesh, fixed_at_bottom(4, 0.3), {});
   const Interface& root = body.interface("root");
   CHECK(root.position_m == Eigen::Vector3d(0.01, 0.02, 0));
   CHECK(root.translation == Eigen::Matrix3Xd::Zero(3, 4));
@@ -181,7 +181,7 @@ TEST_CASE("what rounding takes from a frequency near Poisson's ratio 1/2 is know
         .make();
   };
   const auto solved = [&](double poissons_ratio) {
-    return analyse_modes(bar(poissons_ratio), held_at_bottom(1, 0.5), {});
+    return analyse_modes(bar(poissons_ratio), fixed_at_bottom(1, 0.5), {});
   };
   // The frequency is analytic in 1 - 2 nu: from these two the limit follows to 1e-8.
   const ModalBody soft = solved(0.499);

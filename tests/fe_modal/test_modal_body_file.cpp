@@ -265,7 +265,7 @@ TEST_CASE("modes of kind rigid have the frequency zero and move as a rigid body"
        [](ModalBody& b) { b.interfaces[1].rotation(0, 5) += 1e-2; }},
       {"/invariants/S2: expected that rigid mode 0",
        [](ModalBody& b) { b.invariants.mass *= 1.01; }},
-      // Nothing else tells of a held body that its moments of inertia are too large.
+      // Nothing else tells of a fixed body that its moments of inertia are too large.
       {"/invariants/N0: expected that rigid mode", [](ModalBody& b) { b.invariants.J0 *= 1.01; }},
   };
   for (const auto& [dataset, damage] : cases) {

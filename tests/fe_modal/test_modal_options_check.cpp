@@ -24,8 +24,8 @@ mesher::Mesh bar() {
 ModalOptions sound_options() {
   ModalOptions options;
   options.mode_count = 2;
-  options.held_set = "bottom";
-  options.held_interface = "root";
+  options.fixed_set = "bottom";
+  options.fixed_interface = "root";
   options.interfaces = {{"tip", "top", {0, 0, 0.4}}};
   options.rigid_parts = {"block"};
   options.sign_interface = "tip";
@@ -56,7 +56,7 @@ TEST_CASE("sound options are accepted and progress is told") {
 }
 
 TEST_CASE("unknown names are refused with what there is") {
-  check_refused([](ModalOptions& o) { o.held_set = "bolts"; }, "bottom");
+  check_refused([](ModalOptions& o) { o.fixed_set = "bolts"; }, "bottom");
   check_refused([](ModalOptions& o) { o.interfaces[0].set = "tap"; }, "top");
   check_refused([](ModalOptions& o) { o.rigid_parts = {"blok"}; }, "block");
   check_refused([](ModalOptions& o) { o.sign_interface = "tap"; }, "tip");
@@ -71,8 +71,8 @@ TEST_CASE("impossible options are refused") {
   check_refused([](ModalOptions& o) { o.mode_count = 109; }, "108 degrees of freedom");
   check_refused([](ModalOptions& o) { o.length_m = 0; }, "length");
   check_refused([](ModalOptions& o) { o.attachments[0].mass_kg = -1; }, "negative");
-  check_refused([](ModalOptions& o) { o.held_interface = "tip"; }, "tip");
-  check_refused([](ModalOptions& o) { o.held_set.clear(); }, "free body");
+  check_refused([](ModalOptions& o) { o.fixed_interface = "tip"; }, "tip");
+  check_refused([](ModalOptions& o) { o.fixed_set.clear(); }, "free body");
 }
 
 TEST_CASE("materials and sets that cannot be are refused, whoever made the mesh") {
@@ -103,7 +103,7 @@ TEST_CASE("each material has its formulation; one that locks is warned of") {
   const mesher::Mesh mesh = pad.make();
   const auto lowest = [&](const FormulationChoice& choice) {
     ModalOptions options;
-    options.held_set = "bottom";
+    options.fixed_set = "bottom";
     options.mode_count = 1;
     options.formulation = choice;
     return analyse_modes(mesh, options, {}).frequencies_Hz[0];
@@ -130,16 +130,16 @@ TEST_CASE("each material has its formulation; one that locks is warned of") {
   }
 
   ModalOptions unknown;
-  unknown.held_set = "bottom";
+  unknown.fixed_set = "bottom";
   unknown.formulation.of_material["ruber"] = Formulation::displacement;
   CHECK_THROWS_WITH(analyse_modes(mesh, unknown, {}), Catch::Contains("did you mean 'rubber'"));
 }
 
-TEST_CASE("a held set that lets the body turn is refused") {
+TEST_CASE("a fixed set that lets the body turn is refused") {
   mesher::Mesh mesh = bar();
   mesh.node_sets.push_back({"edge", {0, 1, 2}});
   ModalOptions options = sound_options();
-  options.held_set = "edge";
+  options.fixed_set = "edge";
   CHECK_THROWS_AS(analyse_modes(mesh, options, {}), InputError);
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Catch::Contains("on one line"));
 }

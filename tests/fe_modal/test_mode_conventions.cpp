@@ -12,7 +12,7 @@ namespace {
 const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 constexpr double kLength = 0.8;
 
-/// A bar held at the bottom, its motion seen at the top.
+/// A bar fixed at the bottom, its motion seen at the top.
 ModalBody bar(const Eigen::Vector2d& section, double turned_rad = 0) {
   testing::BlockMesh block = testing::box({2, 2, 4}, {section[0], section[1], kLength}, kSteel);
   const auto straight = block.position;
@@ -23,7 +23,7 @@ ModalBody bar(const Eigen::Vector2d& section, double turned_rad = 0) {
   };
   ModalOptions options;
   options.mode_count = 6;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", {0, 0, kLength}}};
   options.rigid_parts = {"block"};
   options.sign_interface = "tip";

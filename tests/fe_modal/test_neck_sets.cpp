@@ -29,8 +29,8 @@ ModalBody neck(const std::string& set, int mode_count = 10,
   inertia << .1518, 0, .0219, 0, .2128, 0, .0219, 0, .1846;
   ModalOptions options;
   options.mode_count = mode_count;
-  options.held_set = "bolts";
-  options.held_interface = "base";
+  options.fixed_set = "bolts";
+  options.fixed_interface = "base";
   options.interfaces = {{"top", "top", {0, 0, 5.66 * kInch}}};
   options.rigid_parts = {"base_plate", "plate_1", "plate_2", "plate_3", "top_plate"};
   options.sign_interface = "top";

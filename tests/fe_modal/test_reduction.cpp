@@ -37,11 +37,11 @@ const mesher::Mesh& block() {
   return mesh;
 }
 
-ModalOptions held(BasisKind basis, int count) {
+ModalOptions fixed(BasisKind basis, int count) {
   ModalOptions options;
   options.mode_count = count;
   options.basis = basis;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", kTip}};
   return options;
 }
@@ -61,9 +61,9 @@ struct Dense {
   Eigen::MatrixXd average;  ///< (6, dofs)
 };
 
-Dense dense_model(const std::vector<std::int32_t>& held_nodes, const std::string& set,
+Dense dense_model(const std::vector<std::int32_t>& fixed_nodes, const std::string& set,
                   const Eigen::Vector3d& point) {
-  const DofMap dof_map(block(), held_nodes);
+  const DofMap dof_map(block(), fixed_nodes);
   const SystemMatrices system = assemble(block(), dof_map);
   Dense model{dense(system.stiffness.get()), dense(system.mass.get()),
               Eigen::MatrixXd(6, dof_map.dof_count())};
@@ -75,7 +75,7 @@ Dense dense_model(const std::vector<std::int32_t>& held_nodes, const std::string
   return model;
 }
 
-Dense held_model() { return dense_model(block().node_set("bottom").nodes, "top", kTip); }
+Dense fixed_model() { return dense_model(block().node_set("bottom").nodes, "top", kTip); }
 
 /// Largest difference, with entries scaled by those of the diagonal.
 double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
@@ -109,8 +109,8 @@ void check_basis(const ModalBody& body) {
 }  // namespace
 
 TEST_CASE("modes with residual modes have the compliance of direct static solutions") {
-  const ModalBody body = analyse_modes(block(), held(BasisKind::residual, 3), {});
-  const Dense model = held_model();
+  const ModalBody body = analyse_modes(block(), fixed(BasisKind::residual, 3), {});
+  const Dense model = fixed_model();
   const Eigen::MatrixXd shapes =
       testing::symmetric_solution(model.stiffness, model.average.transpose());
   const Eigen::MatrixXd exact = model.average * shapes;
@@ -120,7 +120,7 @@ TEST_CASE("modes with residual modes have the compliance of direct static soluti
   CHECK(body.modes[3].name == "residual 1");
   check_basis(body);
   // Without them much is missing, and the response tells how much.
-  const ModalBody plain = analyse_modes(block(), held(BasisKind::normal, 3), {});
+  const ModalBody plain = analyse_modes(block(), fixed(BasisKind::normal, 3), {});
   REQUIRE(plain.mode_count() == 3);
   CHECK(difference(captured(plain, "tip"), exact) > 0.1);
   const StaticResponse& response = *plain.interface("tip").response;
@@ -133,8 +133,8 @@ TEST_CASE("modes with residual modes have the compliance of direct static soluti
 
 TEST_CASE("a Craig-Bampton basis is that of the textbook's dense matrices") {
   constexpr int kCount = 4;
-  const ModalBody body = analyse_modes(block(), held(BasisKind::craig_bampton, kCount), {});
-  const Dense model = held_model();
+  const ModalBody body = analyse_modes(block(), fixed(BasisKind::craig_bampton, kCount), {});
+  const Dense model = fixed_model();
   const Eigen::MatrixXd shapes =
       testing::symmetric_solution(model.stiffness, model.average.transpose());
   CHECK(difference(captured(body, "tip"), model.average * shapes) < kCompliance);
@@ -184,7 +184,7 @@ TEST_CASE("correction modes that others hold already are dropped and told of") {
     });
   };
   // The same face twice.
-  ModalOptions options = held(BasisKind::residual, 3);
+  ModalOptions options = fixed(BasisKind::residual, 3);
   options.interfaces.push_back({"twin", "top", {0, 0, 0}});
   ModalBody body = analyse_modes(block(), options, record);
   CHECK(count_of(body, kResidualMode) == 6);
@@ -196,7 +196,7 @@ TEST_CASE("correction modes that others hold already are dropped and told of") {
   CHECK(count_of(body, kResidualMode) == 6);
   CHECK_FALSE(told("dropped"));
   // All modes there are.
-  options = held(BasisKind::residual, 108);
+  options = fixed(BasisKind::residual, 108);
   body = analyse_modes(block(), options, record);
   CHECK(count_of(body, kResidualMode) == 0);
   CHECK(told("6 of 6 correction modes are dropped"));
@@ -205,7 +205,7 @@ TEST_CASE("correction modes that others hold already are dropped and told of") {
 TEST_CASE("the study of mode counts is what bodies with so many modes and residual modes give") {
   Eigen::Matrix3d inertia;
   inertia << 0.020, 0.002, -0.001, 0.002, 0.024, 0.003, -0.001, 0.003, 0.018;
-  ModalOptions options = held(BasisKind::normal, 6);
+  ModalOptions options = fixed(BasisKind::normal, 6);
   options.attachments = {{"head", "tip", 4.5, kTip + Eigen::Vector3d(0.02, 0, 0.05), inertia}};
   const ModalBody six = analyse_modes(block(), options, {});
   const AttachedFrequencies& exact = six.attached.at(0);
@@ -213,7 +213,7 @@ TEST_CASE("the study of mode counts is what bodies with so many modes and residu
   REQUIRE(rows.size() == 3);
   for (const ModeCountRow& row : rows) {
     CAPTURE(row.kept);
-    options = held(BasisKind::residual, std::stoi(row.kept));
+    options = fixed(BasisKind::residual, std::stoi(row.kept));
     const ModalBody few = analyse_modes(block(), options, {});
     // Its own vectors, residual ones among them.
     const Interface& tip = few.interface("tip");
@@ -248,13 +248,13 @@ TEST_CASE("a basis that the boundary or the interfaces do not allow is refused")
   };
   using Catch::Contains;
   CHECK_THAT(complaint(free_block(BasisKind::residual, 9)), Contains("take 'inertia-relief'"));
-  CHECK_THAT(complaint(held(BasisKind::inertia_relief, 9)), Contains("'bottom' is held"));
+  CHECK_THAT(complaint(fixed(BasisKind::inertia_relief, 9)), Contains("'bottom' is fixed"));
   CHECK_THAT(complaint(free_block(BasisKind::inertia_relief, 5)), Contains("six modes or more"));
-  CHECK_THAT(complaint(held(BasisKind::craig_bampton, 103)), Contains("108 degrees of freedom"));
-  ModalOptions options = held(BasisKind::residual, 3);
+  CHECK_THAT(complaint(fixed(BasisKind::craig_bampton, 103)), Contains("108 degrees of freedom"));
+  ModalOptions options = fixed(BasisKind::residual, 3);
   options.basis_interfaces = {"tp"};
   CHECK_THAT(complaint(options), Contains("'tp'") && Contains("tip"));
-  options = held(BasisKind::residual, 3);
+  options = fixed(BasisKind::residual, 3);
   options.interfaces.clear();
   CHECK_THAT(complaint(options), Contains("name an interface"));
 }

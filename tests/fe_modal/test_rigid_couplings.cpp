@@ -34,11 +34,11 @@ mesher::Mesh block(std::array<int, 3> divisions = {1, 1, 2}) {
   return box.make();
 }
 
-ModalOptions held_with_rigid_tip(BasisKind basis, int count) {
+ModalOptions fixed_with_rigid_tip(BasisKind basis, int count) {
   ModalOptions options;
   options.mode_count = count;
   options.basis = basis;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.interfaces = {{"tip", "top", kTip, true}};
   return options;
 }
@@ -87,7 +87,7 @@ Dense dense_with_rigid_tip(const mesher::Mesh& mesh, const DofMap& dof_map) {
 
 TEST_CASE("with a rigid interface the modes are those of the constrained matrices") {
   const mesher::Mesh mesh = block();
-  const ModalBody body = analyse_modes(mesh, held_with_rigid_tip(BasisKind::normal, 8), {});
+  const ModalBody body = analyse_modes(mesh, fixed_with_rigid_tip(BasisKind::normal, 8), {});
   const Dense model = dense_with_rigid_tip(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
   const Eigen::VectorXd expected =
       testing::dense_pairs(model.stiffness, model.mass).values.head(8).cwiseSqrt() /
@@ -130,7 +130,7 @@ TEST_CASE("a free body with a rigid interface has six rigid motions and the cons
 
 TEST_CASE("residual modes carry the compliance of a rigid interface") {
   const mesher::Mesh mesh = block();
-  const ModalBody body = analyse_modes(mesh, held_with_rigid_tip(BasisKind::residual, 3), {});
+  const ModalBody body = analyse_modes(mesh, fixed_with_rigid_tip(BasisKind::residual, 3), {});
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
   const Dense model = dense_with_rigid_tip(mesh, dof_map);
   const Eigen::MatrixXd motions = average_motion(mesh, "top", kTip, dof_map) * model.basis;
@@ -141,15 +141,15 @@ TEST_CASE("residual modes carry the compliance of a rigid interface") {
 
 TEST_CASE("rigid interfaces that cannot be are refused by name") {
   const mesher::Mesh mesh = block();
-  ModalOptions options = held_with_rigid_tip(BasisKind::normal, 2);
+  ModalOptions options = fixed_with_rigid_tip(BasisKind::normal, 2);
   options.interfaces[0].set = "bottom";
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
-                    "rigid interface 'tip' has nodes that are held");
-  options = held_with_rigid_tip(BasisKind::normal, 2);
+                    "rigid interface 'tip' has nodes that are fixed");
+  options = fixed_with_rigid_tip(BasisKind::normal, 2);
   options.interfaces.push_back({"again", "top", kTip, true});
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
                     "rigid interfaces 'tip' and 'again' share nodes");
-  options = held_with_rigid_tip(BasisKind::normal, 2);
+  options = fixed_with_rigid_tip(BasisKind::normal, 2);
   options.solver = Solver::iterative;
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("direct solver in one process"));
 }

@@ -20,20 +20,20 @@ namespace flexneck::fe_modal {
 
 TEST_CASE("inertia counts the eigenvalues of a dense solution, double ones twice") {
   const mesher::Material steel{"steel", 2.1e11, 0.3, 7850};
-  for (const bool held : {true, false}) {
+  for (const bool fixed : {true, false}) {
     const mesher::Mesh mesh = testing::box({2, 2, 2}, {0.1, 0.1, 0.3}, steel).make();
-    const DofMap dof_map(mesh, held ? mesh.node_set("bottom").nodes : std::vector<std::int32_t>{});
+    const DofMap dof_map(mesh, fixed ? mesh.node_set("bottom").nodes : std::vector<std::int32_t>{});
     const SystemMatrices system = assemble(mesh, dof_map);
     const Eigen::VectorXd values =
         testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get())).values;
-    if (held) REQUIRE(values[1] < values[0] * (1 + 1e-8));  // bending in both directions
+    if (fixed) REQUIRE(values[1] < values[0] * (1 + 1e-8));  // bending in both directions
     for (const Eigen::Index k : {2, 7, 12, 50}) {
       if (values[k] < values[k - 1] * (1 + 1e-6)) continue;
-      if (values[k - 1] < 1e-6 * values[50] && !held && k < 6) continue;
+      if (values[k - 1] < 1e-6 * values[50] && !fixed && k < 6) continue;
       CHECK(eigenvalues_below(system, (values[k - 1] + values[k]) / 2) == k);
     }
-    if (held) CHECK(eigenvalues_below(system, values[0] / 2) == 0);
-    if (!held) CHECK(eigenvalues_below(system, values[6] / 2) == 6);
+    if (fixed) CHECK(eigenvalues_below(system, values[0] / 2) == 0);
+    if (!fixed) CHECK(eigenvalues_below(system, values[6] / 2) == 6);
   }
 }
 
@@ -57,8 +57,8 @@ TEST_CASE("a certificate is true of the modes that the body has, whatever the co
       testing::box({1, 1, 3}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
   ModalOptions options;
   options.certify = true;
-  for (const bool held : {true, false}) {
-    options.held_set = held ? "bottom" : "";
+  for (const bool fixed : {true, false}) {
+    options.fixed_set = fixed ? "bottom" : "";
     const DofMap dof_map = dof_map_of(mesh, options);
     const SystemMatrices system = assemble(mesh, dof_map);
     const Eigen::VectorXd truth_Hz =
@@ -71,7 +71,7 @@ TEST_CASE("a certificate is true of the modes that the body has, whatever the co
       std::vector<std::string> warnings;
       const auto warn = [&](const std::string& line) { warnings.push_back(line); };
       const ModalBody body = analyse_modes(mesh, options, {}, nullptr, warn);
-      INFO("held " << held << ", " << count << " modes: " << body.certificate);
+      INFO("fixed " << fixed << ", " << count << " modes: " << body.certificate);
       REQUIRE(body.frequencies_Hz.size() == count);
       const std::string claim = "no mode is missing below ";
       const std::size_t at = body.certificate.find(claim);
@@ -80,13 +80,13 @@ TEST_CASE("a certificate is true of the modes that the body has, whatever the co
         CHECK((body.frequencies_Hz.array() < below_Hz).count() ==
               (truth_Hz.array() < below_Hz).count());
       }
-      const bool cuts = held ? truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6)
-                             : count < 6 || truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6);
+      const bool cuts = fixed ? truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6)
+                              : count < 6 || truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6);
       CHECK(cuts == (body.certificate.find("the count cuts the ") != std::string::npos));
       CHECK(warnings.size() == (cuts ? 1 : 0));
       CHECK(body.certificate.starts_with(at == std::string::npos ? "not certified" : "certified"));
       // The first pair, and rigid-body motions, have no complete modes below them.
-      CHECK((at == std::string::npos) == (held ? count == 1 : count < 6));
+      CHECK((at == std::string::npos) == (fixed ? count == 1 : count < 6));
     }
   }
 }
@@ -94,10 +94,10 @@ TEST_CASE("a certificate is true of the modes that the body has, whatever the co
 TEST_CASE("without a certificate, too, a count that cuts a cluster is warned about") {
   const mesher::Mesh mesh =
       testing::box({1, 1, 3}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
-  const auto warnings_of = [&](int count, const std::string& held, Solver solver) {
+  const auto warnings_of = [&](int count, const std::string& fixed, Solver solver) {
     ModalOptions options;
     options.mode_count = count;
-    options.held_set = held;
+    options.fixed_set = fixed;
     options.solver = solver;
     std::string lines;
     const ModalBody body =
@@ -119,7 +119,7 @@ TEST_CASE("all modes that a body has are found and certified as all") {
   const mesher::Mesh mesh =
       testing::box({1, 1, 1}, {0.05, 0.06, 0.07}, {"steel", 2.1e11, 0.3, 7850}).make();
   ModalOptions options;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.certify = true;
   options.mode_count = 54;
   CHECK(analyse_modes(mesh, options, {}).certificate == "certified: all modes that there are");

@@ -31,9 +31,9 @@ testing::BlockMesh cylinder(int divisions, double radius_m, double height_m) {
   return block;
 }
 
-ModalOptions held_at_bottom(int mode_count) {
+ModalOptions fixed_at_bottom(int mode_count) {
   ModalOptions options;
-  options.held_set = "bottom";
+  options.fixed_set = "bottom";
   options.mode_count = mode_count;
   return options;
 }
@@ -75,7 +75,7 @@ Eigen::MatrixXd membrane_motions(const mesher::Mesh& plate, const DofMap& dof_ma
 TEST_CASE("NAFEMS FV32: membrane frequencies of a tapered cantilever") {
   // 10 m long, 5 m wide where it is clamped, 1 m at the tip, 0.05 m thick; plane stress, so that
   // the solid plate may get thinner and thicker but not bend. Targets: NAFEMS, Free Vibration
-  // Benchmarks, 1987, test 32. The solid has the clamped edge held across the plate too.
+  // Benchmarks, 1987, test 32. The solid has the clamped edge fixed across the plate too.
   // Left over is the mesh: 8 x 4 elements are 0.3 % high in the fifth, the others below 0.1 %.
   constexpr double kTolerance = 4e-3;
   constexpr std::array kTargets_Hz = {44.623, 130.03, 162.70, 246.05, 379.90, 391.44};
@@ -108,7 +108,7 @@ TEST_CASE("a solid round bar twists at the frequencies of waves, n odd quarters"
   constexpr double kLength = 0.2;
   testing::BlockMesh bar = cylinder(2, 0.05, kLength);
   bar.slices = {{"bar", 9, {"steel", 2.1e11, 0.3, 7850}}};
-  const ModalBody body = analyse_modes(bar.make(), held_at_bottom(12), {});
+  const ModalBody body = analyse_modes(bar.make(), fixed_at_bottom(12), {});
   const double first = std::sqrt(2.1e11 / 2.6 / 7850) / (4 * kLength);
   CHECK(nearest_error(body, first) < kTolerance);
   CHECK(nearest_error(body, 3 * first) < kTolerance);
@@ -157,7 +157,7 @@ TEST_CASE("a mass on a bonded rubber disc moves at the frequency of Gent's modul
   disc.slices = {{"rubber", 1, {"rubber", kYoung, kPoisson, 1}},
                  {"plate", 4, {"steel", 2.1e11, 0.3, 7850}}};
   const auto frequency = [&](Formulation formulation) {
-    ModalOptions options = held_at_bottom(8);
+    ModalOptions options = fixed_at_bottom(8);
     options.formulation.of_others = formulation;
     options.rigid_parts = {"plate"};
     const ModalBody body = analyse_modes(disc.make(), options, {});

@@ -196,17 +196,17 @@ TEST_CASE("at default divisions each bolt of each neck holds nodes of the base f
     INFO("set " << set);
     const NeckParameters neck = neck_parameters(set);
     const Mesh mesh = neck_mesh(set);
-    std::array<int, 4> held{};
+    std::array<int, 4> fixed{};
     for (const std::int32_t node : mesh.node_set("bolts").nodes) {
       const auto& x = mesh.nodes[static_cast<std::size_t>(node)];
       CHECK(std::abs(x[2]) < 1e-12);
       for (std::size_t b = 0; b < 4; ++b) {
-        if (distance(x, geometry::bolt_centres(neck)[b]) <= 0.13 * kInch) ++held[b];
+        if (distance(x, geometry::bolt_centres(neck)[b]) <= 0.13 * kInch) ++fixed[b];
       }
     }
-    for (const int count : held) CHECK(count > 0);
-    CHECK(held[0] == held[3]);  // the neck is symmetric left to right
-    CHECK(held[1] == held[2]);
+    for (const int count : fixed) CHECK(count > 0);
+    CHECK(fixed[0] == fixed[3]);  // the neck is symmetric left to right
+    CHECK(fixed[1] == fixed[2]);
   }
 }
 

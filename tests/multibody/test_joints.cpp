@@ -163,8 +163,9 @@ class Path {
 
 /// Orientation that marker j may have when i has the given one.
 Matrix3d joined_orientation(const JointKind* kind, const Matrix3d& R_i) {
-  if (kind->rotation == HeldRotation::none) return RandomNumbers(38).rotation().toRotationMatrix();
-  if (kind->rotation == HeldRotation::common_axis) return R_i * turned(kTurn * kAxis);
+  if (kind->rotation == RotationConstraint::none)
+    return RandomNumbers(38).rotation().toRotationMatrix();
+  if (kind->rotation == RotationConstraint::common_axis) return R_i * turned(kTurn * kAxis);
   if (kind == &kUniversalJoint)
     return R_i * turned(kTurn * kAxis) * turned(0.5 * kTurn * kSecondAxis);
   return R_i;

@@ -152,7 +152,7 @@ TEST_CASE("weight densities, free supports and decks without pressures are warne
   const std::string study = kExamples + "cantilever_inp.toml" + out;
   CHECK_THAT(run_flexneck("run " + study).text, !Contains("Warning"));
   CHECK_THAT(run_flexneck("modes --set 'modes.fixed=[]' " + study).text,
-             Contains("Warning: ") && Contains("cantilever.inp: *BOUNDARY holds 8 nodes, of which "
+             Contains("Warning: ") && Contains("cantilever.inp: *BOUNDARY fixes 8 nodes, of which "
                                                "the study leaves 8 free"));
   CHECK_THAT(run_flexneck("export " + study + " --to " + (folder / "bar.inp").string()).text,
              Contains("Warning: ") &&

@@ -71,7 +71,7 @@ fe_modal::GeometricStiffness inertial_stiffness_of_points(
 
 /// A random body about 0.2 m long and 2 kg heavy. Interfaces: "root" at the origin, which no mode
 /// moves (the body frame rides on it); "tip" and "side", which translate with a point and turn by
-/// random modal matrices, a few degrees per centimetre of motion. Nothing else is held, so every
+/// random modal matrices, a few degrees per centimetre of motion. Nothing else is fixed, so every
 /// invariant is full. Its geometric stiffness belongs to random second-order displacements.
 PointMassBody make_point_mass_body(unsigned seed, int mode_count = 3, int point_count = 12);
 

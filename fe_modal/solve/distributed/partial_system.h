@@ -18,7 +18,7 @@ class PartialSystem {
 
   /// Numbers of its free nodes among those of the body.
   const std::vector<std::int32_t>& nodes() const { return nodes_; }
-  /// Between the nodes of the share, held ones too.
+  /// Between the nodes of the share, fixed ones too.
   const NodalMass& nodal_mass() const { return matrices_.nodal_mass; }
   void drop_nodal_mass() { NodalMass().swap(matrices_.nodal_mass); }
 

@@ -22,7 +22,7 @@ void sort_out_copies(std::vector<std::int32_t>& list) {
 }
 
 /// Of nodes that are known by their elements, with copies.
-void sort_out_copies_and_held(std::vector<std::int32_t>& list) {
+void sort_out_copies_and_fixed(std::vector<std::int32_t>& list) {
   sort_out_copies(list);
   if (!list.empty() && list.front() < 0) list.erase(list.begin());
 }
@@ -45,7 +45,7 @@ NodeLists cut(const mesher::Mesh& part, const DofMap& dof_map, std::size_t least
     for (const std::int32_t node : block.nodes) all.push_back(dof_map.index(node));
     elements += block.size();
   }
-  sort_out_copies_and_held(all);
+  sort_out_copies_and_fixed(all);
   const std::size_t count =
       std::min(elements, std::max(least_count, all.size() / kNodesOfSubdomain));
   const mesher::ElementPartition partition =
@@ -61,7 +61,7 @@ NodeLists cut(const mesher::Mesh& part, const DofMap& dof_map, std::size_t least
       }
     }
   }
-  for (std::vector<std::int32_t>& nodes : subdomains) sort_out_copies_and_held(nodes);
+  for (std::vector<std::int32_t>& nodes : subdomains) sort_out_copies_and_fixed(nodes);
   return subdomains;
 }
 

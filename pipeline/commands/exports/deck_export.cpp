@@ -30,8 +30,8 @@ void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
   const Study& study = input.study;
   const fe_modal::FormulationChoice choice = formulation_of(study);
   mesher::InpOptions options{.reduced = {},
-                             .held = study.modes.fixed,
-                             .held_directions = study.modes.fixed_directions,
+                             .fixed = study.modes.fixed,
+                             .fixed_directions = study.modes.fixed_directions,
                              .mode_count = study.modes.count};
   for (const mesher::Material& material : mesh.materials) {
     if (choice.of(material) == fe_modal::Formulation::reduced) {

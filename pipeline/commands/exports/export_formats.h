@@ -27,7 +27,7 @@ void export_msh(const CommandInput& input, mesher::Mesh& mesh);
 /// A deck for CalculiX and Abaqus: mesh, materials, supports, and the search for modes.
 void export_deck(const CommandInput& input, mesher::Mesh& mesh);
 
-/// K and M without what is held as NAME_K.mtx and NAME_M.mtx, and the positions of the nodes as
+/// K and M without what is fixed as NAME_K.mtx and NAME_M.mtx, and the positions of the nodes as
 /// NAME_nodes.mtx; in PETSc's binary format likewise.
 void export_matrices(const CommandInput& input, mesher::Mesh& mesh);
 

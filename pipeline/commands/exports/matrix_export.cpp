@@ -16,9 +16,9 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
         "matrices are written with three directions a node: leave out modes.fixed_directions and "
         "modes.rigid_interfaces");
   }
-  const std::string held = modes_options(study, mesh).held_set;
+  const std::string fixed = modes_options(study, mesh).fixed_set;
   const fe_modal::DofMap dof_map(
-      mesh, held.empty() ? std::vector<std::int32_t>{} : mesh.node_set(held).nodes);
+      mesh, fixed.empty() ? std::vector<std::int32_t>{} : mesh.node_set(fixed).nodes);
   std::optional<fe_modal::PetscSession> session;
   if (input.ranks == nullptr) session.emplace();
   const fe_modal::ImportedBody body =

@@ -343,7 +343,7 @@ TEST_CASE("sets and supports of nodes that there are not are refused, but gaps i
   CHECK_THAT(refusal_of(with(kDeck, "LOWER, upper", "LOWER, upper, 7")),
              Contains("*ELSET 'Both' has element 7, which *ELEMENT does not give"));
   CHECK_THAT(refusal_of(with(kDeck, "foot, 3", "foot, 3\n77, 1, 3")),
-             Contains("*BOUNDARY holds node 77, which *NODE does not give"));
+             Contains("*BOUNDARY fixes node 77, which *NODE does not give"));
   CHECK_THAT(warning_of(with(kDeck, "99\n*Surface",
                              "20, 99\n*Nset, nset=Gap, generate\n90, 99\n"
                              "*Node\n20, 6, 6, 6\n*Surface")),

@@ -96,7 +96,7 @@ TEST_CASE("an .inp gives the mesh back with its materials, positions to 13 digit
   const Mesh mesh = hex20_mesh();
   ImportOptions options;
   options.file = files / "mesh.inp";
-  write_inp(options.file, mesh, {.reduced = {"hard"}, .held = {"floor"}, .mode_count = 3});
+  write_inp(options.file, mesh, {.reduced = {"hard"}, .fixed = {"floor"}, .mode_count = 3});
   Mesh read = import_mesh(options, {});
   for (std::size_t m = 0; m < 2; ++m) {
     CHECK(read.materials[m].youngs_modulus_Pa == mesh.materials[m].youngs_modulus_Pa);
@@ -131,7 +131,7 @@ TEST_CASE("an .inp names the element of a face also behind the first of its bloc
   CHECK(read.face_set("floor").blocks[0].nodes == mesh.face_set("floor").blocks[0].nodes);
 }
 
-TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held") {
+TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are fixed") {
   Mesh mesh = hex20_mesh();
   const auto a = static_cast<std::int32_t>(mesh.nodes.size() - 1);
   mesh.nodes[mesh.nodes.size() - 2] = mesh.nodes.back();
@@ -143,10 +143,10 @@ TEST_CASE("an .inp ties the pairs of a closed slit, but not those that are held"
   CHECK_THAT(bytes_of(files / "tied.inp"),
              Contains("*EQUATION\n2\n" + upper + ",3,1.," + lower + ",3,-1.\n"));
   mesh.node_sets.push_back({"top", {a - 1, a}});
-  write_inp(files / "held.inp", mesh, {.reduced = {}, .held = {"top"}, .mode_count = 1});
-  CHECK_THAT(bytes_of(files / "held.inp"), !Contains("*EQUATION"));
+  write_inp(files / "fixed.inp", mesh, {.reduced = {}, .fixed = {"top"}, .mode_count = 1});
+  CHECK_THAT(bytes_of(files / "fixed.inp"), !Contains("*EQUATION"));
   write_inp(files / "rollers.inp", mesh,
-            {.reduced = {}, .held = {}, .held_directions = {{"top", {true, false, true}}}});
+            {.reduced = {}, .fixed = {}, .fixed_directions = {{"top", {true, false, true}}}});
   const std::string rollers = bytes_of(files / "rollers.inp");
   CHECK_THAT(rollers, Contains("*EQUATION\n2\n" + upper + ",2,1.," + lower + ",2,-1.\n") &&
                           !Contains(upper + ",3,1.") && Contains("*BOUNDARY\ntop,1\ntop,3\n*STEP"));

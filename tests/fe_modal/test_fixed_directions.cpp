@@ -30,7 +30,7 @@ ModalOptions on_rollers(BasisKind basis, int count) {
   ModalOptions options;
   options.mode_count = count;
   options.basis = basis;
-  options.held_directions = {{"bottom", {false, true, true}}, {"left", {true, false, false}}};
+  options.fixed_directions = {{"bottom", {false, true, true}}, {"left", {true, false, false}}};
   options.interfaces = {{"tip", "top", kTip}};
   return options;
 }
@@ -51,17 +51,17 @@ mesher::Mesh block_with_left() {
 /// The degrees of freedom of a free body that the options leave.
 std::vector<Eigen::Index> free_directions(const mesher::Mesh& mesh, const ModalOptions& options) {
   const DofMap all(mesh, {});
-  std::vector<bool> is_held(static_cast<std::size_t>(all.dof_count()));
-  for (const auto& [set, directions] : options.held_directions) {
+  std::vector<bool> is_fixed(static_cast<std::size_t>(all.dof_count()));
+  for (const auto& [set, directions] : options.fixed_directions) {
     for (const std::int32_t node : mesh.node_set(set).nodes) {
       for (std::size_t a = 0; a < 3; ++a) {
-        if (directions[a]) is_held[3 * static_cast<std::size_t>(all.index(node)) + a] = true;
+        if (directions[a]) is_fixed[3 * static_cast<std::size_t>(all.index(node)) + a] = true;
       }
     }
   }
   std::vector<Eigen::Index> free;
-  for (std::size_t k = 0; k < is_held.size(); ++k) {
-    if (!is_held[k]) free.push_back(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < is_fixed.size(); ++k) {
+    if (!is_fixed[k]) free.push_back(static_cast<Eigen::Index>(k));
   }
   return free;
 }
@@ -72,7 +72,7 @@ Eigen::MatrixXd rows_and_columns(Mat matrix, const std::vector<Eigen::Index>& ke
 
 }  // namespace
 
-TEST_CASE("with held directions the modes are those of the matrices without them") {
+TEST_CASE("with fixed directions the modes are those of the matrices without them") {
   const mesher::Mesh mesh = block_with_left();
   ModalOptions options = on_rollers(BasisKind::normal, 6);
   options.certify = true;
@@ -102,7 +102,7 @@ TEST_CASE("with held directions the modes are those of the matrices without them
   }
 }
 
-TEST_CASE("residual modes carry the compliance of a body with held directions") {
+TEST_CASE("residual modes carry the compliance of a body with fixed directions") {
   const mesher::Mesh mesh = block_with_left();
   const ModalOptions options = on_rollers(BasisKind::residual, 3);
   const ModalBody body = analyse_modes(mesh, options, {});
@@ -119,19 +119,19 @@ TEST_CASE("residual modes carry the compliance of a body with held directions") 
 TEST_CASE("directions that do not hold a body leave a mechanism, which is named") {
   const mesher::Mesh mesh = block();
   ModalOptions options = on_rollers(BasisKind::normal, 6);
-  options.held_directions = {{"bottom", {false, true, true}}};
+  options.fixed_directions = {{"bottom", {false, true, true}}};
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("slides freely along x"));
 }
 
-TEST_CASE("held directions that cannot be are refused") {
+TEST_CASE("fixed directions that cannot be are refused") {
   const mesher::Mesh mesh = block_with_left();
   ModalOptions options = on_rollers(BasisKind::normal, 6);
-  options.held_directions["nowhere"] = {true, false, false};
+  options.fixed_directions["nowhere"] = {true, false, false};
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("nowhere"));
   options = on_rollers(BasisKind::normal, 6);
   options.interfaces = {{"tip", "bottom", kTip, true}};
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
-                    "rigid interface 'tip' has nodes that are held");
+                    "rigid interface 'tip' has nodes that are fixed");
   options = on_rollers(BasisKind::normal, 6);
   options.solver = Solver::iterative;
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("direct solver in one process"));
