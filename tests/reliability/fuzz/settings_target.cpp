@@ -49,7 +49,8 @@ constexpr Key kBodyKeys[] = {
     Key::quantity("mass", "kg", "", ""),
     Key::text("*", "", ""),
 };
-constexpr Key kKeys[] = {
+extern const Key kKeys[4];  // a table in itself
+const Key kKeys[4] = {
     Key::table("solver", "", kSolverKeys),
     Key::table("modes", "", kModesKeys),
     Key::tables("body", "", kBodyKeys),
