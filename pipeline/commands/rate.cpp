@@ -14,6 +14,8 @@
 
 namespace flexneck::pipeline {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 std::optional<double> time_of(const std::string& option, const std::string& text) {
@@ -52,9 +54,12 @@ CurvesOfOneUnit read_curves(const FileInput& input) {
   return curves;
 }
 
-/// Without the folder, so that a result does not depend on where it was made.
-std::string label_in_table(Curve curve) {
-  curve.file = std::filesystem::path(curve.file).filename().string();
+/// Without the path, so that a result does not depend on where it was made; with the folder's own
+/// name where the files have the same.
+std::string label_in_table(Curve curve, const Curve& other) {
+  const fs::path path = fs::weakly_canonical(curve.file);
+  const bool is_same = path.filename() == fs::path(other.file).filename();
+  curve.file = ((is_same ? path.parent_path().filename() : fs::path()) / path.filename()).string();
   return curve.label();
 }
 
@@ -69,15 +74,16 @@ std::string shift_text(Eigen::Index shift, double interval_s, double correlation
   return text + fmt::format(", correlation {:.6f}", correlation);
 }
 
-const std::vector<ResultTable::Column> kColumns = {
-    {"part", ""}, {"rating", ""}, {"weight", ""}, {"measured", ""}};
+std::vector<ResultTable::Column> columns() {
+  return {{"part", ""}, {"rating", ""}, {"weight", ""}, {"measured", ""}};
+}
 
 ResultTable iso_table(const ResampledPair& pair) {
   const Iso18571Rating rating = rate_iso18571(pair.reference, pair.computed);
   const std::string other = fmt::format("{:g}", kIso18571OtherWeight);
   return {"iso18571",
           fmt::format("ISO/TS 18571:2024, {:g} to {:g} s", pair.from_s, pair.to_s()),
-          kColumns,
+          columns(),
           {{"corridor Z", six_digits(rating.corridor), fmt::format("{:g}", kIso18571CorridorWeight),
             ""},
            {"phase P", six_digits(rating.phase), other,
@@ -106,7 +112,7 @@ ResultTable cora_table(const ResampledPair& pair, bool is_asked) {
       "cora",
       fmt::format("CORA 4.0.5, {:g} to {:g} s{}", time(range.first), time(range.last),
                   is_asked ? "" : " (its interval of evaluation within that)"),
-      kColumns,
+      columns(),
       {{"corridor C1", six_digits(rating.corridor), weight(p.corridor_weight), ""},
        {"progression V", six_digits(rating.progression),
         weight(p.cross_correlation_weight * p.progression_weight),
@@ -145,8 +151,8 @@ bool rate_command(const FileInput& input) {
                      error.what());
   }
   tables.front().notes = {
-      "reference  " + label_in_table(curves.reference),
-      "computed   " + label_in_table(curves.computed),
+      "reference  " + label_in_table(curves.reference, curves.computed),
+      "computed   " + label_in_table(curves.computed, curves.reference),
       fmt::format(
           "{} samples at 10 kHz{}", pair.reference.size(),
           pair.is_interpolated ? ", interpolated linearly between those of the files" : "")};

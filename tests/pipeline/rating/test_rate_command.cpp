@@ -100,6 +100,12 @@ TEST_CASE("'flexneck rate' prints each part of both ratings, and writes only whe
   CHECK(json.at("provenance").at("inputs").size() == 2);
   CHECK(json.at("provenance").at("inputs").contains("computed/computed.csv"));
   CHECK_THAT(folder.run("info out/rating.json").text, Contains("overall R"));
+
+  // Files of the same name in two folders.
+  fs::create_directory(folder.path("other"));
+  folder.write("other/computed.csv", bytes_of(folder.path("computed.csv")));
+  CHECK_THAT(folder.run("rate computed.csv other/computed.csv").text,
+             Contains("computed   other/computed.csv: 'head angle' [rad]"));
 }
 
 TEST_CASE("'flexneck rate' takes columns by name, other units and plain files") {
