@@ -29,6 +29,7 @@ constexpr std::array<Combination, 4> kCombinations = {{
 
 const NeckIntercepts& neck_intercepts(const std::string& dummy) {
   std::vector<std::string> names;
+  names.reserve(kNeckIntercepts.size());
   for (const NeckIntercepts& each : kNeckIntercepts) names.emplace_back(each.name);
   return kNeckIntercepts.at(find_name(names, dummy, "dummy"));
 }
