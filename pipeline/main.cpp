@@ -52,8 +52,12 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
   const ResultsFolder folder(line.folder);
   if (command.run_on_files != nullptr) {
     take_lock();
-    return command.run_on_files(
-        {{line.files.begin(), line.files.end()}, line.settings, folder, console});
+    return command.run_on_files({{line.files.begin(), line.files.end()},
+                                 line.settings,
+                                 folder,
+                                 console,
+                                 line.curves,
+                                 line.neck_loads});
   }
   if (line.files.size() > 1) {
     throw flexneck::InputError(command.name + ": expected one study, found '" + line.files[1] +
@@ -77,7 +81,7 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
 bool execute(const CommandLine& line, const Console& console, const Ranks* ranks) {
   std::optional<FolderLock> lock;
   const auto take_lock = [&] {
-    if (!line.command->writes_results || line.show) return;
+    if (!line.writes()) return;
     lock.emplace(line.folder, line.text,
                  [&](const std::string& warning) { console.warning(warning); });
   };

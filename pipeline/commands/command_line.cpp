@@ -30,6 +30,13 @@ void add_folder(CLI::App& app, CommandLine& line) {
   app.add_option("-o,--out,--output", line.folder, "Folder for results")->option_text("DIR [out]");
 }
 
+void add_optional_folder(CLI::App& app, CommandLine& line) {
+  line.folder.clear();
+  app.add_option("-o,--out,--output", line.folder, "Folder for a JSON file of the result")
+      ->option_text("DIR")
+      ->check([](const std::string& name) { return name.empty() ? "expected a folder" : ""; });
+}
+
 void add_settings(CLI::App& app, CommandLine& line) {
   app.add_option("--set", line.settings, "Use another value, e.g. modes.count=12")
       ->option_text("KEY=VALUE ...")
@@ -63,17 +70,46 @@ void add_target(CLI::App& app, CommandLine& line) {
   app.add_flag("--binary", line.is_binary, "A .msh in bytes instead of text");
 }
 
+void add_curves(CLI::App& app, CommandLine& line) {
+  CurveChoice& curves = line.curves;
+  const auto add = [&](const char* name, std::string& value, const char* label, const char* help) {
+    app.add_option(name, value, help)->option_text(label);
+  };
+  add("--channel", curves.channel, "NAME", "Column of both files, where there are several");
+  add("--reference-channel", curves.reference_channel, "NAME",
+      "Column of the reference, where its name is another one");
+  add("--unit", curves.unit, "UNIT", "Of the values in a file that names no units");
+  add("--from", curves.from, "TIME", "Rate from there on, e.g. '20 ms'; else what both cover");
+  add("--to", curves.to, "TIME", "Rate up to there");
+}
+
+void add_neck_loads(CLI::App& app, CommandLine& line) {
+  NeckLoadChoice& loads = line.neck_loads;
+  const auto add = [&](const char* name, std::string& value, const char* label, const char* help) {
+    return app.add_option(name, value, help)->option_text(label);
+  };
+  add("--force", loads.force, "NAME", "Column of the axial force, tension positive")->required();
+  add("--moment", loads.moment, "NAME", "Column of the moment My, flexion positive")->required();
+  add("--shear", loads.shear, "NAME",
+      "Column of Fx, if the moment is that of a load cell above the condyles");
+  add("--dummy", loads.dummy, "NAME [50th-male]", "50th-male or 5th-female");
+}
+
 struct OptionRow {
   CommandOption option;
   void (*add)(CLI::App&, CommandLine&);
 };
-constexpr std::array<OptionRow, 7> kOptions = {{{CommandOption::folder, add_folder},
-                                                {CommandOption::settings, add_settings},
-                                                {CommandOption::mesh_settings, add_mesh_settings},
-                                                {CommandOption::modes_settings, add_modes_settings},
-                                                {CommandOption::redo, add_redo},
-                                                {CommandOption::show, add_show},
-                                                {CommandOption::target, add_target}}};
+constexpr std::array<OptionRow, 10> kOptions = {
+    {{CommandOption::folder, add_folder},
+     {CommandOption::optional_folder, add_optional_folder},
+     {CommandOption::curves, add_curves},
+     {CommandOption::neck_loads, add_neck_loads},
+     {CommandOption::settings, add_settings},
+     {CommandOption::mesh_settings, add_mesh_settings},
+     {CommandOption::modes_settings, add_modes_settings},
+     {CommandOption::redo, add_redo},
+     {CommandOption::show, add_show},
+     {CommandOption::target, add_target}}};
 
 void describe(CLI::App& app, const Command& command, CommandLine& line) {
   app.add_option("files", line.files, command.files.help)->option_text(command.files.label);

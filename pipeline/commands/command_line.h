@@ -23,7 +23,11 @@ struct CommandLine {
   bool redo = false;
   std::filesystem::path target;
   bool is_binary = false;
+  CurveChoice curves;
+  NeckLoadChoice neck_loads;
 
+  /// Whether anything goes into the folder.
+  bool writes() const { return command->writes_results && !show && !folder.empty(); }
   Verbosity verbosity() const {
     return is_quiet ? Verbosity::quiet : is_verbose ? Verbosity::verbose : Verbosity::normal;
   }

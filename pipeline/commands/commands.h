@@ -28,7 +28,18 @@ struct CommandInput {
 };
 
 /// Options that some commands have and others have not.
-enum class CommandOption { folder, settings, mesh_settings, modes_settings, redo, show, target };
+enum class CommandOption {
+  folder,
+  optional_folder,
+  settings,
+  mesh_settings,
+  modes_settings,
+  redo,
+  show,
+  target,
+  curves,
+  neck_loads
+};
 
 /// What a command's files are.
 struct FileArguments {

@@ -40,7 +40,7 @@ TEST_CASE("each command has a help of its own, and all of it fits the console") 
   CHECK(longest_line(all.text) <= 100);
   for (const char* const command :
        {"run", "mesh", "modes", "pictures", "static", "pendulum", "verify", "export", "report",
-        "simulate", "info", "compare", "study"}) {
+        "simulate", "info", "compare", "rate", "nij", "study"}) {
     INFO(command);
     CHECK_THAT(all.text, Contains("\n  " + std::string(command) + " "));
     const CommandOutcome help = run_flexneck(std::string(command) + " --help");
