@@ -9,6 +9,7 @@
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
 #include "pipeline/commands/shown_tables.h"
+#include "pipeline/commands/verdicts.h"
 #include "pipeline/console/text_table.h"
 #include "pipeline/folder/stages.h"
 #include "pipeline/output/result_table.h"
@@ -88,6 +89,8 @@ std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults&
     everything.inputs.push_back(
         {study.verification.filename().string(), hash_of_file(study.verification.string())});
   }
+  const std::vector<InputFile> regulations = regulation_files(study);
+  everything.inputs.insert(everything.inputs.end(), regulations.begin(), regulations.end());
   std::vector<std::string> runs = {"modes"};
   for (const CaseSection* const experiment : pendulum_cases(study))
     runs.push_back(stage_of(*experiment));
@@ -103,11 +106,12 @@ std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults&
 }
 
 void print_kept(const CommandInput& input, const std::string& stage) {
-  if (stage == "verify") {
+  if (stage == "verify" && !input.study.verification.empty()) {
     const VerificationFile file = read_verification(input.folder.verification());
     show_verification(input, file.table);
   }
-  const fs::path tables = input.folder.file(stage + ".json");
+  const std::string name = stage == "verify" ? "verdicts" : stage;
+  const fs::path tables = input.folder.file(name + ".json");
   if (!fs::exists(tables)) return;
   show_tables(input, read_tables(tables).tables);
 }
@@ -160,7 +164,8 @@ bool run_stages(const CommandInput& input, StepTimes& times) {
   times.start("pendulum cases");
   const PendulumResults known = make_cases(input, records);
   make_all(stages_after_cases(study, known));
-  return read_verification(input.folder.verification()).table.passed();
+  return study.verification.empty() ||
+         read_verification(input.folder.verification()).table.passed();
 }
 
 }  // namespace

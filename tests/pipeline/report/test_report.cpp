@@ -279,7 +279,8 @@ TEST_CASE("corridors stand behind curves only at the velocity that they are for"
 TEST_CASE("names and notes of a user never become markup") {
   const TemporaryFolder folder;
   std::ofstream(folder / "<b>.toml")
-      << "include = [\"" << built_in_study().string() << "\"]\n[geometry]\nplate_thickness = "
+      << "include = [\"" << built_in_study().string()
+      << "\"]\ntest = []\n[geometry]\nplate_thickness = "
       << "{ value = \"0.4 in\", origin = \"published\", note = \"<script>alert(1)</script>\" }\n"
       << "[[pulse]]\nname = \"<img src=x>\"\n"
          "times = [\"0 s\", \"1 s\"]\ndeceleration = [\"1 gn\", \"1 gn\"]\n"
