@@ -41,6 +41,7 @@ std::vector<InputFile> regulation_files(const Study& study) {
   std::set<std::filesystem::path> paths;
   for (const TestSection& test : study.tests) paths.insert(test.file);
   std::vector<InputFile> files;
+  files.reserve(paths.size());
   for (const std::filesystem::path& path : paths)
     files.push_back({path.filename().string(), hash_of_file(path.string())});
   return files;
@@ -48,6 +49,7 @@ std::vector<InputFile> regulation_files(const Study& study) {
 
 void write_verdicts(const CommandInput& input) {
   std::vector<JudgedTest> tests;
+  tests.reserve(input.study.tests.size());
   for (const TestSection& test : input.study.tests) tests.push_back(judged_test(input, test));
   Provenance provenance = provenance_of(input.study);
   const std::vector<InputFile> regulations = regulation_files(input.study);

@@ -69,9 +69,10 @@ std::vector<std::string> verdict_warnings(const std::vector<JudgedTest>& tests) 
   std::vector<std::string> warnings;
   for (const JudgedTest& test : tests) {
     if (!test.verdict) continue;
+    const std::string where = "test '" + test.test.name + "', case " + test.test.experiment + ": ";
     for (const JudgedFigure& figure : test.verdict->unmet_conditions())
-      warnings.push_back("test '" + test.test.name + "', case " + test.test.experiment + ": " +
-                         outside_text(figure, test.test.rules));
+      warnings.push_back(where + outside_text(figure, test.test.rules));
+    if (!test.moment_difference.empty()) warnings.push_back(where + test.moment_difference);
   }
   return warnings;
 }
@@ -91,8 +92,6 @@ ResultTable verdict_table(const std::vector<JudgedTest>& tests, const Study& stu
     if (test.status == Status::not_run)
       add_note(table.notes,
                "There is no run of " + section.experiment + " yet; 'flexneck pendulum' makes it.");
-    if (!test.moment_difference.empty())
-      add_note(table.notes, "Moment of " + section.name + ": " + test.moment_difference + ".");
   }
   for (const std::string& warning : verdict_warnings(tests))
     table.notes.push_back("Warning: " + warning + ".");

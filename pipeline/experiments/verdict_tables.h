@@ -27,7 +27,8 @@ struct JudgedTest {
 /// Whether the test's regulation is for the dummy of the study.
 bool applies(const TestSection& test, const Study& study);
 
-/// Sentences: conditions of tests that are not met, with where and how much.
+/// A text each: conditions of tests that are not met, with where and how much, and moments that are
+/// formed otherwise.
 std::vector<std::string> verdict_warnings(const std::vector<JudgedTest>& tests);
 
 /// "verdicts": a line for each test.

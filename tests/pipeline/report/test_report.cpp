@@ -177,6 +177,25 @@ TEST_CASE("the page stands by itself, shows what there is, and is the same each 
   CHECK(page_of(folder.path()) == page);
 }
 
+TEST_CASE("verdicts of certification tests come first, each with a sign of its own") {
+  const TemporaryFolder folder;
+  CHECK_THAT(page_of(folder.path()), Contains("There are no verdicts in this folder yet"));
+
+  ResultTable verdicts = small_table();
+  verdicts.name = "verdicts";
+  verdicts.columns = {{"test", ""}, {"verdict", ""}};
+  verdicts.rows = {{"flexion", "FAIL"}, {"extension <b>", "pass"}};
+  verdicts.notes = {"Warning: pulse at 10 ms"};
+  write_tables(folder / "verdicts.json", {verdicts}, provenance_of(built_in()));
+  const std::string page = page_of(folder.path());
+  const std::size_t certification = page.find("<section id=\"certification\"");
+  REQUIRE(certification != std::string::npos);
+  CHECK(page.find("<section ") == certification);
+  CHECK(page.find("data-table=\"verdicts\"") == page.rfind("data-table=\"verdicts\""));
+  CHECK_THAT(page, Contains("✗</span> FAIL</span>") && Contains("✓</span> pass</span>") &&
+                       Contains("extension &lt;b&gt;") && Contains("Warning: pulse at 10 ms"));
+}
+
 TEST_CASE("a figure's data are the channel's in the units of its axes") {
   const TemporaryFolder folder;
   multibody::write_history(folder / "pendulum-flexion-60.h5", small_run(3));

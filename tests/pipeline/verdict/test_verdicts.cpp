@@ -10,6 +10,7 @@
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/test_curves.h"
 #include "pipeline/experiments/verdict_tables.h"
+#include "pipeline/folder/results_folder.h"
 #include "pipeline/study/study.h"
 
 using Catch::Matchers::Contains;
@@ -123,6 +124,8 @@ TEST_CASE("tests of other dummies do not apply, unless the study says that it is
   CHECK_THAT(judged_test(small, 0, 1, 1).moment_difference,
              Contains("17.678 mm Fx with My of CFC 600 and Fx of CFC 600, the regulation") &&
                  Contains("17.780 mm Fx with My of CFC 600 and Fx of CFC 1000"));
+  CHECK_THAT(verdict_warnings({judged_test(small, 0, 1, 1)}).back(),
+             Contains("test 'flexion', case flexion-120: the case has M = My - 17.678 mm Fx"));
   const Study formed = built_in({female, "dummy.name=Hybrid III 5th female",
                                  "pendulum.moment_arm=17.78 mm", "pendulum.force_filter=CFC 1000"});
   CHECK(judged_test(formed, 0, 1, 1).moment_difference.empty());
@@ -157,6 +160,19 @@ TEST_CASE("a line of a verdict tells how many figures are inside and which is fu
   const ResultTable lost = verdict_table({judged_test(study, 0, -1, 73.5)}, study);
   CHECK(lost.rows[0][5] == "peak rotation");
   CHECK(lost.rows[0][6] == "not found");
+}
+
+TEST_CASE("no run depends on the tests that judge it, nor on whose neck it is said to be") {
+  const Study study = built_in();
+  for (const TestSection& test : study.tests) {
+    const Provenance made_from = case_provenance(study, case_named(study, test.experiment));
+    CHECK(made_from.parameters.size() > 20);
+    for (const Parameter& parameter : made_from.parameters) {
+      INFO(parameter.key);
+      CHECK_FALSE(parameter.key.starts_with("test."));
+      CHECK_FALSE(parameter.key.starts_with("dummy."));
+    }
+  }
 }
 
 TEST_CASE("a test that cannot be is refused with what there is") {
