@@ -49,7 +49,7 @@ const std::vector<Command>& commands() {
        .options = {folder, settings},
        .run = pendulum_command},
       {.name = "verify",
-       .help = "compare with published figures: verification.json",
+       .help = "compare with published figures, judge tests: verification.json, verdicts.json",
        .files = same_study,
        .options = {folder, settings},
        .run = verify_command},

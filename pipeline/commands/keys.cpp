@@ -9,6 +9,7 @@
 #include "pipeline/model/model_file.h"
 #include "pipeline/report/paper_context.h"
 #include "pipeline/study/study.h"
+#include "pipeline/verdict/regulation.h"
 #include "pipeline/verification/reference.h"
 
 namespace flexneck::pipeline {
@@ -21,12 +22,13 @@ struct Format {
   std::span<const Key> (*keys)();
 };
 
-const std::array<Format, 4>& formats() {
-  static const std::array<Format, 4> all = {{
+const std::array<Format, 5>& formats() {
+  static const std::array<Format, 5> all = {{
       {"study", "Studies: what is meshed, its modes and experiments with them", study_keys},
       {"model", "Models for 'flexneck simulate'", model_keys},
       {"reference", "Published figures that results are compared with", reference_keys},
       {"context", "What the report says of the paper beside its figures", context_keys},
+      {"regulation", "Certification tests by regulations", regulation_keys},
   }};
   return all;
 }

@@ -9,6 +9,7 @@
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
 #include "pipeline/commands/shown_tables.h"
+#include "pipeline/commands/verdicts.h"
 #include "pipeline/console/text_table.h"
 #include "pipeline/folder/stages.h"
 #include "pipeline/output/result_table.h"
@@ -90,6 +91,8 @@ std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults&
     everything.inputs.push_back(
         {study.verification.filename().string(), hash_of_file(study.verification.string())});
   }
+  const std::vector<InputFile> regulations = regulation_files(study);
+  everything.inputs.insert(everything.inputs.end(), regulations.begin(), regulations.end());
   std::vector<std::string> runs = {"modes"};
   for (const CaseSection* const experiment : pendulum_cases(study))
     runs.push_back(stage_of(*experiment));
@@ -103,17 +106,19 @@ std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults&
                         return true;
                       }});
   }
-  if (!study.verification.empty()) stages.push_back({"verify", everything, runs, verify_command});
+  if (!study.verification.empty() || !study.tests.empty())
+    stages.push_back({"verify", everything, runs, verify_command});
   if (!study.matrices) stages.push_back({"report", everything, results, report_command});
   return stages;
 }
 
 void print_kept(const CommandInput& input, const std::string& stage) {
-  if (stage == "verify") {
+  if (stage == "verify" && !input.study.verification.empty()) {
     const VerificationFile file = read_verification(input.folder.verification());
     show_verification(input, file.table);
   }
-  const fs::path tables = input.folder.file(stage + ".json");
+  const std::string name = stage == "verify" ? "verdicts" : stage;
+  const fs::path tables = input.folder.file(name + ".json");
   if (!fs::exists(tables)) return;
   show_tables(input, read_tables(tables).tables);
 }

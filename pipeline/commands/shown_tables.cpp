@@ -32,12 +32,20 @@ constexpr std::array<ShortColumn, 7> kPeaks = {{{"case", "case"},
                                                 {"base moment", "base"},
                                                 {"occipital moment", "occipital"}}};
 
+constexpr std::array<ShortColumn, 6> kVerdicts = {{{"regulation", "regulation"},
+                                                   {"case", "case"},
+                                                   {"verdict", ""},
+                                                   {"inside", "inside"},
+                                                   {"furthest", "furthest"},
+                                                   {"off centre", "off"}}};
+
 /// Tables that are not here need --verbose.
 struct ShortTable {
   std::string_view name;
   std::span<const ShortColumn> columns;
 };
-constexpr std::array<ShortTable, 2> kShortTables = {{{"static tests", kStatic}, {"peaks", kPeaks}}};
+constexpr std::array<ShortTable, 3> kShortTables = {
+    {{"static tests", kStatic}, {"peaks", kPeaks}, {"verdicts", kVerdicts}}};
 
 /// A variant of a case has a line of its own with --verbose only.
 bool is_variant(const Study& study, const std::string& name) {
@@ -58,7 +66,7 @@ ResultTable shortened(const Study& study, const ResultTable& table,
     result.columns.push_back({std::string(shown.shown), found->unit});
   }
   for (const std::vector<std::string>& row : table.rows) {
-    if (is_variant(study, row.front())) continue;
+    if (table.columns.front().name == "case" && is_variant(study, row.front())) continue;
     std::vector<std::string>& cells = result.rows.emplace_back();
     for (const std::size_t place : places) cells.push_back(row[place]);
   }

@@ -2,6 +2,7 @@
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/shown_tables.h"
+#include "pipeline/commands/verdicts.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/verification/verification.h"
 
@@ -28,13 +29,8 @@ PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& exper
   return evidence;
 }
 
-}  // namespace
-
-bool verify_command(const CommandInput& input) {
-  if (input.study.verification.empty()) {
-    throw InputError(input.study.file.string() +
-                     ": output.verification names no table of published figures");
-  }
+/// @return whether what is judged agrees
+bool compare_with_published(const CommandInput& input) {
   const Reference reference = read_reference(input.study.verification);
   const fe_modal::ModalBodyFile modes = read_modal_body(input.folder.modes());
   require_same_inputs(input.folder.modes(), modes.provenance, input.study,
@@ -56,6 +52,21 @@ bool verify_command(const CommandInput& input) {
   show_verification(input, table);
   if (!table.passed()) input.console.error("a verification failed, see the table");
   return table.passed();
+}
+
+}  // namespace
+
+bool verify_command(const CommandInput& input) {
+  const Study& study = input.study;
+  if (study.verification.empty() && study.tests.empty()) {
+    throw InputError(study.file.string() +
+                     ": output.verification names no table of published figures, and there is no "
+                     "[[test]]");
+  }
+  const bool passed = study.verification.empty() || compare_with_published(input);
+  // A neck that fails a certification is a result of the study, no error of the program.
+  if (!study.tests.empty()) write_verdicts(input);
+  return passed;
 }
 
 }  // namespace flexneck::pipeline

@@ -174,6 +174,8 @@ std::vector<StudyTable> StudyTable::tables(const std::string& key) const {
   const std::span<const Key> rows = node_->row(key, KeyType::tables).keys;
   const toml::node* const node = node_->find(key);
   if (node == nullptr) return result;
+  // Of a file that has none of what it includes: test = []
+  if (node->is_array() && node->as_array()->empty()) return result;
   if (!node->is_array_of_tables()) refuse(key, "expected tables [[" + node_->dotted(key) + "]]");
   std::map<std::string, int> seen;
   for (const toml::node& element : *node->as_array()) {

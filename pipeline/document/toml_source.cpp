@@ -66,7 +66,12 @@ class Reading {
       }
       own.erase("include");
     }
-    merge(table, std::move(own));
+    // A table by itself keeps its place in the file, for messages on keys that it lacks.
+    if (table.empty()) {
+      table = std::move(own);
+    } else {
+      merge(table, std::move(own));
+    }
     files_.push_back({path.filename().string(), hash_of_text(text)});
     open_.pop_back();
     return table;

@@ -119,11 +119,23 @@ PendulumSignals pendulum_signals(const Model& model, const History& history,
   return signals;
 }
 
-VectorXd moment_by_formula(const VectorXd& moment_Nm, const VectorXd& shear_N,
+VectorXd moment_by_formula(const VectorXd& moment_Nm, const VectorXd& shear_N, double arm_m,
                            CaseSection::Direction direction) {
   const double sign = direction == CaseSection::Direction::lateral ? 1 : -1;
-  return moment_Nm + sign * kFormulaArm_m * shear_N;
+  return moment_Nm + sign * arm_m * shear_N;
 }
+
+namespace {
+
+std::string filter_text(const MomentDefinition& moment) {
+  const auto name = [](multibody::ChannelClass cfc) {
+    return "CFC " + std::to_string(static_cast<int>(cfc));
+  };
+  if (moment.force_filter == moment.moment_filter) return name(moment.moment_filter);
+  return name(moment.moment_filter) + ", force " + name(moment.force_filter);
+}
+
+}  // namespace
 
 std::vector<Channel> pendulum_channels(const VectorXd& time_s, const PendulumSignals& signals,
                                        const CaseSection& experiment) {
@@ -135,7 +147,7 @@ std::vector<Channel> pendulum_channels(const VectorXd& time_s, const PendulumSig
   };
   std::vector<Channel> channels;
   const auto add = [&](const char* name, const char* unit, const VectorXd& values,
-                       const char* filter = "") {
+                       const std::string& filter = "") {
     channels.push_back({name, unit, {name}, values.transpose(), filter});
   };
   add("head rotation", "rad", signals.head_rotation);
@@ -146,9 +158,10 @@ std::vector<Channel> pendulum_channels(const VectorXd& time_s, const PendulumSig
   add("base moment", "N*m", signals.base_moment);
   add("occipital moment", "N*m", signals.occipital_moment);
   add("load cell moment", "N*m",
-      moment_by_formula(filtered(signals.cell_moment, ChannelClass::cfc600),
-                        filtered(signals.cell_shear, ChannelClass::cfc600), experiment.direction),
-      "CFC 600");
+      moment_by_formula(filtered(signals.cell_moment, experiment.moment.moment_filter),
+                        filtered(signals.cell_shear, experiment.moment.force_filter),
+                        experiment.moment.arm_m, experiment.direction),
+      filter_text(experiment.moment));
   add("arm velocity", "m/s", signals.arm_velocity);
   add("arm deceleration", "m/s^2", signals.arm_deceleration);
   return channels;

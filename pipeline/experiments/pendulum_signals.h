@@ -13,9 +13,8 @@
 
 namespace flexneck::pipeline {
 
-/// Arm of the condyles' moment below the upper load cell, m: the regulation forms the moment as
-/// M = My - 0.058 Fx in lbf ft and lbf (49 CFR 572.33), the cell sits 0.70 in above the condyles.
-inline constexpr double kFormulaArm_m = 0.058 * 0.3048;
+/// The upper load cell sits 0.70 in above the condyles. Regulations form the condyles' moment with
+/// an arm of 0.058 ft (49 CFR 572.33) or 0.01778 m (572.133): MomentDefinition.
 inline constexpr double kLoadCellHeight_m = 0.70 * 0.0254;
 
 /// Curves over time that the paper plots, angles in rad, moments in N m about the axis of bending.
@@ -37,13 +36,13 @@ struct PendulumSignals {
 PendulumSignals pendulum_signals(const multibody::Model& model, const multibody::History& history,
                                  const CaseSection& experiment);
 
-/// The condyles' moment by the regulation's formula from a load cell's channels: M = My - 0.058 ft
-/// Fx in the fore-aft plane; by the same statics M = Mx + 0.058 ft Fy in the lateral one.
+/// The condyles' moment by the regulations' formula from a load cell's channels: M = My - arm Fx in
+/// the fore-aft plane; by the same statics M = Mx + arm Fy in the lateral one.
 Eigen::VectorXd moment_by_formula(const Eigen::VectorXd& moment_Nm, const Eigen::VectorXd& shear_N,
-                                  CaseSection::Direction direction);
+                                  double arm_m, CaseSection::Direction direction);
 
-/// The channels of a pendulum's file, SI units. The filter classes are 1000 for the head's
-/// acceleration and 600 for the load cell (49 CFR 572.36).
+/// The channels of a pendulum's file, SI units. The filter class is 1000 for the head's
+/// acceleration (49 CFR 572.36); arm and classes of the load cell are the case's.
 /// @throws InputError if the samples are too far apart for the filters.
 std::vector<multibody::Channel> pendulum_channels(const Eigen::VectorXd& time_s,
                                                   const PendulumSignals& signals,

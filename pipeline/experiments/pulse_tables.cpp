@@ -43,8 +43,13 @@ std::set<double> lengths_given(const std::vector<PendulumEntry>& entries) {
 }
 
 /// Variants whose pulse is that of the case they are made of need no line of their own.
-bool has_own_pulse(const PendulumEntry& entry) {
-  return entry.experiment.variant_of.empty() || entry.pulse.amplitude_factor == 1;
+bool has_own_pulse(const PendulumEntry& entry, const std::vector<PendulumEntry>& entries) {
+  return std::none_of(entries.begin(), entries.end(), [&](const PendulumEntry& base) {
+    return base.experiment.name == entry.experiment.variant_of &&
+           base.experiment.pulse == entry.experiment.pulse &&
+           base.pulse.amplitude_factor == entry.pulse.amplitude_factor &&
+           base.pulse.duration_factor == entry.pulse.duration_factor;
+  });
 }
 
 std::vector<std::string> pulse_cells(const PendulumEntry& entry) {
@@ -89,7 +94,7 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
     table.columns.push_back({name, unit});
   std::set<std::string> used;  // as shown: each is told once
   for (const PendulumEntry& entry : entries) {
-    if (!has_own_pulse(entry)) continue;
+    if (!has_own_pulse(entry, entries)) continue;
     const CaseSection& experiment = entry.experiment;
     if (!experiment.velocity_is_given) used.insert(in_inches(*experiment.effective_length_m));
     const std::optional<double> length = implied_length(experiment);

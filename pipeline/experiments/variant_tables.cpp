@@ -76,7 +76,10 @@ std::vector<CaseFigure> case_figures() {
 }
 
 /// What a variant is, from what it does.
-std::string title_of(const CaseSection& experiment) {
+std::string title_of(const CaseSection& experiment, const CaseSection& base) {
+  if (experiment.impact_velocity_m_s != base.impact_velocity_m_s)
+    return "Variant '" + experiment.variant +
+           "', at another impact velocity, beside the cases it is made of";
   if (!experiment.rigid_neck.empty())
     return "Rigid neck '" + experiment.rigid_neck + "' on two pivots beside the deformable neck";
   if (!experiment.head_spring.empty())
@@ -140,7 +143,7 @@ ResultTable variant_table(const Study& study, const std::string& name,
   for (const PendulumEntry& entry : entries) {
     if (entry.experiment.variant != name) continue;
     if (table.rows.empty()) {
-      table.title = title_of(entry.experiment);
+      table.title = title_of(entry.experiment, base_of(entries, entry).experiment);
       table.notes = notes_of(study, entry.experiment);
     }
     std::vector<std::string> row = {entry.experiment.name};

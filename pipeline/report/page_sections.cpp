@@ -29,9 +29,12 @@ std::string origin_badge(Origin origin) {
   return badge(name, kSigns[static_cast<std::size_t>(origin)], name);
 }
 
+std::string passed_badge() { return badge("passed", "✓", "pass"); }
+std::string failed_badge() { return badge("failed", "✗", "FAIL"); }
+
 std::string verdict(const VerificationRow& row) {
-  std::string html = row.status == Status::passed   ? badge("passed", "✓", "pass")
-                     : row.status == Status::failed ? badge("failed", "✗", "FAIL")
+  std::string html = row.status == Status::passed   ? passed_badge()
+                     : row.status == Status::failed ? failed_badge()
                                                     : "";
   if (row.fitted) html += (html.empty() ? "" : " ") + badge("calibrated", "◆", "fitted");
   return html;
@@ -82,9 +85,27 @@ bool looks_like_number(const std::string& text) {
   return first != std::string::npos && text[first] >= '0' && text[first] <= '9';
 }
 
+/// This one has a section of its own.
+bool is_verdicts(const ResultTable& table) { return table.name == "verdicts"; }
+
+std::string certification_html(const Results& results, const Study& study) {
+  std::string html;
+  for (const ResultTable& result : results.tables) {
+    if (!is_verdicts(result)) continue;
+    HtmlTable table = html_table_of(result);
+    for (HtmlTable::Row& row : table.rows)
+      for (std::string& cell : row.cells)
+        cell = cell == "pass" ? passed_badge() : cell == "FAIL" ? failed_badge() : cell;
+    html += html_of(table) + html_list(result.notes);
+  }
+  if (!html.empty() || study.tests.empty()) return html;
+  return note("There are no verdicts in this folder yet; <code>flexneck verify</code> makes them.");
+}
+
 std::string tables_html(const Results& results, const Study& study) {
   std::string html;
   for (const ResultTable& table : results.tables) {
+    if (is_verdicts(table)) continue;
     html += html_of(html_table_of(table)) + html_list(table.notes);
   }
   if (!html.empty() || study.cases.empty()) return html;
@@ -235,6 +256,7 @@ std::map<std::string, std::string> page_sections(const Results& results, const S
                             "modes by finite elements, the static neck tester and the "
                             "head/neck pendulum."
                           : "From a geometry to its modes by finite elements."},
+          {"certification", certification_html(results, study)},
           {"verification", verification_html(results, study)},
           {"tables", tables_html(results, study)},
           {"modes", modes_html(results)},

@@ -27,8 +27,9 @@ struct PageSection {
   const char* title;
   const char* content;  ///< name of its text
 };
-constexpr std::array<PageSection, 9> kSections = {
-    {{"verification", "Verification", "Verification", "verification"},
+constexpr std::array<PageSection, 10> kSections = {
+    {{"certification", "Certification", "Certification tests", "certification"},
+     {"verification", "Verification", "Verification", "verification"},
      {"view", "In motion", "Modes and motion", "scene"},
      {"curves", "Curves", "Curves", "plots"},
      {"results", "Results", "Results of the experiments", "tables"},

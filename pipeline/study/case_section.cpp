@@ -12,6 +12,7 @@ namespace {
 std::vector<std::string> case_kinds() { return {"pendulum", "static"}; }
 std::vector<std::string> directions() { return {"flexion", "extension", "lateral"}; }
 std::vector<std::string> pulse_scalings() { return {"amplitude", "duration", "none"}; }
+std::vector<std::string> filters() { return {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}; }
 std::vector<std::string> arms() { return {"translating", "rotating"}; }
 
 constexpr KeyDetails kAbove0 = {.range = kPositive};
@@ -40,6 +41,11 @@ constexpr auto kCaseKeys = std::to_array<Key>({
     Key::quantity("accelerometer_distance", "m", kNone,
                   "Of a rotating arm: from its pivot to where velocity and pulse are measured",
                   kAbove0),
+    Key::quantity("moment_arm", "m", "0.0176784",
+                  "Of the load cell's moment about the condyles, M = My - arm Fx",
+                  {.range = at_least(0)}),
+    Key::text("force_filter", "CFC 600", "Channel class of Fx in it", {.choices = filters}),
+    Key::text("moment_filter", "CFC 600", "Channel class of My in it", {.choices = filters}),
     Key::text("rigid_neck", kNone, "A [[rigid_neck]] in place of the deformable one"),
     Key::text("head_spring", kNone, "A [[head_spring]] in place of the head's fixed joint"),
 });
@@ -68,6 +74,14 @@ void read_velocity(const StudyTable& table, CaseSection& experiment) {
   }
 }
 
+MomentDefinition read_moment_definition(const StudyTable& table) {
+  using multibody::ChannelClass;
+  constexpr std::array kClasses = {ChannelClass::cfc60, ChannelClass::cfc180, ChannelClass::cfc600,
+                                   ChannelClass::cfc1000};
+  return {table.quantity("moment_arm"), kClasses.at(table.choice("force_filter")),
+          kClasses.at(table.choice("moment_filter"))};
+}
+
 void read_pendulum(const StudyTable& table, CaseSection& experiment) {
   read_velocity(table, experiment);
   experiment.pulse = table.text("pulse");
@@ -79,6 +93,7 @@ void read_pendulum(const StudyTable& table, CaseSection& experiment) {
     if (table.has(key) || experiment.arm == CaseSection::Arm::rotating)
       *value = table.quantity(key);
   }
+  experiment.moment = read_moment_definition(table);
   experiment.rigid_neck = table.text("rigid_neck");
   experiment.head_spring = table.text("head_spring");
   if (!experiment.rigid_neck.empty() && !experiment.head_spring.empty())

@@ -98,6 +98,10 @@ std::span<const Key> study_keys() {
       Key::tables("case", "Experiments", case_keys(), UsedBy::named_experiments),
       Key::tables("variant", "Experiments made of others, with keys of their own", variant_keys(),
                   UsedBy::named_experiments),
+      Key::table("dummy", "Whose head and neck the bodies are", dummy_keys(),
+                 UsedBy::named_experiments),
+      Key::tables("test", "Cases that are judged by tests of regulations", test_keys(),
+                  UsedBy::named_experiments),
       Key::table("solver", "Integration of the experiments", kSolverKeys, UsedBy::all_experiments),
       Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
   });
@@ -283,6 +287,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.head_springs = read_all(root, "head_spring", read_head_spring, study.tables);
   study.cases = read_cases(root);
   check_names(names_of(study.cases), "case");
+  read_tests(root, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   root.finish();

@@ -23,6 +23,8 @@ std::span<const Key> rigid_neck_keys();
 std::span<const Key> head_spring_keys();
 std::span<const Key> case_keys();
 std::span<const Key> variant_keys();
+std::span<const Key> dummy_keys();
+std::span<const Key> test_keys();
 
 StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh);
 MatricesSection read_matrices(const StudyTable& matrices);
@@ -47,6 +49,8 @@ RigidNeckSection read_rigid_neck(const StudyTable& neck, std::vector<InputFile>&
 HeadSpringSection read_head_spring(const StudyTable& spring, std::vector<InputFile>& files);
 /// [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
 std::vector<CaseSection> read_cases(const StudyTable& root);
+/// [dummy] and [[test]] of the cases that have been read.
+void read_tests(const StudyTable& root, Study& study);
 void read_solver(const StudyTable& solver, Study& study);
 
 }  // namespace flexneck::pipeline

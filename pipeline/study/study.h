@@ -23,6 +23,7 @@
 #include "pipeline/model/pulse.h"
 #include "pipeline/study/structure_section.h"
 #include "pipeline/study/substructure_section.h"
+#include "pipeline/verdict/certification_test.h"
 
 namespace flexneck::pipeline {
 
@@ -139,8 +140,17 @@ struct CaseSection {
   Arm arm = Arm::translating;
   double pivot_distance_m = 0;          ///< rotating: from the arm's pivot to the neck's base
   double accelerometer_distance_m = 0;  ///< rotating: to where velocity and pulse are measured
+  MomentDefinition moment;              ///< of the virtual load cell
   std::string rigid_neck;               ///< in place of the deformable one; empty for none
   std::string head_spring;              ///< in place of the head's fixed joint; empty for none
+};
+
+/// [[test]]: a case that is judged by a test of a regulation.
+struct TestSection {
+  std::string name;
+  std::string experiment;  ///< the case
+  CertificationTest rules;
+  std::filesystem::path file;  ///< that the rules stand in
 };
 
 /// The table of keys of study files, by section.
@@ -164,6 +174,8 @@ struct Study {
   std::vector<RigidNeckSection> rigid_necks;
   std::vector<HeadSpringSection> head_springs;
   std::vector<CaseSection> cases;  ///< variants after those they are made of
+  std::string dummy;               ///< whose head and neck it is; empty if the study does not say
+  std::vector<TestSection> tests;  ///< in the order in which they are shown
   Eigen::Vector3d gravity_m_s2{0, 0, -kStandardGravity_m_s2};  ///< of pendulum cases, world
   multibody::SolverOptions solver;
   double output_interval_s = 1e-3;

@@ -56,7 +56,8 @@ class Runs:
             files = sorted((self.folder / name).glob(f"{experiment}-*.h5"))
             yield self.peaks(f"{name}_{experiment}", files)
         files = [self.folder / name / "verification.json" for name in SETS]
-        files += [self.folder / "hybrid3" / f"{name}.json" for name in ("static", "pendulum")]
+        files += [self.folder / "hybrid3" / f"{name}.json"
+                  for name in ("static", "pendulum", "verdicts")]
         yield Table("printed", TEXTS, 0,
                     [row for path in files for row in prefixed(self.name(path), text_rows(path))])
         for name in STRUCTURES:

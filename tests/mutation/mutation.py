@@ -30,8 +30,9 @@ ROOMS = {
     "fe_modal": (["fe_modal"], ["fe_modal", "modal_body", "iterative", "corner_fields", "ranks", "golden"]),
     "multibody": (["multibody"], ["multibody", "multibody_system", "multibody_runs", "mass_ratios", "reference",
                                   "golden"]),
-    "pipeline": (["pipeline/experiments", "pipeline/model", "pipeline/output", "pipeline/verification"],
-                 ["pipeline", "models", "command", "chain", "report", "golden"]),
+    "pipeline": (["pipeline/experiments", "pipeline/model", "pipeline/output", "pipeline/verification",
+                  "pipeline/verdict"],
+                 ["pipeline", "verdict", "models", "command", "chain", "report", "golden"]),
 }
 SCRIPTS = {"golden"}  # tests without a program of their own; they run the command
 DEFAULT = ["fe_modal", "mesher", "multibody", "pipeline"]

@@ -12,6 +12,7 @@
 #include "pipeline/model/model_file.h"
 #include "pipeline/report/paper_context.h"
 #include "pipeline/study/study.h"
+#include "pipeline/verdict/regulation.h"
 #include "pipeline/verification/reference.h"
 
 using Catch::Matchers::Contains;
@@ -27,6 +28,7 @@ const fs::path kRoot = FLEXNECK_SOURCE_DIR;
 std::span<const Key> keys_of(const fs::path& file) {
   const std::string folder = file.parent_path().filename();
   if (folder == "models") return model_keys();
+  if (folder == "regulations") return regulation_keys();
   if (folder != "verification") return study_keys();
   return file.stem() == "hybrid3" ? reference_keys() : context_keys();
 }
@@ -70,6 +72,7 @@ void visit_formats(const Visit& visit) {
   visit_all(model_keys(), "model ", visit);
   visit_all(reference_keys(), "reference ", visit);
   visit_all(context_keys(), "context ", visit);
+  visit_all(regulation_keys(), "regulation ", visit);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST_CASE("every shipped study reads, and its dimensions say where they come fro
     INFO(name);
     const Study study = read_study(built_in_study().parent_path() / (name + ".toml"), {});
     REQUIRE(study.neck());
-    CHECK(study.cases.size() == 47);  // 3 static, 11 pendulum, 33 variants
+    CHECK(study.cases.size() == 49);  // 3 static, 11 pendulum, 35 variants
     for (const Parameter& parameter : study.parameters) {
       if (!parameter.key.starts_with("geometry.") || !is_physical(parameter)) continue;
       const bool is_file =

@@ -177,6 +177,25 @@ TEST_CASE("the page stands by itself, shows what there is, and is the same each 
   CHECK(page_of(folder.path()) == page);
 }
 
+TEST_CASE("verdicts of certification tests come first, each with a sign of its own") {
+  const TemporaryFolder folder;
+  CHECK_THAT(page_of(folder.path()), Contains("There are no verdicts in this folder yet"));
+
+  ResultTable verdicts = small_table();
+  verdicts.name = "verdicts";
+  verdicts.columns = {{"test", ""}, {"verdict", ""}};
+  verdicts.rows = {{"flexion", "FAIL"}, {"extension <b>", "pass"}};
+  verdicts.notes = {"Warning: pulse at 10 ms"};
+  write_tables(folder / "verdicts.json", {verdicts}, provenance_of(built_in()));
+  const std::string page = page_of(folder.path());
+  const std::size_t certification = page.find("<section id=\"certification\"");
+  REQUIRE(certification != std::string::npos);
+  CHECK(page.find("<section ") == certification);
+  CHECK(page.find("data-table=\"verdicts\"") == page.rfind("data-table=\"verdicts\""));
+  CHECK_THAT(page, Contains("✗</span> FAIL</span>") && Contains("✓</span> pass</span>") &&
+                       Contains("extension &lt;b&gt;") && Contains("Warning: pulse at 10 ms"));
+}
+
 TEST_CASE("a figure's data are the channel's in the units of its axes") {
   const TemporaryFolder folder;
   multibody::write_history(folder / "pendulum-flexion-60.h5", small_run(3));
@@ -279,7 +298,8 @@ TEST_CASE("corridors stand behind curves only at the velocity that they are for"
 TEST_CASE("names and notes of a user never become markup") {
   const TemporaryFolder folder;
   std::ofstream(folder / "<b>.toml")
-      << "include = [\"" << built_in_study().string() << "\"]\n[geometry]\nplate_thickness = "
+      << "include = [\"" << built_in_study().string()
+      << "\"]\ntest = []\n[geometry]\nplate_thickness = "
       << "{ value = \"0.4 in\", origin = \"published\", note = \"<script>alert(1)</script>\" }\n"
       << "[[pulse]]\nname = \"<img src=x>\"\n"
          "times = [\"0 s\", \"1 s\"]\ndeceleration = [\"1 gn\", \"1 gn\"]\n"

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "pipeline/commands/commands.h"
+
+namespace flexneck::pipeline {
+
+/// Judges the study's tests by the runs of their cases, shows the verdicts and writes
+/// verdicts.json. A case that has not been run is told.
+/// @throws InputError if a run stems from other values or is incomplete.
+void write_verdicts(const CommandInput& input);
+
+/// The files that the study's tests stand in, each once, with the hash of their contents.
+std::vector<InputFile> regulation_files(const Study& study);
+
+}  // namespace flexneck::pipeline

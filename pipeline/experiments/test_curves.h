@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "multibody/files/history_file.h"
+#include "pipeline/study/study.h"
+#include "pipeline/verdict/verdict.h"
+
+namespace flexneck::pipeline {
+
+/// What a test measures in a case of the pendulum: head against arm, the virtual load cell's
+/// moment, and the case's pulse at the accelerometer by the test's channel class. Time zero is the
+/// arm's impact.
+/// @param channels  of the case's file
+/// @throws InputError if one is missing.
+TestCurves test_curves(const Study& study, const TestSection& test, const CaseSection& experiment,
+                       const Eigen::VectorXd& time_s,
+                       const std::vector<multibody::Channel>& channels);
+
+/// How the case forms its moment where the test defines it otherwise; else empty.
+std::string moment_difference(const TestSection& test, const CaseSection& experiment);
+
+}  // namespace flexneck::pipeline

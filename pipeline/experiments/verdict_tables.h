@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/output/result_table.h"
+#include "pipeline/study/study.h"
+#include "pipeline/verdict/verdict.h"
+
+namespace flexneck::pipeline {
+
+/// A test of the study with what it says of its case.
+struct JudgedTest {
+  enum class Status {
+    judged,
+    not_applicable,  ///< the regulation is for another dummy
+    not_run          ///< there is no run of the case yet
+  };
+  TestSection test;
+  Status status = Status::not_run;
+  std::optional<Verdict> verdict = {};  ///< where it is judged
+  std::string moment_difference = {};   ///< where the case forms its moment otherwise than the test
+};
+
+/// Whether the test's regulation is for the dummy of the study.
+bool applies(const TestSection& test, const Study& study);
+
+/// A text each: conditions of tests that are not met, with where and how much, and moments that are
+/// formed otherwise.
+std::vector<std::string> verdict_warnings(const std::vector<JudgedTest>& tests);
+
+/// "verdicts": a line for each test.
+ResultTable verdict_table(const std::vector<JudgedTest>& tests, const Study& study);
+/// "verdict figures": each figure and each condition with its limits.
+ResultTable verdict_figure_table(const std::vector<JudgedTest>& tests);
+
+}  // namespace flexneck::pipeline

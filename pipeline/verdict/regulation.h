@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/document/key.h"
+#include "pipeline/verdict/certification_test.h"
+
+namespace flexneck::pipeline {
+
+/// The table of keys of a file with the tests of a regulation.
+std::span<const Key> regulation_keys();
+
+/// The tests of a file; their names begin with the regulation's.
+/// @throws InputError with file, line, column and key for everything that is not right.
+std::vector<CertificationTest> read_regulation(const std::filesystem::path& path);
+
+/// A test with the file that it stands in.
+struct ShippedTest {
+  CertificationTest test;
+  std::filesystem::path file;
+};
+
+/// The test of that name among the shipped regulations.
+/// @throws InputError with the names there are.
+ShippedTest shipped_test(const std::string& name);
+
+}  // namespace flexneck::pipeline
