@@ -18,6 +18,7 @@ WORDS = {
     "settings": ["pipeline/study/", "pipeline/document/"],
     "model": ["pipeline/model/", "pipeline/document/"],
     "reference": ["pipeline/verification/reference", "pipeline/document/study_node"],
+    "regulation": ["pipeline/verdict/regulation", "pipeline/document/study_node"],
     "results": ["pipeline/output/result_table", "pipeline/verification/", "pipeline/output/prov"],
     "matrix": ["fe_modal/exchange/matrix_market"],
 }
@@ -29,7 +30,8 @@ UNITS = ["m", "mm", "in", "kg", "lb", "lbf", "s", "ms", "deg", "rad", "Hz", "Pa"
 FUNCTIONS = ["sin(", "sqrt(", "min(", "max(", "sum(", "rint(", "pi", "gn", "t", "_e", "&&", "||",
              "==", "!=", "<=", "?", ":", "^", "e-3", "1e308", ")"]
 EXTRA = {"study": TOML + UNITS, "model": TOML + UNITS + FUNCTIONS, "settings": TOML,
-         "reference": TOML + UNITS, "quantity": UNITS, "expression": FUNCTIONS,
+         "reference": TOML + UNITS, "regulation": TOML + UNITS, "quantity": UNITS, "expression": FUNCTIONS,
+         "curve": UNITS + [",", "\r\n", "time [ms]", "\"head rotation [deg]\"", "# ", "nan", "1e999"],
          "table": UNITS + [",", "\r\n", "time [ms]", "# ", "\xef\xbb\xbf", "nan", "1e999"],
          "results": ["{", "}", "[", "]", ":", ",", "null", "true", "\\u0000", "\\ud800", "1e999"],
          "deck": ["*INCLUDE, INPUT=deck.inp\n", "GENERATE", "C3D10", "C3D15", "C3D8", "C3D20R", "\n*", ",\n"],
@@ -199,10 +201,12 @@ def inputs():
     study = sound_files.STUDY.format(file="bar.msh", unit="", part="bar", held="clamp", tip="tip")
     petsc = struct.pack(">4i2i3i3d", 1211216, 2, 2, 3, 2, 1, 0, 1, 1, 4, -1, 3)
     texts = {
+        "curve": ["#b\ntime [ms],a [deg],\"b [g]\"\n0,1,2\n1,3,4\n", "0,1\n0.1,2\n"],
         "deck": [DECK, TETRAHEDRON],
         "expression": EXPRESSIONS,
         "model": [part for text in models for part in _tables_of(_beside(text))],
         "reference": [_text_of("pipeline/verification/hybrid3.toml")],
+        "regulation": [_text_of(f"pipeline/regulations/572.{part}.toml") for part in (33, 123, 133)],
         "results": [json.dumps(TABLES), json.dumps(VERIFICATION, indent=1)],
         "settings": SETTINGS,
         "study": [part for text in studies + [study] for part in _tables_of(_beside(text))]
