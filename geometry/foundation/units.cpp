@@ -41,9 +41,8 @@ const ut_system& unit_system() {
 }
 
 /// Names with whole exponents, joined by '*', '.', '/' or a space. UDUNITS-2 takes multiples
-/// besides
-/// ("kg 2", "kg^2.5" and "m/2" are 2 kg, 5 kg^2 and 0.5 m), origins and logarithms: all of them
-/// would change the number that stands before the unit without a word.
+/// besides ("kg 2", "kg^2.5" and "m/2" are 2 kg, 5 kg^2 and 0.5 m), origins and logarithms: all of
+/// them would change the number that stands before the unit without a word.
 bool is_plain_unit(const std::string& text) {
   constexpr std::size_t kMaxCharacters = 80;  // std::regex takes stack for each
   static const std::regex kPattern = [] {
@@ -79,10 +78,17 @@ int radians(const ut_unit& unit) {
   return exponent.empty() ? 1 : std::stoi(exponent);
 }
 
+/// "g" beside an acceleration: there it cannot be the gram, and test reports mean gravity.
+bool is_gravity(std::string_view unit, std::string_view beside) {
+  if (unit != "g") return false;
+  const Unit acceleration = parse_unit("gn");
+  return ut_are_convertible(parse_unit(beside).get(), acceleration.get()) != 0;
+}
+
 /// Factor between two units. An offset (as in degrees Celsius) has no place here.
 double factor(std::string_view from, std::string_view to) {
-  const Unit source = parse_unit(from);
-  const Unit target = parse_unit(to);
+  const Unit source = parse_unit(is_gravity(from, to) ? "gn" : from);
+  const Unit target = parse_unit(is_gravity(to, from) ? "gn" : to);
   const Converter converter(ut_get_converter(source.get(), target.get()), cv_free);
   const int angle = radians(*source);
   const bool is_pure_number = ut_is_dimensionless(source.get()) != 0 && angle == 0;

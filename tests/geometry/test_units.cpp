@@ -29,6 +29,10 @@ TEST_CASE("quantities come out in SI by the legal definitions of the units") {
   CHECK(parse_quantity("0.1408 lbf*s^2*in", "kg*m^2") == near(0.1408 * pound_force * inch));
   CHECK(parse_quantity("400 lbf", "N") == near(400 * pound_force));
   CHECK(parse_quantity("24.15 gn", "m/s^2") == near(24.15 * gravity));
+  CHECK(parse_quantity("24.15 g", "m/s^2") == near(24.15 * gravity));
+  CHECK(parse_quantity("24.15 g", "kg") == near(0.02415));
+  CHECK(factor_from_si("g", "gn") == 1);
+  CHECK(factor_from_si("g", "mg") == near(1000));
   CHECK(parse_quantity("120 deg", "rad") == near(120 * std::numbers::pi / 180));
   CHECK(parse_quantity("36.5 ms", "s") == near(0.0365));
   CHECK(parse_quantity("54.74 in/s", "m/s") == near(54.74 * inch));
@@ -44,6 +48,7 @@ TEST_CASE("a quantity without a usable unit is refused with the reason") {
   CHECK_THROWS_WITH(parse_quantity("0.4 inn", "m"), Contains("unknown unit 'inn'"));
   CHECK_THROWS_WITH(parse_quantity("0.4 s", "m"), Contains("'s', which measures something else"));
   CHECK_THROWS_WITH(parse_quantity("0.0981 lbf/in^3", "kg/m^3"), Contains("something else"));
+  CHECK_THROWS_WITH(parse_quantity("4 g*s", "m/s"), Contains("something else"));
   CHECK_THROWS_AS(parse_quantity("1 Hz", "rad"), InputError);
   CHECK_THROWS_AS(parse_quantity("30 deg", "m/m"), InputError);
 }
