@@ -170,9 +170,9 @@ TEST_CASE("an experiment that cannot be is refused with what there is") {
                               "\"30 ms\", \"36 ms\", \"42 ms\"]"}),
                     Contains("pulse.flexion.times") && Contains("must increase strictly"));
   CHECK_THROWS_WITH(
-      built_in({"pulse.flexion.deceleration=[\"0 g\", \"1 g\", \"1 g\", \"1 g\", \"1 g\", "
-                "\"1 g\", \"0 g\"]"}),
-      Contains("pulse.flexion.deceleration"));  // grams
+      built_in({"pulse.flexion.deceleration=[\"0 kg\", \"1 kg\", \"1 kg\", \"1 kg\", \"1 kg\", "
+                "\"1 kg\", \"0 kg\"]"}),
+      Contains("pulse.flexion.deceleration"));
   CHECK_THROWS_WITH(built_in({"case.lateral-65.head_spring=nodding"}),
                     Contains("a rigid neck has a pivot with a spring there already"));
 }
