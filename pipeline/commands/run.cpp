@@ -33,14 +33,14 @@ std::string origin_counts(const Study& study) {
   return text;
 }
 
-/// The dimensions of the neck and the figures of its bodies, each with its origin.
+/// What is not synthetic, each with its origin; empty if all is.
 std::string origin_table(const Study& study) {
   std::vector<std::vector<std::string>> rows = {{"input", "value", "origin"}};
   for (const Parameter& parameter : study.parameters) {
     if (parameter.origin == Origin::synthetic) continue;
     rows.push_back({parameter.key, parameter.value, std::string(name_of(parameter.origin))});
   }
-  return text_table(rows, {0, 1, 2});
+  return rows.size() > 1 ? text_table(rows, {0, 1, 2}) : "";
 }
 
 /// A stage of `run`. A command that throws has not made it; one that returns false has, only its
@@ -156,7 +156,7 @@ PendulumResults make_cases(const CommandInput& input, Stages& records) {
 bool run_stages(const CommandInput& input, StepTimes& times) {
   const Study& study = input.study;
   input.console.result("Inputs by origin: " + origin_counts(study) + " (flexneck study)");
-  input.console.table(origin_table(study));
+  if (const std::string table = origin_table(study); !table.empty()) input.console.table(table);
   Stages records(input.folder.path(), input.redo);
   const auto make_all = [&](const std::vector<Stage>& stages) {
     for (const Stage& stage : stages) {

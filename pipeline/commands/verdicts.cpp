@@ -54,8 +54,9 @@ void write_verdicts(const CommandInput& input) {
   Provenance provenance = provenance_of(input.study);
   const std::vector<InputFile> regulations = regulation_files(input.study);
   provenance.inputs.insert(provenance.inputs.end(), regulations.begin(), regulations.end());
-  const std::vector<ResultTable> tables = {verdict_table(tests, input.study),
-                                           verdict_figure_table(tests)};
+  std::vector<ResultTable> tables = {verdict_table(tests, input.study)};
+  if (ResultTable figures = verdict_figure_table(tests); !figures.rows.empty())
+    tables.push_back(std::move(figures));
   write_tables(input.folder.file("verdicts.json"), tables, provenance);
   show_tables(input, tables);
   for (const std::string& warning : verdict_warnings(tests)) input.console.warning(warning);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/document/csv_lines.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/text_file.h"
 
@@ -83,6 +85,27 @@ std::vector<std::string> CsvLines::cells_of(const std::string& line) const {
     cells.push_back(cell);
     if (end == text.size()) return cells;
     at = end + 1;
+  }
+}
+
+std::size_t csv_column(const CsvLines& file, const std::vector<std::string>& names,
+                       const std::string& column, const std::string& how) {
+  std::vector<std::string> others;
+  std::string listed;
+  for (std::size_t c = 1; c < names.size(); ++c) {
+    others.push_back(csv_header(names[c]).name);
+    listed += (listed.empty() ? "'" : ", '") + others.back() + "'";
+  }
+  if (column.empty()) {
+    if (others.size() == 1) return 1;
+    file.refuse("there are several columns; choose one of " + listed + " " + how);
+  }
+  if (std::count(others.begin(), others.end(), column) > 1)
+    file.refuse("there are several columns '" + column + "'; names must differ");
+  try {
+    return 1 + find_name(others, column, "column");
+  } catch (const InputError& error) {
+    file.refuse(error.what());
   }
 }
 

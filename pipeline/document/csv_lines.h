@@ -48,4 +48,11 @@ class CsvLines {
   std::size_t columns_ = 0;
 };
 
+/// Place of a column among those of the line of names, of which the first is what the others are
+/// over. Without a name the only other one.
+/// @param how  the name is given, for the message: "with the key 'column'"
+/// @throws InputError if there is no such column, or several.
+std::size_t csv_column(const CsvLines& file, const std::vector<std::string>& names,
+                       const std::string& column, const std::string& how);
+
 }  // namespace flexneck::pipeline

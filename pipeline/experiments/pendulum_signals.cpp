@@ -7,6 +7,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "multibody/signals/load_cell.h"
+#include "pipeline/document/channel_class.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/joint_load.h"
 #include "pipeline/model/channel.h"
@@ -128,11 +129,9 @@ VectorXd moment_by_formula(const VectorXd& moment_Nm, const VectorXd& shear_N, d
 namespace {
 
 std::string filter_text(const MomentDefinition& moment) {
-  const auto name = [](multibody::ChannelClass cfc) {
-    return "CFC " + std::to_string(static_cast<int>(cfc));
-  };
-  if (moment.force_filter == moment.moment_filter) return name(moment.moment_filter);
-  return name(moment.moment_filter) + ", force " + name(moment.force_filter);
+  const std::string of_moment = name_of(moment.moment_filter);
+  if (moment.force_filter == moment.moment_filter) return of_moment;
+  return of_moment + ", force " + name_of(moment.force_filter);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "pipeline/document/channel_class.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/pendulum_signals.h"
 
@@ -47,9 +48,8 @@ TestCurves test_curves(const Study& study, const TestSection& test, const CaseSe
 
 std::string moment_difference(const TestSection& test, const CaseSection& experiment) {
   const auto text = [](const MomentDefinition& moment) {
-    return fmt::format("M = My - {:.3f} mm Fx with My of CFC {} and Fx of CFC {}",
-                       moment.arm_m * 1e3, static_cast<int>(moment.moment_filter),
-                       static_cast<int>(moment.force_filter));
+    return fmt::format("M = My - {:.3f} mm Fx with My of {} and Fx of {}", moment.arm_m * 1e3,
+                       name_of(moment.moment_filter), name_of(moment.force_filter));
   };
   const std::string has = text(experiment.moment);
   const std::string wanted = text(test.rules.moment_definition);

@@ -5,6 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/document/channel_class.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/model_sections.h"
 
@@ -22,8 +23,6 @@ std::vector<std::string> quantities() {
           "moment",   "load_cell_force",  "load_cell_moment",     "modal",           "energy"};
 }
 
-std::vector<std::string> filters() { return {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}; }
-
 constexpr Key kKeys[] = {
     Key::text("name", kRequired, "Name of the channel"),
     Key::text("quantity", kRequired, "What is measured", {.choices = quantities}),
@@ -37,7 +36,7 @@ constexpr Key kKeys[] = {
         "axes", kNone,
         "Marker along whose axes the components are; those of relative_to if the key is not there"),
     Key::numbers("axis", kNone, "Of an angle: its axis", {.size = 3}),
-    Key::text("filter", kNone, "Filter of SAE J211", {.choices = filters}),
+    Key::text("filter", kNone, "Filter of SAE J211", {.choices = channel_class_names}),
 };
 
 std::optional<std::size_t> marker_or_none(const StudyTable& table, const std::string& key,
@@ -66,9 +65,7 @@ std::size_t deformable_body(const StudyTable& table, const Model& model) {
 
 std::optional<ChannelClass> read_filter(const StudyTable& table, double interval_s) {
   if (!table.has("filter")) return std::nullopt;
-  constexpr std::array kClasses = {ChannelClass::cfc60, ChannelClass::cfc180, ChannelClass::cfc600,
-                                   ChannelClass::cfc1000};
-  const ChannelClass cfc = kClasses.at(table.choice("filter"));
+  const ChannelClass cfc = read_channel_class(table, "filter");
   try {  // The filter itself knows what it needs.
     multibody::cfc_filtered(Eigen::Vector2d::Zero(), interval_s, cfc);
   } catch (const InputError& error) {

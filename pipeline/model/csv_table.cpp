@@ -29,30 +29,6 @@ Header header_of(const CsvLines& file, const std::string& cell, const std::strin
   }
 }
 
-/// Place of the column y: the one of that name among those after the first, which is x.
-std::size_t column_index(const CsvLines& file, const std::vector<std::string>& cells,
-                         const std::string& column) {
-  if (cells.size() < 2)
-    file.refuse(std::string("expected at least two columns with their units") + CsvLines::kMarks);
-  std::vector<std::string> names;
-  std::string listed;
-  for (std::size_t c = 1; c < cells.size(); ++c) {
-    names.push_back(csv_header(cells[c]).name);
-    listed += " '" + names.back() + "'";
-  }
-  if (column.empty()) {
-    if (cells.size() == 2) return 1;
-    file.refuse("there are several columns; choose one with the key 'column':" + listed);
-  }
-  if (std::count(names.begin(), names.end(), column) > 1)
-    file.refuse("there are several columns '" + column + "'; names must differ");
-  try {
-    return 1 + find_name(names, column, "column");
-  } catch (const InputError& error) {
-    file.refuse(error.what());
-  }
-}
-
 }  // namespace
 
 TableColumns read_csv_columns(const std::filesystem::path& path, const std::string& x_unit,
@@ -60,7 +36,9 @@ TableColumns read_csv_columns(const std::filesystem::path& path, const std::stri
   CsvLines file(path);
   std::vector<std::string> cells;
   if (!file.next(cells)) file.refuse("expected a line with the columns' names and units");
-  const std::size_t y_index = column_index(file, cells, column);
+  if (cells.size() < 2)
+    file.refuse(std::string("expected at least two columns with their units") + CsvLines::kMarks);
+  const std::size_t y_index = csv_column(file, cells, column, "with the key 'column'");
   const Header x = header_of(file, cells[0], x_unit);
   const Header y = header_of(file, cells[y_index], y_unit);
   TableColumns table;

@@ -28,31 +28,13 @@ struct Columns {
   CsvHeader header;
 };
 
-std::size_t index_of(const CsvLines& file, const Cells& cells, const std::string& column) {
-  std::vector<std::string> names;
-  std::string listed;
-  for (std::size_t c = 1; c < cells.size(); ++c) {
-    names.push_back(csv_header(cells[c]).name);
-    listed += (listed.empty() ? "'" : ", '") + names.back() + "'";
-  }
-  if (column.empty() && names.size() == 1) return 1;
-  if (column.empty()) file.refuse("there are several columns, choose one of " + listed);
-  if (std::count(names.begin(), names.end(), column) > 1)
-    file.refuse("there are several columns '" + column + "'; names must differ");
-  try {
-    return 1 + find_name(names, column, "column");
-  } catch (const InputError& error) {
-    file.refuse(error.what());
-  }
-}
-
 Columns columns_of(const CsvLines& file, const Cells& cells, const std::string& column) {
   Columns columns;
   const CsvHeader time = csv_header(cells[0]);
   if (time.unit.empty())
     file.refuse("expected the time and its unit first, such as \"time [s]\", found \"" + cells[0] +
                 "\"");
-  columns.index = index_of(file, cells, column);
+  columns.index = csv_column(file, cells, column, "by its name");
   columns.header = csv_header(cells[columns.index]);
   try {
     columns.time_to_s = parse_quantity("1 " + time.unit, "s");

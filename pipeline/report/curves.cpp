@@ -6,6 +6,7 @@
 #include "geometry/foundation/units.h"
 #include "pipeline/output/customary_units.h"
 #include "pipeline/plotting/embedding.h"
+#include "pipeline/report/corridors.h"
 
 namespace flexneck::pipeline {
 
@@ -61,15 +62,15 @@ Json units_json(const Results& results) {
   return units;
 }
 
-Json corridors_json(const PaperContext& context) {
+Json corridors_json(const Study& study) {
   Json list = Json::array();
-  for (const Corridor& corridor : context.corridors) {
+  for (const Corridor& corridor : corridors_of(study)) {
     list.push_back({{"case", corridor.experiment},
                     {"channel", corridor.channel},
-                    {"what", context.corridor_label + ", " + corridor.what},
+                    {"what", corridor.what},
                     {"unit", corridor.unit},
-                    {"times", {corridor.from_s, corridor.to_s}},
-                    {"values", {corridor.low, corridor.high}}});
+                    {"times", {corridor.times_s.low, corridor.times_s.high}},
+                    {"values", {corridor.values.low, corridor.values.high}}});
   }
   return list;
 }
@@ -80,7 +81,7 @@ std::string shown_unit(const std::string& si_unit, Experiment::Kind kind) {
   return customary_unit(si_unit, kind == Experiment::Kind::pendulum ? "lbf*ft" : "in*lbf");
 }
 
-Json curves_of(const Results& results, const PaperContext& context) {
+Json curves_of(const Results& results, const Study& study) {
   Json runs = Json::array();
   for (const Experiment& experiment : results.experiments) {
     if (!experiment.file.channels.empty()) runs.push_back(run_json(experiment));
@@ -88,7 +89,7 @@ Json curves_of(const Results& results, const PaperContext& context) {
   if (runs.empty()) return nullptr;
   return {{"runs", std::move(runs)},
           {"units", units_json(results)},
-          {"corridors", corridors_json(context)}};
+          {"corridors", corridors_json(study)}};
 }
 
 }  // namespace flexneck::pipeline

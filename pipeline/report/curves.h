@@ -3,14 +3,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "pipeline/report/paper_context.h"
 #include "pipeline/report/results.h"
 
 namespace flexneck::pipeline {
 
 /// The channels of all runs in SI units, the units in which the paper shows them, and the corridors
 /// that stand behind them, as page/plots.js reads it. Null if no run has channels.
-nlohmann::ordered_json curves_of(const Results& results, const PaperContext& context);
+nlohmann::ordered_json curves_of(const Results& results, const Study& study);
 
 /// The unit in which a quantity of that SI unit is shown: "deg" for "rad". Itself if there is none.
 std::string shown_unit(const std::string& si_unit, Experiment::Kind kind);

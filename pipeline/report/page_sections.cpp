@@ -8,6 +8,7 @@
 
 #include "fe_modal/body/basis_table.h"
 #include "pipeline/plotting/embedding.h"
+#include "pipeline/report/corridors.h"
 
 namespace flexneck::pipeline {
 
@@ -245,9 +246,9 @@ HtmlTable html_table_of(const ResultTable& result) {
 }
 
 std::map<std::string, std::string> page_sections(const Results& results, const Study& study,
-                                                 const PaperContext& context) {
-  std::vector<std::string> remarks = context.remarks;
-  const std::vector<std::string> on_pulses = pulse_remarks(study, context);
+                                                 const std::vector<std::string>& paper_remarks) {
+  std::vector<std::string> remarks = paper_remarks;
+  const std::vector<std::string> on_pulses = pulse_remarks(study);
   if (!remarks.empty()) remarks.insert(remarks.end(), on_pulses.begin(), on_pulses.end());
   return {{"study", html_text(study.file.filename().string())},
           {"warnings", warnings_html(results)},

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "pipeline/report/html_table.h"
-#include "pipeline/report/paper_context.h"
 #include "pipeline/report/results.h"
 
 namespace flexneck::pipeline {
@@ -16,6 +15,6 @@ HtmlTable html_table_of(const ResultTable& result);
 /// The parts of the page that are text and tables, as HTML, by the names that page/report.html has
 /// for them.
 std::map<std::string, std::string> page_sections(const Results& results, const Study& study,
-                                                 const PaperContext& context);
+                                                 const std::vector<std::string>& paper_remarks);
 
 }  // namespace flexneck::pipeline

@@ -51,22 +51,20 @@ void add_sections(std::map<std::string, std::string>& texts) {
   }
 }
 
-PaperContext context_of(const Study& study) {
+std::vector<std::string> paper_remarks(const Study& study) {
   if (study.verification.empty()) return {};
   fs::path path = study.verification;
   path.replace_filename(path.stem().string() + "_context.toml");
-  return fs::exists(path) ? read_context(path, study) : PaperContext();
+  return fs::exists(path) ? read_paper_remarks(path) : std::vector<std::string>();
 }
 
 }  // namespace
 
 void write_report(const fs::path& path, const Results& results, const Study& study) {
-  const PaperContext context = context_of(study);
   const nlohmann::ordered_json scene = scene_of(results, study);
-  const nlohmann::ordered_json curves = curves_of(results, context);
-  std::map<std::string, std::string> texts = page_sections(results, study, context);
-  texts["figures"] =
-      figures_html(draw_figures(results, study, context, path.parent_path() / "figures"));
+  const nlohmann::ordered_json curves = curves_of(results, study);
+  std::map<std::string, std::string> texts = page_sections(results, study, paper_remarks(study));
+  texts["figures"] = figures_html(draw_figures(results, study, path.parent_path() / "figures"));
   texts["head"] = page_head(texts["study"]);
   texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");

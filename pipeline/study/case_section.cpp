@@ -2,6 +2,7 @@
 #include <array>
 
 #include "geometry/foundation/names.h"
+#include "pipeline/document/channel_class.h"
 #include "pipeline/study/drop.h"
 #include "pipeline/study/sections.h"
 
@@ -12,7 +13,6 @@ namespace {
 std::vector<std::string> case_kinds() { return {"pendulum", "static"}; }
 std::vector<std::string> directions() { return {"flexion", "extension", "lateral"}; }
 std::vector<std::string> pulse_scalings() { return {"amplitude", "duration", "none"}; }
-std::vector<std::string> filters() { return {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}; }
 std::vector<std::string> arms() { return {"translating", "rotating"}; }
 
 constexpr KeyDetails kAbove0 = {.range = kPositive};
@@ -44,8 +44,10 @@ constexpr auto kCaseKeys = std::to_array<Key>({
     Key::quantity("moment_arm", "m", "0.0176784",
                   "Of the load cell's moment about the condyles, M = My - arm Fx",
                   {.range = at_least(0)}),
-    Key::text("force_filter", "CFC 600", "Channel class of Fx in it", {.choices = filters}),
-    Key::text("moment_filter", "CFC 600", "Channel class of My in it", {.choices = filters}),
+    Key::text("force_filter", "CFC 600", "Channel class of Fx in it",
+              {.choices = channel_class_names}),
+    Key::text("moment_filter", "CFC 600", "Channel class of My in it",
+              {.choices = channel_class_names}),
     Key::text("rigid_neck", kNone, "A [[rigid_neck]] in place of the deformable one"),
     Key::text("head_spring", kNone, "A [[head_spring]] in place of the head's fixed joint"),
 });
@@ -75,11 +77,8 @@ void read_velocity(const StudyTable& table, CaseSection& experiment) {
 }
 
 MomentDefinition read_moment_definition(const StudyTable& table) {
-  using multibody::ChannelClass;
-  constexpr std::array kClasses = {ChannelClass::cfc60, ChannelClass::cfc180, ChannelClass::cfc600,
-                                   ChannelClass::cfc1000};
-  return {table.quantity("moment_arm"), kClasses.at(table.choice("force_filter")),
-          kClasses.at(table.choice("moment_filter"))};
+  return {table.quantity("moment_arm"), read_channel_class(table, "force_filter"),
+          read_channel_class(table, "moment_filter")};
 }
 
 void read_pendulum(const StudyTable& table, CaseSection& experiment) {

@@ -79,13 +79,18 @@ struct AddPulse {
 
 }  // namespace
 
-std::vector<JudgedFigure> judged_conditions(const CertificationTest& test,
-                                            double impact_velocity_m_s, const PulseCurve& pulse) {
+std::vector<JudgedFigure> judged_pulse(const CertificationTest& test, const PulseCurve& pulse) {
   check_samples(pulse.time_s, pulse.deceleration_m_s2);
   std::vector<JudgedFigure> figures;
-  figures.push_back(
-      judged_figure("impact velocity", "m/s", test.impact_velocity_m_s, impact_velocity_m_s, ""));
   std::visit(AddPulse{pulse, figures}, test.pulse);
+  return figures;
+}
+
+std::vector<JudgedFigure> judged_conditions(const CertificationTest& test,
+                                            double impact_velocity_m_s, const PulseCurve& pulse) {
+  std::vector<JudgedFigure> figures = judged_pulse(test, pulse);
+  figures.insert(figures.begin(), judged_figure("impact velocity", "m/s", test.impact_velocity_m_s,
+                                                impact_velocity_m_s, ""));
   return figures;
 }
 

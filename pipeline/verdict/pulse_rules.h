@@ -15,9 +15,12 @@ struct PulseCurve {
   Eigen::VectorXd deceleration_m_s2;
 };
 
-/// The impact velocity and what a test has limits for of the pulse. They are conditions of the
-/// test, no results of it.
+/// What a test has limits for of the pulse.
 /// @throws std::invalid_argument for times that do not increase, or curves of other lengths.
+std::vector<JudgedFigure> judged_pulse(const CertificationTest& test, const PulseCurve& pulse);
+
+/// The impact velocity and the pulse. They are conditions of the test, no results of it.
+/// @throws as judged_pulse()
 std::vector<JudgedFigure> judged_conditions(const CertificationTest& test,
                                             double impact_velocity_m_s, const PulseCurve& pulse);
 

@@ -5,18 +5,17 @@
 #include <array>
 
 #include "geometry/foundation/names.h"
+#include "pipeline/document/channel_class.h"
 #include "pipeline/document/study_document.h"
 #include "pipeline/model/model_sections.h"
 
 namespace flexneck::pipeline {
 
 namespace fs = std::filesystem;
-using multibody::ChannelClass;
 
 namespace {
 
 std::vector<std::string> directions() { return {"flexion", "extension"}; }
-std::vector<std::string> filters() { return {"CFC 60", "CFC 180", "CFC 600", "CFC 1000"}; }
 std::vector<std::string> pulse_kinds() { return {"deceleration", "velocity lost"}; }
 std::vector<std::string> moment_units() { return {"N*m", "lbf*ft"}; }
 std::vector<std::string> velocity_units() { return {"m/s", "ft/s"}; }
@@ -67,21 +66,15 @@ constexpr Key kKeys[] = {
     Key::text("source", kRequired, "Where the figures are from"),
     Key::flag("zeroed", "false", "Whether rotation and moment are zero at time zero by rule"),
     Key::quantity("moment_arm", "m", kRequired, "Arm of M = My - arm Fx", {.range = at_least(0)}),
-    Key::text("force_filter", kRequired, "Channel class of Fx", {.choices = filters}),
-    Key::text("moment_filter", kRequired, "Channel class of My", {.choices = filters}),
+    Key::text("force_filter", kRequired, "Channel class of Fx", {.choices = channel_class_names}),
+    Key::text("moment_filter", kRequired, "Channel class of My", {.choices = channel_class_names}),
     Key::text("pendulum_filter", kRequired, "Channel class of the pendulum's acceleration",
-              {.choices = filters}),
+              {.choices = channel_class_names}),
     Key::text("moment_unit", "N*m", "Unit that moments are shown in", {.choices = moment_units}),
     Key::text("velocity_unit", "m/s", "Unit that velocities are shown in",
               {.choices = velocity_units}),
     Key::tables("test", "Tests of the regulation", kTestKeys),
 };
-
-ChannelClass read_filter(const StudyTable& table, const char* key) {
-  constexpr std::array kClasses = {ChannelClass::cfc60, ChannelClass::cfc180, ChannelClass::cfc600,
-                                   ChannelClass::cfc1000};
-  return kClasses.at(table.choice(key));
-}
 
 Limits read_limits(const StudyTable& table, const char* key) {
   const std::vector<double> pair = table.quantities(key);
@@ -192,9 +185,9 @@ std::vector<CertificationTest> read_regulation(const fs::path& path) {
   common.dummy = root.text("dummy");
   common.source = root.text("source");
   common.is_zeroed = root.flag("zeroed");
-  common.moment_definition = {root.quantity("moment_arm"), read_filter(root, "force_filter"),
-                              read_filter(root, "moment_filter")};
-  common.pendulum_filter = read_filter(root, "pendulum_filter");
+  common.moment_definition = {root.quantity("moment_arm"), read_channel_class(root, "force_filter"),
+                              read_channel_class(root, "moment_filter")};
+  common.pendulum_filter = read_channel_class(root, "pendulum_filter");
   common.moment_unit = moment_units()[root.choice("moment_unit")];
   common.velocity_unit = velocity_units()[root.choice("velocity_unit")];
   std::vector<CertificationTest> tests;

@@ -23,10 +23,9 @@ namespace {
 
 constexpr const char* kScript = "figures.gp";
 
-std::vector<Figure> all_figures(const Results& results, const Study& study,
-                                const PaperContext& context) {
+std::vector<Figure> all_figures(const Results& results, const Study& study) {
   std::vector<Figure> figures = neck_drawings(results, study);
-  for (auto& more : {mesh_figures(results), response_figures(results, study, context)}) {
+  for (auto& more : {mesh_figures(results), response_figures(results, study)}) {
     figures.insert(figures.end(), more.begin(), more.end());
   }
   std::sort(figures.begin(), figures.end(),
@@ -70,12 +69,12 @@ std::string html_of(const DrawnFigure& drawn) {
 }  // namespace
 
 std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study,
-                                      const PaperContext& context, const fs::path& folder) {
+                                      const fs::path& folder) {
   if (study.neck() == nullptr) return {};
   const TemporaryFolder workshop;
   std::vector<DrawnFigure> drawn;
   std::string script;
-  for (Figure& figure : all_figures(results, study, context)) {
+  for (Figure& figure : all_figures(results, study)) {
     if (figure.missing.empty()) {
       write_text(workshop / (stem_of(figure) + ".csv"), figure.csv, Durability::none);
       script += figure.script;

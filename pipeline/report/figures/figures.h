@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "pipeline/plotting/figure.h"
-#include "pipeline/report/paper_context.h"
 #include "pipeline/report/results.h"
 
 namespace flexneck::pipeline {
@@ -22,7 +21,6 @@ struct DrawnFigure {
 /// run that cannot be drawn now are removed. None for another structure than the neck.
 /// @throws InputError if gnuplot is missing, with its package's name, or a file cannot be written.
 std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study,
-                                      const PaperContext& context,
                                       const std::filesystem::path& folder);
 
 /// The figures for the page, each with its caption and remarks.

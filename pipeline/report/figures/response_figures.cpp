@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
 #include "pipeline/plotting/curve_figure.h"
+#include "pipeline/report/corridors.h"
 #include "pipeline/report/curves.h"
 
 namespace flexneck::pipeline {
@@ -135,23 +137,25 @@ std::string label(const std::string& name, const std::string& si_unit, Kind kind
   return name + " [" + (unit == "gn" ? "g" : unit) + "]";
 }
 
-std::vector<FigureBand> bands_of(const ResponseFigure& figure, const PaperContext& context) {
+/// Corridors behind the figure's curves. @param sources  gets where they are from, each once
+std::vector<FigureBand> bands_of(const ResponseFigure& figure, const Study& study,
+                                 std::set<std::string>& sources) {
   std::vector<FigureBand> bands;
-  for (const Corridor& corridor : context.corridors) {
+  for (const Corridor& corridor : corridors_of(study)) {
     const bool applies =
         std::any_of(figure.curves.begin(), figure.curves.end(), [&](const CurveSpec& curve) {
           return curve.experiment == corridor.experiment && curve.channel == corridor.channel;
         });
     if (!applies) continue;
     const double factor = factor_from_si(corridor.unit, shown_unit(corridor.unit, figure.kind));
-    bands.push_back({context.corridor_label + ", " + corridor.what, 1e3 * corridor.from_s,
-                     1e3 * corridor.to_s, corridor.low * factor, corridor.high * factor});
+    bands.push_back({corridor.what, 1e3 * corridor.times_s.low, 1e3 * corridor.times_s.high,
+                     corridor.values.low * factor, corridor.values.high * factor});
+    sources.insert(corridor.source);
   }
   return bands;
 }
 
-Figure drawn(const ResponseFigure& spec, const Results& results, const Study& study,
-             const PaperContext& context) {
+Figure drawn(const ResponseFigure& spec, const Results& results, const Study& study) {
   Figure figure{spec.number, spec.caption, spec.remark};
   CurvePlot plot;
   const bool is_over_time = spec.against == "time";
@@ -174,19 +178,19 @@ Figure drawn(const ResponseFigure& spec, const Results& results, const Study& st
                            shown_values(*y, spec.kind)});
   }
   if (!figure.missing.empty() || plot.curves.empty()) return figure;
-  plot.bands = bands_of(spec, context);
-  if (!plot.bands.empty()) figure.remark += " Grey: " + context.corridor_source + ", for context.";
+  std::set<std::string> sources;
+  plot.bands = bands_of(spec, study, sources);
+  for (const std::string& source : sources) figure.remark += " Grey: " + source + ", for context.";
   draw_curves(plot, figure);
   return figure;
 }
 
 }  // namespace
 
-std::vector<Figure> response_figures(const Results& results, const Study& study,
-                                     const PaperContext& context) {
+std::vector<Figure> response_figures(const Results& results, const Study& study) {
   std::vector<Figure> figures;
   for (const ResponseFigure& spec : response_list()) {
-    figures.push_back(drawn(spec, results, study, context));
+    figures.push_back(drawn(spec, results, study));
   }
   return figures;
 }

@@ -4,14 +4,12 @@
 #include <vector>
 
 #include "pipeline/plotting/figure.h"
-#include "pipeline/report/paper_context.h"
 #include "pipeline/report/results.h"
 
 namespace flexneck::pipeline {
 
 /// Figures 6 and 8 to 16: what the experiments gave, beside it their variants as far as they were
 /// run.
-std::vector<Figure> response_figures(const Results& results, const Study& study,
-                                     const PaperContext& context);
+std::vector<Figure> response_figures(const Results& results, const Study& study);
 
 }  // namespace flexneck::pipeline

@@ -15,6 +15,7 @@
 #include "pipeline/plotting/curve_figure.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/comparison.h"
+#include "pipeline/report/corridors.h"
 #include "pipeline/report/paper_context.h"
 #include "pipeline/report/report.h"
 #include "pipeline/report/results.h"
@@ -90,9 +91,9 @@ class Variable {
   std::optional<std::string> before_;
 };
 
-PaperContext context_of(const Study& study) {
-  fs::path path = study.verification;
-  return read_context(path.replace_filename("hybrid3_context.toml"), study);
+std::vector<std::string> paper_remarks() {
+  return read_paper_remarks(fs::path(FLEXNECK_SOURCE_DIR) /
+                            "pipeline/verification/hybrid3_context.toml");
 }
 
 }  // namespace
@@ -251,11 +252,11 @@ TEST_CASE("each curve of a figure has a style of its own") {
 
 TEST_CASE("what the report says of pulses follows from their origins and from the corridors") {
   const Study& study = built_in();
-  CHECK(joined(pulse_remarks(study, context_of(study))) ==
-        "The pulse 'flexion' is synthetic by the study and, as given there, inside the flexion "
-        "corridor of 49 CFR 572.33. The table of velocities tells how cases scale it.\n"
-        "The pulse 'extension' is synthetic by the study and, as given there, inside the extension "
-        "corridor of 49 CFR 572.33. The table of velocities tells how cases scale it.\n");
+  CHECK(joined(pulse_remarks(study)) ==
+        "The pulse 'flexion' is synthetic by the study and, as given there, inside the corridor "
+        "of 572.33 flexion. The table of velocities tells how cases scale it.\n"
+        "The pulse 'extension' is synthetic by the study and, as given there, inside the corridor "
+        "of 572.33 extension. The table of velocities tells how cases scale it.\n");
   CHECK_THAT(joined(peak_table(study, {}).notes),
              Contains("by the study: 'flexion' synthetic, 'extension' synthetic."));
 
@@ -267,18 +268,19 @@ TEST_CASE("what the report says of pulses follows from their origins and from th
          "table = { value = \"mine.csv\", origin = \"published\", note = \"a source\" }\n"
          "[[pulse]]\nname = \"extension\"\ntable = \"mine.csv\"\n";
   const Study own = read_study(folder / "mine.toml", {});
-  const std::string remarks = joined(pulse_remarks(own, context_of(own)));
+  const std::string remarks = joined(pulse_remarks(own));
   CHECK_THAT(remarks,
              Contains("'flexion' is published by the study and, as given there, outside") &&
                  !Contains("inside"));
   CHECK_THAT(joined(peak_table(own, {}).notes), Contains("'flexion' published"));
-  CHECK_THAT(joined(context_of(own).remarks), !Contains("synthetic") && !Contains("inside"));
+  CHECK_THAT(joined(paper_remarks()), !Contains("synthetic") && !Contains("inside"));
 }
 
 TEST_CASE("a pulse is inside of a corridor if it keeps to all of it") {
-  const PulseCorridor corridor{"", {0.01, 0.02}, {20, 10}, {30, 20}, 15, 5, 0.03, 0.04};
+  CertificationTest test;
+  test.pulse = DecelerationPulse{{0.01, 0.02}, {{20, 30}, {10, 20}}, 15, 5, {0.03, 0.04}};
   const auto is_in = [&](std::vector<double> times_s, std::vector<double> values) {
-    return is_inside(PulseSection{"", std::move(times_s), std::move(values)}, corridor);
+    return is_inside(PulseSection{"", std::move(times_s), std::move(values)}, test);
   };
   CHECK(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 25, 15, 10, 0}));
   CHECK_FALSE(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 31, 15, 10, 0}));
@@ -289,10 +291,37 @@ TEST_CASE("a pulse is inside of a corridor if it keeps to all of it") {
   CHECK_FALSE(is_in({0, 0.005}, {25, 25}));
 }
 
-TEST_CASE("corridors stand behind curves only at the velocity that they are for") {
-  CHECK(context_of(built_in()).corridors.size() == 4);
-  const Study slower = read_study(built_in_study(), {"case.flexion-120.impact_velocity=200 in/s"});
-  CHECK(context_of(slower).corridors.empty());
+TEST_CASE("corridors stand behind the curves of the cases that are judged by them") {
+  const auto corridors_at = [](const std::string& experiment, const std::string& channel,
+                               const std::vector<std::string>& settings = {}) {
+    std::vector<Corridor> found = corridors_of(read_study(built_in_study(), settings));
+    std::erase_if(found, [&](const Corridor& corridor) {
+      return corridor.experiment != experiment || corridor.channel != channel;
+    });
+    return found;
+  };
+  const double degree = std::numbers::pi / 180;
+  const auto flexion = corridors_at("flexion-120", "head rotation");
+  REQUIRE(flexion.size() == 2);
+  CHECK(flexion[0].what == "572.33 flexion, peak rotation");
+  CHECK(flexion[0].times_s.low == Approx(0.057));
+  CHECK(flexion[0].times_s.high == Approx(0.064));
+  CHECK(flexion[0].values.low == Approx(64 * degree));
+  CHECK(flexion[0].values.high == Approx(78 * degree));
+  CHECK(flexion[1].times_s.low == Approx(0.113));
+  CHECK(flexion[1].values.high == 0);
+  // The channel is negative in extension.
+  const auto extension = corridors_at("extension-120-part572", "head rotation");
+  REQUIRE(extension.size() == 2);
+  CHECK(extension[0].values.low == Approx(-106 * degree));
+  CHECK(extension[0].values.high == Approx(-81 * degree));
+  const auto moment = corridors_at("extension-120-part572", "load cell moment");
+  REQUIRE(moment.size() == 2);
+  CHECK(moment[0].values.low == Approx(-59 * 1.3558179483));  // lbf ft
+  // Neither at another velocity nor of another dummy.
+  CHECK(corridors_at("flexion-120", "head rotation", {"case.flexion-120.impact_velocity=200 in/s"})
+            .empty());
+  CHECK(corridors_at("flexion-120", "head rotation", {"dummy.name=Hybrid III 5th female"}).empty());
 }
 
 TEST_CASE("names and notes of a user never become markup") {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "multibody/signals/cfc_filter.h"
+#include "pipeline/document/study_document.h"
+
+namespace flexneck::pipeline {
+
+/// "CFC 60" to "CFC 1000": the choices of a key for a filter.
+std::vector<std::string> channel_class_names();
+
+/// The class that such a key chooses.
+multibody::ChannelClass read_channel_class(const StudyTable& table, const std::string& key);
+
+/// "CFC 600"
+std::string name_of(multibody::ChannelClass channel_class);
+
+}  // namespace flexneck::pipeline
