@@ -24,8 +24,8 @@ using Eigen::VectorXd;
 /// The model with the rates of its turning bodies multiplied.
 Model at_rate(Model model, double factor) {
   for (Body& body : model.bodies)
-    if (auto* driven = std::get_if<DrivenBody>(&body.kind))
-      driven->turn.initial_rate_rad_s *= factor;
+    if (auto* prescribed = std::get_if<PrescribedBody>(&body.kind))
+      prescribed->turn.initial_rate_rad_s *= factor;
   return model;
 }
 
@@ -110,7 +110,8 @@ CampbellDiagram campbell_diagram(const Model& model, const std::vector<double>& 
   const std::optional<TurningFrame> own = steady_rotation(model);
   if (!own)
     throw InputError(
-        "no driven body turns at time zero, so there is no axis for a Campbell diagram; give the "
+        "no prescribed body turns at time zero, so there is no axis for a Campbell diagram; give "
+        "the "
         "body that turns an initial rate, of which the diagram takes the axis and the sense");
   for (std::size_t r = 0; r < rates_rad_s.size(); ++r)
     if (!(rates_rad_s[r] >= 0 && (r == 0 || rates_rad_s[r] > rates_rad_s[r - 1])))

@@ -15,11 +15,12 @@ struct CampbellDiagram {
   std::vector<std::vector<SystemMode>> modes;
 };
 
-/// The driven bodies that turn at time zero are given each of the rates, about their axis in the
-/// direction in which they turn. A mode is the one of the next rate whose shape is most like its
-/// own (modal assurance criterion with the masses); among like shapes, whose frequency is nearest.
+/// The prescribed bodies that turn at time zero are given each of the rates, about their axis in
+/// the direction in which they turn. A mode is the one of the next rate whose shape is most like
+/// its own (modal assurance criterion with the masses); among like shapes, whose frequency is
+/// nearest.
 /// @param rates_rad_s  not negative, ascending
-/// @throws InputError, ComputationError as rotating_positions(); InputError if no driven body
+/// @throws InputError, ComputationError as rotating_positions(); InputError if no prescribed body
 /// turns.
 CampbellDiagram campbell_diagram(const Model& model, const std::vector<double>& rates_rad_s);
 

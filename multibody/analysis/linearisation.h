@@ -54,7 +54,8 @@ struct ModeShape {
 
 /// About what a model is linearised.
 enum class LinearisedAt {
-  /// The free bodies at rest against the driven ones: the static equilibrium, or where driven
+  /// The free bodies at rest against the prescribed ones: the static equilibrium, or where
+  /// prescribed
   /// bodies turn at time zero, steady rotation with them (steady_rotation.h). Motions are then seen
   /// from the bodies that turn, in axes that are the world's at time zero.
   equilibrium,
@@ -68,7 +69,7 @@ enum class LinearisedAt {
 /// given in motion closes a loop.
 std::vector<ModeShape> linearise(const Model& model, LinearisedAt at);
 
-/// Small motions about that equilibrium, or about steady rotation where driven bodies turn (see
+/// Small motions about that equilibrium, or about steady rotation where prescribed bodies turn (see
 /// LinearisedAt), ascending in frequency. An overdamped mode has a damping ratio of one or more and
 /// the damped frequency zero; a motion without restoring force has frequency zero. One that grows
 /// is unstable: with a frequency it swings, with frequency zero it moves away.

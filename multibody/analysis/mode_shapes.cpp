@@ -157,8 +157,8 @@ bool is_still(const Model& model) {
   for (const Body& body : model.bodies) {
     Eigen::Vector3d v = body.initial_velocity_m_s;
     Eigen::Vector3d w = body.initial_angular_velocity_rad_s;
-    if (const auto* driven = std::get_if<DrivenBody>(&body.kind)) {
-      const DrivenMotion motion = DrivenPath(body.initial_pose, *driven).at(0);
+    if (const auto* prescribed = std::get_if<PrescribedBody>(&body.kind)) {
+      const PrescribedMotion motion = PrescribedPath(body.initial_pose, *prescribed).at(0);
       v = motion.velocity_m_s;
       w = motion.angular_velocity_rad_s;
     }

@@ -57,16 +57,16 @@ bool is_constant(const TimeTable& table) {
                    "constant as seen from the bodies that turn");
 }
 
-bool travels(const DrivenBody& body) {
+bool travels(const PrescribedBody& body) {
   return body.initial_velocity_m_s != 0 || !body.acceleration_m_s2.times_s().empty() ||
          !body.motion.is_none();
 }
 
-bool turns_unevenly(const DrivenBody& body) {
+bool turns_unevenly(const PrescribedBody& body) {
   return !body.turn.acceleration_rad_s2.times_s().empty() || !body.turn.motion.is_none();
 }
 
-TurningFrame frame_of(const DrivenBody& body) {
+TurningFrame frame_of(const PrescribedBody& body) {
   return {body.turn.initial_rate_rad_s * body.turn.axis, body.turn.point_m};
 }
 
@@ -83,13 +83,13 @@ void check_load(const Kind& element, const Vector3d& axis) {
     if (!is_constant(element.load_over_time())) refuse(title(element) + " changes with time");
   if constexpr (WorldForce<Kind>)
     if (!is_along(element.direction, axis))
-      refuse(title(element) + " is not along the axis about which driven bodies turn");
+      refuse(title(element) + " is not along the axis about which prescribed bodies turn");
 }
 
 void check_loads(const Model& model, const TurningFrame& frame) {
   const Vector3d& axis = frame.rate_rad_s;
   if (!is_along(model.gravity_m_s2, axis))
-    refuse("gravity is not along the axis about which driven bodies turn");
+    refuse("gravity is not along the axis about which prescribed bodies turn");
   for (const Joint& joint : model.joints)
     for (const JointMotor& motor : joint.motors)
       if (motor.path.moves()) refuse("motor '" + motor.name + "' moves its joint");
@@ -155,29 +155,29 @@ Step newton_step(const MatrixXd& stiffness, const VectorXd& accelerations) {
 }  // namespace
 
 std::optional<TurningFrame> steady_rotation(const Model& model) {
-  struct Driven {
+  struct Prescribed {
     const std::string& name;
-    const DrivenBody& motion;
+    const PrescribedBody& motion;
   };
-  std::vector<Driven> turning, others;
+  std::vector<Prescribed> turning, others;
   for (const Body& body : model.bodies) {
-    const auto* driven = std::get_if<DrivenBody>(&body.kind);
-    if (driven == nullptr) continue;
-    const DrivenMotion start = DrivenPath(body.initial_pose, *driven).at(0);
-    (start.angular_velocity_rad_s.isZero(0) ? others : turning).push_back({body.name, *driven});
+    const auto* prescribed = std::get_if<PrescribedBody>(&body.kind);
+    if (prescribed == nullptr) continue;
+    const PrescribedMotion start = PrescribedPath(body.initial_pose, *prescribed).at(0);
+    (start.angular_velocity_rad_s.isZero(0) ? others : turning).push_back({body.name, *prescribed});
   }
   if (turning.empty()) return {};
   const TurningFrame frame = frame_of(turning.front().motion);
   for (const auto& [name, motion] : turning) {
     if (travels(motion) || turns_unevenly(motion))
-      refuse("driven body '" + name + "' does not turn at a constant rate about a fixed axis");
+      refuse("prescribed body '" + name + "' does not turn at a constant rate about a fixed axis");
     if (!is_same(frame, frame_of(motion)))
-      refuse("driven bodies '" + turning.front().name + "' and '" + name +
+      refuse("prescribed bodies '" + turning.front().name + "' and '" + name +
              "' turn at different rates or about different axes");
   }
   for (const auto& [name, motion] : others)
     if (travels(motion) || turns_unevenly(motion))
-      refuse("driven body '" + name + "' moves while others turn");
+      refuse("prescribed body '" + name + "' moves while others turn");
   check_loads(model, frame);
   return frame;
 }

@@ -9,10 +9,10 @@
 
 namespace flexneck::multibody {
 
-/// The frame of driven bodies that turn evenly about one axis fixed in the world; none if no driven
-/// body turns at time zero.
-/// @throws InputError if driven bodies turn otherwise than evenly and together, or if gravity or a
-/// load makes the motion seen from that frame depend on time: the message names what does.
+/// The frame of prescribed bodies that turn evenly about one axis fixed in the world; none if no
+/// prescribed body turns at time zero.
+/// @throws InputError if prescribed bodies turn otherwise than evenly and together, or if gravity
+/// or a load makes the motion seen from that frame depend on time: the message names what does.
 std::optional<TurningFrame> steady_rotation(const Model& model);
 
 /// Positions of the free bodies at rest against the frame: where gravity, forces and centrifugal

@@ -79,7 +79,7 @@ class DescriptorEquations final : public Equations {
 
   void settle(double time_s, Vector& state) override {
     Vector positions = state.head(system_.position_count);
-    // The driven bodies may have moved on.
+    // The prescribed bodies may have moved on.
     projection_.converge_positions(time_s, positions);
     state.head(system_.position_count) = settled_positions(equations_, positions, time_s);
   }

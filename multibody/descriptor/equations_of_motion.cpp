@@ -29,7 +29,7 @@ EquationsOfMotion::EquationsOfMotion(const System& system, Drive drive)
       drive_(drive),
       interval_begin_s_(-kInfinity),
       interval_end_s_(kInfinity),
-      driven_(system.driven.size()),
+      prescribed_(system.prescribed.size()),
       forces_(system.model),
       solver_(system.body_sizes(), system.places, system.velocity_lengths_m()),
       right_hand_side_(VectorXd::Zero(system.velocity_count)),
@@ -62,14 +62,14 @@ double EquationsOfMotion::table_time(double time_s) const {
   return std::max(interval_begin_s_, std::min(interval_end_s_, time_s));
 }
 
-void EquationsOfMotion::update_driven_bodies() {
-  for (std::size_t d = 0; d < system_.driven.size(); ++d) {
-    const DrivenMotion motion = system_.driven[d].at(time_s_, table_time(time_s_));
+void EquationsOfMotion::update_prescribed_bodies() {
+  for (std::size_t d = 0; d < system_.prescribed.size(); ++d) {
+    const PrescribedMotion motion = system_.prescribed[d].at(time_s_, table_time(time_s_));
     if (drive_ == Drive::prescribed) {
-      driven_[d] = motion;
+      prescribed_[d] = motion;
     } else {
-      driven_[d].position_m = motion.position_m;
-      driven_[d].rotation = motion.rotation;
+      prescribed_[d].position_m = motion.position_m;
+      prescribed_[d].rotation = motion.rotation;
     }
   }
 }
@@ -90,8 +90,8 @@ void EquationsOfMotion::update_marker_configuration(std::size_t index) {
     update_configuration(marker.node, bodies_[marker.free_body], motion);
     return;
   }
-  // Section 4, driven base: P and W stay empty.
-  const DrivenMotion& body = driven_[marker.driven_body];
+  // Section 4, prescribed base: P and W stay empty.
+  const PrescribedMotion& body = prescribed_[marker.prescribed_body];
   motion.p = body.position_m + body.rotation * marker.node.s0;
   motion.R = body.rotation * marker.node.R0;
 }
@@ -105,14 +105,14 @@ void EquationsOfMotion::update_marker_velocities(std::size_t index, const ConstV
                       velocities.segment(body.velocity, body.constants.velocity_count()), motion);
     return;
   }
-  const DrivenMotion& driven = driven_[marker.driven_body];
-  const Vector3d arm = driven.rotation * marker.node.s0;
-  const Vector3d& w = driven.angular_velocity_rad_s;
-  motion.pd = driven.velocity_m_s + w.cross(arm);
-  motion.gp = driven.acceleration_m_s2 + driven.angular_acceleration_rad_s2.cross(arm) +
+  const PrescribedMotion& prescribed = prescribed_[marker.prescribed_body];
+  const Vector3d arm = prescribed.rotation * marker.node.s0;
+  const Vector3d& w = prescribed.angular_velocity_rad_s;
+  motion.pd = prescribed.velocity_m_s + w.cross(arm);
+  motion.gp = prescribed.acceleration_m_s2 + prescribed.angular_acceleration_rad_s2.cross(arm) +
               w.cross(w.cross(arm));
   motion.Om = w;
-  motion.gr = driven.angular_acceleration_rad_s2;
+  motion.gr = prescribed.angular_acceleration_rad_s2;
 }
 
 void EquationsOfMotion::set_positions(double time_s, const ConstVector& positions) {
@@ -137,7 +137,7 @@ void EquationsOfMotion::update_positions(double time_s, const ConstVector& posit
     terms.a = Q.tail(body.constants.mode_count());
     update_configuration(body.constants, terms);
   }
-  update_driven_bodies();
+  update_prescribed_bodies();
   for (const std::size_t marker : active_markers_) update_marker_configuration(marker);
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const Joint& joint = system_.joints[k];
@@ -305,7 +305,8 @@ double EquationsOfMotion::work_W() const {
           joint.coordinates[c].rate *
           multipliers_[solver_.joint_offset(k) + joint.first_coordinate() + static_cast<Index>(c)];
   }
-  // What driven bodies do at the place of marker j, where the reaction acts. Body i bears -f, j +f.
+  // What prescribed bodies do at the place of marker j, where the reaction acts. Body i bears -f, j
+  // +f.
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     if (system_.places[k].body_i != kNone && system_.places[k].body_j != kNone) continue;
     const NodeKinematics& i = markers_[system_.joints[k].marker_i];

@@ -75,7 +75,7 @@ class EquationsOfMotion {
 
  private:
   double table_time(double time_s) const;
-  void update_driven_bodies();
+  void update_prescribed_bodies();
   void follow_motor(CoordinateRow& row) const;
   void update_marker_configuration(std::size_t index);
   void update_marker_velocities(std::size_t index, const ConstVector& velocities);
@@ -88,7 +88,7 @@ class EquationsOfMotion {
   double interval_end_s_;
   double time_s_ = 0;
   std::vector<BodyTerms> bodies_;
-  std::vector<DrivenMotion> driven_;
+  std::vector<PrescribedMotion> prescribed_;
   std::vector<NodeKinematics> markers_;
   std::vector<std::size_t> active_markers_, idle_markers_;
   std::vector<JointRows> joints_;

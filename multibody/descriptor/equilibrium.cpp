@@ -57,7 +57,8 @@ class DescriptorRest final : public RestProblem {
   std::optional<ReducedDynamics> reduced_;
 };
 
-/// Velocity of the driven body that each free body hangs on, through joints; none if there is none.
+/// Velocity of the prescribed body that each free body hangs on, through joints; none if there is
+/// none.
 class Carriers {
  public:
   Carriers(const Model& model, const System& system)
@@ -80,13 +81,13 @@ class Carriers {
     if (target == JointPlace::kNoBody) return;
     const std::optional<Vector3d> velocity =
         source.free_body == JointPlace::kNoBody
-            ? std::optional<Vector3d>(system_.driven[source.driven_body].at(0).velocity_m_s)
+            ? std::optional<Vector3d>(system_.prescribed[source.prescribed_body].at(0).velocity_m_s)
             : velocities_[source.free_body];
     if (!velocity) return;
     if (velocities_[target] && (*velocities_[target] - *velocity).norm() > 0)
       throw InputError("joint '" + system_.joints[joint].name + "': body '" +
                        system_.bodies[target].name +
-                       "' hangs on driven bodies of different initial velocity; a start from "
+                       "' hangs on prescribed bodies of different initial velocity; a start from "
                        "equilibrium needs one velocity");
     velocities_[target] = velocity;
   }

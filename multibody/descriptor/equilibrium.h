@@ -8,11 +8,11 @@
 
 namespace flexneck::multibody {
 
-/// Positions of the free bodies at rest relative to the driven ones, held where they are at time
-/// zero, under gravity and the forces at time zero: a minimum of the potential energy, sought from
-/// the poses that the bodies are given.
+/// Positions of the free bodies at rest relative to the prescribed ones, held where they are at
+/// time zero, under gravity and the forces at time zero: a minimum of the potential energy, sought
+/// from the poses that the bodies are given.
 /// @param equations  with Drive::held
-/// @throws InputError as join(), or if a free body hangs on no driven one.
+/// @throws InputError as join(), or if a free body hangs on no prescribed one.
 /// @throws ComputationError if there is none within reach.
 Eigen::VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equations);
 
@@ -20,9 +20,9 @@ Eigen::VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equ
 Eigen::VectorXd settled_positions(EquationsOfMotion& equations, const Eigen::VectorXd& positions,
                                   double time_s);
 
-/// Velocities of the free bodies that move with the driven ones at their initial velocity, as
+/// Velocities of the free bodies that move with the prescribed ones at their initial velocity, as
 /// System lays them out.
-/// @throws InputError if a body hangs on driven ones of different velocity, or on none.
+/// @throws InputError if a body hangs on prescribed ones of different velocity, or on none.
 Eigen::VectorXd carried_velocities(const Model& model, const System& system);
 
 }  // namespace flexneck::multibody

@@ -56,7 +56,7 @@ struct JointRows {
   Eigen::Matrix3d D = Eigen::Matrix3d::Identity();  ///< world; unused rows do not count
   Eigen::Matrix3d L = Eigen::Matrix3d::Zero();      ///< rows d x (p_i - p_j) with d of D
   Eigen::Matrix3d T = Eigen::Matrix3d::Zero();      ///< world; unused rows are zero
-  TransposedRows B_i, B_j;                          ///< a driven body's has no rows
+  TransposedRows B_i, B_j;                          ///< a prescribed body's has no rows
   RowVector position_residual = RowVector::Zero();  ///< Phi
   RowVector velocity_residual = RowVector::Zero();  ///< its rate
   RowVector gamma = RowVector::Zero();

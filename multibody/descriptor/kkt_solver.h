@@ -11,7 +11,7 @@
 
 namespace flexneck::multibody {
 
-/// Where a joint's rows act. kNoBody stands for a driven body.
+/// Where a joint's rows act. kNoBody stands for a prescribed body.
 struct JointPlace {
   static constexpr std::size_t kNoBody = static_cast<std::size_t>(-1);
   std::size_t body_i = kNoBody;

@@ -22,7 +22,7 @@ struct NodeConstants {
   bool moves = false;  ///< with the modes
 };
 
-/// A marker's motion, equations.md section 4: pdd = P Vdot + gp, Omd = W Vdot + gr. On a driven
+/// A marker's motion, equations.md section 4: pdd = P Vdot + gp, Omd = W Vdot + gr. On a prescribed
 /// body P and W are empty and gp, gr are the accelerations themselves.
 struct NodeKinematics {
   explicit NodeKinematics(Eigen::Index velocity_count);

@@ -23,14 +23,14 @@ struct TurningFrame {
 /// The system seen in k independent coordinates about a configuration that keeps the joints: xi
 /// displaces along the columns of N, a basis of the null space of B that is orthonormal in M
 /// (B N = 0, N^T M N = I), and the joints are closed again behind it. Velocities and accelerations
-/// are those against a frame, in which the driven bodies are at rest (equations.md section 10).
+/// are those against a frame, in which the prescribed bodies are at rest (equations.md section 10).
 /// Since N^T M Vdot = N^T u, in a frame at rest the accelerations of xi at rest are minus the
 /// gradient of the potential energy.
 class ReducedDynamics {
  public:
   /// @param equations  of a frame at rest with Drive::held; must outlive this
   /// @param positions  of the free bodies, on the joints
-  /// @param time_s     of the forces and the driven bodies' places
+  /// @param time_s     of the forces and the prescribed bodies' places
   ReducedDynamics(EquationsOfMotion& equations, const Eigen::VectorXd& positions, double time_s = 0,
                   TurningFrame frame = {});
 

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kNone = JointPlace::kNoBody;
 
-/// A rigid or deformable body's constants; a driven one has none.
+/// A rigid or deformable body's constants; a prescribed one has none.
 struct ConstantsOf {
   std::vector<BodyConstants> operator()(const RigidBody& body) const {
     return {BodyConstants(body)};
@@ -24,19 +24,19 @@ struct ConstantsOf {
   std::vector<BodyConstants> operator()(const DeformableBody& body) const {
     return {BodyConstants(body)};
   }
-  std::vector<BodyConstants> operator()(const DrivenBody&) const { return {}; }
+  std::vector<BodyConstants> operator()(const PrescribedBody&) const { return {}; }
 };
 
 }  // namespace
 
 System::System(const Model& of) : model(of), joints(of.joints), gravity_m_s2(of.gravity_m_s2) {
   std::vector<std::size_t> free_index(model.bodies.size(), kNone);
-  std::vector<std::size_t> driven_index(model.bodies.size(), kNone);
+  std::vector<std::size_t> prescribed_index(model.bodies.size(), kNone);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    if (const auto* driven_body = std::get_if<DrivenBody>(&body.kind)) {
-      driven_index[b] = driven.size();
-      driven.emplace_back(body.initial_pose, *driven_body);
+    if (const auto* prescribed_body = std::get_if<PrescribedBody>(&body.kind)) {
+      prescribed_index[b] = prescribed.size();
+      prescribed.emplace_back(body.initial_pose, *prescribed_body);
       continue;
     }
     const BodyConstants constants = std::visit(ConstantsOf{}, body.kind).front();
@@ -48,7 +48,7 @@ System::System(const Model& of) : model(of), joints(of.joints), gravity_m_s2(of.
   }
   for (const Marker& marker : model.markers) {
     markers.push_back({NodeConstants(model.bodies[marker.body], marker), free_index[marker.body],
-                       driven_index[marker.body]});
+                       prescribed_index[marker.body]});
   }
   for (const Joint& joint : joints) {
     for (const std::size_t marker : {joint.marker_i, joint.marker_j})

@@ -9,8 +9,8 @@
 #include "multibody/descriptor/body_dynamics.h"
 #include "multibody/descriptor/kkt_solver.h"
 #include "multibody/descriptor/node_kinematics.h"
-#include "multibody/model/driven_path.h"
 #include "multibody/model/model.h"
+#include "multibody/model/prescribed_path.h"
 
 namespace flexneck::multibody {
 
@@ -26,13 +26,13 @@ struct FreeBody {
 
 struct SystemMarker {
   NodeConstants node;
-  std::size_t free_body = JointPlace::kNoBody;    ///< among the free bodies, or
-  std::size_t driven_body = JointPlace::kNoBody;  ///< among the driven ones
+  std::size_t free_body = JointPlace::kNoBody;        ///< among the free bodies, or
+  std::size_t prescribed_body = JointPlace::kNoBody;  ///< among the prescribed ones
 };
 
 /// A model laid out for the equations. Its state is a vector y = [Q; V; e]: positions and
 /// velocities of the free bodies in the model's order, and two quadratures e: the energy that
-/// damping has dissipated and the work of forces and driven bodies.
+/// damping has dissipated and the work of forces and prescribed bodies.
 struct System {
   static constexpr Eigen::Index kQuadratures = 2;
 
@@ -41,7 +41,7 @@ struct System {
 
   const Model& model;
   std::vector<FreeBody> bodies;
-  std::vector<DrivenPath> driven;
+  std::vector<PrescribedPath> prescribed;
   std::vector<SystemMarker> markers;
   std::vector<Joint> joints;
   std::vector<JointPlace> places;  ///< of the joints

@@ -10,7 +10,7 @@
 #include "multibody/equations/force_set.h"
 #include "multibody/equations/solver_options.h"
 #include "multibody/history/recorder.h"
-#include "multibody/model/driven_path.h"
+#include "multibody/model/prescribed_path.h"
 #include "multibody/numerics/error_estimate.h"
 
 namespace flexneck::multibody {
@@ -26,12 +26,12 @@ class Equations {
   virtual Vector given_state() = 0;
   /// The same at rest: velocities are not looked at.
   virtual Vector given_place() = 0;
-  /// Static equilibrium, moving with the driven bodies.
+  /// Static equilibrium, moving with the prescribed bodies.
   /// @throws InputError, ComputationError as simulate_from_equilibrium().
   virtual Vector equilibrium_state() = 0;
 
-  /// Brings a state at rest to the static equilibrium at a time. Of equations whose driven bodies
-  /// are held. @throws ComputationError if there is none within reach.
+  /// Brings a state at rest to the static equilibrium at a time. Of equations whose prescribed
+  /// bodies are held. @throws ComputationError if there is none within reach.
   virtual void settle(double time_s, Vector& state) = 0;
 
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.

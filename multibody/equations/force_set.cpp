@@ -36,7 +36,7 @@ std::size_t ForceSet::slot_of(std::size_t marker) {
   const Body& body = model_.bodies[model_.markers[marker].body];
   markers_.push_back(marker);
   slots_.emplace_back();
-  driven_.push_back(std::holds_alternative<DrivenBody>(body.kind));
+  prescribed_.push_back(std::holds_alternative<PrescribedBody>(body.kind));
   return markers_.size() - 1;
 }
 
@@ -68,9 +68,9 @@ void ForceSet::evaluate(double time_s) {
       }
     }
   });
-  // What loads give to driven bodies, the others do not get.
+  // What loads give to prescribed bodies, the others do not get.
   for (std::size_t k = 0; k < slots_.size(); ++k)
-    if (driven_[k])
+    if (prescribed_[k])
       sums_.work_W -= slots_[k].force_N.dot(slots_[k].v) + slots_[k].moment_Nm.dot(slots_[k].w);
 }
 

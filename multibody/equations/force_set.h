@@ -35,8 +35,8 @@ class ForceSet {
 
   double stored_J() const { return sums_.stored_J; }  ///< potential energy of the elements
   double lost_W() const { return sums_.lost_W; }      ///< to dampers, friction and hysteresis
-  /// Power that loads from outside give to bodies that are not driven, and driven bodies to these
-  /// through force elements.
+  /// Power that loads from outside give to bodies that are not prescribed, and prescribed bodies to
+  /// these through force elements.
   double work_W() const { return sums_.work_W; }
   /// Energy that elements store and that loads would give if they stayed as they are.
   double potential_J() const { return sums_.stored_J + sums_.potential_J; }
@@ -63,7 +63,7 @@ class ForceSet {
   const Model& model_;
   std::vector<std::size_t> markers_;
   std::vector<ForceMarker> slots_;
-  std::vector<bool> driven_;  ///< of the slots
+  std::vector<bool> prescribed_;  ///< of the slots
   Forces::OfEachKind<Slots> slots_of_kind_;
   std::vector<int> pieces_;
   ForceEnergies sums_;

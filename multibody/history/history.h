@@ -43,7 +43,7 @@ struct EnergyHistory {
   Eigen::VectorXd strain_J;  ///< of bodies, springs and bushings
   /// By the damping of modes, dampers, friction and hysteresis, since the start.
   Eigen::VectorXd dissipated_J;
-  Eigen::VectorXd work_J;  ///< done by forces and driven bodies, since the start
+  Eigen::VectorXd work_J;  ///< done by forces and prescribed bodies, since the start
 };
 
 /// By how much the bodies' motion misses the joints, the largest over the joints; zero in the

@@ -56,7 +56,7 @@ class JointGuard {
   double speed_m_s_ = 0;  ///< largest speed so far: it may pass through zero
 };
 
-/// @throws InputError: a body that hangs on no driven one has no equilibrium.
+/// @throws InputError: a body that hangs on no prescribed one has no equilibrium.
 [[noreturn]] void refuse_floating_body(const std::string& body);
 
 }  // namespace flexneck::multibody

@@ -39,9 +39,9 @@ struct DeformableBody {
   bool stress_stiffening = false;
 };
 
-/// Rotation of a driven body about an axis through a point, which translates with the body. The
+/// Rotation of a prescribed body about an axis through a point, which translates with the body. The
 /// angle is the sum of an initial rate, a table and a function of time; by default zero.
-struct DrivenTurn {
+struct PrescribedTurn {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();    ///< unit vector in the world
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< world, at time zero
   double initial_rate_rad_s = 0;
@@ -51,23 +51,23 @@ struct DrivenTurn {
 
 /// A body that translates and turns in a given way, whatever acts on it. Its travel is the sum of
 /// an initial velocity, a table and a function of time. With nothing of it it is the ground.
-struct DrivenBody {
+struct PrescribedBody {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
   double initial_velocity_m_s = 0;                       ///< along `direction`
   TimeTable acceleration_m_s2;                           ///< along `direction`; zero outside
   SmoothMotion motion = {};                              ///< along `direction`
-  DrivenTurn turn = {};
+  PrescribedTurn turn = {};
 };
 
 struct Body {
   std::string name;
-  std::variant<RigidBody, DeformableBody, DrivenBody> kind;
+  std::variant<RigidBody, DeformableBody, PrescribedBody> kind;
   Pose initial_pose;
   Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();  ///< of the origin, world
   Eigen::Vector3d initial_angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< body axes
 };
 
-/// A frame on a body: on a rigid or driven body anywhere, on a deformable one at an interface,
+/// A frame on a body: on a rigid or prescribed body anywhere, on a deformable one at an interface,
 /// whose motion it follows (finite rotation).
 struct Marker {
   std::string name;

@@ -163,12 +163,13 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
   }
 }
 
-void check_kind(const std::string& who, const DrivenBody& driven) {
-  check_unit_vector(who, "direction of motion", driven.direction);
-  if (!std::isfinite(driven.initial_velocity_m_s)) refuse(who, "initial velocity is not finite");
-  check_unit_vector(who, "axis of rotation", driven.turn.axis);
-  check_finite(who, "point of rotation", driven.turn.point_m);
-  if (!std::isfinite(driven.turn.initial_rate_rad_s))
+void check_kind(const std::string& who, const PrescribedBody& prescribed) {
+  check_unit_vector(who, "direction of motion", prescribed.direction);
+  if (!std::isfinite(prescribed.initial_velocity_m_s))
+    refuse(who, "initial velocity is not finite");
+  check_unit_vector(who, "axis of rotation", prescribed.turn.axis);
+  check_finite(who, "point of rotation", prescribed.turn.point_m);
+  if (!std::isfinite(prescribed.turn.initial_rate_rad_s))
     refuse(who, "initial rate of rotation is not finite");
 }
 
@@ -181,8 +182,10 @@ void check_body(const Body& body) {
   check_finite(who, "initial angular velocity", body.initial_angular_velocity_rad_s);
   const bool moves =
       !body.initial_velocity_m_s.isZero(0) || !body.initial_angular_velocity_rad_s.isZero(0);
-  if (moves && std::holds_alternative<DrivenBody>(body.kind)) {
-    refuse(who, "it is driven: its velocity follows from its motion and cannot be given as well");
+  if (moves && std::holds_alternative<PrescribedBody>(body.kind)) {
+    refuse(who,
+           "its motion is prescribed: its velocity follows from its motion and cannot be given as "
+           "well");
   }
 }
 
@@ -251,8 +254,8 @@ void check_joint(const Joint& joint, const Model& model) {
   if (body_i == body_j) {
     refuse(who, "both markers are on body '" + lower.name + "'; a joint needs two bodies");
   }
-  if (std::holds_alternative<DrivenBody>(lower.kind) &&
-      std::holds_alternative<DrivenBody>(upper.kind)) {
+  if (std::holds_alternative<PrescribedBody>(lower.kind) &&
+      std::holds_alternative<PrescribedBody>(upper.kind)) {
     refuse(who,
            "it joins '" + lower.name + "' and '" + upper.name + "', whose motions are both given");
   }

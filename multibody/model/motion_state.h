@@ -31,7 +31,7 @@ struct Reaction {
   Eigen::Vector3d moment_Nm;
 };
 
-/// Of all bodies that are not driven.
+/// Of all bodies that are not prescribed.
 struct Energies {
   double kinetic_J = 0;
   double gravitational_J = 0;

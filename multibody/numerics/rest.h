@@ -5,7 +5,7 @@
 
 namespace flexneck::multibody {
 
-/// A system at rest, its driven bodies held, in k coordinates xi about a present configuration:
+/// A system at rest, its prescribed bodies held, in k coordinates xi about a present configuration:
 /// what a search for its equilibrium needs. Coordinates are such that the mass matrix is the
 /// identity at xi = 0.
 class RestProblem {

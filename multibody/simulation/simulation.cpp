@@ -10,7 +10,7 @@
 #include "multibody/descriptor/massless_rotation.h"
 #include "multibody/equations/equations.h"
 #include "multibody/history/recorder.h"
-#include "multibody/model/driven_path.h"
+#include "multibody/model/prescribed_path.h"
 #include "multibody/time/motion.h"
 #include "multibody/tree/tree.h"
 
@@ -67,13 +67,14 @@ std::unique_ptr<Equations> equations_of(const Model& model, const SolverOptions&
 /// Bodies on one that turns would be pulled outwards: they have no static equilibrium.
 void check_nothing_turns(const Model& model) {
   for (const Body& body : model.bodies) {
-    const auto* driven = std::get_if<DrivenBody>(&body.kind);
-    if (driven == nullptr) continue;
-    const DrivenMotion motion = DrivenPath(body.initial_pose, *driven).at(0);
+    const auto* prescribed = std::get_if<PrescribedBody>(&body.kind);
+    if (prescribed == nullptr) continue;
+    const PrescribedMotion motion = PrescribedPath(body.initial_pose, *prescribed).at(0);
     if (motion.angular_velocity_rad_s.isZero(0)) continue;
-    throw InputError("body '" + body.name +
-                     "' turns at time zero; a start from equilibrium needs driven bodies that do "
-                     "not turn then");
+    throw InputError(
+        "body '" + body.name +
+        "' turns at time zero; a start from equilibrium needs prescribed bodies that do "
+        "not turn then");
   }
 }
 

@@ -17,17 +17,18 @@ namespace flexneck::multibody {
 /// @throws IncompleteRun if the step collapses or the steps are used up: time and what limited it.
 History simulate(const Model& model, const SolverOptions& solver, const OutputOptions& output);
 
-/// Runs a model from the static equilibrium of its free bodies relative to the driven ones under
-/// gravity and the forces at time zero, all moving with the driven bodies' initial velocity.
-/// @throws InputError besides if a body hangs on no driven body, or if one turns at time zero.
+/// Runs a model from the static equilibrium of its free bodies relative to the prescribed ones
+/// under gravity and the forces at time zero, all moving with the prescribed bodies' initial
+/// velocity.
+/// @throws InputError besides if a body hangs on no prescribed body, or if one turns at time zero.
 /// @throws ComputationError besides if no equilibrium is found.
 History simulate_from_equilibrium(const Model& model, const SolverOptions& solver,
                                   const OutputOptions& output);
 
 /// A quasi-static ramp: the static equilibria at the output times, each sought from the one before,
 /// the first from the poses that the bodies are given. Forces have their values at that time, and
-/// driven bodies are at rest where they are then. What needs motion does nothing: inertia, dampers,
-/// friction, hysteresis; velocities and accelerations are zero but for rounding.
+/// prescribed bodies are at rest where they are then. What needs motion does nothing: inertia,
+/// dampers, friction, hysteresis; velocities and accelerations are zero but for rounding.
 /// @throws InputError as simulate() but for velocities.
 /// @throws IncompleteRun if no equilibrium is found at some time, as where a column buckles.
 History settle(const Model& model, const SolverOptions& solver, const OutputOptions& output);

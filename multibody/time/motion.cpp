@@ -12,7 +12,7 @@
 #include "multibody/equations/force_set.h"
 #include "multibody/history/incomplete_run.h"
 #include "multibody/history/recorder.h"
-#include "multibody/model/driven_path.h"
+#include "multibody/model/prescribed_path.h"
 #include "multibody/time/dormand_prince.h"
 #include "multibody/time/generalised_alpha.h"
 
@@ -26,9 +26,9 @@ using Eigen::VectorXd;
 std::vector<double> breakpoints(const Model& model, double end_s) {
   std::vector<double> times;
   for (const Body& body : model.bodies) {
-    const auto* driven = std::get_if<DrivenBody>(&body.kind);
-    if (driven == nullptr) continue;
-    DrivenPath(body.initial_pose, *driven).add_breakpoints(times);
+    const auto* prescribed = std::get_if<PrescribedBody>(&body.kind);
+    if (prescribed == nullptr) continue;
+    PrescribedPath(body.initial_pose, *prescribed).add_breakpoints(times);
   }
   for (const Joint& joint : model.joints)
     for (const JointMotor& motor : joint.motors) motor.path.add_breakpoints(times);

@@ -19,7 +19,7 @@ std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const Eige
                                                 const SolverOptions& solver);
 
 /// Static equilibria at the output times, each sought from the one before.
-/// @param equations  with driven bodies held
+/// @param equations  with prescribed bodies held
 /// @throws IncompleteRun if one is not found.
 History settle_along(const Model& model, Equations& equations, const OutputOptions& output);
 

@@ -37,7 +37,7 @@ class RecursiveEquations final : public Equations {
     tree::TreeDynamics held(tree_, Drive::held);
     tree::TreeRest rest(held, tree::given_positions(tree_));
     find_equilibrium(rest);
-    // Rates against the driven bodies are zero: all moves with them.
+    // Rates against the prescribed bodies are zero: all moves with them.
     return rest.state();
   }
 

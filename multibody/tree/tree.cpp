@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::Index;
 
-bool is_driven(const Body& body) { return std::holds_alternative<DrivenBody>(body.kind); }
+bool is_prescribed(const Body& body) { return std::holds_alternative<PrescribedBody>(body.kind); }
 
-bool turns(const DrivenTurn& turn) {
+bool turns(const PrescribedTurn& turn) {
   return turn.initial_rate_rad_s != 0 || !turn.acceleration_rad_s2.times_s().empty() ||
          !turn.motion.is_none();
 }
 
-/// A body's place in the order of a walk over the joints from the driven bodies outwards, then over
-/// what is left from the first body of it.
+/// A body's place in the order of a walk over the joints from the prescribed bodies outwards, then
+/// over what is left from the first body of it.
 struct Visit {
   std::size_t body;
   std::size_t carrier;  ///< among the model's bodies; kNone for the world
@@ -65,7 +65,7 @@ Walk walk(const Model& model) {
     queue.clear();
   };
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!is_driven(model.bodies[b])) continue;
+    if (!is_prescribed(model.bodies[b])) continue;
     reached[b] = true;
     queue.push_back(b);
   }
@@ -85,7 +85,7 @@ struct InertiaOf {
   std::optional<BodyInertia> operator()(const DeformableBody& body) const {
     return BodyInertia(body);
   }
-  std::optional<BodyInertia> operator()(const DrivenBody&) const { return std::nullopt; }
+  std::optional<BodyInertia> operator()(const PrescribedBody&) const { return std::nullopt; }
 };
 
 double trace(const Vector6d& packed) { return packed[0] + packed[1] + packed[2]; }
@@ -124,12 +124,12 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
                      "formulation does not treat; "
                      "use the descriptor formulation");
   std::vector<Carrier> carriers(model.bodies.size());
-  std::vector<bool> turning;  // of the driven bodies
+  std::vector<bool> turning;  // of the prescribed bodies
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const auto* body = std::get_if<DrivenBody>(&model.bodies[b].kind);
+    const auto* body = std::get_if<PrescribedBody>(&model.bodies[b].kind);
     if (body == nullptr) continue;
-    carriers[b].driven = driven.size();
-    driven.emplace_back(model.bodies[b].initial_pose, *body);
+    carriers[b].prescribed = prescribed.size();
+    prescribed.emplace_back(model.bodies[b].initial_pose, *body);
     turning.push_back(turns(body->turn));
   }
   bodies.reserve(walked.order.size());
@@ -178,7 +178,8 @@ Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) 
     TreeBody& body = bodies[b];
     body.is_rigid_end = body.is_fixed() && body.inertia.mode_count() == 0 && !carries[b];
     body.rides = body.is_fixed() && body.inertia.mode_count() > 0 && !body.inertia.stiffens() &&
-                 !body.outer.moves && body.carrier.driven != kNone && !turning[body.carrier.driven];
+                 !body.outer.moves && body.carrier.prescribed != kNone &&
+                 !turning[body.carrier.prescribed];
   }
   for (const Marker& marker : model.markers)
     markers.push_back({TreeNode(model.bodies[marker.body], marker), carriers[marker.body]});

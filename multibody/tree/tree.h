@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "multibody/model/driven_path.h"
 #include "multibody/model/model.h"
+#include "multibody/model/prescribed_path.h"
 #include "multibody/tree/body_inertia.h"
 #include "multibody/tree/tree_joint.h"
 #include "multibody/tree/tree_node.h"
@@ -16,10 +16,10 @@ namespace flexneck::multibody::tree {
 
 inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// What carries a body, a marker or a node: a body of the tree, a driven one or the world.
+/// What carries a body, a marker or a node: a body of the tree, a prescribed one or the world.
 struct Carrier {
-  std::size_t body = kNone;    ///< in the tree's order, or
-  std::size_t driven = kNone;  ///< among the driven ones, or neither: the world
+  std::size_t body = kNone;        ///< in the tree's order, or
+  std::size_t prescribed = kNone;  ///< among the prescribed ones, or neither: the world
 };
 
 /// A body, and the joint through which it hangs on what is before it in the tree.
@@ -53,7 +53,7 @@ struct TreeMarker {
 /// A model as trees of bodies in joint coordinates. Its state is y = [q; u; e]: for each body in
 /// the tree's order, inner ones first, its joint's coordinates (TreeJoint) and its modal ones, then
 /// their rates, then two quadratures: the energy that damping has dissipated and the work of forces
-/// and driven bodies.
+/// and prescribed bodies.
 struct Tree {
   static constexpr Eigen::Index kQuadratures = 2;
 
@@ -63,7 +63,7 @@ struct Tree {
 
   const Model& model;
   std::vector<TreeBody> bodies;
-  std::vector<DrivenPath> driven;
+  std::vector<PrescribedPath> prescribed;
   std::vector<TreeMarker> markers;         ///< of the model
   std::vector<std::size_t> body_of_joint;  ///< which hangs on the model's joint; kNone if free
   Eigen::Index position_count = 0;

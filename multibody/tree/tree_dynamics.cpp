@@ -46,7 +46,7 @@ TreeDynamics::TreeDynamics(const Tree& tree, Drive drive)
       gravity_(tree.model.gravity_m_s2),
       interval_begin_s_(-kInfinity),
       interval_end_s_(kInfinity),
-      driven_(tree.driven.size()),
+      prescribed_(tree.prescribed.size()),
       forces_(tree.model),
       extra_forces_(VectorXd::Zero(tree.velocity_count)),
       accelerations_(VectorXd::Zero(tree.velocity_count)) {
@@ -67,13 +67,13 @@ double TreeDynamics::table_time(double time_s) const {
 
 const TreeDynamics::Frame& TreeDynamics::frame_of(const Carrier& carrier) const {
   if (carrier.body != kNone) return work_[carrier.body].frame;
-  return carrier.driven != kNone ? driven_[carrier.driven] : world_;
+  return carrier.prescribed != kNone ? prescribed_[carrier.prescribed] : world_;
 }
 
-void TreeDynamics::update_driven_bodies() {
-  for (std::size_t d = 0; d < driven_.size(); ++d) {
-    const DrivenMotion motion = tree_.driven[d].at(time_s_, table_time(time_s_));
-    Frame& frame = driven_[d];
+void TreeDynamics::update_prescribed_bodies() {
+  for (std::size_t d = 0; d < prescribed_.size(); ++d) {
+    const PrescribedMotion motion = tree_.prescribed[d].at(time_s_, table_time(time_s_));
+    Frame& frame = prescribed_[d];
     frame.x = motion.position_m;
     frame.A = motion.rotation;
     Vector3d acceleration = -gravity_;
@@ -148,7 +148,7 @@ void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVect
 
 void TreeDynamics::update(double time_s, const ConstVector& state, Purpose purpose) {
   time_s_ = time_s;
-  update_driven_bodies();
+  update_prescribed_bodies();
   for (std::size_t b = 0; b < work_.size(); ++b)
     update_body(tree_.bodies[b], work_[b], state, purpose);
   apply_forces();

@@ -24,8 +24,8 @@ class TreeDynamics {
 
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
   void set_interval(double begin_s, double end_s);
-  /// What is asked for: `motion` leaves out the moments in joints that hold bodies on driven ones
-  /// that do not turn (TreeBody::rides). Nothing that moves depends on them.
+  /// What is asked for: `motion` leaves out the moments in joints that hold bodies on prescribed
+  /// ones that do not turn (TreeBody::rides). Nothing that moves depends on them.
   enum class Purpose { motion, reactions };
 
   /// Positions and velocities of everything, inertia and loads.
@@ -94,7 +94,7 @@ class TreeDynamics {
 
   double table_time(double time_s) const;
   const Frame& frame_of(const Carrier& carrier) const;
-  void update_driven_bodies();
+  void update_prescribed_bodies();
   void update_body(const TreeBody& body, Work& work, const ConstVector& state, Purpose purpose);
   void apply_forces();
   void apply(const TreeMarker& marker, const NodeMotion& node, const Eigen::Vector3d& force,
@@ -112,7 +112,7 @@ class TreeDynamics {
   double interval_end_s_;
   double time_s_ = 0;
   Frame world_;
-  std::vector<Frame> driven_;
+  std::vector<Frame> prescribed_;
   std::vector<Work> work_;
   std::vector<NodeMotion> marker_nodes_;
   ForceSet forces_;

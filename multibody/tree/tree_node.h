@@ -8,7 +8,7 @@
 
 namespace flexneck::multibody::tree {
 
-/// Where a marker sits on its body. A rigid or driven body's has no columns in psi and mu.
+/// Where a marker sits on its body. A rigid or prescribed body's has no columns in psi and mu.
 struct TreeNode {
   TreeNode() = default;
   TreeNode(const Body& body, const Marker& marker);

@@ -103,17 +103,17 @@ double TreeDynamics::dissipation_W() const {
 
 double TreeDynamics::work_W() const {
   double power = forces_.work_W();
-  // What the driven body's point at M does on the body that it carries.
+  // What the prescribed body's point at M does on the body that it carries.
   for (std::size_t b = 0; b < work_.size(); ++b) {
     const Carrier& carrier = tree_.bodies[b].carrier;
-    if (carrier.driven == kNone) continue;
-    const Frame& driven = driven_[carrier.driven];
+    if (carrier.prescribed == kNone) continue;
+    const Frame& prescribed = prescribed_[carrier.prescribed];
     const Work& work = work_[b];
     const Vector6d reaction = work.reaction();
-    const Vector3d velocity = driven.v + driven.w.cross(work.inner.s + work.d);
-    // R takes this body's axes to the driven one's.
-    power +=
-        (work.R * reaction.head<3>()).dot(velocity) + (work.R * reaction.tail<3>()).dot(driven.w);
+    const Vector3d velocity = prescribed.v + prescribed.w.cross(work.inner.s + work.d);
+    // R takes this body's axes to the prescribed one's.
+    power += (work.R * reaction.head<3>()).dot(velocity) +
+             (work.R * reaction.tail<3>()).dot(prescribed.w);
   }
   return power;
 }

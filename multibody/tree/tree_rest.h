@@ -14,7 +14,7 @@ class TreeRest final : public RestProblem {
  public:
   /// @param dynamics  with Drive::held; must outlive this
   /// @param state     at rest
-  /// @param time_s    of the forces and the driven bodies' places
+  /// @param time_s    of the forces and the prescribed bodies' places
   TreeRest(TreeDynamics& dynamics, const Eigen::VectorXd& state, double time_s = 0);
 
   Eigen::Index count() const override { return N_.cols(); }

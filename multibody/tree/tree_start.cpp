@@ -34,8 +34,8 @@ FrameState node_state(const TreeNode& node, const BodyState& body) {
           body.rotation * (w + motion.turn)};
 }
 
-FrameState driven_state(const DrivenPath& path, const TreeNode& node) {
-  const DrivenMotion body = path.at(0);
+FrameState prescribed_state(const PrescribedPath& path, const TreeNode& node) {
+  const PrescribedMotion body = path.at(0);
   const Vector3d arm = body.rotation * node.s0;
   return {body.position_m + arm, body.rotation * node.R0,
           body.velocity_m_s + body.angular_velocity_rad_s.cross(arm), body.angular_velocity_rad_s};
@@ -83,8 +83,8 @@ Fits fit_all(const Tree& tree, const std::vector<BodyState>& bodies) {
     const TreeBody& body = tree.bodies[b];
     FrameState inner;
     if (body.carrier.body != kNone) inner = node_state(body.inner, bodies[body.carrier.body]);
-    if (body.carrier.driven != kNone)
-      inner = driven_state(tree.driven[body.carrier.driven], body.inner);
+    if (body.carrier.prescribed != kNone)
+      inner = prescribed_state(tree.prescribed[body.carrier.prescribed], body.inner);
     const FrameState outer = node_state(body.outer, bodies[b]);
     const Fit found = fit(body.joint, inner, outer);
     for (const FrameState& each : {inner, outer})

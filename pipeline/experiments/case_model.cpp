@@ -36,8 +36,8 @@ void add_body(Model& model, const BodySection& section, const fe_modal::ModalBod
   added.name = section.name;
   switch (section.kind) {
     case BodySection::Kind::ground:
-    case BodySection::Kind::driven:
-      added.kind = multibody::DrivenBody();
+    case BodySection::Kind::prescribed:
+      added.kind = multibody::PrescribedBody();
       break;
     case BodySection::Kind::rigid:
       added.kind = section.rigid;
@@ -56,11 +56,11 @@ void add_body(Model& model, const BodySection& section, const fe_modal::ModalBod
   model.bodies.push_back(std::move(added));
 }
 
-/// Bodies that stand or are driven are turned, the others placed by the joints.
+/// Bodies that stand or are prescribed are turned, the others placed by the joints.
 void place(Model& model, const Eigen::Quaterniond& rotation, const std::string& case_name) {
   std::vector<bool> placed(model.bodies.size(), false);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    placed[i] = std::holds_alternative<multibody::DrivenBody>(model.bodies[i].kind);
+    placed[i] = std::holds_alternative<multibody::PrescribedBody>(model.bodies[i].kind);
     if (placed[i]) model.bodies[i].initial_pose.rotation = rotation;
   }
   try {

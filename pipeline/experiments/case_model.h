@@ -8,7 +8,7 @@
 namespace flexneck::pipeline {
 
 /// The model of a case: its bodies, the markers on them, the joints between them and its forces.
-/// Every interface of a deformable body is a marker "body.interface". The ground or driven body
+/// Every interface of a deformable body is a marker "body.interface". The ground or prescribed body
 /// stands at the world's origin, turned by `rotation`; the others are placed so that the joints
 /// close in the undeformed state. The case's rigid neck and head spring, if it has them, are in
 /// place of the deformable body and of the joint that holds "head.condyles".

@@ -25,28 +25,29 @@ namespace {
 Eigen::Quaterniond hanging() { return {0, 1, 0, 0}; }
 
 /// The arm's motion of a case.
-multibody::DrivenBody arm_motion(const CaseSection& experiment, const FittedPulse& pulse) {
+multibody::PrescribedBody arm_motion(const CaseSection& experiment, const FittedPulse& pulse) {
   const Eigen::Vector3d along = hanging() * bending_plane(experiment.direction).motion;
-  multibody::DrivenBody driven;
+  multibody::PrescribedBody prescribed;
   if (experiment.arm == CaseSection::Arm::translating) {
-    driven.direction = along;
-    driven.initial_velocity_m_s = experiment.impact_velocity_m_s;
-    driven.acceleration_m_s2 = pulse.acceleration();
-    return driven;
+    prescribed.direction = along;
+    prescribed.initial_velocity_m_s = experiment.impact_velocity_m_s;
+    prescribed.acceleration_m_s2 = pulse.acceleration();
+    return prescribed;
   }
   // The pivot is above: w x (0, 0, -r) points along the motion.
   const double radius = experiment.accelerometer_distance_m;
-  driven.turn.axis = along.cross(Eigen::Vector3d::UnitZ());
-  driven.turn.point_m = {0, 0, experiment.pivot_distance_m};
-  driven.turn.initial_rate_rad_s = experiment.impact_velocity_m_s / radius;
-  driven.turn.acceleration_rad_s2 = pulse.acceleration(1 / radius);
-  return driven;
+  prescribed.turn.axis = along.cross(Eigen::Vector3d::UnitZ());
+  prescribed.turn.point_m = {0, 0, experiment.pivot_distance_m};
+  prescribed.turn.initial_rate_rad_s = experiment.impact_velocity_m_s / radius;
+  prescribed.turn.acceleration_rad_s2 = pulse.acceleration(1 / radius);
+  return prescribed;
 }
 
-const std::string& driven_body(const Study& study, const CaseSection& experiment) {
+const std::string& prescribed_body(const Study& study, const CaseSection& experiment) {
   for (const std::string& name : experiment.bodies)
-    if (study.body(name).kind == BodySection::Kind::driven) return name;
-  throw InputError("case." + experiment.name + ": a pendulum needs a driven body among its bodies");
+    if (study.body(name).kind == BodySection::Kind::prescribed) return name;
+  throw InputError("case." + experiment.name +
+                   ": a pendulum needs a prescribed body among its bodies");
 }
 
 /// Processor time of this thread, s.
@@ -72,7 +73,7 @@ FittedPulse case_pulse(const Study& study, const CaseSection& experiment) {
 Model pendulum_model(const Study& study, const CaseSection& experiment,
                      const fe_modal::ModalBody& body) {
   Model model = case_model(study, experiment, body, hanging());
-  model.bodies[model.body_index(driven_body(study, experiment))].kind =
+  model.bodies[model.body_index(prescribed_body(study, experiment))].kind =
       arm_motion(experiment, case_pulse(study, experiment));
   model.gravity_m_s2 = study.gravity_m_s2;
   return model;

@@ -27,7 +27,7 @@ namespace {
 std::size_t base_joint(const Model& model) {
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const std::size_t lower = model.markers[model.joints[k].marker_i].body;
-    if (std::holds_alternative<multibody::DrivenBody>(model.bodies[lower].kind)) return k;
+    if (std::holds_alternative<multibody::PrescribedBody>(model.bodies[lower].kind)) return k;
   }
   throw InputError("a pendulum needs a joint whose lower marker is on its arm");
 }
@@ -129,7 +129,7 @@ VectorXd moment_by_formula(const VectorXd& moment_Nm, const VectorXd& shear_N, d
 namespace {
 
 std::string filter_text(const MomentDefinition& moment) {
-  const std::string of_moment = name_of(moment.moment_filter);
+  std::string of_moment = name_of(moment.moment_filter);
   if (moment.force_filter == moment.moment_filter) return of_moment;
   return of_moment + ", force " + name_of(moment.force_filter);
 }

@@ -31,7 +31,7 @@ struct PendulumSignals {
   Eigen::VectorXd arm_deceleration;   ///< m/s^2
 };
 
-/// @param model  that was run: its joint on a driven body carries the neck, the one on
+/// @param model  that was run: its joint on a prescribed body carries the neck, the one on
 ///               "head.condyles" the head; the arm has the marker "arm.end", the head "head.cg"
 PendulumSignals pendulum_signals(const multibody::Model& model, const multibody::History& history,
                                  const CaseSection& experiment);

@@ -57,7 +57,7 @@ Model static_chain_model(const Study& study, const CaseSection& experiment,
   Model model;
   multibody::Body ground;
   ground.name = "ground";
-  ground.kind = multibody::DrivenBody();
+  ground.kind = multibody::PrescribedBody();
   model.bodies.push_back(ground);
   multibody::Marker bench;
   bench.name = "ground.bench";

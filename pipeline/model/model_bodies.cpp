@@ -11,7 +11,7 @@
 namespace flexneck::pipeline {
 
 using multibody::DeformableBody;
-using multibody::DrivenBody;
+using multibody::PrescribedBody;
 using multibody::RigidBody;
 
 namespace {
@@ -140,10 +140,10 @@ void read_body(const StudyTable& table, Assembly& assembly) {
   const std::size_t kind = table.choice("kind");
   switch (kind) {
     case 0:
-      body.kind = DrivenBody();
+      body.kind = PrescribedBody();
       break;
     case 1:
-      body.kind = driven_body(table, assembly);
+      body.kind = prescribed_body(table, assembly);
       break;
     case 2:
       body.kind = rigid_body(table);
@@ -180,8 +180,8 @@ void read_marker(const StudyTable& table, Assembly& assembly) {
 ModelSection body_section() {
   static const std::vector<Key> keys = [] {
     std::vector<Key> all(kOwnKeys.begin(), kOwnKeys.end());
-    const std::span<const Key> driven = driven_body_keys();
-    all.insert(all.end(), driven.begin(), driven.end());
+    const std::span<const Key> prescribed = prescribed_body_keys();
+    all.insert(all.end(), prescribed.begin(), prescribed.end());
     return all;
   }();
   return {Key::tables("body", "Bodies", keys), read_body};

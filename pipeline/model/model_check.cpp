@@ -6,14 +6,14 @@
 
 namespace flexneck::pipeline {
 
-using multibody::DrivenBody;
 using multibody::Joint;
 using multibody::Model;
+using multibody::PrescribedBody;
 
 namespace {
 
-bool is_driven(const Model& model, std::size_t body) {
-  return std::holds_alternative<DrivenBody>(model.bodies[body].kind);
+bool is_prescribed(const Model& model, std::size_t body) {
+  return std::holds_alternative<PrescribedBody>(model.bodies[body].kind);
 }
 
 void check_drives(const Model& model, std::size_t body) {
@@ -25,12 +25,12 @@ void check_drives(const Model& model, std::size_t body) {
     const std::size_t j = model.markers[joint.marker_j].body;
     if (i != body && j != body) continue;
     const std::size_t other = i == body ? j : i;
-    if (!is_driven(model, other) || (first != nullptr && other == drive)) continue;
+    if (!is_prescribed(model, other) || (first != nullptr && other == drive)) continue;
     if (first != nullptr)
-      throw InputError("body '" + model.bodies[body].name + "' is driven twice: joint '" +
-                       first->name + "' fixes it to '" + model.bodies[drive].name +
-                       "' and joint '" + joint.name + "' to '" + model.bodies[other].name +
-                       "'; remove one of them");
+      throw InputError("the motion of body '" + model.bodies[body].name +
+                       "' is prescribed twice: joint '" + first->name + "' fixes it to '" +
+                       model.bodies[drive].name + "' and joint '" + joint.name + "' to '" +
+                       model.bodies[other].name + "'; remove one of them");
     first = &joint;
     drive = other;
   }
@@ -41,7 +41,7 @@ void check_drives(const Model& model, std::size_t body) {
 void check_connections(const Assembly& assembly) {
   const Model& model = assembly.model;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!is_driven(model, b) &&
+    if (!is_prescribed(model, b) &&
         !std::holds_alternative<multibody::DeformableBody>(model.bodies[b].kind))
       check_drives(model, b);
 }

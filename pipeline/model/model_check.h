@@ -5,7 +5,7 @@
 
 namespace flexneck::pipeline {
 
-/// @throws InputError for a rigid body that fixed joints tie to two driven ones.
+/// @throws InputError for a rigid body that fixed joints tie to two prescribed ones.
 void check_connections(const Assembly& assembly);
 
 }  // namespace flexneck::pipeline

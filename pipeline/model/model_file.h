@@ -29,7 +29,7 @@ struct ModelFile {
   /// State at time zero.
   enum class Start {
     given,       ///< as the bodies are given
-    equilibrium  ///< at rest against the driven bodies, moving with them
+    equilibrium  ///< at rest against the prescribed bodies, moving with them
   };
 
   enum class Analysis {

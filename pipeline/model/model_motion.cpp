@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a driven body moves, along a direction and about an axis, and how a motor moves a joint.
+// How a prescribed body moves, along a direction and about an axis, and how a motor moves a joint.
 #include <array>
 #include <sstream>
 
@@ -12,8 +12,8 @@
 
 namespace flexneck::pipeline {
 
-using multibody::DrivenBody;
 using multibody::JointMotor;
+using multibody::PrescribedBody;
 using multibody::SmoothMotion;
 using multibody::TimeTable;
 
@@ -56,18 +56,18 @@ constexpr auto kTurnKeys =
            }),
            joined(kAngleKeys, joined(kMotionKeys, kCsvKeys)));
 
-constexpr auto kDrivenKeys = joined(
+constexpr auto kPrescribedKeys = joined(
     std::to_array<Key>({
         Key::numbers(
             "direction", kNone,
-            "Of a driven body: direction of its travel in the world; x if the key is not there",
+            "Of a prescribed body: direction of its travel in the world; x if the key is not there",
             {.size = 3}),
         Key::expression_or_quantities("displacement", "m", kNone,
                                       "Displacement at each time, or an expression of t"),
         Key::file("displacement_table", kNone, "CSV file of displacements over time"),
         Key::quantity("initial_velocity", "m/s", "0",
                       "Velocity along the direction at the start, to which the motion adds"),
-        Key::table("turn", "Rotation of a driven body", kTurnKeys),
+        Key::table("turn", "Rotation of a prescribed body", kTurnKeys),
     }),
     joined(kMotionKeys, kCsvKeys));
 
@@ -163,9 +163,9 @@ Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& as
   return motion;
 }
 
-multibody::DrivenTurn read_turn(const StudyTable& table, const Eigen::Vector3d& position_m,
-                                Assembly& assembly) {
-  multibody::DrivenTurn turn;
+multibody::PrescribedTurn read_turn(const StudyTable& table, const Eigen::Vector3d& position_m,
+                                    Assembly& assembly) {
+  multibody::PrescribedTurn turn;
   turn.axis = unit_vector(table, "axis");
   turn.point_m = table.has("point") ? quantity_vector(table, "point") : position_m;
   const Motion motion = read_motion(table, kAngle, assembly);
@@ -221,10 +221,10 @@ ModelSection motor_section() {
       read_motor};
 }
 
-std::span<const Key> driven_body_keys() { return kDrivenKeys; }
+std::span<const Key> prescribed_body_keys() { return kPrescribedKeys; }
 
-DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
-  DrivenBody body;
+PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly) {
+  PrescribedBody body;
   if (table.has("direction")) body.direction = unit_vector(table, "direction");
   const Motion motion = read_motion(table, kTravel, assembly);
   body.initial_velocity_m_s = motion.initial_rate;
@@ -236,7 +236,7 @@ DrivenBody driven_body(const StudyTable& table, Assembly& assembly) {
     body.turn = read_turn(table.table("turn"), position_m, assembly);
   } else if (motion_key(table, kTravel).empty() && !table.has(kTravel.rate)) {
     table.refuse("name",
-                 "a driven body needs a motion: times and acceleration, table, pulse_times, "
+                 "a prescribed body needs a motion: times and acceleration, table, pulse_times, "
                  "displacement, displacement_table, initial_velocity or [body.turn]; without one "
                  "it is a ground");
   }

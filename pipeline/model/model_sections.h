@@ -41,9 +41,9 @@ std::size_t marker_named(const StudyTable& table, const std::string& key, const 
 /// A rotation vector, axis times angle; none if the key is not there.
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key);
 
-/// The motion that a [[body]] of kind "driven" gives: the keys driven_body_keys().
-std::span<const Key> driven_body_keys();
-multibody::DrivenBody driven_body(const StudyTable& table, Assembly& assembly);
+/// The motion that a [[body]] of kind "prescribed" gives: the keys prescribed_body_keys().
+std::span<const Key> prescribed_body_keys();
+multibody::PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly);
 
 /// Calls make() and puts the key in front of what it refuses.
 template <class Make>

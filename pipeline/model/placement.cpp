@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "geometry/foundation/error.h"
-#include "multibody/model/driven_path.h"
+#include "multibody/model/prescribed_path.h"
 #include "multibody/numerics/rotation.h"
 
 namespace flexneck::pipeline {
@@ -13,11 +13,11 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using multibody::Body;
 using multibody::DeformableBody;
-using multibody::DrivenBody;
 using multibody::Joint;
 using multibody::Marker;
 using multibody::Model;
 using multibody::Pose;
+using multibody::PrescribedBody;
 
 Pose operator*(const Pose& a, const Pose& b) {
   return {a.position_m + a.rotation * b.position_m, a.rotation * b.rotation};
@@ -39,15 +39,17 @@ Pose marker_pose(const Model& model, const Marker& marker) {
 }
 
 Pose pose_of(const Body& body) {
-  const auto* driven = std::get_if<DrivenBody>(&body.kind);
-  if (driven == nullptr) return body.initial_pose;
-  const multibody::DrivenMotion motion = multibody::DrivenPath(body.initial_pose, *driven).at(0);
+  const auto* prescribed = std::get_if<PrescribedBody>(&body.kind);
+  if (prescribed == nullptr) return body.initial_pose;
+  const multibody::PrescribedMotion motion =
+      multibody::PrescribedPath(body.initial_pose, *prescribed).at(0);
   return {motion.position_m, Quaterniond(motion.rotation)};
 }
 
 BodyMotion motion_of(const Body& body) {
-  if (const auto* driven = std::get_if<DrivenBody>(&body.kind)) {
-    const multibody::DrivenMotion motion = multibody::DrivenPath(body.initial_pose, *driven).at(0);
+  if (const auto* prescribed = std::get_if<PrescribedBody>(&body.kind)) {
+    const multibody::PrescribedMotion motion =
+        multibody::PrescribedPath(body.initial_pose, *prescribed).at(0);
     return {motion.velocity_m_s, motion.angular_velocity_rad_s};
   }
   return {body.initial_velocity_m_s,
@@ -104,7 +106,7 @@ void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
 
 void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vector<bool> moving) {
   for (std::size_t b = 0; b < moving.size(); ++b)
-    moving[b] = moving[b] || std::holds_alternative<DrivenBody>(model.bodies[b].kind);
+    moving[b] = moving[b] || std::holds_alternative<PrescribedBody>(model.bodies[b].kind);
   walk(model, moving, [&](std::size_t k, const Marker& from, const Marker& to) {
     const Joint& joint = model.joints[k];
     const Pose frame = pose_of(model.bodies[from.body]) * marker_pose(model, from);

@@ -21,7 +21,7 @@ multibody::Pose operator*(const multibody::Pose& a, const multibody::Pose& b);
 multibody::Pose inverse(const multibody::Pose& a);
 /// Frame of a marker in its body's frame at the start.
 multibody::Pose marker_pose(const multibody::Model& model, const multibody::Marker& marker);
-/// Where a body is at time zero: a driven one's motion need not start from where it is given.
+/// Where a body is at time zero: a prescribed one's motion need not start from where it is given.
 multibody::Pose pose_of(const multibody::Body& body);
 
 /// Velocity of a body's origin and angular velocity at time zero, world.
@@ -40,7 +40,7 @@ void place_bodies(multibody::Model& model, const std::vector<JointStart>& starts
 
 /// Gives velocities to each body that has none: it moves with the one that it hangs on, and by the
 /// joint's rates. A body that hangs on none stays at rest.
-/// @param moving  of each body: has velocities already; driven bodies need none
+/// @param moving  of each body: has velocities already; prescribed bodies need none
 void carry_bodies(multibody::Model& model, const std::vector<JointStart>& starts,
                   std::vector<bool> moving);
 

@@ -13,11 +13,11 @@ namespace flexneck::pipeline {
 
 using Eigen::Vector3d;
 using multibody::Body;
-using multibody::DrivenBody;
 using multibody::Joint;
 using multibody::Marker;
 using multibody::Model;
 using multibody::Pose;
+using multibody::PrescribedBody;
 
 namespace {
 
@@ -56,7 +56,7 @@ std::string pose_keys(const Assembly& assembly, const Joint& joint) {
   for (const std::size_t marker : {joint.marker_j, joint.marker_i}) {
     const std::size_t b = assembly.model.markers[marker].body;
     const Body& body = assembly.model.bodies[b];
-    if (!assembly.posed[b] || std::holds_alternative<DrivenBody>(body.kind)) continue;
+    if (!assembly.posed[b] || std::holds_alternative<PrescribedBody>(body.kind)) continue;
     const Vector3d turn = multibody::rotation_log(body.initial_pose.rotation.toRotationMatrix());
     return "body '" + body.name + "' with position = " + text(body.initial_pose.position_m) +
            " m and rotation = " + text(turn) + " rad";
@@ -107,7 +107,8 @@ void check_joint(const Assembly& assembly, std::size_t index) {
 /// @param rest  the key that says so
 void check_rest(const Assembly& assembly, const std::string& rest) {
   const std::string but =
-      ", but " + rest + ", where nothing moves against the driven bodies; leave one of them out";
+      ", but " + rest +
+      ", where nothing moves against the prescribed bodies; leave one of them out";
   for (std::size_t k = 0; k < assembly.starts.size(); ++k) {
     const std::string joint = "joint '" + assembly.model.joints[k].name + "': ";
     const JointStart& start = assembly.starts[k];

@@ -72,7 +72,7 @@ BodySection read_body(const StudyTable& table) {
   body.kind = static_cast<BodySection::Kind>(table.choice("kind"));
   switch (body.kind) {
     case BodySection::Kind::ground:
-    case BodySection::Kind::driven:
+    case BodySection::Kind::prescribed:
       break;
     case BodySection::Kind::rigid:
       body.rigid = read_rigid(table);

@@ -52,7 +52,7 @@ struct ModesSection {
 
 /// [[body]]
 struct BodySection {
-  enum class Kind { ground, driven, rigid, deformable };
+  enum class Kind { ground, prescribed, rigid, deformable };
   std::string name;
   Kind kind = Kind::rigid;
   multibody::RigidBody rigid;

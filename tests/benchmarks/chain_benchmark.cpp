@@ -101,8 +101,8 @@ Model flexible_chain() {
     times_s.push_back(0.05 * k / 20);
     values.push_back(-50 * std::sin(std::numbers::pi * k / 20));
   }
-  const DrivenBody ground{Vector3d::UnitX(), 0,
-                          TimeTable(times_s, values, TimeTable::Outside::zero)};
+  const PrescribedBody ground{Vector3d::UnitX(), 0,
+                              TimeTable(times_s, values, TimeTable::Outside::zero)};
   // The beam's z is along the bar, away from the arm.
   const Quaterniond down(0, 1, 0, 0);
   const double moment = 30 * kArm_m * kArm_m / 12;

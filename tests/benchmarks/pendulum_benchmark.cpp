@@ -25,7 +25,7 @@ const SolverOptions kSolver{.relative_tolerance = 1e-6, .absolute_tolerance = 1e
 const OutputOptions kOutput{.end_time_s = 0.25, .interval_s = 1e-3};
 
 /// An arm that comes at 7.01 m/s and is stopped by a pulse like a certification test's.
-DrivenBody make_arm() {
+PrescribedBody make_arm() {
   constexpr double g = 9.80665;
   const TimeTable pulse({0, 0.004, 0.010, 0.020, 0.030, 0.0365, 0.042},
                         {0, -24.15 * g, -24.15 * g, -19.45 * g, -14.95 * g, -13.85 * g, 0},
@@ -73,7 +73,7 @@ void report(const char* name, const Model& model, Formulation formulation, int r
 void report_batch(std::size_t count) {
   std::vector<Model> models(count, flexible_neck());
   for (std::size_t k = 0; k < count; ++k)
-    std::get<DrivenBody>(models[k].bodies[0].kind).initial_velocity_m_s +=
+    std::get<PrescribedBody>(models[k].bodies[0].kind).initial_velocity_m_s +=
         1e-3 * static_cast<double>(k);
   const OutputOptions output{.end_time_s = 0.25, .interval_s = 0.0125};
   std::vector<BatchRun> runs;

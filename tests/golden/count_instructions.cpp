@@ -62,7 +62,7 @@ void count_both(const std::string& name, const Model& model) {
 Model head_on_neck() {
   using namespace flexneck::testing;
   ModelBuilder build =
-      flexneck::testing::head_on_neck(DrivenBody{}, hanging_pose(), Beam{}, 0.9, make_head());
+      flexneck::testing::head_on_neck(PrescribedBody{}, hanging_pose(), Beam{}, 0.9, make_head());
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   return build.model;
 }

@@ -78,7 +78,7 @@ Model neck_and_head(bool stiffens) {
   const auto body = flexneck::testing::make_point_mass_body(71, 4).body;
   Model model;
   model.gravity_m_s2 = {0, 0, -9.81};
-  model.bodies.push_back({"ground", DrivenBody{}, {}});
+  model.bodies.push_back({"ground", PrescribedBody{}, {}});
   model.bodies.push_back(
       {"neck", DeformableBody{body, VectorXd::Constant(4, 0.5), {}, stiffens}, {}});
   RigidBody head;

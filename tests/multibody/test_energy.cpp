@@ -39,13 +39,13 @@ Beam soft_beam() {
 /// Base – pin – arm – ball – flexible body – fixed – flexible beam – fixed – head, spinning, with
 /// every kind of joint and bodies deformable on both sides. `world` turns all of it with its
 /// gravity.
-ModelBuilder mixed_chain(const DrivenBody& base, double zeta, const Quaterniond& world) {
+ModelBuilder mixed_chain(const PrescribedBody& base, double zeta, const Quaterniond& world) {
   const Beam beam = soft_beam();
   const auto lump = make_point_mass_body(3).body;
   const auto pose = [&](const Vector3d& position) { return Pose{world * position, world}; };
   const Vector3d spin(0.5, 1.0, 2.0);
   const Vector3d slide = world * (base.initial_velocity_m_s * base.direction);
-  DrivenBody turned_base = base;
+  PrescribedBody turned_base = base;
   turned_base.direction = world * base.direction;
   ModelBuilder build;
   const auto ground = build.body("base", turned_base, pose(Vector3d::Zero()));
@@ -128,10 +128,10 @@ TEST_CASE("An undamped flexible chain keeps its energy, and better so the finer 
   CHECK(fine.statistics.max_position_residual < 1e-11);
 }
 
-TEST_CASE("What damping takes and forces and a driven base give closes the balance of energy") {
+TEST_CASE("What damping takes and forces and a prescribed base give closes the balance of energy") {
   const Formulation formulation = either_formulation();
   const TimeTable pulse({0.1, 0.2, 0.4}, {0, -30, 0}, TimeTable::Outside::zero);
-  const DrivenBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
+  const PrescribedBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
   ModelBuilder build = mixed_chain(base, 0.3, Quaterniond::Identity());
   add_all_forces(build.model);
   const TimeTable push({0.05, 0.3, 0.7}, {20, 60, 10}, TimeTable::Outside::zero);
@@ -152,7 +152,7 @@ TEST_CASE("A model that is turned with its gravity by an odd angle moves the sam
   const Formulation formulation = either_formulation();
   const Quaterniond world = Quaterniond(0.3, -0.8, 0.41, 0.77).normalized();
   const TimeTable pulse({0.0, 0.1, 0.2}, {0, -30, 0}, TimeTable::Outside::zero);
-  const DrivenBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
+  const PrescribedBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
   const auto run = [&](const Quaterniond& turn) {
     ModelBuilder build = mixed_chain(base, 0.1, turn);
     build.force("push", build.model.marker_index("bar top"), turn * Vector3d(1, 0, 2),
@@ -195,7 +195,7 @@ TEST_CASE("The same run gives the same numbers to the last bit") {
 
 TEST_CASE("Both formulations follow the same path, of markers, modes, reactions and energies") {
   const TimeTable pulse({0.0, 0.1, 0.2}, {0, -30, 0}, TimeTable::Outside::zero);
-  const DrivenBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
+  const PrescribedBody base{Vector3d(1, 2, -1).normalized(), 4, pulse};
   ModelBuilder build = mixed_chain(base, 0.1, Quaterniond::Identity());
   build.force("push", build.model.marker_index("bar top"), {1, 0, 2}, constant_table(20));
   const auto run = [&](Formulation formulation) {

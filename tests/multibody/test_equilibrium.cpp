@@ -35,7 +35,7 @@ Model pendulum(double angle) {
   rod.mass_kg = 2;
   rod.center_m = {0, 0, -kLength / 2};
   rod.inertia_kg_m2 = Vector3d(0.03, 0.02, 0.015).asDiagonal();
-  model.bodies.push_back({"ground", DrivenBody{}, {}});
+  model.bodies.push_back({"ground", PrescribedBody{}, {}});
   model.bodies.push_back({"rod", rod, {Vector3d::Zero(), about_y(angle)}});
   model.markers = {{"pivot", 0, ""}, {"top", 1, ""}};
   Marker bottom{"bottom", 1, ""};
@@ -82,7 +82,7 @@ TEST_CASE("a modal body sags until elastic and gravity forces balance") {
   Model model;
   model.gravity_m_s2 = {2, 3, -9.81};
   const auto body = make_point_mass_body(51, 3).body;
-  model.bodies.push_back({"ground", DrivenBody{}, {}});
+  model.bodies.push_back({"ground", PrescribedBody{}, {}});
   model.bodies.push_back({"flexible", DeformableBody{body, VectorXd::Constant(3, 0.1)}, {}});
   model.markers = {{"wall", 0, ""}, {"root", 1, "root"}};
   model.joints.push_back({"clamp", &kFixedJoint, 0, 1});
@@ -99,7 +99,7 @@ TEST_CASE("a modal body sags until elastic and gravity forces balance") {
 TEST_CASE("a run from equilibrium stays there while nothing is driven") {
   Model model;
   model.gravity_m_s2 = {1, 2, -9.81};
-  DrivenBody sled;
+  PrescribedBody sled;
   sled.initial_velocity_m_s = 3;
   model.bodies.push_back({"sled", sled, {}});
   const auto body = make_point_mass_body(52, 3).body;
@@ -152,7 +152,7 @@ TEST_CASE("a quasi-static ramp is a row of equilibria, in closed form, with the 
 
 TEST_CASE("a quasi-static ramp carries bodies along with what is driven") {
   Model model = pendulum(0);
-  DrivenBody hoist;
+  PrescribedBody hoist;
   hoist.initial_velocity_m_s = 0.5;
   model.bodies[0].kind = hoist;
   SolverOptions solver;
@@ -185,7 +185,7 @@ TEST_CASE("what has no equilibrium is refused") {
   CHECK_THROWS_WITH(equilibrium_of(loose), Contains("rod") && Contains("no equilibrium"));
 
   Model torn = pendulum(0);
-  DrivenBody sled;
+  PrescribedBody sled;
   sled.initial_velocity_m_s = 1;
   torn.bodies.push_back({"sled", sled, {{0, 0, -kLength}}});
   torn.markers.push_back({"on sled", 2, ""});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Driven base - neck - head: against the form without multipliers (equations.md section 6).
+// Prescribed base - neck - head: against the form without multipliers (equations.md section 6).
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -51,13 +51,13 @@ TimeTable strong_pulse() {
 
 }  // namespace
 
-TEST_CASE("Driven base, neck and head move as the modal coordinates alone do") {
+TEST_CASE("Prescribed base, neck and head move as the modal coordinates alone do") {
   const Vector3d direction_N = Vector3d(0.9, 0.5, 0.1).normalized();
   Beam beam;
   beam.twist_modes = 1;
   const Pose pose = hanging_pose();
   const RigidBody head = make_head();
-  const DrivenBody base{pose.rotation * direction_N, 7, strong_pulse()};
+  const PrescribedBody base{pose.rotation * direction_N, 7, strong_pulse()};
   ModelBuilder build = head_on_neck(base, pose, beam, 0.9, head);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
   const History history = simulate(build.model, tight(), {.end_time_s = 0.1, .interval_s = 0.01});

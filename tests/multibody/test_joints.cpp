@@ -14,7 +14,7 @@
 #include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"
 
-// Every joint between two random deformable bodies, or a driven and a deformable one on either
+// Every joint between two random deformable bodies, or a prescribed and a deformable one on either
 // side, large deformations and velocities. The truth is where the two markers are along a motion
 // with given accelerations.
 
@@ -47,7 +47,7 @@ constexpr double kSlide_m = 0.3;
 constexpr double kLead_m = 0.2;
 constexpr double kLength_m = 0.5;
 
-enum class Driven { none, body_i, body_j };
+enum class Prescribed { none, body_i, body_j };
 
 bool is_sliding(const JointKind* kind) {
   return kind == &kCylindricalJoint || kind == &kPrismaticJoint;
@@ -62,29 +62,30 @@ Vector3d slide_of(const JointKind* kind) {
   return Vector3d::Zero();
 }
 
-/// Two bodies of which one may be driven. The driven one has a marker off its origin.
-Model two_bodies(const JointKind* kind, Driven which) {
+/// Two bodies of which one may be prescribed. The prescribed one has a marker off its origin.
+Model two_bodies(const JointKind* kind, Prescribed which) {
   RandomNumbers random(31);
   Model model;
-  const auto add_body = [&](const char* name, unsigned seed, int modes, bool driven) {
-    if (!driven) {
+  const auto add_body = [&](const char* name, unsigned seed, int modes, bool prescribed) {
+    if (!prescribed) {
       model.bodies.push_back(
           {name,
            DeformableBody{make_point_mass_body(seed, modes).body, VectorXd::Zero(modes)},
            {}});
       return;
     }
-    DrivenBody arm;
+    PrescribedBody arm;
     arm.direction = random.vector().normalized();
     arm.initial_velocity_m_s = 1.5;
     arm.acceleration_m_s2 = TimeTable({-1, 1}, {8, 8}, TimeTable::Outside::constant);
     model.bodies.push_back({name, arm, {random.vector(), random.rotation()}});
   };
-  add_body("i", 32, 3, which == Driven::body_i);
-  add_body("j", 33, 2, which == Driven::body_j);
+  add_body("i", 32, 3, which == Prescribed::body_i);
+  add_body("j", 33, 2, which == Prescribed::body_j);
   const Vector3d offset = 0.1 * random.vector();
-  model.markers = {{"on i", 0, which == Driven::body_i ? "" : "tip", offset, random.rotation()},
-                   {"on j", 1, which == Driven::body_j ? "" : "side", offset, random.rotation()}};
+  model.markers = {
+      {"on i", 0, which == Prescribed::body_i ? "" : "tip", offset, random.rotation()},
+      {"on j", 1, which == Prescribed::body_j ? "" : "side", offset, random.rotation()}};
   model.joints.push_back({"joint", kind, 0, 1, kAxis, kSecondAxis, kLead_m, kLength_m});
   return model;
 }
@@ -105,7 +106,7 @@ class Path {
     const Marker& marker = model_.markers[index];
     const Body& body = model_.bodies[marker.body];
     const Matrix3d R0 = marker.rotation.toRotationMatrix();
-    if (const auto* arm = std::get_if<DrivenBody>(&body.kind)) {
+    if (const auto* arm = std::get_if<PrescribedBody>(&body.kind)) {
       const Matrix3d A = body.initial_pose.rotation.toRotationMatrix();
       const double travel = 1.5 * t + 8 * t * t / 2;
       return {body.initial_pose.position_m + travel * arm->direction + A * marker.position_m,
@@ -216,9 +217,9 @@ const JointKind* any_joint() {
 
 TEST_CASE("rows of every joint are derivatives of its position residual along a motion") {
   const JointKind* const kind = any_joint();
-  const Driven driven = GENERATE(Driven::none, Driven::body_i, Driven::body_j);
-  CAPTURE(kind->name, static_cast<int>(driven));
-  const Model model = two_bodies(kind, driven);
+  const Prescribed prescribed = GENERATE(Prescribed::none, Prescribed::body_i, Prescribed::body_j);
+  CAPTURE(kind->name, static_cast<int>(prescribed));
+  const Model model = two_bodies(kind, prescribed);
   const System system(model);
   EquationsOfMotion equations(system);
   const VectorXd state = joined_state(model, system, equations);
@@ -250,7 +251,7 @@ TEST_CASE("rows of every joint are derivatives of its position residual along a 
 TEST_CASE("velocity rows of every joint are derivatives of its residual off the joint too") {
   // Those with a common axis hold only on the joint: T is chosen there anew.
   const JointKind* const kind = GENERATE(&kSphericalJoint, &kFixedJoint, &kUniversalJoint);
-  const Model model = two_bodies(kind, Driven::none);
+  const Model model = two_bodies(kind, Prescribed::none);
   const System system(model);
   EquationsOfMotion equations(system);
   VectorXd state = joined_state(model, system, equations);
@@ -270,7 +271,7 @@ TEST_CASE("velocity rows of every joint are derivatives of its residual off the 
 TEST_CASE("reactions do no work on motions that keep the joint") {
   const JointKind* const kind = any_joint();
   CAPTURE(kind->name);
-  const Model model = two_bodies(kind, Driven::none);
+  const Model model = two_bodies(kind, Prescribed::none);
   const System system(model);
   EquationsOfMotion equations(system);
   const VectorXd state = joined_state(model, system, equations);
@@ -305,7 +306,7 @@ TEST_CASE("reactions do no work on motions that keep the joint") {
 }
 
 TEST_CASE("a free joint holds nothing") {
-  const Model model = two_bodies(&kFreeJoint, Driven::none);
+  const Model model = two_bodies(&kFreeJoint, Prescribed::none);
   const System system(model);
   EquationsOfMotion equations(system);
   VectorXd state = given_state(model, system);

@@ -16,7 +16,7 @@ using namespace flexneck::multibody;
 
 namespace {
 
-constexpr std::size_t kDriven = JointPlace::kNoBody;
+constexpr std::size_t kPrescribed = JointPlace::kNoBody;
 
 /// The same system as a dense matrix.
 struct Dense {
@@ -35,7 +35,7 @@ struct Dense {
       matrix.block(solver.body_offset(b), solver.body_offset(b), sizes[b], sizes[b]) = mass;
     }
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const auto size = [&](std::size_t body) { return body == kDriven ? 0 : sizes[body]; };
+      const auto size = [&](std::size_t body) { return body == kPrescribed ? 0 : sizes[body]; };
       Joint joint;
       joint.kind = places[k].rows == 3 ? &kSphericalJoint : &kFixedJoint;
       JointRows rows(joint, size(places[k].body_i), size(places[k].body_j));
@@ -49,7 +49,7 @@ struct Dense {
   }
 
   void place(const KktSolver& solver, std::size_t joint, std::size_t body, const MatrixXd& B) {
-    if (body == kDriven) return;
+    if (body == kPrescribed) return;
     const Index row = solver.velocity_count() + solver.joint_offset(joint);
     const Index column = solver.body_offset(body);
     matrix.block(row, column, B.cols(), B.rows()) += B.transpose();
@@ -61,10 +61,11 @@ struct Dense {
 
 TEST_CASE("elimination body by body solves the whole system") {
   RandomNumbers random(41);
-  // A chain on a driven body, a branch, and a loop closed between its ends; envelopes of all kinds.
+  // A chain on a prescribed body, a branch, and a loop closed between its ends; envelopes of all
+  // kinds.
   const std::vector<Index> sizes = {6, 10, 6, 8};
-  const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {1, 2, 3},
-                                          {3, 0, 6},       {2, 3, 3}, {2, kDriven, 3}};
+  const std::vector<JointPlace> places = {{kPrescribed, 0, 3}, {0, 1, 6}, {1, 2, 3},
+                                          {3, 0, 6},           {2, 3, 3}, {2, kPrescribed, 3}};
   KktSolver solver(sizes, places, VectorXd::Ones(30));
   const Dense dense(solver, sizes, places, random);
   solver.factorise();
@@ -82,13 +83,13 @@ TEST_CASE("elimination body by body solves the whole system") {
 }
 
 TEST_CASE("rows that repeat others are found and left out") {
-  const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {0, 1, 3}};
+  const std::vector<JointPlace> places = {{kPrescribed, 0, 3}, {0, 1, 6}, {0, 1, 3}};
   KktSolver solver({6, 6}, places, VectorXd::Ones(12));
   for (std::size_t b = 0; b < 2; ++b) solver.set_mass(b, MatrixXd::Identity(6, 6));
   Joint fixed;
   for (std::size_t k = 0; k < places.size(); ++k) {
     fixed.kind = places[k].rows == 6 ? &kFixedJoint : &kSphericalJoint;
-    JointRows rows(fixed, places[k].body_i == kDriven ? 0 : 6, 6);
+    JointRows rows(fixed, places[k].body_i == kPrescribed ? 0 : 6, 6);
     for (Index r = 0; r < places[k].rows; ++r) {
       rows.B_j(r, r) = -1;
       if (rows.B_i.rows() > 0) rows.B_i(r, r) = 1;
@@ -102,7 +103,7 @@ TEST_CASE("rows that repeat others are found and left out") {
     CHECK(redundant[static_cast<std::size_t>(r)].joint == 2);
     CHECK(redundant[static_cast<std::size_t>(r)].row == r);
   }
-  // Loads along the first three axes go through the driven joint; its multipliers are theirs.
+  // Loads along the first three axes go through the prescribed joint; its multipliers are theirs.
   VectorXd r = VectorXd::LinSpaced(12, 1, 12);
   VectorXd s = VectorXd::Zero(12);
   solver.solve(r, s);
@@ -114,10 +115,10 @@ TEST_CASE("rows that repeat others are found and left out") {
 
 TEST_CASE(
     "masses that differ by fourteen orders leave all digits, and rank is decided without them") {
-  // A heavy body on a driven one; a light one ties another heavy one to it.
+  // A heavy body on a prescribed one; a light one ties another heavy one to it.
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   RandomNumbers random(43);
-  const std::vector<JointPlace> places = {{kDriven, 0, 3}, {0, 1, 6}, {1, 2, 6}};
+  const std::vector<JointPlace> places = {{kPrescribed, 0, 3}, {0, 1, 6}, {1, 2, 6}};
   KktSolver solver({6, 6, 6}, places, VectorXd::Ones(18));
   Extended matrix = Extended::Zero(33, 33);
   for (std::size_t b = 0; b < 3; ++b) {
@@ -128,13 +129,13 @@ TEST_CASE(
   for (std::size_t k = 0; k < places.size(); ++k) {
     Joint joint;
     joint.kind = places[k].rows == 6 ? &kFixedJoint : &kSphericalJoint;
-    JointRows rows(joint, places[k].body_i == kDriven ? 0 : 6, 6);
+    JointRows rows(joint, places[k].body_i == kPrescribed ? 0 : 6, 6);
     for (TransposedRows* B : {&rows.B_i, &rows.B_j})
       for (Index c = 0; c < places[k].rows; ++c)
         for (Index r = 0; r < B->rows(); ++r) (*B)(r, c) = random.next();
     solver.set_rows(k, rows);
     const auto add = [&](std::size_t body, const TransposedRows& B) {
-      if (body == kDriven) return;
+      if (body == kPrescribed) return;
       const Index row = 18 + solver.joint_offset(k);
       matrix.block(row, solver.body_offset(body), places[k].rows, 6) +=
           B.leftCols(places[k].rows).transpose().cast<long double>();

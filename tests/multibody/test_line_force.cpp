@@ -45,12 +45,12 @@ TEST_CASE("a line force drives two free bodies apart by the integrals of its tab
         Approx(kImpulse * kImpulse / 2 * (1 / kLight_kg + 1 / kHeavy_kg)).epsilon(1e-8));
 }
 
-TEST_CASE("what a line force takes from a driven body is not work on the others") {
+TEST_CASE("what a line force takes from a prescribed body is not work on the others") {
   constexpr double kSpeed = 3;
   constexpr double kForce_N = 4;
   constexpr double kMass_kg = 2;
   ModelBuilder build;
-  DrivenBody sled;
+  PrescribedBody sled;
   sled.direction = Vector3d::UnitX();
   sled.initial_velocity_m_s = -kSpeed;
   const auto from = build.marker("sled", build.body("sled", sled, {Vector3d(-1, 0, 0)}));

@@ -47,7 +47,7 @@ RigidBody rod(double mass, double length) {
 Model double_pendulum(double m1, double l1, double m2, double l2) {
   Model model;
   model.gravity_m_s2 = {0, 0, -kGravity};
-  model.bodies = {{"ground", DrivenBody{}, {}},
+  model.bodies = {{"ground", PrescribedBody{}, {}},
                   {"upper", rod(m1, l1), {}},
                   {"lower", rod(m2, l2), {{0, 0, -l1}}}};
   model.markers = {{"pivot", 0, ""},
@@ -70,11 +70,11 @@ std::pair<Matrix2d, Matrix2d> double_pendulum_matrices(double m1, double l1, dou
   return {K, M};
 }
 
-/// A modal body clamped by its root to a driven body, with a head on its tip.
+/// A modal body clamped by its root to a prescribed body, with a head on its tip.
 Model clamped(double zeta, double head_kg, int modes) {
   Model model;
   const auto body = make_point_mass_body(61, modes).body;
-  model.bodies.push_back({"ground", DrivenBody{}, {}});
+  model.bodies.push_back({"ground", PrescribedBody{}, {}});
   model.bodies.push_back({"flexible", DeformableBody{body, VectorXd::Constant(modes, zeta)}, {}});
   model.markers = {{"wall", 0, ""}, {"root", 1, "root"}};
   model.joints.push_back({"clamp", &kFixedJoint, 0, 1});
@@ -145,7 +145,7 @@ TEST_CASE("about a hub that turns, a linear beam is softer by the square of the 
   // f^2 = f0^2 - spin^2 in the plane, f0 across it: no run is needed, nor an equilibrium.
   constexpr double kSpin = 12;
   Model model = clamped(0, 0, 1);
-  DrivenBody hub;
+  PrescribedBody hub;
   hub.turn.axis = Vector3d::UnitZ();
   hub.turn.initial_rate_rad_s = kSpin;
   model.bodies[0].kind = hub;

@@ -29,9 +29,9 @@ Beam twisting_beam() {
   return beam;
 }
 
-/// The beam on the ground (or on a driven base), with a force on its top.
+/// The beam on the ground (or on a prescribed base), with a force on its top.
 ModelBuilder held_beam(const flexneck::fe_modal::ModalBody& body, double zeta,
-                       const DrivenBody& base = {}) {
+                       const PrescribedBody& base = {}) {
   ModelBuilder build;
   const Vector3d velocity = base.initial_velocity_m_s * base.direction;
   const auto ground = build.body("base", base);
@@ -129,14 +129,14 @@ TEST_CASE("A run from equilibrium starts at K^-1 f with the reactions of statics
   }
 }
 
-TEST_CASE("A driven base excites the modes by their first moments") {
+TEST_CASE("A prescribed base excites the modes by their first moments") {
   // a'' + 2 zeta w a' + w^2 a = -S2 . acceleration; a jump of the acceleration is a step.
   const double zeta = 0.2;
   constexpr double kAcceleration = -50;
   constexpr double kSpeed = 3;
   const auto body = make_beam_body({});
   const Vector3d direction = Vector3d(2, 1, 0.5).normalized();
-  const DrivenBody base{direction, kSpeed, constant_table(kAcceleration)};
+  const PrescribedBody base{direction, kSpeed, constant_table(kAcceleration)};
   const History history =
       simulate(held_beam(body, zeta, base).model, tight(), {.end_time_s = 0.1, .interval_s = 1e-3});
   const Eigen::VectorXd load = -kAcceleration * body.invariants.S2.transpose() * direction;

@@ -111,17 +111,17 @@ TEST_CASE("Deformable bodies with odd damping, frequencies or invariants are ref
              Contains("interface 'top'"));
 }
 
-TEST_CASE("Vectors that should be of unit length and driven bodies' motions are checked") {
+TEST_CASE("Vectors that should be of unit length and prescribed bodies' motions are checked") {
   CHECK_THAT(complaint([](Model& m) { m.bodies[1].initial_pose.rotation.w() = 1.1; }),
              Contains("body 'neck': rotation must be a unit quaternion"));
   CHECK_THAT(complaint([](Model& m) {
-               std::get<DrivenBody>(m.bodies[0].kind).direction = {1, 1, 0};
+               std::get<PrescribedBody>(m.bodies[0].kind).direction = {1, 1, 0};
              }),
              Contains("body 'base': direction of motion must be a unit vector"));
   CHECK_THAT(complaint([](Model& m) {
                m.bodies[0].initial_velocity_m_s = {1, 0, 0};
              }),
-             Contains("body 'base': it is driven"));
+             Contains("body 'base': its motion is prescribed"));
   CHECK_THAT(complaint([](Model& m) { m.forces.of<PointForce>()[0].direction.setZero(); }),
              Contains("force 'push': direction"));
   CHECK_THAT(complaint([](Model& m) {
@@ -145,7 +145,7 @@ TEST_CASE("Markers and joints must fit their bodies") {
   CHECK_THAT(complaint([](Model& m) { m.joints[1].marker_j = 1; }),
              Contains("both markers are on body 'neck'"));
   CHECK_THAT(complaint([](Model& m) {
-               m.bodies[2].kind = DrivenBody{};
+               m.bodies[2].kind = PrescribedBody{};
                m.joints[1].marker_i = 0;
              }),
              Contains("'base' and 'head', whose motions are both given"));

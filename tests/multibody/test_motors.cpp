@@ -27,19 +27,19 @@ SmoothMotion winding() {
                                        kEnd_s);
 }
 
-/// A pendulum whose pivot is turned as winding() says, by a motor or by a driven body.
+/// A pendulum whose pivot is turned as winding() says, by a motor or by a prescribed body.
 ModelBuilder turned_pendulum(bool by_motor) {
   ModelBuilder build;
   build.model.gravity_m_s2 = {1, 2, -9};
-  DrivenBody driven;
+  PrescribedBody prescribed;
   if (!by_motor) {
-    driven.turn.axis = kAxis;
-    driven.turn.motion = winding();
+    prescribed.turn.axis = kAxis;
+    prescribed.turn.motion = winding();
   }
   const Vector3d spin = winding().velocity_m_s(0) * kAxis;
   const Vector3d place(0.3, 0.1, 0);
   const Vector3d elbow(0.2, -0.4, 0.1);
-  const auto base = build.body("base", driven);
+  const auto base = build.body("base", prescribed);
   const auto rotor = build.body("rotor", make_head(), {place}, spin.cross(place), spin);
   const auto bob = build.body("bob", make_head(), {place + elbow}, spin.cross(place + elbow), spin);
   const auto joint =
@@ -54,26 +54,27 @@ ModelBuilder turned_pendulum(bool by_motor) {
 
 }  // namespace
 
-TEST_CASE("a motor on the ground moves what hangs on it as a driven body does, and as hard") {
+TEST_CASE("a motor on the ground moves what hangs on it as a prescribed body does, and as hard") {
   const History motor = simulate(turned_pendulum(true).model, kSolver, {.end_time_s = kEnd_s});
-  const History driven = simulate(turned_pendulum(false).model, kSolver, {.end_time_s = kEnd_s});
+  const History prescribed =
+      simulate(turned_pendulum(false).model, kSolver, {.end_time_s = kEnd_s});
   const Index last = motor.time_s.size() - 1;
-  REQUIRE(driven.time_s.size() == last + 1);
+  REQUIRE(prescribed.time_s.size() == last + 1);
   for (const char* const name : {"rotor end", "bob"}) {
     const MarkerHistory& a = motor.marker(name);
-    const MarkerHistory& b = driven.marker(name);
+    const MarkerHistory& b = prescribed.marker(name);
     CHECK((a.position_m - b.position_m).cwiseAbs().maxCoeff() < 1e-7);
     CHECK((a.acceleration_m_s2 - b.acceleration_m_s2).norm() < 1e-6 * b.acceleration_m_s2.norm());
   }
-  // Joint histories are in the axes of marker i, which turns with the driven body.
+  // Joint histories are in the axes of marker i, which turns with the prescribed body.
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(winding().displacement_m(motor.time_s[last]), kAxis).toRotationMatrix();
   const auto compare = [&](const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
     CHECK((a.col(last) - R * b.col(last)).norm() < 1e-5 * b.col(last).norm());
   };
-  compare(motor.joints[0].force_N, driven.joints[0].force_N);
-  compare(motor.joints[0].moment_Nm, driven.joints[0].moment_Nm);
-  CHECK(motor.energy.work_J[last] == Approx(driven.energy.work_J[last]).epsilon(1e-6));
+  compare(motor.joints[0].force_N, prescribed.joints[0].force_N);
+  compare(motor.joints[0].moment_Nm, prescribed.joints[0].moment_Nm);
+  CHECK(motor.energy.work_J[last] == Approx(prescribed.energy.work_J[last]).epsilon(1e-6));
 }
 
 TEST_CASE("a motor between two free bodies moves each by its share, and its work is their energy") {

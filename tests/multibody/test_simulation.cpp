@@ -26,7 +26,7 @@ namespace {
 Model sled() {
   Model model;
   model.gravity_m_s2 = {0, 0, -9.81};
-  DrivenBody base;
+  PrescribedBody base;
   base.initial_velocity_m_s = 4;
   base.acceleration_m_s2 = TimeTable({0.01, 0.03}, {-200, -150}, TimeTable::Outside::zero);
   model.bodies.push_back({"sled", base, {}});

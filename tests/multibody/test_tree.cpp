@@ -112,7 +112,7 @@ TEST_CASE(
     "what rides on a base that does not turn moves the same without its inertia, bit by bit") {
   const TimeTable brake({0, 1}, {-100, -220}, TimeTable::Outside::constant);
   const bool turns = GENERATE(false, true);
-  DrivenBody base{Vector3d(2, 1, 0).normalized(), 4, brake};
+  PrescribedBody base{Vector3d(2, 1, 0).normalized(), 4, brake};
   if (turns) base.turn.initial_rate_rad_s = 2;
   ModelBuilder build = head_on_neck(base, hanging_pose(), Beam{}, 0.3, make_head());
   build.model.gravity_m_s2 = {1, 2, -kGravity};

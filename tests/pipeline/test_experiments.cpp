@@ -95,7 +95,8 @@ TEST_CASE("the arm comes to rest from the impact velocity, whatever the case") {
   for (const char* name : {"flexion-20", "flexion-120", "lateral-65"}) {
     const CaseSection& section = experiment.named(name);
     const multibody::Model model = pendulum_model(experiment.study, section, experiment.body);
-    const auto& arm = std::get<multibody::DrivenBody>(model.bodies[model.body_index("arm")].kind);
+    const auto& arm =
+        std::get<multibody::PrescribedBody>(model.bodies[model.body_index("arm")].kind);
     CHECK(arm.initial_velocity_m_s == section.impact_velocity_m_s);
     CHECK(std::abs(arm.initial_velocity_m_s + arm.acceleration_m_s2.integral(1.0)) <
           kRounding * arm.initial_velocity_m_s);
@@ -103,7 +104,8 @@ TEST_CASE("the arm comes to rest from the impact velocity, whatever the case") {
   // Lateral: along the neck's +y, which is the world's -y when the neck hangs.
   const multibody::Model lateral =
       pendulum_model(experiment.study, experiment.named("lateral-65"), experiment.body);
-  const auto& arm = std::get<multibody::DrivenBody>(lateral.bodies[lateral.body_index("arm")].kind);
+  const auto& arm =
+      std::get<multibody::PrescribedBody>(lateral.bodies[lateral.body_index("arm")].kind);
   CHECK((arm.direction + Eigen::Vector3d::UnitY()).norm() < kRounding);
 }
 
@@ -113,7 +115,7 @@ TEST_CASE("the pulse at its published velocity has the published amplitude") {
   CaseSection section = experiment.named("flexion-120");
   section.impact_velocity_m_s = 276 * 0.0254;
   const multibody::Model model = pendulum_model(experiment.study, section, experiment.body);
-  const auto& arm = std::get<multibody::DrivenBody>(model.bodies[model.body_index("arm")].kind);
+  const auto& arm = std::get<multibody::PrescribedBody>(model.bodies[model.body_index("arm")].kind);
   CHECK(arm.acceleration_m_s2.value(0.007) == Approx(-24.15 * 9.80665).epsilon(1e-4));
 }
 

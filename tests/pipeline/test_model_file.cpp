@@ -148,21 +148,21 @@ outside = "zero"
   CHECK(file.files.size() == 2);
 }
 
-TEST_CASE("a driven body follows a table, a pulse or an expression, and one of them only") {
+TEST_CASE("a prescribed body follows a table, a pulse or an expression, and one of them only") {
   const TemporaryFolder folder;
   const auto sled = [&](const std::string& motion) {
     return with(double_pendulum_text(), "kind = \"ground\"", "kind = \"prescribed\"\n" + motion);
   };
-  const auto driven = [&](const std::string& motion) {
-    return std::get<multibody::DrivenBody>(read(folder, sled(motion)).model.bodies[0].kind);
+  const auto prescribed = [&](const std::string& motion) {
+    return std::get<multibody::PrescribedBody>(read(folder, sled(motion)).model.bodies[0].kind);
   };
-  CHECK(driven("displacement = \"0.05 * sin(2*pi*3*t)\"").motion.velocity_m_s(0) ==
+  CHECK(prescribed("displacement = \"0.05 * sin(2*pi*3*t)\"").motion.velocity_m_s(0) ==
         Approx(0.05 * 6 * std::numbers::pi));
-  CHECK(driven("acceleration = \"-20 * gn * (t < 0.1)\"").motion.velocity_m_s(0.2) ==
+  CHECK(prescribed("acceleration = \"-20 * gn * (t < 0.1)\"").motion.velocity_m_s(0.2) ==
         Approx(-20 * 9.80665 * 0.1));
-  CHECK(driven("times = [\"0 ms\", \"10 ms\"]\nacceleration = [\"0 gn\", \"2 gn\"]")
+  CHECK(prescribed("times = [\"0 ms\", \"10 ms\"]\nacceleration = [\"0 gn\", \"2 gn\"]")
             .acceleration_m_s2.integral(1) == Approx(0.01 * 9.80665));
-  const auto pulse = driven(
+  const auto pulse = prescribed(
       "initial_velocity = \"3 m/s\"\npulse_times = [\"0 s\", \"1 s\"]\n"
       "pulse_deceleration = [\"5 gn\", \"0 gn\"]");
   CHECK(pulse.acceleration_m_s2.integral(1) == Approx(-3).epsilon(1e-15));
@@ -178,7 +178,7 @@ TEST_CASE("a driven body follows a table, a pulse or an expression, and one of t
   CHECK_THAT(refusal(folder, sled("displacement = \"sqrt(t - 1)\"")),
              Contains("is not a finite number"));
   CHECK_THAT(refusal(folder, sled("displacement = \"abs(t - 0.1)\"")), Contains("must be smooth"));
-  CHECK_THAT(refusal(folder, sled("")), Contains("a driven body needs a motion"));
+  CHECK_THAT(refusal(folder, sled("")), Contains("a prescribed body needs a motion"));
 }
 
 TEST_CASE("an expression is one value: no sequence, no assignment, no chain of comparisons") {
@@ -200,14 +200,14 @@ TEST_CASE("an expression is one value: no sequence, no assignment, no chain of c
   CHECK_THROWS_AS(Expression(std::string(100000, '(') + "t"), InputError);
 }
 
-TEST_CASE("a driven body turns by the same kinds of motion, and its body starts with it") {
+TEST_CASE("a prescribed body turns by the same kinds of motion, and its body starts with it") {
   const TemporaryFolder folder;
   const auto turntable = [&](const std::string& motion) {
     return with(double_pendulum_text(), "kind = \"ground\"",
                 "kind = \"prescribed\"\n[body.turn]\naxis = [0, 0, 1]\n" + motion);
   };
   const auto turn = [&](const std::string& motion) {
-    return std::get<multibody::DrivenBody>(read(folder, turntable(motion)).model.bodies[0].kind)
+    return std::get<multibody::PrescribedBody>(read(folder, turntable(motion)).model.bodies[0].kind)
         .turn;
   };
   CHECK(turn("angle = \"0.2 * sin(10 * t)\"").motion.velocity_m_s(0) == Approx(2));
@@ -279,7 +279,7 @@ TEST_CASE("what a model gets wrong is told in one line with the place and the re
   CHECK_THAT(refusal(folder, "[solver]\nend_time = \"1 s\"\n"), Contains("expected bodies"));
 }
 
-TEST_CASE("a body that two driven ones hold is driven twice") {
+TEST_CASE("a body that two prescribed ones hold is prescribed twice") {
   const TemporaryFolder folder;
   const std::string sled = R"(
 [[body]]
@@ -291,7 +291,8 @@ initial_velocity = "1 m/s"
                                  box_text("box", "foot") +
                                  fixed_joint_text("one", "sled.seat", "box.foot") +
                                  fixed_joint_text("two", "ground.hook", "box.foot")),
-             Contains("body 'box' is driven twice: joint 'one' fixes it to 'sled' and joint 'two' "
+             Contains("the motion of body 'box' is prescribed twice: joint 'one' fixes it to "
+                      "'sled' and joint 'two' "
                       "to 'ground'"));
 }
 

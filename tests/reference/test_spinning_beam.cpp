@@ -27,13 +27,13 @@ Beam round_beam() {
   return beam;
 }
 
-/// A beam along z, clamped at its root to a hub that is driven to spin about `axis`, struck at its
-/// tip along `blow`.
+/// A beam along z, clamped at its root to a hub that is prescribed to spin about `axis`, struck at
+/// its tip along `blow`.
 History spinning_beam(const Vector3d& axis, double spin_Hz, const Vector3d& blow) {
   const Beam beam = round_beam();
   const Vector3d rate = 2 * std::numbers::pi * spin_Hz * axis;
   ModelBuilder build;
-  DrivenBody spinning;
+  PrescribedBody spinning;
   spinning.turn.axis = axis;
   spinning.turn.initial_rate_rad_s = rate.norm();
   const auto hub = build.body("hub", spinning);

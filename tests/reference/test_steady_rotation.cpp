@@ -29,8 +29,8 @@ using Complex = std::complex<double>;
 /// Differences leave 1e-10 of the largest stiffness.
 constexpr double kTolerance = 1e-7;
 
-DrivenBody turning(const Vector3d& axis, double rate_rad_s) {
-  DrivenBody hub;
+PrescribedBody turning(const Vector3d& axis, double rate_rad_s) {
+  PrescribedBody hub;
   hub.turn.axis = axis;
   hub.turn.initial_rate_rad_s = rate_rad_s;
   return hub;
@@ -273,14 +273,14 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
 
   made = rotor(10);
   made.build.body("other", turning(Vector3d::UnitZ(), 11));
-  refused(made.build.model, "driven bodies 'hub' and 'other' turn at different rates");
+  refused(made.build.model, "prescribed bodies 'hub' and 'other' turn at different rates");
   made.build.model.bodies.back().kind = turning(-Vector3d::UnitZ(), -10);
   CHECK(system_modes(made.build.model).size() == 6);
-  std::get<DrivenBody>(made.build.model.bodies.back().kind).turn.point_m = {0.1, 0, 0};
+  std::get<PrescribedBody>(made.build.model.bodies.back().kind).turn.point_m = {0.1, 0, 0};
   refused(made.build.model, "about different axes");
 
   made = rotor(10);
-  std::get<DrivenBody>(made.build.model.bodies[1].kind).turn.acceleration_rad_s2 =
+  std::get<PrescribedBody>(made.build.model.bodies[1].kind).turn.acceleration_rad_s2 =
       constant_table(1);
   refused(made.build.model, "'hub' does not turn at a constant rate");
 
@@ -293,6 +293,6 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
   refused(made.build.model, "force 'push' is not along the axis");
 
   CHECK_THROWS_WITH(campbell_diagram(rotor(0).build.model, {0, 1}),
-                    Contains("no driven body turns"));
+                    Contains("no prescribed body turns"));
   CHECK_THROWS_WITH(campbell_diagram(rotor(1).build.model, {1, 1}), Contains("ascend"));
 }

@@ -165,7 +165,7 @@ MatrixXd textbook_spin_up(const SpinUp& law, double end_s, double interval_s) {
   return columns;
 }
 
-/// The hub is driven by the torque that its inertia asks for, as a table.
+/// The hub is prescribed by the torque that its inertia asks for, as a table.
 History spin_up(const SpinUp& law, bool stiffens, const OutputOptions& output) {
   SpunBeam spun = spun_beam(law.beam(), stiffens, 0, 1e6);
   std::vector<double> times;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Driven base, neck and head in the neck's modal coordinates alone (equations.md section 6): the
-// third form of these equations, which shares nothing with the code but the model's data.
+// Prescribed base, neck and head in the neck's modal coordinates alone (equations.md section 6):
+// the third form of these equations, which shares nothing with the code but the model's data.
 #include <cmath>
 #include <numbers>
 

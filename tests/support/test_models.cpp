@@ -22,7 +22,7 @@ multibody::RigidBody make_head() {
   return head;
 }
 
-ModelBuilder head_on_neck(const multibody::DrivenBody& base, const multibody::Pose& pose,
+ModelBuilder head_on_neck(const multibody::PrescribedBody& base, const multibody::Pose& pose,
                           const Beam& beam, double damping_ratio,
                           const multibody::RigidBody& head) {
   ModelBuilder build;

@@ -25,7 +25,7 @@ struct ModelBuilder {
     model.bodies.push_back({name, std::move(kind), pose, velocity_m_s, angular_velocity_rad_s});
     return model.bodies.size() - 1;
   }
-  std::size_t ground() { return body("ground", multibody::DrivenBody{}); }
+  std::size_t ground() { return body("ground", multibody::PrescribedBody{}); }
 
   std::size_t marker(const std::string& name, std::size_t of_body,
                      const Eigen::Vector3d& position_m = Eigen::Vector3d::Zero(),
@@ -61,7 +61,7 @@ multibody::RigidBody make_head();
 /// Base – fixed – neck – fixed – head, all undeformed, with the base as given.
 /// Bodies: "base", "neck", "head". Markers: "base", "neck base", "neck top", "head joint", "head
 /// cg". Joints: "neck base", "OC".
-ModelBuilder head_on_neck(const multibody::DrivenBody& base, const multibody::Pose& pose,
+ModelBuilder head_on_neck(const multibody::PrescribedBody& base, const multibody::Pose& pose,
                           const Beam& beam, double damping_ratio, const multibody::RigidBody& head);
 
 /// Neck z down, x as the world's: the pendulum's neck.

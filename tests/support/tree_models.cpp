@@ -55,7 +55,7 @@ multibody::Model forest(bool stiffens) {
   RandomNumbers random(51);
   ModelBuilder build;
   build.model.gravity_m_s2 = {1, -2, -9.81};
-  multibody::DrivenBody sled;
+  multibody::PrescribedBody sled;
   sled.direction = random.vector().normalized();
   sled.initial_velocity_m_s = 3;
   sled.acceleration_m_s2 = constant_table(7);
@@ -63,7 +63,7 @@ multibody::Model forest(bool stiffens) {
   sled.turn.point_m = {0.3, -0.2, 0.1};
   sled.turn.initial_rate_rad_s = 1.5;
   sled.turn.acceleration_rad_s2 = constant_table(4);
-  const auto driven = build.body("sled", sled, {random.vector(), random.rotation()});
+  const auto prescribed = build.body("sled", sled, {random.vector(), random.rotation()});
   const auto rigid = [&](const char* name) { return build.body(name, random_rigid_body(random)); };
   const auto soft = [&](const char* name, unsigned seed, int modes) {
     multibody::DeformableBody body = deformable(make_point_mass_body(seed, modes).body, 0.2);
@@ -92,7 +92,7 @@ multibody::Model forest(bool stiffens) {
   const auto g = soft("g", 64, 2);
   const auto h = rigid("h");
   const auto k = rigid("k");
-  join(&multibody::kRevoluteJoint, on("sled a", driven), on("a sled", a));
+  join(&multibody::kRevoluteJoint, on("sled a", prescribed), on("a sled", a));
   join(&multibody::kSphericalJoint, on("a b", a), at("b a", b, "side"));
   join(&multibody::kUniversalJoint, at("c b", c, "tip"), at("b c", b, "tip"));
   join(&multibody::kCylindricalJoint, at("b d", b, "root"), on("d b", d));
@@ -114,7 +114,7 @@ multibody::Model chain_of_all_joints() {
   RandomNumbers random(55);
   ModelBuilder build;
   build.model.gravity_m_s2 = {1, -2, -9.81};
-  multibody::DrivenBody sled;
+  multibody::PrescribedBody sled;
   sled.initial_velocity_m_s = 3;
   sled.turn.initial_rate_rad_s = 1.5;
   auto carrier = build.body("sled", sled, {random.vector(), random.rotation()});

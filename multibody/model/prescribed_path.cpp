@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "multibody/model/driven_path.h"
+#include "multibody/model/prescribed_path.h"
 
 #include <Eigen/Geometry>
 
@@ -7,7 +7,7 @@ namespace flexneck::multibody {
 
 using Eigen::Vector3d;
 
-DrivenPath::DrivenPath(const Pose& start, const DrivenBody& body)
+PrescribedPath::PrescribedPath(const Pose& start, const PrescribedBody& body)
     : position_m_(start.position_m),
       rotation_(start.rotation.normalized().toRotationMatrix()),
       direction_(body.direction),
@@ -16,8 +16,8 @@ DrivenPath::DrivenPath(const Pose& start, const DrivenBody& body)
       travel_(body.initial_velocity_m_s, body.acceleration_m_s2, body.motion),
       angle_(body.turn.initial_rate_rad_s, body.turn.acceleration_rad_s2, body.turn.motion) {}
 
-DrivenMotion DrivenPath::at(double time_s, double table_time_s) const {
-  DrivenMotion motion;
+PrescribedMotion PrescribedPath::at(double time_s, double table_time_s) const {
+  PrescribedMotion motion;
   motion.position_m = position_m_;
   motion.rotation = rotation_;
   if (angle_.moves()) turn(time_s, table_time_s, motion);
@@ -28,7 +28,7 @@ DrivenMotion DrivenPath::at(double time_s, double table_time_s) const {
   return motion;
 }
 
-void DrivenPath::turn(double time_s, double table_time_s, DrivenMotion& motion) const {
+void PrescribedPath::turn(double time_s, double table_time_s, PrescribedMotion& motion) const {
   const Eigen::Matrix3d R = Eigen::AngleAxisd(angle_.value(time_s), axis_).toRotationMatrix();
   const Vector3d arm = R * (position_m_ - point_m_);
   const Vector3d w = angle_.rate(time_s) * axis_;
@@ -41,7 +41,7 @@ void DrivenPath::turn(double time_s, double table_time_s, DrivenMotion& motion) 
   motion.angular_acceleration_rad_s2 = w_rate;
 }
 
-void DrivenPath::add_breakpoints(std::vector<double>& times_s) const {
+void PrescribedPath::add_breakpoints(std::vector<double>& times_s) const {
   travel_.add_breakpoints(times_s);
   angle_.add_breakpoints(times_s);
 }

@@ -6,7 +6,7 @@
 #include "geometry/foundation/error.h"
 #include "multibody/analysis/linearisation.h"
 #include "multibody/joints/joint_kinds.h"
-#include "multibody/model/driven_path.h"
+#include "multibody/model/prescribed_path.h"
 #include "multibody/numerics/rotation.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/finite_differences.h"
@@ -33,8 +33,8 @@ SmoothMotion swing() {
 
 /// Everything at once: a travel by a table and a function, a turn by a rate, a table and a
 /// function.
-DrivenPath path() {
-  DrivenBody body;
+PrescribedPath path() {
+  PrescribedBody body;
   body.direction = Vector3d(1, 2, -2) / 3;
   body.initial_velocity_m_s = 3;
   body.acceleration_m_s2 = TimeTable({0, 0.2, 1}, {-20, -10, 30}, TimeTable::Outside::zero);
@@ -62,36 +62,37 @@ SolverOptions short_steps() {
 
 ModelBuilder on_turntable() {
   ModelBuilder build;
-  DrivenBody table;
+  PrescribedBody table;
   table.turn.axis = Vector3d::UnitZ();
   table.turn.motion = swing();
-  const auto driven = build.body("table", table);
+  const auto prescribed = build.body("table", table);
   const Vector3d at(kRadius_m, 0, 0);
   const Vector3d w = kSwing * kRate * Vector3d::UnitZ();
   const auto rod = build.body(
       "rod", RigidBody{kMass_kg, Vector3d::Zero(), kInertia_kg_m2 * Matrix3d::Identity()}, {at},
       w.cross(at), w);
-  build.joint("clamp", &kFixedJoint, build.marker("seat", driven), build.marker("foot", rod, -at));
-  build.marker("rim", driven, at);
+  build.joint("clamp", &kFixedJoint, build.marker("seat", prescribed),
+              build.marker("foot", rod, -at));
+  build.marker("rim", prescribed, at);
   build.marker("centre", rod);
   return build;
 }
 
 }  // namespace
 
-TEST_CASE("velocities and accelerations of a driven body are derivatives of its motion") {
-  const DrivenPath driven = path();
+TEST_CASE("velocities and accelerations of a prescribed body are derivatives of its motion") {
+  const PrescribedPath prescribed = path();
   constexpr double kStep_s = 1e-4;
   // Of fourth-order differences of motions with rates of some 10 / s; rounding 1e-16 / step.
   constexpr double kTolerance = 1e-8;
   for (const double t : {0.05, 0.31}) {
-    const DrivenMotion motion = driven.at(t);
+    const PrescribedMotion motion = prescribed.at(t);
     const auto slope = [&](const auto& of) { return first_derivative(of, kStep_s); };
-    const Vector3d v = slope([&](double dt) { return driven.at(t + dt).position_m; });
-    const Vector3d a = slope([&](double dt) { return driven.at(t + dt).velocity_m_s; });
+    const Vector3d v = slope([&](double dt) { return prescribed.at(t + dt).position_m; });
+    const Vector3d a = slope([&](double dt) { return prescribed.at(t + dt).velocity_m_s; });
     const Vector3d w_rate =
-        slope([&](double dt) { return driven.at(t + dt).angular_velocity_rad_s; });
-    const Matrix3d R_rate = slope([&](double dt) { return driven.at(t + dt).rotation; });
+        slope([&](double dt) { return prescribed.at(t + dt).angular_velocity_rad_s; });
+    const Matrix3d R_rate = slope([&](double dt) { return prescribed.at(t + dt).rotation; });
     CHECK((v - motion.velocity_m_s).norm() < kTolerance);
     CHECK((a - motion.acceleration_m_s2).norm() < kTolerance * kRate);
     CHECK((w_rate - motion.angular_acceleration_rad_s2).norm() < kTolerance * kRate);
@@ -137,15 +138,15 @@ TEST_CASE("a pendulum on the axis of a wheel does not feel the wheel turn") {
   const SolverOptions solver = solver_of(1e-9, 1e-12);
   const auto swinging = [&](bool turns) {
     ModelBuilder build;
-    DrivenBody wheel;
+    PrescribedBody wheel;
     if (turns) wheel.turn.acceleration_rad_s2 = constant_table(40);
     wheel.turn.point_m = {0.2, 0, 1};
     wheel.turn.initial_rate_rad_s = turns ? 12 : 0;
     build.model.gravity_m_s2 = {0, 0, -kGravity};
-    const auto driven = build.body("wheel", wheel);
+    const auto prescribed = build.body("wheel", wheel);
     const auto bob =
         build.body("bob", RigidBody{1, {0.3, 0, 0}, 0.01 * Matrix3d::Identity()}, {{0.2, 0, 1}});
-    build.joint("axle", &kRevoluteJoint, build.marker("hub", driven, {0.2, 0, 1}),
+    build.joint("axle", &kRevoluteJoint, build.marker("hub", prescribed, {0.2, 0, 1}),
                 build.marker("eye", bob));
     build.marker("cg", bob, {0.3, 0, 0});
     return simulate(build.model, solver, {kEnd_s, 0.01});
@@ -182,10 +183,10 @@ TEST_CASE(
   const Vector3d centre(0.02, 0.05, 0);  // of the bead, from its marker
   const bool wheel_first = GENERATE(true, false);
   ModelBuilder build;
-  DrivenBody driven;
-  driven.turn.axis = Vector3d::UnitZ();
-  driven.turn.initial_rate_rad_s = kSpin;
-  const auto wheel = build.body("wheel", driven);
+  PrescribedBody prescribed;
+  prescribed.turn.axis = Vector3d::UnitZ();
+  prescribed.turn.initial_rate_rad_s = kSpin;
+  const auto wheel = build.body("wheel", prescribed);
   const Vector3d w = kSpin * Vector3d::UnitZ();
   const auto bead =
       build.body("bead", RigidBody{kMass_kg, centre, kInertia_kg_m2 * Matrix3d::Identity()}, {seat},
@@ -218,10 +219,10 @@ TEST_CASE("a start from equilibrium on a body that turns is refused") {
                     Contains("body 'table' turns at time zero"));
 }
 
-TEST_CASE("a model without a free body runs: its driven bodies move, and nothing else") {
+TEST_CASE("a model without a free body runs: its prescribed bodies move, and nothing else") {
   ModelBuilder build;
   build.model.gravity_m_s2 = {0, 0, -kGravity};
-  DrivenBody arm;
+  PrescribedBody arm;
   arm.motion = swing();
   build.marker("hand", build.body("arm", arm), {0, 0, 1});
   SolverOptions solver;

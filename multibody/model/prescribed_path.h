@@ -10,8 +10,8 @@
 
 namespace flexneck::multibody {
 
-/// Motion of a driven body's frame, world axes.
-struct DrivenMotion {
+/// Motion of a prescribed body's frame, world axes.
+struct PrescribedMotion {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< body axes to world
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
@@ -20,23 +20,23 @@ struct DrivenMotion {
   Eigen::Vector3d angular_acceleration_rad_s2 = Eigen::Vector3d::Zero();
 };
 
-/// The motion of a driven body: exact, by the integrals of its tables and of its functions of time.
-/// It translates along a direction and turns about an axis whose point translates with it:
+/// The motion of a prescribed body: exact, by the integrals of its tables and of its functions of
+/// time. It translates along a direction and turns about an axis whose point translates with it:
 ///   x = point + travel direction + R(angle) (x0 - point).
-class DrivenPath {
+class PrescribedPath {
  public:
-  DrivenPath(const Pose& start, const DrivenBody& body);
+  PrescribedPath(const Pose& start, const PrescribedBody& body);
 
   /// @param table_time_s  at which accelerations are read, so that at the ends of an interval a
   /// jump shows its inner side
-  DrivenMotion at(double time_s, double table_time_s) const;
-  DrivenMotion at(double time_s) const { return at(time_s, time_s); }
+  PrescribedMotion at(double time_s, double table_time_s) const;
+  PrescribedMotion at(double time_s) const { return at(time_s, time_s); }
 
   /// Times at which an acceleration or its slope may jump.
   void add_breakpoints(std::vector<double>& times_s) const;
 
  private:
-  void turn(double time_s, double table_time_s, DrivenMotion& motion) const;
+  void turn(double time_s, double table_time_s, PrescribedMotion& motion) const;
 
   Eigen::Vector3d position_m_;  ///< of the start, and
   Eigen::Matrix3d rotation_;
@@ -44,7 +44,7 @@ class DrivenPath {
   PrescribedCoordinate travel_, angle_;
 };
 
-/// How driven bodies move.
+/// How prescribed bodies move.
 enum class Drive {
   prescribed,  ///< as their tables say
   held         ///< not at all, where they are at the time asked for
