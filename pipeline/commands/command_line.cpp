@@ -57,6 +57,24 @@ void add_modes_settings(CLI::App& app, CommandLine& line) {
   add_setting(app, line, "--solver", "NAME", "modes.solver", "direct, or iterative in less memory");
 }
 
+/// Names in a list, as TOML has it.
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  return "[" + list + "]";
+}
+
+void add_cases(CLI::App& app, CommandLine& line) {
+  app.add_option_function<std::vector<std::string>>(
+         "--case",
+         [&line](const std::vector<std::string>& names) {
+           line.settings.push_back("cases=" + list_of(names));
+         },
+         "Run this case only, and others so named; as --set cases")
+      ->option_text("NAME ...")
+      ->allow_extra_args(false);
+}
+
 void add_redo(CLI::App& app, CommandLine& line) {
   app.add_flag("--force", line.redo, "Redo what has not changed, too");
 }
@@ -99,7 +117,7 @@ struct OptionRow {
   CommandOption option;
   void (*add)(CLI::App&, CommandLine&);
 };
-constexpr std::array<OptionRow, 10> kOptions = {
+constexpr std::array<OptionRow, 11> kOptions = {
     {{CommandOption::folder, add_folder},
      {CommandOption::optional_folder, add_optional_folder},
      {CommandOption::curves, add_curves},
@@ -107,6 +125,7 @@ constexpr std::array<OptionRow, 10> kOptions = {
      {CommandOption::settings, add_settings},
      {CommandOption::mesh_settings, add_mesh_settings},
      {CommandOption::modes_settings, add_modes_settings},
+     {CommandOption::cases, add_cases},
      {CommandOption::redo, add_redo},
      {CommandOption::show, add_show},
      {CommandOption::target, add_target}}};

@@ -34,6 +34,7 @@ enum class CommandOption {
   settings,
   mesh_settings,
   modes_settings,
+  cases,
   redo,
   show,
   target,

@@ -68,7 +68,7 @@ void attach_body(const Study& study, fe_modal::ModalOptions& options) {
                                                       : find_name(names_of(options.interfaces),
                                                                   modes.attached_to, "interface");
   const fe_modal::InterfaceDefinition& interface = options.interfaces[where];
-  const multibody::RigidBody& body = study.body(modes.attached_body).rigid;
+  const multibody::RigidBody& body = study.rigid_body(modes.attached_body);
   options.attachments = {{modes.attached_body, interface.name, body.mass_kg,
                           interface.position_m + body.center_m, body.inertia_kg_m2}};
 }

@@ -6,6 +6,7 @@
 #include "pipeline/commands/shown_tables.h"
 #include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/experiments/pulse_tables.h"
+#include "pipeline/experiments/rigid_neck.h"
 #include "pipeline/experiments/variant_tables.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/output/csv_output.h"
@@ -35,7 +36,7 @@ PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
   entry.result = run != known.end() ? run->second : result_from_file(input, experiment);
   entry.hanging = first_system_mode(study, experiment, body, true);
   entry.weightless = first_system_mode(study, experiment, body, false);
-  if (experiment.variant_of.empty() || !experiment.rigid_neck.empty())
+  if (experiment.variant_of.empty() || has_rigid_neck(experiment))
     entry.cost = integration_cost(study, experiment, body);
   return entry;
 }

@@ -5,6 +5,7 @@
 #include "multibody/history/incomplete_run.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/shown_tables.h"
+#include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/static_chain.h"
 #include "pipeline/experiments/static_tables.h"
 #include "pipeline/experiments/static_test.h"
@@ -70,7 +71,7 @@ StaticEntry run_case(const CommandInput& input, const CaseSection& experiment,
   input.console.step("Static neck tester: " + experiment.name);
   StaticEntry entry;
   entry.experiment = experiment;
-  const multibody::Model model = static_test_model(input.study, experiment, body);
+  const multibody::Model model = case_model(experiment, body);
   entry.settled =
       static_test_signals(model, settled_static_test(input.study, experiment, model), experiment);
   entry.ramp =
@@ -80,7 +81,7 @@ StaticEntry run_case(const CommandInput& input, const CaseSection& experiment,
             }),
             provenance);
   if (links.empty()) return entry;
-  const multibody::Model chain = static_chain_model(input.study, experiment, links);
+  const multibody::Model chain = static_chain_model(experiment, links);
   CaseSection named = experiment;
   named.name += "-chain";
   entry.chain = write(

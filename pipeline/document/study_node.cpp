@@ -36,7 +36,10 @@ const toml::node* StudyTable::Node::find(const std::string& key) {
   if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
   const toml::node* const inherited = below ? below->find(key) : nullptr;
   const toml::node* const own = table == nullptr ? nullptr : table->get(key);
-  return own != nullptr ? own : inherited;
+  if (own == nullptr) return inherited;
+  // Over another table an empty list takes the key away.
+  const bool is_emptied = inherited != nullptr && own->is_array() && own->as_array()->empty();
+  return is_emptied ? nullptr : own;
 }
 
 const StudyTable::Node& StudyTable::Node::holder(const std::string& key) const {

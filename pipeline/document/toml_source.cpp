@@ -17,14 +17,73 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 4U << 20U;  ///< of a file; long lists belong into CSV files
 
-/// Moves what `over` holds into `base`; tables are merged key by key, everything else replaced.
-/// Nodes are moved because a copy would lose its line and column.
+void merge(toml::table& base, toml::table&& over);
+
+/// The element of an array of tables that another one stands for: of the same name and, where both
+/// say it, on the same body, as markers are.
+toml::table* counterpart(toml::array& array, const toml::table& over) {
+  const auto text = [](const toml::table& table, const char* key) {
+    const toml::node* node = table.get(key);
+    if (node != nullptr && node->is_table()) node = node->as_table()->get("value");
+    return node == nullptr ? std::string() : node->value_or(std::string());
+  };
+  const std::string name = text(over, "name");
+  const std::string body = text(over, "body");
+  for (toml::node& node : array) {
+    toml::table* const table = node.as_table();
+    const std::string its_body = text(*table, "body");
+    if (text(*table, "name") == name && (body.empty() || its_body.empty() || body == its_body))
+      return table;
+  }
+  return nullptr;
+}
+
+/// Keys that a table takes away from the one that it stands over, by an empty list.
+std::vector<std::string> emptied_keys(const toml::table& over) {
+  std::vector<std::string> keys;
+  for (const auto& [key, node] : over)
+    if (node.is_array() && node.as_array()->empty()) keys.emplace_back(key.str());
+  return keys;
+}
+
+/// Whether the tables of an array can be told apart by their names.
+bool has_names(const toml::array& array) {
+  return array.is_array_of_tables() &&
+         std::all_of(array.begin(), array.end(),
+                     [](const auto& node) { return node.as_table()->contains("name"); });
+}
+
+void merge(toml::array& base, toml::array&& over) {
+  for (toml::node& node : over) {
+    toml::table& table = *node.as_table();
+    toml::table* const below = counterpart(base, table);
+    if (below == nullptr) {
+      base.push_back(std::move(table));
+      continue;
+    }
+    for (const std::string& key : emptied_keys(table)) {
+      below->erase(key);
+      table.erase(key);
+    }
+    merge(*below, std::move(table));
+  }
+}
+
+/// Moves what `over` holds into `base`: tables are merged key by key, lists of tables with names by
+/// these, and everything else is replaced. An empty list of tables replaces all of them; in a table
+/// with a name an empty list takes the key away. Nodes are moved because a copy would lose its line
+/// and column.
 void merge(toml::table& base, toml::table&& over) {
   for (auto&& [name, node] : over) {
     const std::string key(name.str());
-    toml::table* const below = base[key].as_table();
-    if (below != nullptr && node.is_table() && !node.as_table()->is_inline()) {
-      merge(*below, std::move(*node.as_table()));
+    toml::node* const below = base.get(key);
+    toml::table* const table = below == nullptr ? nullptr : below->as_table();
+    toml::array* const list = below == nullptr ? nullptr : below->as_array();
+    if (table != nullptr && node.is_table() && !node.as_table()->is_inline()) {
+      merge(*table, std::move(*node.as_table()));
+    } else if (list != nullptr && node.is_array() && has_names(*list) &&
+               has_names(*node.as_array())) {
+      merge(*list, std::move(*node.as_array()));
     } else {
       node.visit([&](auto& value) { base.insert_or_assign(key, std::move(value)); });
     }

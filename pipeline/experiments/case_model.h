@@ -7,21 +7,12 @@
 
 namespace flexneck::pipeline {
 
-/// The model of a case: its bodies, the markers on them, the joints between them and its forces.
-/// Every interface of a deformable body is a marker "body.interface". The ground or prescribed body
-/// stands at the world's origin, turned by `rotation`; the others are placed so that the joints
-/// close in the undeformed state. The case's rigid neck and head spring, if it has them, are in
-/// place of the deformable body and of the joint that holds "head.condyles".
-/// @throws InputError for a marker that does not exist or a body that no joint reaches.
-multibody::Model case_model(const Study& study, const CaseSection& experiment,
-                            const fe_modal::ModalBody& body, const Eigen::Quaterniond& rotation);
+/// The model of a case with the modes of the structure, its bodies placed so that the joints close
+/// in the undeformed state. Prescribed bodies have no motion yet.
+/// @throws InputError for modes that do not exist or a body that no joint reaches.
+multibody::Model case_model(const CaseSection& experiment, const fe_modal::ModalBody& structure);
 
-/// A force of the study on a model that has its marker.
-multibody::PointForce point_force(const ForceSection& section, const multibody::Model& model);
-
-/// The rigid neck of a case that has one, made equivalent to the deformable one if it is to be.
-/// @throws InputError if the case has no deformable body to put it in the place of.
-RigidNeckSection rigid_neck_of(const Study& study, const CaseSection& experiment,
-                               const fe_modal::ModalBody& body);
+/// The one deformable body of a model. @throws InputError if there is none, or another.
+std::size_t deformable_body(const multibody::Model& model);
 
 }  // namespace flexneck::pipeline

@@ -8,6 +8,7 @@
 #include "geometry/foundation/names.h"
 #include "multibody/analysis/linearisation.h"
 #include "multibody/history/incomplete_run.h"
+#include "multibody/joints/joint_kinds.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum_signals.h"
@@ -21,12 +22,11 @@ using multibody::Model;
 
 namespace {
 
-/// Head below the arm: the neck's z is the world's -z, x stays.
-Eigen::Quaterniond hanging() { return {0, 1, 0, 0}; }
-
 /// The arm's motion of a case.
-multibody::PrescribedBody arm_motion(const CaseSection& experiment, const FittedPulse& pulse) {
-  const Eigen::Vector3d along = hanging() * bending_plane(experiment.direction).motion;
+/// @param to_world  of the arm's axes, which are the neck's
+multibody::PrescribedBody arm_motion(const CaseSection& experiment, const FittedPulse& pulse,
+                                     const Eigen::Quaterniond& to_world) {
+  const Eigen::Vector3d along = to_world * bending_plane(experiment.direction).motion;
   multibody::PrescribedBody prescribed;
   if (experiment.arm == CaseSection::Arm::translating) {
     prescribed.direction = along;
@@ -41,13 +41,6 @@ multibody::PrescribedBody arm_motion(const CaseSection& experiment, const Fitted
   prescribed.turn.initial_rate_rad_s = experiment.impact_velocity_m_s / radius;
   prescribed.turn.acceleration_rad_s2 = pulse.acceleration(1 / radius);
   return prescribed;
-}
-
-const std::string& prescribed_body(const Study& study, const CaseSection& experiment) {
-  for (const std::string& name : experiment.bodies)
-    if (study.body(name).kind == BodySection::Kind::prescribed) return name;
-  throw InputError("case." + experiment.name +
-                   ": a pendulum needs a prescribed body among its bodies");
 }
 
 /// Processor time of this thread, s.
@@ -72,9 +65,9 @@ FittedPulse case_pulse(const Study& study, const CaseSection& experiment) {
 
 Model pendulum_model(const Study& study, const CaseSection& experiment,
                      const fe_modal::ModalBody& body) {
-  Model model = case_model(study, experiment, body, hanging());
-  model.bodies[model.body_index(prescribed_body(study, experiment))].kind =
-      arm_motion(experiment, case_pulse(study, experiment));
+  Model model = case_model(experiment, body);
+  multibody::Body& arm = model.bodies[experiment.model.prescribed.front()];
+  arm.kind = arm_motion(experiment, case_pulse(study, experiment), arm.initial_pose.rotation);
   model.gravity_m_s2 = study.gravity_m_s2;
   return model;
 }
@@ -86,8 +79,7 @@ Model prepared_model(const Study& study, const CaseSection& experiment,
                      const fe_modal::ModalBody& body) {
   Model model = pendulum_model(study, experiment, body);
   if (experiment.arm == CaseSection::Arm::rotating)
-    carry_bodies(model, std::vector<JointStart>(model.joints.size()),
-                 std::vector<bool>(model.bodies.size(), false));
+    carry_bodies(model, experiment.model.starts, experiment.model.moving);
   return model;
 }
 
@@ -176,38 +168,52 @@ bool is_fore_aft(const fe_modal::ModeRecord& mode) {
   return fore_aft + axial > lateral + twist;
 }
 
-/// The study with only those modes of its deformable bodies that move in the plane of the case. The
-/// neck is symmetric about its x-z plane, so the others take no part.
-Study in_plane(Study study, const CaseSection& experiment, const fe_modal::ModalBody& body) {
-  const bool fore_aft = experiment.direction != CaseSection::Direction::lateral;
-  for (BodySection& section : study.bodies) {
-    if (section.modes.empty()) continue;
-    section.modes = names_of(fe_modal::select_modes(body, section.modes).modes);  // kinds spelt out
-    std::erase_if(section.modes, [&](const std::string& name) {
-      const auto k = static_cast<std::size_t>(body.mode_index(name));
-      return is_fore_aft(body.modes[k]) != fore_aft;
-    });
+/// Leaves a body only those modes that move in a plane through its axis. The neck is symmetric
+/// about its x-z plane, so the others take no part.
+void keep_modes(bool fore_aft, multibody::DeformableBody& body) {
+  std::vector<std::string> names;
+  std::vector<double> ratios;
+  for (Eigen::Index k = 0; k < body.modes.mode_count(); ++k) {
+    const fe_modal::ModeRecord& mode = body.modes.modes[static_cast<std::size_t>(k)];
+    if (is_fore_aft(mode) != fore_aft) continue;
+    names.push_back(mode.name);
+    ratios.push_back(body.damping_ratio[k]);
   }
-  return study;
+  body.modes = fe_modal::select_modes(body.modes, names);
+  body.damping_ratio =
+      Eigen::Map<const Eigen::VectorXd>(ratios.data(), static_cast<Eigen::Index>(ratios.size()));
 }
 
-/// The case with its arm at rest, and without a pin that turns across its plane.
-CaseSection at_rest(CaseSection experiment, const Study& study) {
-  experiment.arm = CaseSection::Arm::translating;
-  if (experiment.head_spring.empty()) return experiment;
-  const HeadSpringSection& spring = study.head_springs[find_name(
-      names_of(study.head_springs), experiment.head_spring, "head_spring")];
-  const double along = spring.axis.dot(bending_plane(experiment.direction).axis);
+/// Fixes the pins that turn across the plane of a case, and takes their springs away.
+void fix_pins_across(const BendingPlane& plane, Model& model) {
   constexpr double kAcross = 1e-9;
-  if (std::abs(along) < kAcross) experiment.head_spring.clear();
-  return experiment;
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    multibody::Joint& joint = model.joints[k];
+    if (joint.kind != &multibody::kRevoluteJoint || std::abs(joint.axis.dot(plane.axis)) > kAcross)
+      continue;
+    joint.kind = &multibody::kFixedJoint;
+    std::erase_if(model.forces.of<multibody::JointResistance>(),
+                  [&](const multibody::JointResistance& each) { return each.joint == k; });
+  }
+}
+
+/// The case's model in its plane, its arm at rest.
+Model model_in_plane(const Study& study, CaseSection experiment, const fe_modal::ModalBody& body) {
+  experiment.arm = CaseSection::Arm::translating;
+  Model model = pendulum_model(study, experiment, body);
+  const bool fore_aft = experiment.direction != CaseSection::Direction::lateral;
+  for (multibody::Body& each : model.bodies)
+    if (auto* const deformable = std::get_if<multibody::DeformableBody>(&each.kind))
+      keep_modes(fore_aft, *deformable);
+  fix_pins_across(bending_plane(experiment.direction), model);
+  return model;
 }
 
 }  // namespace
 
 multibody::SystemMode first_system_mode(const Study& study, const CaseSection& experiment,
                                         const fe_modal::ModalBody& body, bool with_gravity) {
-  Model model = pendulum_model(in_plane(study, experiment, body), at_rest(experiment, study), body);
+  Model model = model_in_plane(study, experiment, body);
   if (!with_gravity) model.gravity_m_s2.setZero();
   const std::vector<multibody::SystemMode> modes = multibody::system_modes(model);
   if (modes.empty()) {

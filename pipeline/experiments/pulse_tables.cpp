@@ -174,10 +174,9 @@ ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>&
     add("neck and head, " + experiment.name, entry.hanging.frequency_Hz, true);
   }
   std::set<std::string> used;
-  for (const BodySection& section : study.bodies)
-    if (section.kind == BodySection::Kind::deformable)
-      for (const fe_modal::ModeRecord& mode : fe_modal::select_modes(body, section.modes).modes)
-        used.insert(mode.name);
+  for (const auto& [ignored, use] : study.model.of_structure)
+    for (const fe_modal::ModeRecord& mode : use_modes(use, body, "").modes.modes)
+      used.insert(mode.name);
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
     const std::string& name = body.modes[static_cast<std::size_t>(k)].name;
     add("neck alone, " + name, body.frequencies_Hz[k], used.contains(name));

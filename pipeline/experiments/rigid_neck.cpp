@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/experiments/rigid_neck.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "geometry/foundation/error.h"
@@ -60,8 +61,7 @@ PlaneCompliance compliance(const multibody::DeformableBody& neck, const BendingP
 
 }  // namespace
 
-RigidNeckSection equivalent_neck(const multibody::DeformableBody& neck,
-                                 CaseSection::Direction direction) {
+RigidNeck equivalent_neck(const multibody::DeformableBody& neck, CaseSection::Direction direction) {
   const PlaneCompliance c = compliance(neck, bending_plane(direction));
   const double top_m = neck.modes.interface("top").position_m.z();
   if (!(c.uF > 0) || !(c.uM > 0))
@@ -71,21 +71,18 @@ RigidNeckSection equivalent_neck(const multibody::DeformableBody& neck,
   const double upper_compliance = c.tM - 1 / lower;
   if (length_m > top_m || !(upper_compliance > 0))
     throw InputError("no link with two springs has the static stiffness of the neck's modes");
-  RigidNeckSection result;
-  result.is_equivalent = true;
+  RigidNeck result;
   result.rigid = rigid_body_of(neck.modes.invariants);
   result.lower.height_m = top_m - length_m;
-  result.lower.fore_aft = result.lower.lateral = spring_and_damper(lower, c.damping_time_s);
+  result.lower.resistance = spring_and_damper(lower, c.damping_time_s);
   result.upper.height_m = top_m;
-  result.upper.fore_aft = result.upper.lateral =
-      spring_and_damper(1 / upper_compliance, c.damping_time_s);
+  result.upper.resistance = spring_and_damper(1 / upper_compliance, c.damping_time_s);
   return result;
 }
 
-void put_rigid_neck(const RigidNeckSection& neck, CaseSection::Direction direction,
-                    std::size_t index, Model& model) {
+void put_rigid_neck(const RigidNeck& neck, CaseSection::Direction direction, std::size_t index,
+                    Model& model) {
   const BendingPlane plane = bending_plane(direction);
-  const bool lateral = direction == CaseSection::Direction::lateral;
   model.bodies[index].kind = neck.rigid;
   const std::string name = model.bodies[index].name;
   const auto place_marker = [&](const std::string& interface, double height_m) {
@@ -103,12 +100,12 @@ void put_rigid_neck(const RigidNeckSection& neck, CaseSection::Direction directi
     model.markers.push_back(marker);
     return model.markers.size() - 1;
   };
-  const auto add_pin = [&](std::size_t joint, const RigidNeckSection::Pivot& pivot) {
+  const auto add_pin = [&](std::size_t joint, const RigidNeck::Pivot& pivot) {
     model.joints[joint].kind = &multibody::kRevoluteJoint;
     model.joints[joint].axis = plane.axis;
     model.forces.add(multibody::JointResistance{"pivot of " + model.joints[joint].name, joint,
                                                 multibody::JointCoordinate::angle,
-                                                lateral ? pivot.lateral : pivot.fore_aft});
+                                                pivot.resistance});
   };
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     multibody::Joint& joint = model.joints[k];
@@ -123,6 +120,50 @@ void put_rigid_neck(const RigidNeckSection& neck, CaseSection::Direction directi
       add_pin(k, neck.upper);
     }
   }
+}
+
+namespace {
+
+const multibody::Resistance* angle_resistance(const Model& model, std::size_t joint) {
+  for (const multibody::JointResistance& each : model.forces.of<multibody::JointResistance>())
+    if (each.joint == joint && each.coordinate == multibody::JointCoordinate::angle)
+      return &each.resistance;
+  return nullptr;
+}
+
+}  // namespace
+
+bool has_rigid_neck(const CaseSection& experiment) {
+  const std::vector<multibody::Body>& bodies = experiment.model.model.bodies;
+  return experiment.equivalent_rigid_neck ||
+         std::none_of(bodies.begin(), bodies.end(), [](const multibody::Body& body) {
+           return std::holds_alternative<multibody::DeformableBody>(body.kind);
+         });
+}
+
+std::optional<RigidNeck> rigid_neck_in(const Model& model) {
+  RigidNeck neck;
+  const multibody::RigidBody* link = nullptr;
+  const multibody::Resistance* lower = nullptr;
+  const multibody::Resistance* upper = nullptr;
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    const multibody::Marker& below = model.markers[model.joints[k].marker_i];
+    const multibody::Marker& above = model.markers[model.joints[k].marker_j];
+    if (model.joints[k].kind != &multibody::kRevoluteJoint) return {};
+    if (std::holds_alternative<multibody::PrescribedBody>(model.bodies[below.body].kind)) {
+      link = std::get_if<multibody::RigidBody>(&model.bodies[above.body].kind);
+      neck.lower.height_m = above.position_m.z();
+      lower = angle_resistance(model, k);
+    } else if (above.name == "head.condyles") {
+      neck.upper.height_m = below.position_m.z();
+      upper = angle_resistance(model, k);
+    }
+  }
+  if (link == nullptr || lower == nullptr || upper == nullptr) return {};
+  neck.rigid = *link;
+  neck.lower.resistance = *lower;
+  neck.upper.resistance = *upper;
+  return neck;
 }
 
 }  // namespace flexneck::pipeline

@@ -12,13 +12,6 @@ using multibody::Model;
 
 namespace {
 
-/// The deformable body of the case.
-const BodySection& neck_of(const Study& study, const CaseSection& experiment) {
-  for (const std::string& name : experiment.bodies)
-    if (study.body(name).kind == BodySection::Kind::deformable) return study.body(name);
-  throw InputError("case." + experiment.name + ": there is no deformable body to cut");
-}
-
 /// The ends of the neck keep their names.
 std::string marker_name(const std::string& neck, const std::string& link,
                         const std::string& interface) {
@@ -49,11 +42,23 @@ void add_joint(const std::string& name, const std::string& lower, const std::str
   model.joints.push_back(joint);
 }
 
+/// A chain has no place for springs, or for bodies beside the neck and what it stands on.
+void require_neck_alone(const CaseSection& experiment) {
+  const Model& model = experiment.model.model;
+  std::size_t forces = 0;
+  model.forces.each_kind([&](const auto& elements) { forces += elements.size(); });
+  if (model.bodies.size() != 2 || forces != model.forces.of<multibody::PointForce>().size())
+    throw InputError("case." + experiment.name +
+                     ": the chain of substructures replaces a neck on the ground under forces "
+                     "[[force]]; take away other bodies and springs, or [substructures]");
+}
+
 }  // namespace
 
-Model static_chain_model(const Study& study, const CaseSection& experiment,
-                         const std::vector<ChainLink>& links) {
-  const std::string neck = neck_of(study, experiment).name;
+Model static_chain_model(const CaseSection& experiment, const std::vector<ChainLink>& links) {
+  require_neck_alone(experiment);
+  const Model& whole = experiment.model.model;
+  const std::string neck = whole.bodies[deformable_body(whole)].name;
   Model model;
   multibody::Body ground;
   ground.name = "ground";
@@ -67,9 +72,10 @@ Model static_chain_model(const Study& study, const CaseSection& experiment,
   for (std::size_t k = 0; k + 1 < links.size(); ++k)
     add_joint("cut " + std::to_string(k + 1), links[k].name + ".to_" + links[k + 1].name,
               links[k + 1].name + ".to_" + links[k].name, model);
-  for (const std::string& name : experiment.forces)
-    model.forces.add(
-        point_force(study.forces[find_name(names_of(study.forces), name, "force")], model));
+  for (multibody::PointForce force : whole.forces.of<multibody::PointForce>()) {
+    force.marker = model.marker_index(whole.markers[force.marker].name);
+    model.forces.add(std::move(force));
+  }
   std::vector<bool> placed(model.bodies.size(), false);
   placed[0] = true;
   place_bodies(model, std::vector<JointStart>(model.joints.size()), std::move(placed));

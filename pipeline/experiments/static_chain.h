@@ -21,8 +21,8 @@ struct ChainLink {
 /// Markers, joint and force have the names that the case's model gives them.
 /// @param links  from the base up: interfaces "base" on the first, "top" on the last, and
 ///               "to_<other>" where two meet
-/// @throws InputError if an interface is missing.
-multibody::Model static_chain_model(const Study& study, const CaseSection& experiment,
+/// @throws InputError if an interface is missing, or if the case has more than the neck and forces.
+multibody::Model static_chain_model(const CaseSection& experiment,
                                     const std::vector<ChainLink>& links);
 
 }  // namespace flexneck::pipeline

@@ -3,14 +3,8 @@
 
 #include "multibody/simulation/simulation.h"
 #include "pipeline/experiments/bending_plane.h"
-#include "pipeline/experiments/case_model.h"
 
 namespace flexneck::pipeline {
-
-multibody::Model static_test_model(const Study& study, const CaseSection& experiment,
-                                   const fe_modal::ModalBody& body) {
-  return case_model(study, experiment, body, Eigen::Quaterniond::Identity());
-}
 
 StaticTestSignals static_test_signals(const multibody::Model& model,
                                       const multibody::History& history,

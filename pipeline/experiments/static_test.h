@@ -7,12 +7,8 @@
 
 namespace flexneck::pipeline {
 
-/// The static neck tester: base clamped, no gravity, a force at the joint point that keeps its
-/// direction in space. The study's joint is named clamp.
-multibody::Model static_test_model(const Study& study, const CaseSection& experiment,
-                                   const fe_modal::ModalBody& body);
-
-/// Curves over time.
+/// Curves over time of the static neck tester: base clamped by the joint "clamp", no gravity, a
+/// force at the joint point that keeps its direction in space.
 struct StaticTestSignals {
   Eigen::VectorXd time_s;
   Eigen::VectorXd load;         ///< of the forces of the model, along their directions, N

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
+#include "multibody/joints/joint_kinds.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/rigid_neck.h"
@@ -75,20 +76,29 @@ std::vector<CaseFigure> case_figures() {
   };
 }
 
+/// The pin that the head nods on, if the case's model has one in place of a fixed joint.
+const multibody::Joint* head_pin(const CaseSection& experiment) {
+  const multibody::Model& model = experiment.model.model;
+  for (const multibody::Joint& joint : model.joints)
+    if (model.markers[joint.marker_j].name == "head.condyles")
+      return joint.kind == &multibody::kRevoluteJoint ? &joint : nullptr;
+  return nullptr;
+}
+
 /// What a variant is, from what it does.
 std::string title_of(const CaseSection& experiment, const CaseSection& base) {
+  const std::string variant = "Variant '" + experiment.variant + "'";
   if (experiment.impact_velocity_m_s != base.impact_velocity_m_s)
-    return "Variant '" + experiment.variant +
-           "', at another impact velocity, beside the cases it is made of";
-  if (!experiment.rigid_neck.empty())
-    return "Rigid neck '" + experiment.rigid_neck + "' on two pivots beside the deformable neck";
-  if (!experiment.head_spring.empty())
-    return "Head on a pin with the spring '" + experiment.head_spring + "', beside a fixed head";
+    return variant + ", at another impact velocity, beside the cases it is made of";
+  if (has_rigid_neck(experiment))
+    return variant + ": rigid neck on two pivots beside the deformable neck";
+  if (head_pin(experiment) != nullptr)
+    return variant + ": head on a pin with a spring, beside a fixed head";
   if (experiment.arm == CaseSection::Arm::rotating)
     return "Arm rotating about its pivot, beside one that translates";
   if (experiment.pulse_scaling == PulseFit::duration)
     return "Pulse scaled in duration, compared with scaled in amplitude";
-  return "Variant '" + experiment.variant + "' beside the cases it is made of";
+  return variant + " beside the cases it is made of";
 }
 
 /// Of the key where it counts: the variant's, else that of its case, else what all cases have.
@@ -104,7 +114,7 @@ std::string pivot_origin(const Study& study, const CaseSection& experiment) {
 std::vector<std::string> notes_of(const Study& study, const CaseSection& experiment) {
   std::vector<std::string> notes = {
       "(baseline): the same figure of the case that the variant is made of."};
-  if (!experiment.rigid_neck.empty()) {
+  if (has_rigid_neck(experiment)) {
     notes.push_back(
         "The parameters of the paper's rigid model are not published, nor are the curves of its "
         "tests: the table says how far the models differ, not which is nearer to a neck.");
@@ -112,10 +122,10 @@ std::vector<std::string> notes_of(const Study& study, const CaseSection& experim
         "Where a pivot's springs differ in the two directions, small motions are those of the side "
         "to which the head hangs.");
   }
-  if (!experiment.head_spring.empty()) {
+  if (!has_rigid_neck(experiment) && head_pin(experiment) != nullptr) {
     notes.push_back(
         "Origin of the spring by the study: " +
-        origins_of(study.parameters, "head_spring." + experiment.head_spring) +
+        origins_of(study.parameters, "variant." + experiment.made_by + ".resistance") +
         ". The paper proposes to find its parameters by trial. A pin across the plane of a lateral "
         "test does not move.");
     notes.push_back(
@@ -175,19 +185,18 @@ double small_stiffness(const multibody::ResistanceSide& side) {
 }
 
 std::vector<std::string> rigid_row(const std::string& name, const std::string& plane,
-                                   const RigidNeckSection& neck, const multibody::Resistance& lower,
-                                   const multibody::Resistance& upper) {
+                                   const RigidNeck& neck) {
   const double in = factor_from_si("m", "in");
   const double stiffness = factor_from_si("N*m/rad", "in*lbf/deg");
   const double damping = factor_from_si("N*m*s/rad", "in*lbf*s/deg");
   std::vector<std::string> row = {
       name, plane, fmt::format("{:.3f}", neck.rigid.mass_kg * factor_from_si("kg", "lb"))};
-  for (const auto& [height_m, law] :
-       {std::pair{neck.lower.height_m, &lower}, std::pair{neck.upper.height_m, &upper}}) {
-    row.push_back(fmt::format("{:.3f}", height_m * in));
-    row.push_back(fmt::format("{:.1f}", small_stiffness(law->positive) * stiffness));
-    row.push_back(fmt::format("{:.1f}", small_stiffness(law->negative) * stiffness));
-    row.push_back(fmt::format("{:.3f}", law->damping * damping));
+  for (const RigidNeck::Pivot* const pivot : {&neck.lower, &neck.upper}) {
+    const multibody::Resistance& law = pivot->resistance;
+    row.push_back(fmt::format("{:.3f}", pivot->height_m * in));
+    row.push_back(fmt::format("{:.1f}", small_stiffness(law.positive) * stiffness));
+    row.push_back(fmt::format("{:.1f}", small_stiffness(law.negative) * stiffness));
+    row.push_back(fmt::format("{:.3f}", law.damping * damping));
   }
   return row;
 }
@@ -211,13 +220,12 @@ ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body
                    {"damper", "in*lbf*s/deg"}};
   std::set<std::pair<std::string, bool>> seen;
   for (const CaseSection& experiment : study.cases) {
-    if (experiment.rigid_neck.empty()) continue;
+    if (experiment.kind != CaseSection::Kind::pendulum || !has_rigid_neck(experiment)) continue;
     const bool lateral = experiment.direction == CaseSection::Direction::lateral;
-    if (!seen.insert({experiment.rigid_neck, lateral}).second) continue;
-    const RigidNeckSection neck = rigid_neck_of(study, experiment, body);
-    table.rows.push_back(rigid_row(experiment.rigid_neck, lateral ? "lateral" : "fore-aft", neck,
-                                   lateral ? neck.lower.lateral : neck.lower.fore_aft,
-                                   lateral ? neck.upper.lateral : neck.upper.fore_aft));
+    const std::string& name = experiment.variant.empty() ? experiment.name : experiment.variant;
+    if (!seen.insert({name, lateral}).second) continue;
+    if (const std::optional<RigidNeck> neck = rigid_neck_in(case_model(experiment, body)))
+      table.rows.push_back(rigid_row(name, lateral ? "lateral" : "fore-aft", *neck));
   }
   table.notes = {
       "Flexion and extension: in the lateral plane to one side and to the other. Matched: the link "
@@ -249,14 +257,14 @@ ResultTable processor_table(const std::vector<PendulumEntry>& entries) {
                           fmt::format("{:.1f}", deformable / rigid)});
   };
   for (const PendulumEntry& entry : entries) {
-    if (entry.experiment.rigid_neck.empty() || entry.experiment.variant_of.empty()) continue;
+    if (!has_rigid_neck(entry.experiment) || entry.experiment.variant_of.empty()) continue;
     const PendulumEntry& base = base_of(entries, entry);
     if (!base.cost || !entry.cost) continue;
     const std::array<double, 4> figures = {base.cost->processor_s, entry.cost->processor_s,
                                            static_cast<double>(base.cost->evaluations),
                                            static_cast<double>(entry.cost->evaluations)};
-    add_row(base.experiment.name, entry.experiment.rigid_neck, figures);
-    auto& sum = sums[entry.experiment.rigid_neck];
+    add_row(base.experiment.name, entry.experiment.variant, figures);
+    auto& sum = sums[entry.experiment.variant];
     for (std::size_t k = 0; k < figures.size(); ++k) sum[k] += figures[k];
   }
   for (const auto& [neck, figures] : sums) add_row("all", neck, figures);

@@ -6,6 +6,7 @@
 #include "geometry/foundation/error.h"
 #include "pipeline/document/former_names.h"
 #include "pipeline/isolation/result_files.h"
+#include "pipeline/model/model_sections.h"
 #include "pipeline/version.h"
 
 namespace flexneck::pipeline {
@@ -28,11 +29,10 @@ std::vector<std::string> named_by(const CaseSection& experiment) {
   const auto add = [&](const std::string& section, const std::string& name) {
     if (!name.empty()) prefixes.push_back(section + "." + name + ".");
   };
-  add("variant", experiment.variant);
+  add("variant", experiment.made_by);
   add("pulse", experiment.pulse);
-  add("rigid_neck", experiment.rigid_neck);
-  add("head_spring", experiment.head_spring);
-  for (const std::string& force : experiment.forces) add("force", force);
+  for (const std::string& force : experiment.forces)
+    for (const ModelSection& section : force_sections()) add(std::string(section.key.name), force);
   return prefixes;
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <numbers>
-
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/document/table_values.h"
@@ -40,13 +38,9 @@ constexpr auto kOwnKeys = joined(
         Key::quantities("inertia_rotation", "rad", kNone,
                         "Of a rigid body: how the axes of its inertia are turned against its frame",
                         {.size = 3}),
-        Key::file("modes_file", kNone, "Of a deformable body: its file of modes"),
-        Key::texts("modes", kNone, "Names of the modes that are used; all if the key is not there"),
-        Key::one_or_numbers("damping_ratio", kNone, "Damping ratio of all modes, or of each"),
-        Key::quantity("damping_time", "s", kNone,
-                      "Besides or in its place: damping is this time multiplied by the stiffness"),
-        Key::numbers("offset", kNone, "Permanent set of the modal coordinates, in kg^(1/2) m"),
-        Key::flag("stress_stiffening", "false", "Whether the body's loads stiffen and soften it"),
+        Key::file("modes_file", kNone,
+                  "Of a deformable body: its file of modes; in a study the modes of its structure "
+                  "if the key is not there"),
     }),
     kRigidBodyKeys);
 
@@ -58,42 +52,19 @@ RigidBody rigid_body(const StudyTable& table) {
   return body;
 }
 
-/// The ratios given, one number for each mode or one for all, and those of a material whose stress
-/// leads by a time: its damping is its stiffness times that.
-Eigen::VectorXd damping_ratios(const StudyTable& table, const Eigen::VectorXd& frequencies_Hz) {
-  const std::string key = "damping_ratio";
-  const Eigen::Index modes = frequencies_Hz.size();
-  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(modes);
-  if (table.has("damping_time")) {
-    ratios = std::numbers::pi * table.quantity("damping_time") * frequencies_Hz;
-    if (!table.has(key)) return ratios;
-  }
-  if (!table.is_list(key)) return ratios.array() + table.number(key);
-  const std::vector<double> given = table.numbers(key, static_cast<std::size_t>(modes));
-  return ratios + Eigen::Map<const Eigen::VectorXd>(given.data(), modes);
-}
-
 DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
-  const std::filesystem::path path = table.file("modes_file");
-  fe_modal::ModalBody all = read_modal_body(path).body;
-  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
-  DeformableBody body;
-  body.modes = table.has("modes")
-                   ? at_key(table, "modes",
-                            [&] { return fe_modal::select_modes(all, table.texts("modes")); })
-                   : std::move(all);
-  const Eigen::Index modes = body.modes.mode_count();
-  body.damping_ratio = damping_ratios(table, body.modes.frequencies_Hz);
-  if (table.has("offset")) {
-    const std::vector<double> offset = table.numbers("offset", static_cast<std::size_t>(modes));
-    body.offset = Eigen::Map<const Eigen::VectorXd>(offset.data(), modes);
+  const ModesUse use = read_modes_use(table);
+  if (assembly.structure && !table.has("modes_file")) {
+    DeformableBody body;
+    for (const std::string& name : *assembly.structure)
+      body.modes.interfaces.push_back(
+          {.name = name, .position_m = {}, .translation = {}, .rotation = {}});
+    assembly.of_structure.insert_or_assign(assembly.model.bodies.size(), use);
+    return body;
   }
-  body.stress_stiffening = table.flag("stress_stiffening");
-  if (body.stress_stiffening && !body.modes.geometric_stiffness)
-    table.refuse("stress_stiffening",
-                 path.string() +
-                     " has no geometric stiffness of the modes; make it again with "
-                     "stress_stiffening = \"unit-loads\" in the [modes] of its study");
+  const std::filesystem::path path = table.file("modes_file");
+  DeformableBody body = use_modes(use, read_modal_body(path).body, path.string());
+  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
   return body;
 }
 
@@ -114,7 +85,8 @@ void read_start(const StudyTable& table, bool is_free, Assembly& assembly) {
   multibody::Body& body = assembly.model.bodies.back();
   const bool posed = table.has("position") || table.has("rotation");
   if (table.has("position")) body.initial_pose.position_m = quantity_vector(table, "position");
-  body.initial_pose.rotation = rotation_or_none(table, "rotation");
+  body.initial_pose.rotation =
+      is_free || table.has("rotation") ? rotation_or_none(table, "rotation") : assembly.rotation;
   assembly.posed.push_back(posed || !is_free);
   const bool moving = is_free && (table.has("velocity") || table.has("angular_velocity"));
   if (moving && table.has("velocity"))
@@ -144,6 +116,7 @@ void read_body(const StudyTable& table, Assembly& assembly) {
       break;
     case 1:
       body.kind = prescribed_body(table, assembly);
+      assembly.prescribed.push_back(assembly.model.bodies.size());
       break;
     case 2:
       body.kind = rigid_body(table);
@@ -177,11 +150,17 @@ void read_marker(const StudyTable& table, Assembly& assembly) {
 
 }  // namespace
 
+void attach(const fe_modal::ModalBody& structure, Assembly& assembly) {
+  for (const auto& [body, use] : assembly.of_structure)
+    assembly.model.bodies[body].kind = use_modes(use, structure, "the study's structure");
+  assembly.of_structure.clear();
+}
+
 ModelSection body_section() {
   static const std::vector<Key> keys = [] {
     std::vector<Key> all(kOwnKeys.begin(), kOwnKeys.end());
-    const std::span<const Key> prescribed = prescribed_body_keys();
-    all.insert(all.end(), prescribed.begin(), prescribed.end());
+    for (const std::span<const Key> more : {modes_use_keys(), prescribed_body_keys()})
+      all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
   return {Key::tables("body", "Bodies", keys), read_body};

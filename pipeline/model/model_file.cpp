@@ -60,15 +60,6 @@ constexpr Key kOutputKeys[] = {
     Key::texts("joints", kNone, "Joints whose histories are written; all if the key is not there"),
 };
 
-/// In the order in which one kind of table may name things of another.
-std::vector<ModelSection> sections() {
-  std::vector<ModelSection> all = {body_section(), marker_section(), joint_section(),
-                                   motor_section()};
-  const std::vector<ModelSection> forces = force_sections();
-  all.insert(all.end(), forces.begin(), forces.end());
-  return all;
-}
-
 void read_solver(const StudyTable& table, ModelFile& file) {
   read_steps(table, file.solver);
   file.solver.max_steps = table.count("max_steps");
@@ -148,7 +139,7 @@ std::span<const Key> model_keys() {
                    "Frequencies, damping ratios and shapes of small motions, besides the run",
                    kLinearisationKeys),
     };
-    for (const ModelSection& section : sections()) all.push_back(section.key);
+    for (const ModelSection& section : model_sections()) all.push_back(section.key);
     all.push_back(Key::table("output", "What is written", kOutputKeys));
     all.push_back(
         Key::tables("channel",
@@ -171,7 +162,7 @@ ModelFile read_model_file(const std::filesystem::path& path,
   Assembly assembly;
   assembly.end_time_s = file.end_time_s;
   assembly.model.gravity_m_s2 = file.model.gravity_m_s2;
-  for (const ModelSection& section : sections())
+  for (const ModelSection& section : model_sections())
     for (const StudyTable& table : root.tables(std::string(section.key.name)))
       section.read(table, assembly);
   if (assembly.model.bodies.empty())

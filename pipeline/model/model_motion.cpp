@@ -223,8 +223,25 @@ ModelSection motor_section() {
 
 std::span<const Key> prescribed_body_keys() { return kPrescribedKeys; }
 
+namespace {
+
+bool gives_motion(const StudyTable& table) {
+  return table.has("turn") || table.has(kTravel.rate) || !motion_key(table, kTravel).empty();
+}
+
+void refuse_motion(const StudyTable& table) {
+  for (const Key& row : prescribed_body_keys())
+    if (table.has(std::string(row.name)))
+      table.refuse(std::string(row.name),
+                   "the case gives this body its motion; take this key away");
+}
+
+}  // namespace
+
 PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly) {
   PrescribedBody body;
+  if (assembly.motion == Assembly::Motion::by_case) refuse_motion(table);
+  if (assembly.motion != Assembly::Motion::given && !gives_motion(table)) return body;
   if (table.has("direction")) body.direction = unit_vector(table, "direction");
   const Motion motion = read_motion(table, kTravel, assembly);
   body.initial_velocity_m_s = motion.initial_rate;
@@ -234,7 +251,7 @@ PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly) {
     const Eigen::Vector3d position_m =
         table.has("position") ? quantity_vector(table, "position") : Eigen::Vector3d::Zero();
     body.turn = read_turn(table.table("turn"), position_m, assembly);
-  } else if (motion_key(table, kTravel).empty() && !table.has(kTravel.rate)) {
+  } else if (!gives_motion(table)) {
     table.refuse("name",
                  "a prescribed body needs a motion: times and acceleration, table, pulse_times, "
                  "displacement, displacement_table, initial_velocity or [body.turn]; without one "

@@ -6,23 +6,13 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "multibody/model/model.h"
 #include "pipeline/document/study_document.h"
+#include "pipeline/model/assembly.h"
 #include "pipeline/model/csv_table.h"
-#include "pipeline/model/placement.h"
 
 namespace flexneck::pipeline {
 
-/// A model while its file is read.
-struct Assembly {
-  multibody::Model model;
-  std::vector<bool> posed, moving;  ///< of each body: whether the file says where, how fast
-  std::vector<JointStart> starts;   ///< of each joint
-  double end_time_s = 1;
-  std::vector<InputFile> files;  ///< modes and tables read
-};
-
-/// A kind of table in a model file.
+/// A kind of table in a model file and in the models of a study.
 struct ModelSection {
   Key key;
   /// Adds what one table says, and refuses what the table alone shows to be wrong.
@@ -33,6 +23,8 @@ ModelSection marker_section();
 ModelSection joint_section();
 ModelSection motor_section();
 std::vector<ModelSection> force_sections();  ///< of each kind of force element
+/// All of them, in the order in which one kind of table may name things of another.
+std::vector<ModelSection> model_sections();
 
 /// Position of the thing that a key names. @throws InputError with the nearest name.
 std::size_t reference(const StudyTable& table, const std::string& key,
@@ -41,7 +33,8 @@ std::size_t marker_named(const StudyTable& table, const std::string& key, const 
 /// A rotation vector, axis times angle; none if the key is not there.
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key);
 
-/// The motion that a [[body]] of kind "prescribed" gives: the keys prescribed_body_keys().
+/// The motion that a [[body]] of kind "prescribed" gives, the keys prescribed_body_keys(), unless
+/// assembly.motion leaves it to a case.
 std::span<const Key> prescribed_body_keys();
 multibody::PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly);
 

@@ -7,6 +7,14 @@
 
 namespace flexneck::pipeline {
 
+std::vector<ModelSection> model_sections() {
+  std::vector<ModelSection> all = {body_section(), marker_section(), joint_section(),
+                                   motor_section()};
+  const std::vector<ModelSection> forces = force_sections();
+  all.insert(all.end(), forces.begin(), forces.end());
+  return all;
+}
+
 std::size_t reference(const StudyTable& table, const std::string& key,
                       const std::vector<std::string>& names, const std::string& kind) {
   try {
@@ -31,7 +39,8 @@ TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
   }
   for (const std::string& key : {keys.x, keys.y})
     if (table.has(key))
-      table.refuse(key, "is given twice, here and by the key '" + keys.file + "'");
+      table.refuse(key, "is given twice, here and by the key '" + keys.file +
+                            "'; leave one out, over a table of another file by " + key + " = []");
   const std::filesystem::path path = table.file(keys.file);
   TableColumns columns = read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
   files.push_back({path.filename().string(), hash_of_file(path.string())});

@@ -11,12 +11,12 @@
 namespace flexneck::pipeline {
 
 std::optional<HeadShape> head_shape(const Study& study) {
-  const auto body =
-      std::find_if(study.bodies.begin(), study.bodies.end(), [](const BodySection& each) {
-        return each.name == "head" && each.kind == BodySection::Kind::rigid;
-      });
-  if (body == study.bodies.end()) return {};
-  const multibody::RigidBody& head = body->rigid;
+  const std::vector<multibody::Body>& bodies = study.model.model.bodies;
+  const auto body = std::find_if(bodies.begin(), bodies.end(), [](const multibody::Body& each) {
+    return each.name == "head" && std::holds_alternative<multibody::RigidBody>(each.kind);
+  });
+  if (body == bodies.end()) return {};
+  const auto& head = std::get<multibody::RigidBody>(body->kind);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(head.inertia_kg_m2);
   const Eigen::Array3d inertia = principal.eigenvalues();
   // I_x = m (b^2 + c^2) / 5 and so on, so a^2 = 5 (I_y + I_z - I_x) / (2 m).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <utility>
 
 #include "geometry/foundation/names.h"
 #include "pipeline/document/channel_class.h"
@@ -21,10 +22,12 @@ constexpr KeyDetails kAbove0 = {.range = kPositive};
 constexpr auto kCaseKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the case"),
     Key::text("kind", kRequired, "Which experiment it is", {.choices = case_kinds}),
-    Key::texts("bodies", kRequired, "Bodies of the model; the joints between them are part of it"),
+    Key::texts("bodies", kNone,
+               "Bodies of the study that the model has, with the joints between them; all if the "
+               "key is not there"),
     Key::text("direction", kRequired, "Direction of the bending", {.choices = directions}),
     Key::quantity("duration", "s", kRequired, "Length of the run", kAbove0),
-    Key::texts("forces", kRequired, "Of a static test: its forces"),
+    Key::texts("forces", kNone, "Forces, springs and resistances of the study that act in it"),
     Key::quantity("drop_angle", "rad", kNone, "Angle that the arm falls from",
                   {.range = {.low = 0, .high = 3.1416, .has_low = false}}),
     Key::quantity("effective_length", "m", kNone,
@@ -48,15 +51,20 @@ constexpr auto kCaseKeys = std::to_array<Key>({
               {.choices = channel_class_names}),
     Key::text("moment_filter", "CFC 600", "Channel class of My in it",
               {.choices = channel_class_names}),
-    Key::text("rigid_neck", kNone, "A [[rigid_neck]] in place of the deformable one"),
-    Key::text("head_spring", kNone, "A [[head_spring]] in place of the head's fixed joint"),
+    Key::flag("equivalent_rigid_neck", "false",
+              "Whether a rigid link on two pivots, with the mass, the static stiffness and the "
+              "damping of the deformable neck, is in its place"),
 });
 
-constexpr auto kVariantKeys = joined(
-    std::to_array<Key>({
-        Key::texts("of", kRequired, "Cases that the variant makes others of; a name may end in *"),
-    }),
-    kCaseKeys);
+constexpr auto kVariantKeys = std::to_array<Key>({
+    Key::texts("of", kRequired, "Cases that the variant makes others of; a name may end in *"),
+    Key::text("suffix", kNone,
+              "What it adds to the names of its cases, so that several variants may share it; its "
+              "name if the key is not there"),
+});
+
+/// Head below the arm: the neck's z is the world's -z, x stays.
+Eigen::Quaterniond hanging() { return {0, 1, 0, 0}; }
 
 void read_velocity(const StudyTable& table, CaseSection& experiment) {
   if (table.has("drop_angle")) {
@@ -93,75 +101,108 @@ void read_pendulum(const StudyTable& table, CaseSection& experiment) {
       *value = table.quantity(key);
   }
   experiment.moment = read_moment_definition(table);
-  experiment.rigid_neck = table.text("rigid_neck");
-  experiment.head_spring = table.text("head_spring");
-  if (!experiment.rigid_neck.empty() && !experiment.head_spring.empty())
-    table.refuse("head_spring", "a rigid neck has a pivot with a spring there already");
+  experiment.equivalent_rigid_neck = table.flag("equivalent_rigid_neck");
 }
 
-CaseSection read_case(const StudyTable& table) {
+/// The tables that may hold a case's own bodies, joints and forces.
+struct CaseSource {
+  StudyTable table;  ///< with all keys of the case
+  CaseTables tables;
+};
+
+Assembly read_model(const CaseSource& source, const CaseSection& experiment,
+                    const StudyModels& models) {
+  // Their elements are read table by table.
+  for (const Key& row : model_table_keys()) source.table.has(std::string(row.name));
+  Assembly begun;
+  begun.end_time_s = experiment.duration_s;
+  const bool swings = experiment.kind == CaseSection::Kind::pendulum;
+  if (swings) {
+    begun.motion = Assembly::Motion::by_case;
+    begun.rotation = hanging();
+  }
+  Assembly model = models.of_case(source.tables, std::move(begun));
+  if (swings && model.prescribed.size() != 1)
+    source.table.refuse("bodies",
+                        "expected one body of kind \"prescribed\", the pendulum's arm, found " +
+                            std::to_string(model.prescribed.size()));
+  return model;
+}
+
+CaseSection read_case(CaseSource& source, const StudyModels& models) {
+  const StudyTable& table = source.table;
   CaseSection experiment;
   experiment.name = table.text("name");
   experiment.kind = static_cast<CaseSection::Kind>(table.choice("kind"));
-  experiment.bodies = table.texts("bodies");
   experiment.direction = static_cast<CaseSection::Direction>(table.choice("direction"));
   experiment.duration_s = table.quantity("duration");
-  if (experiment.kind == CaseSection::Kind::pendulum) {
-    read_pendulum(table, experiment);
-  } else {
-    experiment.forces = table.texts("forces");
-  }
+  if (experiment.kind == CaseSection::Kind::pendulum) read_pendulum(table, experiment);
+  source.tables.bodies = table.texts("bodies");
+  source.tables.forces = experiment.forces = table.texts("forces");
+  experiment.model = read_model(source, experiment, models);
+  table.finish();
   return experiment;
 }
 
-/// Whether a name is that of a pattern, whose end may be a *.
-bool fits(const std::string& name, const std::string& pattern) {
-  if (!pattern.ends_with('*')) return name == pattern;
-  return name.starts_with(pattern.substr(0, pattern.size() - 1));
-}
-
 /// The cases that a variant makes, in the order of those it is made of.
-void add_variants(const StudyTable& variant, const std::vector<StudyTable>& tables,
-                  std::vector<CaseSection>& cases) {
+void add_variants(const StudyTable& variant, const std::vector<CaseSource>& sources,
+                  const StudyModels& models, std::vector<CaseSection>& cases) {
   const std::string name = variant.text("name");
+  const std::string suffix = variant.has("suffix") ? variant.text("suffix") : name;
   for (const std::string& pattern : variant.texts("of")) {
     bool found = false;
-    for (std::size_t k = 0; k < tables.size(); ++k) {
+    for (std::size_t k = 0; k < sources.size(); ++k) {
       const std::string of = cases[k].name;
       if (!fits(of, pattern)) continue;
       found = true;
-      const StudyTable merged = variant.over(tables[k]);
-      CaseSection made = read_case(merged);
-      merged.finish();
-      made.name = of + "-" + name;
+      CaseSource merged{variant.over(sources[k].table), sources[k].tables};
+      merged.tables.layers.push_back(variant);
+      CaseSection made = read_case(merged, models);
+      made.name = of + "-" + suffix;
       made.variant_of = of;
-      made.variant = name;
+      made.variant = suffix;
+      made.made_by = name;
       cases.push_back(std::move(made));
     }
     std::vector<std::string> names;
-    for (std::size_t k = 0; k < tables.size(); ++k) names.push_back(cases[k].name);
+    for (std::size_t k = 0; k < sources.size(); ++k) names.push_back(cases[k].name);
     if (!found)
       variant.refuse("of", "there is no case '" + pattern + "'" + did_you_mean(names, pattern));
   }
 }
 
+std::vector<Key> with_model_tables(std::span<const Key> own, std::span<const Key> more) {
+  std::vector<Key> all(own.begin(), own.end());
+  all.insert(all.end(), more.begin(), more.end());
+  const std::vector<Key> tables = model_table_keys();
+  all.insert(all.end(), tables.begin(), tables.end());
+  return all;
+}
+
 }  // namespace
 
-std::span<const Key> case_keys() { return kCaseKeys; }
-std::span<const Key> variant_keys() { return kVariantKeys; }
+std::span<const Key> case_keys() {
+  static const std::vector<Key> keys = with_model_tables(kCaseKeys, {});
+  return keys;
+}
 
-std::vector<CaseSection> read_cases(const StudyTable& root) {
+std::span<const Key> variant_keys() {
+  static const std::vector<Key> keys = with_model_tables(kCaseKeys, kVariantKeys);
+  return keys;
+}
+
+std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models) {
   const StudyTable pendulum = root.table("pendulum");
   const StudyTable tester = root.table("static");
-  std::vector<StudyTable> tables;
+  std::vector<CaseSource> sources;
   std::vector<CaseSection> cases;
   for (const StudyTable& own : root.tables("case")) {
-    const bool swings = own.choice("kind") == 0;
-    tables.push_back(own.over(swings ? pendulum : tester));
-    cases.push_back(read_case(tables.back()));
-    tables.back().finish();
+    const StudyTable& shared = own.choice("kind") == 0 ? pendulum : tester;
+    sources.push_back({own.over(shared), {.layers = {shared, own}, .bodies = {}, .forces = {}}});
+    cases.push_back(read_case(sources.back(), models));
   }
-  for (const StudyTable& variant : root.tables("variant")) add_variants(variant, tables, cases);
+  for (const StudyTable& variant : root.tables("variant"))
+    add_variants(variant, sources, models, cases);
   const auto is_there = [&](CaseSection::Kind kind) {
     for (const CaseSection& experiment : cases)
       if (experiment.kind == kind) return true;

@@ -6,6 +6,16 @@
 
 namespace flexneck::pipeline {
 
+namespace {
+
+/// Names have no origin worth telling.
+bool is_figure(const std::string& key) {
+  const Key* const row = find_dotted_key(study_keys(), key).key;
+  return row == nullptr || (row->type != KeyType::text && row->type != KeyType::texts);
+}
+
+}  // namespace
+
 std::string origins_of(const std::vector<Parameter>& parameters, const std::string& table,
                        const std::vector<std::string>& keys) {
   const std::string prefix = table.empty() ? "" : table + ".";
@@ -13,7 +23,8 @@ std::string origins_of(const std::vector<Parameter>& parameters, const std::stri
   for (const Parameter& parameter : parameters) {
     if (!parameter.key.starts_with(prefix)) continue;
     const std::string key = parameter.key.substr(prefix.size());
-    if (keys.empty() ? key != "name" : std::find(keys.begin(), keys.end(), key) != keys.end())
+    if (keys.empty() ? is_figure(parameter.key)
+                     : std::find(keys.begin(), keys.end(), key) != keys.end())
       found.at(static_cast<std::size_t>(parameter.origin)) = true;
   }
   std::string text;

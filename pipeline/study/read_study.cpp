@@ -11,6 +11,7 @@
 #include "geometry/foundation/names.h"
 #include "pipeline/document/assemblies.h"
 #include "pipeline/document/table_values.h"
+#include "pipeline/model/model_sections.h"
 #include "pipeline/model/solver_steps.h"
 #include "pipeline/study/sections.h"
 
@@ -67,8 +68,27 @@ constexpr Key kOutputKeys[] = {
 
 }  // namespace
 
-std::span<const Key> study_keys() {
-  static const std::array kKeys = std::to_array<Key>({
+std::vector<Key> model_table_keys() {
+  std::vector<Key> keys;
+  for (const ModelSection& section : model_sections()) keys.push_back(section.key);
+  return keys;
+}
+
+namespace {
+
+/// Of the study itself: bodies and what joins them belong to all cases, forces to those that say
+/// so.
+std::vector<Key> shared_model_keys() {
+  std::vector<Key> keys = model_table_keys();
+  const std::size_t forces = force_sections().size();
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    keys[k].details.used_by =
+        k + forces < keys.size() ? UsedBy::all_experiments : UsedBy::named_experiments;
+  return keys;
+}
+
+std::vector<Key> all_study_keys() {
+  std::vector<Key> keys = {
       variables_key(),
       assembly_key(),
       Key::table("geometry", "What is meshed", geometry_keys(), UsedBy::mesh),
@@ -80,22 +100,20 @@ std::span<const Key> study_keys() {
                  UsedBy::modes),
       Key::tables("interface", "Where other bodies attach to a structure", interface_keys(),
                   UsedBy::modes),
-      Key::tables("body", "Bodies of the experiments", body_keys(), UsedBy::all_experiments),
-      Key::tables("marker", "Points of bodies; interfaces of deformable ones are markers",
-                  marker_keys(), UsedBy::all_experiments),
-      Key::tables("joint", "Joints between markers", joint_keys(), UsedBy::all_experiments),
-      Key::tables("force", "Forces of static tests", force_keys(), UsedBy::named_experiments),
+  };
+  const std::vector<Key> shared = shared_model_keys();
+  keys.insert(keys.end(), shared.begin(), shared.end());
+  const std::vector<Key> experiments = {
       Key::tables("pulse", "Decelerations of the pendulum's arm", pulse_keys(),
                   UsedBy::named_experiments),
-      Key::tables("rigid_neck", "Necks that are rigid links between two pivots", rigid_neck_keys(),
-                  UsedBy::named_experiments),
-      Key::tables("head_spring", "Nodding blocks and cable as a pin of the head",
-                  head_spring_keys(), UsedBy::named_experiments),
       Key::table("pendulum", "Keys that all [[case]] of the pendulum share", case_keys(),
                  UsedBy::named_experiments),
       Key::table("static", "Keys that all [[case]] of the static tester share", case_keys(),
                  UsedBy::named_experiments),
       Key::tables("case", "Experiments", case_keys(), UsedBy::named_experiments),
+      Key::texts("cases", kNone,
+                 "Names of the cases that are run, which may end in *; a variant brings the case "
+                 "that it is made of; all if the key is not there"),
       Key::tables("variant", "Experiments made of others, with keys of their own", variant_keys(),
                   UsedBy::named_experiments),
       Key::table("dummy", "Whose head and neck the bodies are", dummy_keys(),
@@ -104,7 +122,15 @@ std::span<const Key> study_keys() {
                   UsedBy::named_experiments),
       Key::table("solver", "Integration of the experiments", kSolverKeys, UsedBy::all_experiments),
       Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
-  });
+  };
+  keys.insert(keys.end(), experiments.begin(), experiments.end());
+  return keys;
+}
+
+}  // namespace
+
+std::span<const Key> study_keys() {
+  static const std::vector<Key> kKeys = all_study_keys();
   return kKeys;
 }
 
@@ -212,31 +238,39 @@ void check_references(const Study& study) {
       throw InputError(study.file.string() + ": " + who + ": " + error.what());
     }
   };
-  const std::vector<std::string> bodies = names_of(study.bodies);
-  for (const MarkerSection& marker : study.markers) {
-    require("marker." + marker.name, bodies, marker.body, "body");
+  for (const CaseSection& experiment : study.cases)
+    if (experiment.kind == CaseSection::Kind::pendulum)
+      require("case." + experiment.name, names_of(study.pulses), experiment.pulse, "pulse");
+  if (study.modes.attached_body.empty()) return;
+  try {
+    study.rigid_body(study.modes.attached_body);
+  } catch (const InputError& error) {
+    throw InputError(study.file.string() + ": modes.attached_body: " + error.what());
   }
+}
+
+void add_file(std::vector<InputFile>& files, const InputFile& file) {
+  const auto is_same = [&](const InputFile& other) {
+    return other.name == file.name && other.hash == file.hash;
+  };
+  if (std::none_of(files.begin(), files.end(), is_same)) files.push_back(file);
+}
+
+/// Bodies, joints and forces, and the cases that are made of them.
+void read_experiments(const StudyTable& root, Study& study) {
+  study.pulses = read_all(root, "pulse", read_pulse, study.tables);
+  const StudyModels models(root, names_of(study.interfaces));
+  study.cases = read_cases(root, models);
+  check_names(names_of(study.cases), "case");
+  double longest_s = 0;
   for (const CaseSection& experiment : study.cases) {
-    const std::string who = "case." + experiment.name;
-    for (const std::string& body : experiment.bodies) require(who, bodies, body, "body");
-    for (const std::string& force : experiment.forces) {
-      require(who, names_of(study.forces), force, "force");
-    }
-    if (experiment.kind != CaseSection::Kind::pendulum) continue;
-    require(who, names_of(study.pulses), experiment.pulse, "pulse");
-    if (!experiment.rigid_neck.empty())
-      require(who, names_of(study.rigid_necks), experiment.rigid_neck, "rigid_neck");
-    if (!experiment.head_spring.empty())
-      require(who, names_of(study.head_springs), experiment.head_spring, "head_spring");
+    longest_s = std::max(longest_s, experiment.duration_s);
+    for (const InputFile& file : experiment.model.files) add_file(study.tables, file);
   }
-  if (!study.modes.attached_body.empty()) {
-    require("modes.attached_body", bodies, study.modes.attached_body, "body");
-    if (study.body(study.modes.attached_body).kind != BodySection::Kind::rigid) {
-      throw InputError(study.file.string() +
-                       ": modes.attached_body: expected a rigid body, found '" +
-                       study.modes.attached_body + "', which is not");
-    }
-  }
+  study.model = models.whole(longest_s > 0 ? longest_s : 1);
+  for (const InputFile& file : study.model.files) add_file(study.tables, file);
+  read_tests(root, study);
+  select_cases(root, study);
 }
 
 }  // namespace
@@ -256,8 +290,13 @@ bool Study::has_static_moduli() const {
                      [](const auto& entry) { return entry.second.static_modulus_ratio != 1; });
 }
 
-const BodySection& Study::body(const std::string& name) const {
-  return bodies[find_name(names_of(bodies), name, "body")];
+const multibody::RigidBody& Study::rigid_body(const std::string& name) const {
+  const std::vector<multibody::Body>& bodies = model.model.bodies;
+  const multibody::Body& body = bodies[find_name(names_of(bodies), name, "body")];
+  const auto* const rigid = std::get_if<multibody::RigidBody>(&body.kind);
+  if (rigid == nullptr)
+    throw InputError("expected a rigid body, found '" + name + "', which is not");
+  return *rigid;
 }
 
 Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings) {
@@ -278,16 +317,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.modes = read_modes(root.table("modes"));
   study.substructures = read_substructures(root.table("substructures"));
   study.interfaces = read_all(root, "interface", read_interface);
-  study.bodies = read_all(root, "body", read_body);
-  study.markers = read_all(root, "marker", read_marker);
-  study.joints = read_all(root, "joint", read_joint);
-  study.forces = read_all(root, "force", read_force);
-  study.pulses = read_all(root, "pulse", read_pulse, study.tables);
-  study.rigid_necks = read_all(root, "rigid_neck", read_rigid_neck, study.tables);
-  study.head_springs = read_all(root, "head_spring", read_head_spring, study.tables);
-  study.cases = read_cases(root);
-  check_names(names_of(study.cases), "case");
-  read_tests(root, study);
+  read_experiments(root, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   root.finish();

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "pipeline/document/study_document.h"
+#include "pipeline/study/case_tables.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
@@ -14,13 +15,7 @@ std::span<const Key> materials_keys();
 std::span<const Key> mesh_keys();
 std::span<const Key> matrices_keys();
 std::span<const Key> interface_keys();
-std::span<const Key> body_keys();
-std::span<const Key> marker_keys();
-std::span<const Key> joint_keys();
-std::span<const Key> force_keys();
 std::span<const Key> pulse_keys();
-std::span<const Key> rigid_neck_keys();
-std::span<const Key> head_spring_keys();
 std::span<const Key> case_keys();
 std::span<const Key> variant_keys();
 std::span<const Key> dummy_keys();
@@ -39,16 +34,17 @@ MeshOrders read_mesh_orders(const StudyTable& mesh);
 /// The key formulation. @throws InputError if there is none of that name.
 fe_modal::Formulation read_formulation(const StudyTable& table);
 ModesSection read_modes(const StudyTable& modes);
-BodySection read_body(const StudyTable& body);
-MarkerSection read_marker(const StudyTable& marker);
-JointSection read_joint(const StudyTable& joint);
-ForceSection read_force(const StudyTable& force);
 /// The keys table, a CSV file, or times and deceleration. A file read is appended to `files`.
 PulseSection read_pulse(const StudyTable& pulse, std::vector<InputFile>& files);
-RigidNeckSection read_rigid_neck(const StudyTable& neck, std::vector<InputFile>& files);
-HeadSpringSection read_head_spring(const StudyTable& spring, std::vector<InputFile>& files);
+/// The tables [[body]], [[marker]], … as a study has them.
+std::vector<Key> model_table_keys();
 /// [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
-std::vector<CaseSection> read_cases(const StudyTable& root);
+std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models);
+/// Whether a name is that of a pattern, whose end may be a *.
+bool fits(const std::string& name, const std::string& pattern);
+/// The key cases: leaves the study those that it names, and the tests that judge them.
+/// @throws InputError for a name that no case has.
+void select_cases(const StudyTable& root, Study& study);
 /// [dummy] and [[test]] of the cases that have been read.
 void read_tests(const StudyTable& root, Study& study);
 void read_solver(const StudyTable& solver, Study& study);

@@ -16,10 +16,10 @@
 #include "fe_modal/system/solver.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/foundation/units.h"
-#include "multibody/joints/joint_kinds.h"
 #include "multibody/model/model.h"
 #include "multibody/simulation/simulation.h"
 #include "pipeline/document/key.h"
+#include "pipeline/model/assembly.h"
 #include "pipeline/model/pulse.h"
 #include "pipeline/study/structure_section.h"
 #include "pipeline/study/substructure_section.h"
@@ -50,42 +50,6 @@ struct ModesSection {
   std::string attached_to;    ///< that interface; empty: the first
 };
 
-/// [[body]]
-struct BodySection {
-  enum class Kind { ground, prescribed, rigid, deformable };
-  std::string name;
-  Kind kind = Kind::rigid;
-  multibody::RigidBody rigid;
-  std::vector<std::string> modes;  ///< of a deformable body
-  double damping_ratio = 0;
-  /// Of modes that only complete the static compliance.
-  double correction_damping_ratio = 0;
-};
-
-/// [[marker]]; the interfaces of deformable bodies are markers without being listed.
-struct MarkerSection {
-  std::string name;  ///< "body.marker"
-  std::string body;
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-};
-
-/// [[joint]]: the lower body's marker first.
-struct JointSection {
-  std::string name;
-  const multibody::JointKind* kind = &multibody::kFixedJoint;
-  std::string marker_i, marker_j;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
-};
-
-/// [[force]]
-struct ForceSection {
-  std::string name;
-  std::string marker;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, world
-  std::vector<double> times_s;
-  std::vector<double> magnitudes_N;
-};
-
 /// [[pulse]]: a deceleration; a case brings it to its impact velocity.
 struct PulseSection {
   std::string name;
@@ -93,56 +57,34 @@ struct PulseSection {
   std::vector<double> deceleration_m_s2;
 };
 
-/// [[rigid_neck]]: the neck of the older model, a rigid link between two pivots that turn in the
-/// plane of the case.
-struct RigidNeckSection {
-  /// Springs and damper of a pivot: in the fore-aft plane, flexion positive, and in the lateral.
-  struct Pivot {
-    double height_m = 0;  ///< above the base, on the neck's axis
-    multibody::Resistance fore_aft, lateral;
-  };
-  std::string name;
-  /// Made to have the mass, the static stiffness and the damping of the deformable neck.
-  bool is_equivalent = false;
-  multibody::RigidBody rigid;  ///< otherwise: neck frame,
-  Pivot lower, upper;          ///< and these
-};
-
-/// [[head_spring]]: nodding blocks and cable as a pin in place of the fixed joint of the head.
-struct HeadSpringSection {
-  std::string name;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();
-  multibody::Resistance resistance;
-};
-
-/// [[case]]: one experiment. Its bodies, and the joints between them, make the model. Keys that all
-/// experiments of a kind share stand in [pendulum] and [static]; a [[variant]] makes cases of other
-/// ones.
+/// [[case]]: one experiment on a model of its own: the bodies that it takes of the study's, the
+/// joints between them, and what it adds or changes in the same language. Keys that all experiments
+/// of a kind share stand in [pendulum] and [static]; a [[variant]] makes cases of other ones.
 struct CaseSection {
   enum class Kind { pendulum, static_test };
   enum class Direction { flexion, extension, lateral };
   enum class Arm { translating, rotating };
   std::string name;
   std::string variant_of;  ///< the case that a [[variant]] made this of; empty for none
-  std::string variant;     ///< name of that variant
-  Kind kind = Kind::pendulum;
-  std::vector<std::string> bodies;
-  std::vector<std::string> forces;  ///< of a static test
-  Direction direction = Direction::flexion;
+  std::string variant;     ///< what that variant adds to its name
+  std::string made_by;     ///< name of that variant
+  Assembly model;  ///< its bodies not placed yet, those of the structure without their modes
+  std::vector<std::string> forces;  ///< of the study's that act in it
   double duration_s = 1.0;
   // Of a pendulum:
   std::optional<double> drop_angle_rad;
   std::optional<double> effective_length_m;  ///< of the pendulum as one of a point
   double impact_velocity_m_s = 0;
-  bool velocity_is_given = true;  ///< otherwise it follows from angle and length
   std::string pulse;
-  PulseFit pulse_scaling = PulseFit::amplitude;
-  Arm arm = Arm::translating;
   double pivot_distance_m = 0;          ///< rotating: from the arm's pivot to the neck's base
   double accelerometer_distance_m = 0;  ///< rotating: to where velocity and pulse are measured
   MomentDefinition moment;              ///< of the virtual load cell
-  std::string rigid_neck;               ///< in place of the deformable one; empty for none
-  std::string head_spring;              ///< in place of the head's fixed joint; empty for none
+  Kind kind = Kind::pendulum;
+  Direction direction = Direction::flexion;
+  PulseFit pulse_scaling = PulseFit::amplitude;
+  Arm arm = Arm::translating;
+  bool velocity_is_given = true;       ///< otherwise it follows from angle and length
+  bool equivalent_rigid_neck = false;  ///< in place of the deformable one
 };
 
 /// [[test]]: a case that is judged by a test of a regulation.
@@ -166,13 +108,8 @@ struct Study {
   MeshOrders mesh_orders;
   ModesSection modes;
   SubstructuresSection substructures;
-  std::vector<BodySection> bodies;
-  std::vector<MarkerSection> markers;
-  std::vector<JointSection> joints;
-  std::vector<ForceSection> forces;
+  Assembly model;  ///< all bodies, joints and forces of which the cases make theirs
   std::vector<PulseSection> pulses;
-  std::vector<RigidNeckSection> rigid_necks;
-  std::vector<HeadSpringSection> head_springs;
   std::vector<CaseSection> cases;  ///< variants after those they are made of
   std::string dummy;               ///< whose head and neck it is; empty if the study does not say
   std::vector<TestSection> tests;  ///< in the order in which they are shown
@@ -187,7 +124,8 @@ struct Study {
   std::vector<std::string> warnings;  ///< of names of earlier versions
   std::vector<Parameter> defaults;    ///< what holds for keys that the study does not give
 
-  const BodySection& body(const std::string& name) const;
+  /// @throws InputError if there is no such body, or if it is not rigid.
+  const multibody::RigidBody& rigid_body(const std::string& name) const;
   const MaterialModels& material_models() const;
   /// What is known of the neck; null if the structure is another one.
   const NeckSection* neck() const;

@@ -63,17 +63,14 @@ TEST_CASE("the pendulum hangs head down and its joints close") {
 }
 
 TEST_CASE("a body takes modes by kind, and its corrections a damping of their own") {
-  Experiment experiment;
+  const std::string first = Experiment().body.modes.front().name;
+  Experiment experiment({R"(body.neck.modes=["residual", ")" + first + R"("])",
+                         "body.neck.correction_damping_ratio=0.3"});
   std::vector<fe_modal::ModeRecord>& modes = experiment.body.modes;
   for (std::size_t k = 2; k < modes.size(); ++k) {
     modes[k].name = "residual " + std::to_string(k - 1);
     modes[k].kind = "residual";
   }
-  BodySection& neck =
-      experiment.study.bodies.at(find_name(names_of(experiment.study.bodies), "neck", "body"));
-  neck.modes = {"residual", modes[0].name};
-  neck.damping_ratio = 0.9;
-  neck.correction_damping_ratio = 0.3;
   const multibody::Model model =
       pendulum_model(experiment.study, experiment.named("flexion-60"), experiment.body);
   const auto& body =
@@ -82,11 +79,10 @@ TEST_CASE("a body takes modes by kind, and its corrections a damping of their ow
   CHECK(body.modes.modes.back().name == modes[0].name);
   CHECK(body.damping_ratio[0] == 0.3);
   CHECK(body.damping_ratio.tail<1>()[0] == 0.9);
-  neck.modes = {"all"};
-  CHECK(std::get<multibody::DeformableBody>(
-            pendulum_model(experiment.study, experiment.named("flexion-60"), experiment.body)
-                .bodies[1]
-                .kind)
+  const Experiment all;
+  const multibody::Model whole =
+      pendulum_model(all.study, all.named("flexion-60"), experiment.body);
+  CHECK(std::get<multibody::DeformableBody>(whole.bodies[whole.body_index("neck")].kind)
             .modes.mode_count() == static_cast<Eigen::Index>(modes.size()));
 }
 
@@ -169,10 +165,9 @@ TEST_CASE("a head thrown forward bends the neck forward and loads it in flexion"
 }
 
 TEST_CASE("at the end of a slow ramp the tester shows K^-1 f of the same modal body") {
-  Experiment experiment;
-  for (ForceSection& force : experiment.study.forces) force.magnitudes_N = {0, 1e-3};
+  const Experiment experiment({R"(force.forward load.magnitudes=["0 N", "0.001 N"])"});
   const CaseSection& section = experiment.named("flexion");
-  const multibody::Model model = static_test_model(experiment.study, section, experiment.body);
+  const multibody::Model model = case_model(section, experiment.body);
   const multibody::History history =
       multibody::simulate(model, experiment.study.solver, {section.duration_s, 1e-3});
   const StaticTestResult result = static_test_result(static_test_signals(model, history, section));
@@ -192,9 +187,10 @@ TEST_CASE("at the end of a slow ramp the tester shows K^-1 f of the same modal b
 }
 
 TEST_CASE("a case whose bodies no joint connects is refused") {
-  Experiment experiment;
-  experiment.study.joints.clear();
-  CHECK_THROWS_WITH(
-      pendulum_model(experiment.study, experiment.named("flexion-20"), experiment.body),
-      Contains("no joint connects the body 'neck'"));
+  const Experiment experiment;
+  CaseSection loose = experiment.named("flexion-20");
+  loose.model.model.joints.clear();
+  loose.model.starts.clear();
+  CHECK_THROWS_WITH(pendulum_model(experiment.study, loose, experiment.body),
+                    Contains("no joint connects the body 'neck'"));
 }

@@ -316,7 +316,8 @@ TEST_CASE("a CSV file that is not sound is told with its line") {
   CHECK_THAT(told("time [s], load [N]\n0, nan\n"), Contains("finite number, found \"nan\""));
   CHECK_THAT(told("time [s], load [N]\n0\n"),
              Contains("t.csv:2: expected 2 cells") && Contains("found 1"));
-  CHECK_THAT(told("time [s], a [N], b [N]\n0, 1, 2\n"), Contains("'column': 'a' 'b'"));
+  CHECK_THAT(told("time [s], a [N], b [N]\n0, 1, 2\n"),
+             Contains("choose one of 'a', 'b' with the key 'column'"));
   CHECK_THAT(told("time [s], load [N]\n"), Contains("expected rows"));
   CHECK_THROWS_WITH(read_csv_columns(folder / "none.csv", "s", "N", ""), Contains("none.csv"));
 }

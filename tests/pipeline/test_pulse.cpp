@@ -73,8 +73,10 @@ TEST_CASE("a user's pulse comes from a CSV file with its units") {
   const TemporaryFolder folder;
   std::ofstream(folder / "mine.csv") << "time [ms], deceleration [gn]\n0, 0\n10, 20\n50, 0\n";
   std::ofstream(folder / "study.toml") << "include = [\"" << built_in_study().string() << "\"]\n"
-                                       << "[[pulse]]\nname = \"flexion\"\ntable = \"mine.csv\"\n"
-                                       << "[[pulse]]\nname = \"extension\"\ntable = \"mine.csv\"\n";
+                                       << "[[pulse]]\nname = \"flexion\"\ntable = \"mine.csv\"\n";
+  CHECK_THROWS_WITH(read_study(folder / "study.toml", {}),
+                    Contains("pulse.flexion.times: is given twice") && Contains("times = []"));
+  std::ofstream(folder / "study.toml", std::ios::app) << "times = []\ndeceleration = []\n";
   const Study study = read_study(folder / "study.toml", {"pendulum.pulse_scaling=none"});
   CHECK(study.pulses.at(0).times_s.at(1) == Approx(0.01));
   CHECK(study.pulses.at(0).deceleration_m_s2.at(1) == Approx(20 * 9.80665));

@@ -102,19 +102,20 @@ TEST_CASE("a case is made from its own values, those of the case it varies and o
         [&](const Parameter& parameter) { return parameter.key.starts_with(prefix); });
   };
   for (const char* const own :
-       {"case.flexion-60.", "variant.spring.", "head_spring.nodding.", "pulse.flexion.",
-        "pendulum.", "body.neck.", "solver.", "output."}) {
+       {"case.flexion-60.", "variant.spring.", "variant.spring.resistance.nodding.",
+        "pulse.flexion.", "pendulum.", "body.neck.", "solver.", "output."}) {
     INFO(own);
     CHECK(has("flexion-60-spring", own));
   }
   for (const char* const other :
-       {"case.flexion-20.", "case.flexion.", "variant.rigid.", "rigid_neck.", "pulse.extension.",
-        "force.", "static.", "geometry.", "modes."}) {
+       {"case.flexion-20.", "case.flexion.", "variant.rigid.", "variant.equivalent.",
+        "pulse.extension.", "force.", "static.", "geometry.", "modes."}) {
     INFO(other);
     CHECK_FALSE(has("flexion-60-spring", other));
   }
-  CHECK(has("extension-60-rigid", "rigid_neck.literature."));
-  CHECK_FALSE(has("extension-60-equivalent", "rigid_neck.literature."));
+  CHECK(has("extension-60-rigid", "variant.rigid.body.neck."));
+  CHECK_FALSE(has("extension-60-rigid", "variant.rigid-lateral."));
+  CHECK(has("lateral-65-rigid", "variant.rigid-lateral."));
   CHECK_FALSE(has("flexion-60", "variant."));
   CHECK(has("flexion", "force.forward load."));
   CHECK_FALSE(has("flexion", "force.rearward load."));

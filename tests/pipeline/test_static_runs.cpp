@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "multibody/simulation/simulation.h"
+#include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/static_tables.h"
 #include "pipeline/experiments/static_test.h"
 #include "tests/support/beam_experiment.h"
@@ -39,7 +40,7 @@ TEST_CASE("at rest the tester shows K^-1 f in every direction") {
         std::tuple("lateral", 1, 0, 1.0, -1.0)}) {
     INFO(name);
     const CaseSection& section = experiment.named(name);
-    const multibody::Model model = static_test_model(experiment.study, section, experiment.body);
+    const multibody::Model model = case_model(section, experiment.body);
     const StaticTestSignals signals =
         static_test_signals(model, settled_static_test(experiment.study, section, model), section);
     const auto [deflection, rotation] = compliance(experiment.body, along, about);
@@ -58,8 +59,7 @@ TEST_CASE("the moving ramp lags by the damping of the modes") {
   const Experiment experiment;
   StaticEntry entry;
   entry.experiment = experiment.named("flexion");
-  const multibody::Model model =
-      static_test_model(experiment.study, entry.experiment, experiment.body);
+  const multibody::Model model = case_model(entry.experiment, experiment.body);
   entry.ramp = static_test_signals(
       model, multibody::simulate(model, experiment.study.solver, {2.0, 5e-4}), entry.experiment);
   entry.settled = static_test_signals(
@@ -67,7 +67,7 @@ TEST_CASE("the moving ramp lags by the damping of the modes") {
   const ResultTable table = ramp_table({entry});
   // A mode lags by 2 zeta / omega; the rotation by the mean of that over what each mode makes of
   // it.
-  const double ratio = experiment.study.body("neck").damping_ratio;
+  const double ratio = experiment.study.model.of_structure.begin()->second.damping_ratio.value();
   const fe_modal::Interface& top = experiment.body.interface("top");
   double lagging = 0;
   double whole = 0;

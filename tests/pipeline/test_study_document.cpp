@@ -34,6 +34,8 @@ constexpr Key kPartKeys[] = {
 constexpr Key kCaseKeys[] = {
     Key::text("name", kRequired, "A name"),
     Key::count("count", kRequired, "A whole number", {.range = at_least(0), .formerly = "number"}),
+    Key::number("ratio", kRequired, "A number"),
+    Key::texts("holes", kNone, "Texts"),
 };
 
 constexpr Key kFreshKeys[] = {Key::number("*", kRequired, "Any name")};
@@ -97,6 +99,33 @@ TEST_CASE("what holds for keys that are not given is told beside the values") {
   CHECK(told ==
         "part.width = 0.25 m\npart.hollow = false\npart.colour = -\npart.holes = -\n"
         "part.stiffness = 0 N*m/rad\n");
+}
+
+TEST_CASE("a file changes tables with names of the files it includes, key by key") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "base.toml") << "[[case]]\nname = \"a\"\ncount = 1\nratio = 0.5\n"
+                                         "[[case]]\nname = \"b\"\ncount = 2\nholes = [\"x\"]\n";
+  const auto told = [&](const std::string& text) {
+    const StudyDocument document = document_of(folder, "include = [\"base.toml\"]\n" + text);
+    for (const StudyTable& table : document.root().tables("case")) {
+      for (const std::string& key : table.keys())
+        if (key == "count")
+          table.count(key);
+        else if (key == "ratio")
+          table.number(key);
+        else if (key == "holes")
+          table.texts(key);
+    }
+    std::string all;
+    for (const auto& each : document.parameters()) all += each.key + " = " + each.value + "\n";
+    return all;
+  };
+  CHECK(told("[[case]]\nname = \"b\"\ncount = 3\n[[case]]\nname = \"c\"\ncount = 4\n") ==
+        "case.a.count = 1\ncase.a.ratio = 0.5\ncase.b.count = 3\ncase.b.holes = x\n"
+        "case.c.count = 4\n");
+  CHECK(told("[[case]]\nname = \"b\"\nholes = []\n") ==
+        "case.a.count = 1\ncase.a.ratio = 0.5\ncase.b.count = 2\n");
+  CHECK(told("case = []\n").empty());
 }
 
 TEST_CASE("values of tables of the same name, such as markers of two bodies, are all remembered") {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "pipeline/study/study.h"
 #include "tests/support/beam_body.h"
@@ -12,20 +13,18 @@ namespace flexneck::testing {
 
 /// The built-in study with the modes of the beam that stands in for the neck.
 struct BeamExperiment {
-  pipeline::Study study = pipeline::read_study(pipeline::built_in_study(), {});
+  pipeline::Study study;
   fe_modal::ModalBody body = make_beam_body(Beam());
 
-  BeamExperiment() {
+  /// @param settings  of the study, besides; the neck has all modes of the beam unless they say so
+  explicit BeamExperiment(std::vector<std::string> settings = {}) {
+    settings.insert(settings.begin(), R"(body.neck.modes=["all"])");
+    study = pipeline::read_study(pipeline::built_in_study(), settings);
     const fe_modal::Interface& top = body.interface("top");
     for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
       const bool fore_aft = std::abs(top.translation(0, k)) > std::abs(top.translation(1, k));
       body.modes[static_cast<std::size_t>(k)].shares_percent = {fore_aft ? 100.0 : 0,
                                                                 fore_aft ? 0 : 100.0, 0, 0};
-    }
-    for (pipeline::BodySection& section : study.bodies) {
-      if (section.kind != pipeline::BodySection::Kind::deformable) continue;
-      section.modes.clear();
-      for (const fe_modal::ModeRecord& mode : body.modes) section.modes.push_back(mode.name);
     }
   }
   const pipeline::CaseSection& named(const std::string& name) const {

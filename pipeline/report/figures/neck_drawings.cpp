@@ -161,9 +161,11 @@ bool pushes_forward_at_top(const Study& study, const std::string& name) {
     return each.name == name && each.kind == CaseSection::Kind::static_test;
   });
   if (test == study.cases.end()) return false;
-  return std::all_of(study.forces.begin(), study.forces.end(), [&](const ForceSection& force) {
-    const bool is_used = std::count(test->forces.begin(), test->forces.end(), force.name) > 0;
-    return !is_used || (force.marker == "neck.top" && force.direction.isApprox(Vector3d::UnitX()));
+  const multibody::Model& model = test->model.model;
+  const auto& forces = model.forces.of<multibody::PointForce>();
+  return std::all_of(forces.begin(), forces.end(), [&](const multibody::PointForce& force) {
+    return model.markers[force.marker].name == "neck.top" &&
+           force.direction.isApprox(Vector3d::UnitX());
   });
 }
 

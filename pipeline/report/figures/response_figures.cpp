@@ -110,9 +110,8 @@ std::string model_of(const Experiment& experiment, const Study& study) {
   const auto found =
       std::find_if(study.cases.begin(), study.cases.end(),
                    [&](const CaseSection& each) { return each.name == experiment.name; });
-  const bool is_known = found != study.cases.end();
-  if (is_known && !found->rigid_neck.empty()) return "rigid neck '" + found->rigid_neck + "'";
-  if (is_known && !found->head_spring.empty()) return "head spring '" + found->head_spring + "'";
+  if (found != study.cases.end() && !found->variant.empty())
+    return "variant '" + found->variant + "'";
   const std::size_t bodies = experiment.file.history.modal.size();
   return bodies == 1 ? "one deformable body" : fmt::format("{} deformable bodies", bodies);
 }

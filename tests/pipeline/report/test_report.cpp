@@ -266,7 +266,9 @@ TEST_CASE("what the report says of pulses follows from their origins and from th
       << "include = [\"" << built_in_study().string() << "\"]\n"
       << "[[pulse]]\nname = \"flexion\"\n"
          "table = { value = \"mine.csv\", origin = \"published\", note = \"a source\" }\n"
-         "[[pulse]]\nname = \"extension\"\ntable = \"mine.csv\"\n";
+         "times = []\ndeceleration = []\n"
+         "[[pulse]]\nname = \"extension\"\ntable = \"mine.csv\"\n"
+         "times = []\ndeceleration = []\n";
   const Study own = read_study(folder / "mine.toml", {});
   const std::string remarks = joined(pulse_remarks(own));
   CHECK_THAT(remarks,

@@ -203,9 +203,10 @@ TEST_CASE("a regulation may be a file of the user's own") {
     return read_study(folder / "study.toml", {});
   };
   const Study read = study("[dummy]\nname = \"Hybrid III six-year-old\"\n");
-  REQUIRE(read.tests.size() == 1);
-  CHECK(read.tests[0].file == folder / "mine.toml");
-  CHECK(applies(read.tests[0], read));
+  REQUIRE(read.tests.back().name == "child");
+  CHECK(read.tests.back().file == folder / "mine.toml");
+  CHECK(applies(read.tests.back(), read));
+  CHECK_FALSE(applies(read.tests.front(), read));
   std::ofstream(folder / "mine.toml", std::ios::app) << "[other]\n";
   CHECK_THROWS_WITH(study(""), Contains("mine.toml:") && Contains("other: unknown key"));
 

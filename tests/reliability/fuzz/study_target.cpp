@@ -37,33 +37,39 @@ void check_increasing(const std::vector<double>& times, std::size_t values) {
       "times increase strictly");
 }
 
+void check(const pipeline::Assembly& assembly) {
+  for (const auto& body : assembly.model.bodies) {
+    const auto* const rigid = std::get_if<multibody::RigidBody>(&body.kind);
+    fuzz::require(
+        rigid == nullptr || (std::isfinite(rigid->mass_kg) && rigid->center_m.allFinite() &&
+                             rigid->inertia_kg_m2.allFinite()),
+        "a body is finite");
+  }
+  for (const auto& [ignored, use] : assembly.of_structure)
+    fuzz::require(std::isfinite(use.damping_ratio.value_or(0)), "damping is finite");
+  for (const auto& marker : assembly.model.markers)
+    fuzz::require(marker.position_m.allFinite(), "a marker is somewhere");
+  for (const auto& joint : assembly.model.joints)
+    fuzz::require(std::abs(joint.axis.norm() - 1) < 1e-9, "an axis is a unit vector");
+  for (const auto& force : assembly.model.forces.of<multibody::PointForce>())
+    fuzz::require(std::abs(force.direction.norm() - 1) < 1e-9, "a direction is a unit vector");
+}
+
 void check(const pipeline::Study& study) {
-  check_names(study.bodies);
-  check_names(study.markers);
-  check_names(study.joints);
-  check_names(study.forces);
+  check_names(study.model.model.bodies);
+  check_names(study.model.model.markers);
+  check_names(study.model.model.joints);
   check_names(study.pulses);
   check_names(study.cases);
-  for (const auto& body : study.bodies) {
-    fuzz::require(std::isfinite(body.rigid.mass_kg) && body.rigid.center_m.allFinite() &&
-                      body.rigid.inertia_kg_m2.allFinite(),
-                  "a body is finite");
-    fuzz::require(std::isfinite(body.damping_ratio), "damping is finite");
-  }
-  for (const auto& marker : study.markers)
-    fuzz::require(marker.position_m.allFinite(), "a marker is somewhere");
-  for (const auto& joint : study.joints)
-    fuzz::require(std::abs(joint.axis.norm() - 1) < 1e-9, "an axis is a unit vector");
-  for (const auto& force : study.forces) {
-    fuzz::require(std::abs(force.direction.norm() - 1) < 1e-9, "a direction is a unit vector");
-    check_increasing(force.times_s, force.magnitudes_N.size());
-  }
+  check(study.model);
   for (const auto& pulse : study.pulses)
     check_increasing(pulse.times_s, pulse.deceleration_m_s2.size());
-  for (const auto& experiment : study.cases)
+  for (const auto& experiment : study.cases) {
+    check(experiment.model);
     fuzz::require(std::isfinite(experiment.duration_s) && experiment.duration_s > 0 &&
                       std::isfinite(experiment.impact_velocity_m_s),
                   "a case has a duration and a velocity");
+  }
   fuzz::require(study.solver.relative_tolerance > 0 && study.output_interval_s > 0,
                 "tolerances and intervals are positive");
   fuzz::require(!study.files.empty(), "the files of a study are known");

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/provenance.h"
+#include "multibody/model/model.h"
+#include "pipeline/model/modes_use.h"
+#include "pipeline/model/placement.h"
+
+namespace flexneck::pipeline {
+
+/// A model while its tables are read, which a model file and the cases of a study have alike.
+struct Assembly {
+  /// Who says how the bodies of kind "prescribed" move.
+  enum class Motion {
+    given,     ///< the body itself
+    optional,  ///< the body, or the case that it is part of
+    by_case    ///< the case; a motion of the body's own is refused
+  };
+
+  multibody::Model model;
+  std::vector<bool> posed, moving;  ///< of each body: whether the file says where, how fast
+  std::vector<JointStart> starts;   ///< of each joint
+  double end_time_s = 1;
+  std::vector<InputFile> files;  ///< modes and tables read
+
+  Motion motion = Motion::given;
+  std::vector<std::size_t> prescribed;  ///< bodies of that kind
+  /// Of ground and prescribed bodies whose tables do not say it.
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+
+  /// Names of the interfaces of the structure whose modes deformable bodies have that name no file
+  /// of modes, as those of a study do; none where every body has a file.
+  std::optional<std::vector<std::string>> structure;
+  std::map<std::size_t, ModesUse> of_structure;  ///< such bodies: interfaces only until attach()
+};
+
+/// Gives the bodies of the structure its modes.
+/// @throws InputError as use_modes()
+void attach(const fe_modal::ModalBody& structure, Assembly& assembly);
+
+}  // namespace flexneck::pipeline
