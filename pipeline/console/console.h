@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::pipeline {
-
-/// That a line on standard output has at most, unless verbose.
-inline constexpr std::size_t kConsoleColumns = 100;
 
 /// How much the command says.
 enum class Verbosity { quiet, normal, verbose };
@@ -28,7 +24,7 @@ class Console {
  public:
   explicit Console(Verbosity verbosity);
 
-  /// Verdicts and short tables, within kConsoleColumns; silent when quiet.
+  /// Verdicts and short tables, within kConsoleColumns (wrapped_text.h); silent when quiet.
   /// @throws ComputationError if standard output cannot be written.
   void result(const std::string& text) const;
   /// All other tables: shown when verbose.

@@ -29,12 +29,6 @@ constexpr Key kAssemblyKeys[] = {
     Key::table("variables", "Values in place of those of that file's [variables]", kVariablesKeys),
 };
 
-std::vector<std::string> keys_of(const toml::table& table) {
-  std::vector<std::string> keys;
-  for (const auto& [key, ignored] : table) keys.emplace_back(key.str());
-  return keys;
-}
-
 /// Takes out of the settings those whose keys begin in a way.
 std::vector<std::string> taken(std::vector<std::string>& settings, const std::string& beginning) {
   const auto others = std::stable_partition(

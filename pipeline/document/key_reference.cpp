@@ -2,35 +2,14 @@
 #include "pipeline/document/key_reference.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include <fmt/core.h>
+
+#include "pipeline/console/wrapped_text.h"
 
 namespace flexneck::pipeline {
 
 namespace {
-
-constexpr std::size_t kColumns = 100;
-
-/// Broken between words, each line behind a margin.
-std::string wrapped(const std::string& text, const std::string& margin) {
-  std::istringstream words(text);
-  std::string lines = margin;
-  std::size_t column = margin.size();
-  for (std::string word; words >> word;) {
-    const bool is_first = column == margin.size();
-    if (!is_first && column + 1 + word.size() > kColumns) {
-      lines += "\n" + margin;
-      column = margin.size();
-    } else if (!is_first) {
-      lines += ' ';
-      ++column;
-    }
-    lines += word;
-    column += word.size();
-  }
-  return lines + "\n";
-}
 
 bool is_table(const Key& key) { return key.type == KeyType::table || key.type == KeyType::tables; }
 

@@ -34,6 +34,12 @@ std::string element_path(const std::string& path, const toml::table& element, st
   return path + "." + element["name"].value_or(std::to_string(index + 1));
 }
 
+std::vector<std::string> keys_of(const toml::table& table) {
+  std::vector<std::string> keys;
+  for (const auto& [key, ignored] : table) keys.emplace_back(key.str());
+  return keys;
+}
+
 void set_source(toml::node& node, const toml::source_region& source) {
   // The library sets it in its parser only; the node itself is not const.
   const_cast<toml::source_region&>(node.source()) = source;

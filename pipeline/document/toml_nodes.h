@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <toml++/toml.h>
 
@@ -34,6 +35,8 @@ toml::value<std::string>* text_node(toml::table& table, const std::string& key);
 std::string dotted(const std::string& path, const std::string& key);
 /// The path of an element of an array of tables: by its name, or by its number from 1.
 std::string element_path(const std::string& path, const toml::table& element, std::size_t index);
+
+std::vector<std::string> keys_of(const toml::table& table);
 
 /// Gives a new node the file, line and column of the one that it replaces.
 void set_source(toml::node& node, const toml::source_region& source);

@@ -66,12 +66,6 @@ void wrap(toml::table& table, const std::string& key, const Label& label) {
   table.insert_or_assign(key, std::move(labels));
 }
 
-std::vector<std::string> keys_of(const toml::table& table) {
-  std::vector<std::string> keys;
-  for (const auto& [key, ignored] : table) keys.emplace_back(key.str());
-  return keys;
-}
-
 }  // namespace
 
 void Variables::substitute(toml::table& tree) { substitute_in(tree, {}); }

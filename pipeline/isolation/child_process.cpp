@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/exec_pointers.h"
 
 namespace flexneck::pipeline {
 
@@ -38,15 +39,6 @@ std::vector<std::string> environment_with(const std::filesystem::path& temporary
     }
   }
   return variables;
-}
-
-/// As exec wants them: pointers, the last one null.
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
 }
 
 /// Nothing to read, all output into one pipe, every other file closed.
@@ -97,7 +89,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
   std::vector<std::string> variables = environment_with(temporary);
   const FileActions actions(pipe_ends[1]);
   const int error = posix_spawn(&id_, program.c_str(), actions.get(), nullptr,
-                                pointers_to(words).data(), pointers_to(variables).data());
+                                exec_pointers(words).data(), exec_pointers(variables).data());
   close(pipe_ends[1]);
   if (error == 0) {
     cleanup_ = SignalCleanup(id_);

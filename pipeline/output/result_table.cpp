@@ -9,6 +9,7 @@
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "pipeline/console/text_table.h"
+#include "pipeline/console/wrapped_text.h"
 #include "pipeline/output/provenance_json.h"
 
 namespace flexneck::pipeline {
@@ -69,7 +70,10 @@ std::string printed(const ResultTable& table) {
     rows.front().push_back(column.name + (column.unit.empty() ? "" : " " + column.unit));
   rows.insert(rows.end(), table.rows.begin(), table.rows.end());
   std::string text = table.title + "\n" + text_table(rows);
-  for (const std::string& note : table.notes) text += "\n  " + note;
+  for (const std::string& note : table.notes) {
+    text += "\n" + wrapped(note, "  ");
+    text.pop_back();
+  }
   return text;
 }
 

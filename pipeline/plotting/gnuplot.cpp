@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/exec_pointers.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/signal_cleanup.h"
 
@@ -49,15 +50,6 @@ std::vector<std::string> environment() {
   return variables;
 }
 
-/// As exec takes them, the end included.
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 }  // namespace
 
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script_name) {
@@ -66,8 +58,9 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   std::vector<std::string> arguments = {"gnuplot", "-d", script_name};
   std::vector<std::string> variables = environment();
   pid_t process = 0;
-  const int failure = posix_spawnp(&process, arguments.front().c_str(), actions.get(), nullptr,
-                                   pointers_to(arguments).data(), pointers_to(variables).data());
+  const int failure =
+      posix_spawnp(&process, arguments.front().c_str(), actions.get(), nullptr,
+                   exec_pointers(arguments).data(), exec_pointers(variables).data());
   if (failure == ENOENT) {
     throw InputError(
         "report: gnuplot draws the figures and is missing; install the package "

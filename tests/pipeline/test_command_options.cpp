@@ -71,6 +71,14 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
   CHECK(longest_line(run.text) <= 100);
   CHECK_THAT(run.text, Contains("torsion 2") && Contains("flexion-60 ") &&
                            !Contains("flexion-60-rigid") && Contains("without a verdict"));
+  for (const char* const command :
+       {"study", "info out/modes.h5", "info out/mesh.h5", "info out/pendulum-flexion-20.h5",
+        "compare out out -o beside", "verify -v", "keys study.variant"}) {
+    INFO(command);
+    const CommandOutcome outcome = printed_by(folder, command);
+    CHECK(outcome.exit_code <= 1);  // of the coarse mesh's frequencies, 1
+    CHECK(longest_line(outcome.text) <= 100);
+  }
   const CommandOutcome whole = printed_by(folder, "verify -v");
   CHECK_THAT(whole.text, Contains("effective damping"));
 
