@@ -9,8 +9,8 @@
 #include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/file_commands.h"
+#include "pipeline/document/curve_file.h"
 #include "pipeline/output/result_table.h"
-#include "pipeline/rating/curve_file.h"
 
 namespace flexneck::pipeline {
 

@@ -106,7 +106,7 @@ std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults&
                         return true;
                       }});
   }
-  if (!study.verification.empty() || !study.tests.empty())
+  if (!study.verification.empty() || has_tests(study))
     stages.push_back({"verify", everything, runs, verify_command});
   if (!study.matrices) stages.push_back({"report", everything, results, report_command});
   return stages;

@@ -39,13 +39,29 @@ constexpr std::array<ShortColumn, 6> kVerdicts = {{{"regulation", "regulation"},
                                                    {"furthest", "furthest"},
                                                    {"off centre", "off"}}};
 
+constexpr std::array<ShortColumn, 5> kMeasured = {{{"test", "test"},
+                                                   {"case", "case"},
+                                                   {"channel", "channel"},
+                                                   {"ISO/TS 18571", "ISO/TS 18571"},
+                                                   {"CORA", "CORA"}}};
+constexpr std::array<ShortColumn, 7> kLimits = {{{"test", "test"},
+                                                 {"channel", "channel"},
+                                                 {"figure", "figure"},
+                                                 {"value", "value"},
+                                                 {"limits", "limits"},
+                                                 {"unit", ""},
+                                                 {"verdict", ""}}};
+
 /// Tables that are not here need --verbose.
 struct ShortTable {
   std::string_view name;
   std::span<const ShortColumn> columns;
 };
-constexpr std::array<ShortTable, 3> kShortTables = {
-    {{"static tests", kStatic}, {"peaks", kPeaks}, {"verdicts", kVerdicts}}};
+constexpr std::array<ShortTable, 5> kShortTables = {{{"static tests", kStatic},
+                                                     {"peaks", kPeaks},
+                                                     {"verdicts", kVerdicts},
+                                                     {"measured curves", kMeasured},
+                                                     {"measured limits", kLimits}}};
 
 /// A variant of a case has a line of its own with --verbose only.
 bool is_variant(const Study& study, const std::string& name) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/verdicts.h"
 
+#include <algorithm>
 #include <set>
 
 #include "geometry/foundation/names.h"
@@ -8,10 +9,26 @@
 #include "pipeline/experiments/test_curves.h"
 #include "pipeline/experiments/verdict_tables.h"
 #include "pipeline/isolation/result_files.h"
+#include "pipeline/rating/measured_tables.h"
 
 namespace flexneck::pipeline {
 
 namespace {
+
+/// The run of a case, if it has been made of the study's values.
+std::optional<multibody::HistoryFile> run_of(const CommandInput& input,
+                                             const std::string& experiment) {
+  const Study& study = input.study;
+  const CaseSection& section = study.cases[find_name(names_of(study.cases), experiment, "case")];
+  const std::filesystem::path path = input.folder.history(section);
+  if (!std::filesystem::exists(path)) return {};
+  multibody::HistoryFile file = read_history(path);
+  const bool swings = section.kind == CaseSection::Kind::pendulum;
+  require_same_inputs(path, file.provenance, study, case_provenance(study, section).parameters,
+                      swings ? "flexneck pendulum" : "flexneck static");
+  require_whole_run(path, file.history);
+  return file;
+}
 
 JudgedTest judged_test(const CommandInput& input, const TestSection& test) {
   const Study& study = input.study;
@@ -21,21 +38,19 @@ JudgedTest judged_test(const CommandInput& input, const TestSection& test) {
   if (!applies(test, study)) return result;
   const CaseSection& experiment =
       study.cases[find_name(names_of(study.cases), test.experiment, "case")];
-  const std::filesystem::path path = input.folder.history(experiment);
   result.status = JudgedTest::Status::not_run;
-  if (!std::filesystem::exists(path)) return result;
-  const multibody::HistoryFile file = read_history(path);
-  require_same_inputs(path, file.provenance, study, case_provenance(study, experiment).parameters,
-                      "flexneck pendulum");
-  require_whole_run(path, file.history);
+  const std::optional<multibody::HistoryFile> file = run_of(input, test.experiment);
+  if (!file) return result;
   result.status = JudgedTest::Status::judged;
-  result.verdict =
-      judged(test.rules, test_curves(study, test, experiment, file.history.time_s, file.channels));
+  result.verdict = judged(
+      test.rules, test_curves(study, test, experiment, file->history.time_s, file->channels));
   result.moment_difference = moment_difference(test, experiment);
   return result;
 }
 
 }  // namespace
+
+bool has_tests(const Study& study) { return !study.tests.empty() || !study.measured.empty(); }
 
 std::vector<InputFile> regulation_files(const Study& study) {
   std::set<std::filesystem::path> paths;
@@ -47,6 +62,28 @@ std::vector<InputFile> regulation_files(const Study& study) {
   return files;
 }
 
+namespace {
+
+/// Tables of the tests with measured data that there are.
+std::vector<ResultTable> measured_tables(const CommandInput& input) {
+  std::vector<MeasuredRun> runs;
+  for (const MeasuredTest& test : input.study.measured)
+    runs.push_back({test, run_of(input, test.experiment)});
+  std::vector<ResultTable> tables;
+  const auto has = [&](const auto& of) {
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const MeasuredRun& run) { return !of(run.test).empty(); });
+  };
+  if (has([](const MeasuredTest& test) { return test.curves; }))
+    tables.push_back(measured_curve_table(runs));
+  if (has([](const MeasuredTest& test) { return test.corridors; }) ||
+      has([](const MeasuredTest& test) { return test.limits; }))
+    tables.push_back(measured_limit_table(runs));
+  return tables;
+}
+
+}  // namespace
+
 void write_verdicts(const CommandInput& input) {
   std::vector<JudgedTest> tests;
   tests.reserve(input.study.tests.size());
@@ -54,9 +91,12 @@ void write_verdicts(const CommandInput& input) {
   Provenance provenance = provenance_of(input.study);
   const std::vector<InputFile> regulations = regulation_files(input.study);
   provenance.inputs.insert(provenance.inputs.end(), regulations.begin(), regulations.end());
-  std::vector<ResultTable> tables = {verdict_table(tests, input.study)};
+  std::vector<ResultTable> tables;
+  if (!tests.empty()) tables.push_back(verdict_table(tests, input.study));
   if (ResultTable figures = verdict_figure_table(tests); !figures.rows.empty())
     tables.push_back(std::move(figures));
+  const std::vector<ResultTable> measured = measured_tables(input);
+  tables.insert(tables.end(), measured.begin(), measured.end());
   write_tables(input.folder.file("verdicts.json"), tables, provenance);
   show_tables(input, tables);
   for (const std::string& warning : verdict_warnings(tests)) input.console.warning(warning);

@@ -58,14 +58,14 @@ bool compare_with_published(const CommandInput& input) {
 
 bool verify_command(const CommandInput& input) {
   const Study& study = input.study;
-  if (study.verification.empty() && study.tests.empty()) {
+  if (study.verification.empty() && !has_tests(study)) {
     throw InputError(study.file.string() +
                      ": output.verification names no table of published figures, and there is no "
                      "[[test]]");
   }
   const bool passed = study.verification.empty() || compare_with_published(input);
   // A neck that fails a certification is a result of the study, no error of the program.
-  if (!study.tests.empty()) write_verdicts(input);
+  if (has_tests(study)) write_verdicts(input);
   return passed;
 }
 

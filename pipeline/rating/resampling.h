@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/rating/curve_file.h"
+#include "pipeline/document/curve_file.h"
 
 namespace flexneck::pipeline {
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/report/curves.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/units.h"
 #include "pipeline/output/customary_units.h"
 #include "pipeline/plotting/embedding.h"
+#include "pipeline/rating/measured_tables.h"
 #include "pipeline/report/corridors.h"
 
 namespace flexneck::pipeline {
@@ -62,6 +65,54 @@ Json units_json(const Results& results) {
   return units;
 }
 
+const Experiment* run_of(const Results& results, const std::string& name) {
+  const auto found =
+      std::find_if(results.experiments.begin(), results.experiments.end(),
+                   [&](const Experiment& experiment) { return experiment.name == name; });
+  return found == results.experiments.end() ? nullptr : &*found;
+}
+
+/// Measured curves, as runs of the case with one channel each: name "<case>-<test>".
+Json measured_json(const Results& results, const Study& study) {
+  Json runs = Json::array();
+  for (const MeasuredTest& test : study.measured) {
+    const Experiment* const experiment = run_of(results, test.experiment);
+    if (experiment == nullptr) continue;
+    for (const MeasuredCurve& measured : test.curves) {
+      const Curve computed = computed_curve(experiment->file, measured.channel);
+      const Curve curve = in_unit(measured.curve, computed.unit);
+      runs.push_back({{"name", test.experiment + "-" + test.name},
+                      {"kind", name_of(experiment->kind)},
+                      {"times", base64_floats(curve.time_s)},
+                      {"channels", Json::array({{{"name", measured.channel},
+                                                 {"unit", curve.unit},
+                                                 {"filter", ""},
+                                                 {"values", base64_floats(curve.values)}}})}});
+    }
+  }
+  return runs;
+}
+
+/// Between a lower and an upper curve.
+Json bands_json(const Results& results, const Study& study) {
+  Json bands = Json::array();
+  for (const MeasuredTest& test : study.measured) {
+    const Experiment* const experiment = run_of(results, test.experiment);
+    if (experiment == nullptr) continue;
+    for (const MeasuredCorridor& corridor : test.corridors) {
+      const std::string unit = computed_curve(experiment->file, corridor.channel).unit;
+      bands.push_back({{"case", test.experiment},
+                       {"channel", corridor.channel},
+                       {"what", test.name},
+                       {"unit", unit},
+                       {"times", base64_floats(corridor.lower.time_s)},
+                       {"lower", base64_floats(in_unit(corridor.lower, unit).values)},
+                       {"upper", base64_floats(in_unit(corridor.upper, unit).values)}});
+    }
+  }
+  return bands;
+}
+
 Json corridors_json(const Study& study) {
   Json list = Json::array();
   for (const Corridor& corridor : corridors_of(study)) {
@@ -89,7 +140,9 @@ Json curves_of(const Results& results, const Study& study) {
   if (runs.empty()) return nullptr;
   return {{"runs", std::move(runs)},
           {"units", units_json(results)},
-          {"corridors", corridors_json(study)}};
+          {"corridors", corridors_json(study)},
+          {"measured", measured_json(results, study)},
+          {"bands", bands_json(results, study)}};
 }
 
 }  // namespace flexneck::pipeline

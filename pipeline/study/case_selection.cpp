@@ -39,8 +39,9 @@ void select_cases(const StudyTable& root, Study& study) {
   const std::set<std::string> names = chosen(root, study.cases);
   std::erase_if(study.cases,
                 [&](const CaseSection& experiment) { return !names.contains(experiment.name); });
-  std::erase_if(study.tests,
-                [&](const TestSection& test) { return !names.contains(test.experiment); });
+  const auto is_gone = [&](const auto& test) { return !names.contains(test.experiment); };
+  std::erase_if(study.tests, is_gone);
+  std::erase_if(study.measured, is_gone);
 }
 
 }  // namespace flexneck::pipeline

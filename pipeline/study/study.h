@@ -21,6 +21,7 @@
 #include "pipeline/document/key.h"
 #include "pipeline/model/assembly.h"
 #include "pipeline/model/pulse.h"
+#include "pipeline/study/measured_section.h"
 #include "pipeline/study/structure_section.h"
 #include "pipeline/study/substructure_section.h"
 #include "pipeline/verdict/certification_test.h"
@@ -113,6 +114,7 @@ struct Study {
   std::vector<CaseSection> cases;  ///< variants after those they are made of
   std::string dummy;               ///< whose head and neck it is; empty if the study does not say
   std::vector<TestSection> tests;  ///< in the order in which they are shown
+  std::vector<MeasuredTest> measured;  ///< tests with data of the user's own
   Eigen::Vector3d gravity_m_s2{0, 0, -kStandardGravity_m_s2};  ///< of pendulum cases, world
   multibody::SolverOptions solver;
   double output_interval_s = 1e-3;

@@ -15,9 +15,11 @@ constexpr Key kDummyKeys[] = {
 
 constexpr Key kTestKeys[] = {
     Key::text("name", kRequired, "Name of the test"),
-    Key::text("regulation", kRequired, "Whose limits hold: such as \"572.33 flexion\""),
+    Key::text(
+        "regulation", kNone,
+        "Whose limits hold, such as \"572.33 flexion\"; besides or in place of measured data"),
     Key::file("file", kNone, "File that the regulation stands in; without it those shipped"),
-    Key::text("case", kRequired, "Case of the pendulum that is judged"),
+    Key::text("case", kRequired, "Case that is judged; by a regulation one of the pendulum"),
 };
 
 ShippedTest rules_of(const StudyTable& table) {
@@ -30,10 +32,9 @@ ShippedTest rules_of(const StudyTable& table) {
   });
 }
 
-void check_case(const StudyTable& table, const Study& study, const TestSection& test) {
-  const std::size_t place = at_key(
-      table, "case", [&] { return find_name(names_of(study.cases), test.experiment, "case"); });
-  const CaseSection& experiment = study.cases[place];
+void check_direction(const StudyTable& table, const Study& study, const TestSection& test) {
+  const CaseSection& experiment =
+      study.cases[find_name(names_of(study.cases), test.experiment, "case")];
   const auto wanted = test.rules.direction == CertificationTest::Direction::flexion
                           ? CaseSection::Direction::flexion
                           : CaseSection::Direction::extension;
@@ -42,10 +43,49 @@ void check_case(const StudyTable& table, const Study& study, const TestSection& 
                              "', found '" + test.experiment + "'");
 }
 
+/// By a regulation.
+void read_certification(const StudyTable& table, Study& study) {
+  TestSection test;
+  test.name = table.text("name");
+  auto [rules, file] = rules_of(table);
+  test.rules = std::move(rules);
+  test.file = std::move(file);
+  test.experiment = table.text("case");
+  check_direction(table, study, test);
+  if (study.dummy.empty())
+    table.refuse("regulation",
+                 "expected a [dummy] with a name, which the regulation is for or "
+                 "not");
+  study.tests.push_back(std::move(test));
+}
+
+void read_test(const StudyTable& table, Study& study) {
+  const std::string experiment = table.text("case");
+  at_key(table, "case", [&] { return find_name(names_of(study.cases), experiment, "case"); });
+  MeasuredTest measured = read_measured(table, study.tables);
+  measured.name = table.text("name");
+  measured.experiment = experiment;
+  if (table.has("regulation"))
+    read_certification(table, study);
+  else if (measured.is_empty())
+    table.refuse("regulation",
+                 "expected this key, or [[test.curve]], [[test.corridor]] or "
+                 "[[test.limit]]");
+  if (!measured.is_empty()) study.measured.push_back(std::move(measured));
+}
+
 }  // namespace
 
 std::span<const Key> dummy_keys() { return kDummyKeys; }
-std::span<const Key> test_keys() { return kTestKeys; }
+
+std::span<const Key> test_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all(std::begin(kTestKeys), std::end(kTestKeys));
+    all.insert(all.end(), measured_keys().begin(), measured_keys().end());
+    return all;
+  }();
+  return keys;
+}
 
 void read_tests(const StudyTable& root, Study& study) {
   if (root.has("dummy")) {
@@ -53,22 +93,13 @@ void read_tests(const StudyTable& root, Study& study) {
     study.dummy = dummy.text("name");
     dummy.finish();
   }
+  std::vector<std::string> names;
   for (const StudyTable& table : root.tables("test")) {
-    TestSection test;
-    test.name = table.text("name");
-    auto [rules, file] = rules_of(table);
-    test.rules = std::move(rules);
-    test.file = std::move(file);
-    test.experiment = table.text("case");
-    check_case(table, study, test);
+    names.push_back(table.text("name"));
+    read_test(table, study);
     table.finish();
-    if (study.dummy.empty())
-      table.refuse("regulation",
-                   "expected a [dummy] with a name, which the regulation is for or "
-                   "not");
-    study.tests.push_back(std::move(test));
   }
-  check_names(names_of(study.tests), "test");
+  check_names(names, "test");
 }
 
 }  // namespace flexneck::pipeline

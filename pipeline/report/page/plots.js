@@ -24,10 +24,16 @@
     dash: dashOf((place + variant) % Math.max(variants, 6)),
   });
 
-  const runs = data.runs.map((run) => ({
+  /** Measured curves stand beside the runs, as one more variant of their case. */
+  const runs = [...data.runs, ...data.measured].map((run) => ({
     ...run,
     times: flexneck.unpack(run.times, Float32Array),
     channels: new Map(run.channels.map((channel) => [channel.name, channel])),
+  }));
+  const bands = data.bands.map((band) => ({
+    ...band,
+    ...Object.fromEntries(['times', 'lower', 'upper'].map(
+        (key) => [key, flexneck.unpack(band[key], Float32Array)])),
   }));
   const valuesOf = (channel) =>
       channel.unpacked || (channel.unpacked = flexneck.unpack(channel.values, Float32Array));
@@ -85,7 +91,9 @@
       const cases = [...new Set(pairs.map(([name]) => name))];
       const variants = [...new Set(pairs.map(([, variant]) => variant))];
       this.shownCases = new Set(cases.slice(0, 5));
-      this.shownVariants = new Set(['']);
+      const measured = new Set(data.measured.map((run) => run.name));
+      this.shownVariants = new Set(
+          ['', ...pairs.filter((_, k) => measured.has(this.runs[k].name)).map(([, name]) => name)]);
       this.curves = this.runs.map((run, k) => {
         const [place, variant] = [cases.indexOf(pairs[k][0]), variants.indexOf(pairs[k][1])];
         return {run, case: pairs[k][0], variant: pairs[k][1],
@@ -166,7 +174,9 @@
       const inView = drawn.flatMap(
           (curve) => curve.points.filter(([x]) => x >= left && x <= right).map(([, y]) => y));
       const corridors = this.corridors(drawn);
-      const heights = [0, ...inView, ...corridors.flatMap(({values}) => values)];
+      const shownBands = this.bands(drawn);
+      const heights = [0, ...inView, ...corridors.flatMap(({values}) => values),
+                       ...shownBands.flatMap(({points}) => points.map(([, y]) => y))];
       this.scaleX = d3.scale.linear().domain([left, right]).range([margin.left, width - margin.right]);
       this.scaleY = d3.scale.linear().domain(d3.extent(heights)).nice()
           .range([height - margin.bottom, margin.top]);
@@ -181,6 +191,7 @@
         x: margin.left, y: margin.top, width: width - margin.left - margin.right,
         height: height - margin.top - margin.bottom});
       const inside = svg.append('g').attr('clip-path', `url(#${clip})`);
+      this.drawBands(inside, shownBands);
       this.drawCorridors(inside, corridors);
       const line = d3.svg.line().x(([x]) => this.scaleX(x)).y(([, y]) => this.scaleY(y));
       for (const curve of drawn) {
@@ -218,6 +229,28 @@
             return {what: each.what, times: each.times.map((time) => time * (isSi ? 1 : 1000)),
                     values: each.values.map((value) => value * factor)};
           });
+    }
+
+    /** Corridors between two curves, as the points round them. */
+    bands(drawn) {
+      if (this.x.value !== 'time') return [];
+      const names = drawn.map((curve) => curve.run.name);
+      return bands
+          .filter((each) => each.channel === this.y.value && names.includes(each.case))
+          .map(({what, unit, times, lower, upper}) => {
+            const {factor} = shown(unit, this.kind);
+            const edge = (values) => Array.from(
+                values, (value, k) => [times[k] * (isSi ? 1 : 1000), value * factor]);
+            return {what, points: [...edge(lower), ...edge(upper).reverse()]};
+          });
+    }
+
+    drawBands(inside, shownBands) {
+      const line = d3.svg.line().x(([x]) => this.scaleX(x)).y(([, y]) => this.scaleY(y));
+      for (const {what, points} of shownBands) {
+        inside.append('path').attr({class: 'corridor', d: `${line(points)}Z`})
+            .append('title').text(`corridor of ${what}`);
+      }
     }
 
     drawCorridors(inside, corridors) {

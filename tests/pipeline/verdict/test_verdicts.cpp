@@ -186,7 +186,7 @@ TEST_CASE("a test that cannot be is refused with what there is") {
                              "of '572.33 flexion', found 'extension-120'"));
   CHECK_THROWS_WITH(built_in({"test.flexion.case=flexion"}),
                     Contains("test.flexion.case: expected a case of the pendulum"));
-  CHECK_THROWS_WITH(built_in({"test.flexion.limit=1"}), Contains("test.flexion.limit: unknown"));
+  CHECK_THROWS_WITH(built_in({"test.flexion.limits=1"}), Contains("test.flexion.limits: unknown"));
   CHECK_THROWS_WITH(built_in({"dummy.nam=THOR"}), Contains("dummy.nam: unknown"));
 }
 

@@ -2,7 +2,7 @@
 // Curves to be rated. The first line may name the column with a leading #.
 #include <cmath>
 
-#include "pipeline/rating/curve_file.h"
+#include "pipeline/document/curve_file.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/rating/curve_file.h"
+#include "pipeline/document/curve_file.h"
 
 #include <algorithm>
 #include <charconv>

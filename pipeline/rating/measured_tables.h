@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "multibody/files/history_file.h"
+#include "pipeline/output/result_table.h"
+#include "pipeline/study/measured_section.h"
+
+namespace flexneck::pipeline {
+
+/// A test with data of the user's own, and the run of its case if there is one.
+struct MeasuredRun {
+  MeasuredTest test;
+  std::optional<multibody::HistoryFile> run;
+};
+
+/// "measured curves": the ratings of computed curves against measured ones, a line for each.
+/// @throws InputError for a channel that the run has not, a unit of another dimension, and curves
+/// that cannot be rated, as resampled().
+ResultTable measured_curve_table(const std::vector<MeasuredRun>& runs);
+
+/// "measured limits": how computed curves keep to corridors, and figures to their limits.
+/// @throws InputError as above, and for a corridor that the run does not cover.
+ResultTable measured_limit_table(const std::vector<MeasuredRun>& runs);
+
+/// A channel of a run as a curve, in SI units.
+Curve computed_curve(const multibody::HistoryFile& run, const std::string& channel);
+
+}  // namespace flexneck::pipeline
