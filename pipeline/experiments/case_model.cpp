@@ -6,6 +6,7 @@
 #include "geometry/foundation/error.h"
 #include "pipeline/experiments/rigid_neck.h"
 #include "pipeline/model/model_check.h"
+#include "pipeline/model/start_check.h"
 
 namespace flexneck::pipeline {
 
@@ -43,6 +44,7 @@ Model case_model(const CaseSection& experiment, const fe_modal::ModalBody& struc
     if (experiment.equivalent_rigid_neck) replace_neck(experiment.direction, assembly.model);
     check_connections(assembly);
     place_bodies(assembly.model, assembly.starts, assembly.posed);
+    check_starts(assembly, "the case starts at rest");
     return std::move(assembly.model);
   } catch (const InputError& error) {
     throw InputError("case." + experiment.name + ": " + error.what());

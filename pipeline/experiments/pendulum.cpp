@@ -189,7 +189,8 @@ void fix_pins_across(const BendingPlane& plane, Model& model) {
   constexpr double kAcross = 1e-9;
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     multibody::Joint& joint = model.joints[k];
-    if (joint.kind != &multibody::kRevoluteJoint || std::abs(joint.axis.dot(plane.axis)) > kAcross)
+    if (joint.kind != &multibody::kRevoluteJoint || !joint.motors.empty() ||
+        std::abs(joint.axis.dot(plane.axis)) > kAcross)
       continue;
     joint.kind = &multibody::kFixedJoint;
     std::erase_if(model.forces.of<multibody::JointResistance>(),

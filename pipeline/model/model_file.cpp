@@ -113,6 +113,13 @@ void read_output(const StudyTable& root, ModelFile& file) {
   check_names(names_of(output.channels), "channel");
 }
 
+/// What in a file says that its model starts at rest; empty if nothing does.
+std::string rest_of(const ModelFile& file) {
+  if (file.analysis == ModelFile::Analysis::quasi_static)
+    return "[solver] has analysis = \"quasi_static\"";
+  return file.start == ModelFile::Start::equilibrium ? "[solver] has start = \"equilibrium\"" : "";
+}
+
 /// What concerns more than one table; these messages name no line.
 void assemble(Assembly& assembly, ModelFile& file) {
   try {
@@ -120,7 +127,7 @@ void assemble(Assembly& assembly, ModelFile& file) {
     check_connections(assembly);
     place_bodies(assembly.model, assembly.starts, assembly.posed);
     carry_bodies(assembly.model, assembly.starts, assembly.moving);
-    check_starts(assembly, file.start, file.analysis);
+    check_starts(assembly, rest_of(file));
   } catch (const InputError& error) {
     throw InputError(file.file.string() + ": " + error.what());
   }

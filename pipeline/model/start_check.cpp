@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "geometry/foundation/error.h"
 #include "multibody/numerics/rotation.h"
 
 namespace flexneck::pipeline {
@@ -135,12 +136,9 @@ void check_rest(const Assembly& assembly, const std::string& rest) {
 
 }  // namespace
 
-void check_starts(const Assembly& assembly, ModelFile::Start start, ModelFile::Analysis analysis) {
+void check_starts(const Assembly& assembly, const std::string& rest) {
   for (std::size_t k = 0; k < assembly.starts.size(); ++k) check_joint(assembly, k);
-  if (analysis == ModelFile::Analysis::quasi_static)
-    check_rest(assembly, "[solver] has analysis = \"quasi_static\"");
-  else if (start == ModelFile::Start::equilibrium)
-    check_rest(assembly, "[solver] has start = \"equilibrium\"");
+  if (!rest.empty()) check_rest(assembly, rest);
 }
 
 }  // namespace flexneck::pipeline

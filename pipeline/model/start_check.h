@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "pipeline/model/model_file.h"
-#include "pipeline/model/model_sections.h"
+#include <string>
+
+#include "pipeline/model/assembly.h"
 
 namespace flexneck::pipeline {
 
@@ -10,7 +11,9 @@ namespace flexneck::pipeline {
 /// their rates beside bodies' poses and velocities or other joints, and velocities beside a start
 /// at rest. Differences of rounding, 1e-6, are none.
 /// @param assembly  with its bodies placed and moving
+/// @param rest      what says that the model starts at rest against its prescribed bodies, such as
+///                  "[solver] has start = \"equilibrium\""; empty if it may move
 /// @throws InputError naming both keys and their values.
-void check_starts(const Assembly& assembly, ModelFile::Start start, ModelFile::Analysis analysis);
+void check_starts(const Assembly& assembly, const std::string& rest);
 
 }  // namespace flexneck::pipeline

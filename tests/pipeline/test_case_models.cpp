@@ -162,6 +162,17 @@ TEST_CASE("what a case's model gets wrong is refused with file, line and key") {
       "did you mean 'head'?");
 }
 
+TEST_CASE("a case that starts at rest is refused bodies and joints that move") {
+  const testing::BeamExperiment moving({R"(body.head.velocity=["1 m/s", "0 m/s", "0 m/s"])"});
+  CHECK_THROWS_WITH(case_model(moving.named("flexion-60"), moving.body),
+                    Contains("case.flexion-60: body 'head': velocity = (1, 0, 0) m/s") &&
+                        Contains("the case starts at rest"));
+  const testing::BeamExperiment turning({"variant.spring.joint.j2.rate=2 rad/s"});
+  CHECK_THROWS_WITH(case_model(turning.named("flexion-60-spring"), turning.body),
+                    Contains("joint 'j2': rate = 2 rad/s"));
+  CHECK_NOTHROW(case_model(turning.named("flexion-60"), turning.body));
+}
+
 TEST_CASE("a chain of substructures is refused a model that it cannot stand for") {
   const Study study =
       read_study(built_in_study(), {R"(case.flexion.bodies=["ground", "neck", "head"])"});
