@@ -35,6 +35,7 @@ void require_known_keys(const StudyTable& table) {
 std::vector<Element> elements(const std::string& section, const std::vector<StudyTable>& of_study,
                               const std::vector<StudyTable>& layers) {
   std::vector<Element> all;
+  all.reserve(of_study.size());
   for (const StudyTable& table : of_study) all.push_back({name_in(section, table), table});
   for (const StudyTable& layer : layers) {
     for (const StudyTable& own : layer.tables(section)) {
