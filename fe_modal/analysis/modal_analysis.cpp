@@ -146,6 +146,7 @@ Eigen::Index eigenvector_count(const Reduction& basis) {
 std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
     const DofMap& dof_map, const BodyOperators& body, const std::vector<InterfaceLoads>& loads) {
   std::vector<std::vector<Eigen::Matrix3Xd>> responses;
+  responses.reserve(loads.size());
   for (const InterfaceLoads& interface : loads) {
     responses.push_back(expanded(dof_map, static_response_beyond(body, {}, interface.forces)));
   }

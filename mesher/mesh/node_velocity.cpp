@@ -36,6 +36,8 @@ std::string difference(const std::vector<Entry>& a, const std::vector<Entry>& b,
   return a.size() == b.size() ? "" : "their number";
 }
 
+}  // namespace
+
 void require_same_topology(const Mesh& mesh, const Mesh& other) {
   const auto refuse = [](const std::string& what) {
     throw InputError("it changes the topology of the mesh (" + what + ")");
@@ -53,8 +55,6 @@ void require_same_topology(const Mesh& mesh, const Mesh& other) {
   if (const auto slit = difference(mesh.slits, other.slits, name_of); !slit.empty())
     refuse("slits: " + slit);
 }
-
-}  // namespace
 
 Eigen::Matrix3Xd node_velocity(const Mesh& mesh, const Mesh& below, const Mesh& above,
                                double width) {

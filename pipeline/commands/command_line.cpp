@@ -57,6 +57,11 @@ void add_modes_settings(CLI::App& app, CommandLine& line) {
   add_setting(app, line, "--solver", "NAME", "modes.solver", "direct, or iterative in less memory");
 }
 
+void add_sensitivity(CLI::App& app, CommandLine& line) {
+  app.add_flag("--sensitivity", line.sensitivity,
+               "Derivatives by all dimensions and material constants");
+}
+
 void add_redo(CLI::App& app, CommandLine& line) {
   app.add_flag("--force", line.redo, "Redo what has not changed, too");
 }
@@ -99,7 +104,7 @@ struct OptionRow {
   CommandOption option;
   void (*add)(CLI::App&, CommandLine&);
 };
-constexpr std::array<OptionRow, 10> kOptions = {
+constexpr std::array<OptionRow, 11> kOptions = {
     {{CommandOption::folder, add_folder},
      {CommandOption::optional_folder, add_optional_folder},
      {CommandOption::curves, add_curves},
@@ -107,6 +112,7 @@ constexpr std::array<OptionRow, 10> kOptions = {
      {CommandOption::settings, add_settings},
      {CommandOption::mesh_settings, add_mesh_settings},
      {CommandOption::modes_settings, add_modes_settings},
+     {CommandOption::sensitivity, add_sensitivity},
      {CommandOption::redo, add_redo},
      {CommandOption::show, add_show},
      {CommandOption::target, add_target}}};
