@@ -38,7 +38,7 @@ struct DesignParameter {
 enum class QuantityKind {
   frequency,         ///< of a single mode
   mean_frequency,    ///< of equal or nearly equal ones: root of the mean of their squares
-  directional,       ///< of one of them, along one parameter alone: see Sensitivities
+  directional,       ///< of one branch of them, along one parameter alone: see Sensitivities
   symmetry_class,    ///< of one of them among the motions of its symmetry
   mass,              ///< of the whole body
   static_stiffness,  ///< load by motion of an interface, under this load alone
@@ -49,7 +49,7 @@ std::string_view name_of(QuantityKind kind);
 
 struct Quantity {
   QuantityKind kind = QuantityKind::frequency;
-  std::string name;          ///< such as "torsion 1", "head on top 1", "Fx/ux at top"
+  std::string name;          ///< "torsion 1", "head on top 1", "Fx/ux at top", all of a group
   std::string unit;          ///< "Hz", "kg", "N/m" or "N m/rad"
   double value = 0;          ///< in that unit
   bool is_attached = false;  ///< a frequency with a body attached
@@ -61,9 +61,9 @@ struct Quantity {
 /// of it means little: a small change of the body turns it among the others. What exists is
 ///  - the gradient of the mean of their eigenvalues (the trace), always;
 ///  - directional derivatives: the eigenvalues, in ascending order, of Phi^T (dK - lambda dM) Phi
-///    for a change of one parameter. They are no gradient: of a change of several parameters they
-///    do not add. Of modes that are only nearly equal they are what they would be if they were
-///    equal;
+///    for a change of one parameter, numbered (1), (2), …: each belongs to a mixture of the modes.
+///    They are no gradient: of a change of several parameters they do not add. Of modes that are
+///    only nearly equal they are what they would be if they were equal;
 ///  - the gradient of each mode by itself where no parameter couples it to another of the group
 ///    (kUncoupled), as when the modes have different symmetries that all parameters keep.
 struct Sensitivities {

@@ -89,24 +89,28 @@ void add_group(const Spectrum& spectrum, const GroupDerivative& derivative, Sens
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
             .eigenvalues();
   }
-  const auto add_each = [&](QuantityKind kind, const Eigen::MatrixXd& rows) {
+  const auto add_each = [&](QuantityKind kind) {
     for (Eigen::Index k = 0; k < group.count; ++k) {
       add_row(kind, spectrum.names[static_cast<std::size_t>(group.first + k)], frequencies[k],
-              spectrum.is_attached, rows.row(k).transpose(), result);
+              spectrum.is_attached, of_class.row(k).transpose(), result);
     }
   };
   if (group.count == 1) {
-    add_each(QuantityKind::frequency, of_class);
+    add_each(QuantityKind::frequency);
     return;
   }
   const std::string names = joined_names(spectrum, group);
   const double mean_Hz = std::sqrt(frequencies.squaredNorm() / static_cast<double>(group.count));
   add_row(QuantityKind::mean_frequency, names, mean_Hz, spectrum.is_attached,
           of_class.colwise().mean().transpose(), result);
-  add_each(QuantityKind::directional, directional);
+  // The lowest derivative belongs to none of the modes, but to a mixture of them.
+  for (Eigen::Index k = 0; k < group.count; ++k) {
+    add_row(QuantityKind::directional, names + " (" + std::to_string(k + 1) + ")", mean_Hz,
+            spectrum.is_attached, directional.row(k).transpose(), result);
+  }
   const double lambda = 4 * std::pow(std::numbers::pi * mean_Hz, 2);
   const double coupled = coupling(derivative, result.parameters, lambda);
-  if (coupled < kUncoupled) add_each(QuantityKind::symmetry_class, of_class);
+  if (coupled < kUncoupled) add_each(QuantityKind::symmetry_class);
   result.notes.push_back(
       group_note(names, frequencies[group.count - 1] / frequencies[0] - 1, coupled));
 }
