@@ -49,6 +49,7 @@ std::vector<Dimension> dimensions_of(const Study& study) {
       all.push_back(
           {std::string("geometry.") + each.name, "m", neck->dimensions.*each.member, 1, " m"});
     }
+    if (neck->slits.depth) all.push_back({"geometry.slit_depth", "1", *neck->slits.depth, 1, ""});
     return all;
   }
   for (const auto& [name, value] : script->constants) {

@@ -166,7 +166,7 @@ TEST_CASE("a mesh from a file has sensitivities to its materials only") {
                                Contains("aluminium.youngs_modulus  +0.500"));
 }
 
-TEST_CASE("--sensitivity is refused where it cannot be") {
+TEST_CASE("the option --sensitivity is refused where it cannot be") {
   const TemporaryFolder folder;
   const std::string out = " -o " + folder.path().string();
   check_refused(run_flexneck("run --sensitivity" + out),
