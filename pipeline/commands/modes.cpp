@@ -154,11 +154,9 @@ bool modes_command(const CommandInput& input) {
       mass_text(input.study, body.invariants.mass), input.folder.modes().string(), body.solver,
       mode_table(body, whole), loaded_text(body, whole)));
   input.console.table(basis_text(body));
-  if (input.sensitivity) {
+  std::filesystem::remove(input.folder.sensitivities());  // of other modes
+  if (input.sensitivity)
     write_sensitivities(input, mesh.mesh, options, body, fields, provenance_of_modes(input));
-  } else {
-    std::filesystem::remove(input.folder.sensitivities());  // of other modes
-  }
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
   return true;

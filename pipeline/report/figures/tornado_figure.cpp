@@ -94,7 +94,8 @@ std::string csv_of(const std::vector<Panel>& panels) {
 /// Bars below one another, the input's key beside each.
 std::string panel_script(const Panel& panel, std::size_t index, double reach,
                          const std::string& file) {
-  std::string script = fmt::format("unset label\nset title {}\n", gnuplot_text(panel.quantity));
+  std::string script =
+      fmt::format("unset label\nset title {} font ',10'\n", gnuplot_text(panel.quantity));
   for (std::size_t k = 0; k < panel.bars.size(); ++k) {
     std::string key = panel.bars[k].input;
     if (key.starts_with("geometry.")) key.erase(0, std::string("geometry.").size());
