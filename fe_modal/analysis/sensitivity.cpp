@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
+#include <iterator>
 #include <utility>
 
-#include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/average_derivative.h"
 #include "fe_modal/analysis/body_gradient.h"
+#include "fe_modal/analysis/coupling_gradient.h"
+#include "fe_modal/analysis/sensitivity_request.h"
 #include "fe_modal/analysis/spectrum_derivative.h"
 #include "geometry/foundation/error.h"
 
@@ -21,33 +21,6 @@ constexpr std::array<std::string_view, 6> kKindNames = {
 constexpr std::array<const char*, 6> kLoads = {"Fx/ux", "Fy/uy", "Fz/uz",
                                                "Mx/rx", "My/ry", "Mz/rz"};
 
-/// Eigenpairs as forms of fields.
-struct SpectrumForms {
-  Spectrum spectrum;
-  Eigen::Index first_field = 0;
-  const AttachedFrequencies* attached = nullptr;  ///< the body and where it is, if it is one
-  std::size_t interface = 0;                      ///< likewise, of the options
-  std::vector<ModeGroup> groups;
-  std::vector<Eigen::Index> first_forms;  ///< of each group: its upper triangle, row by row
-};
-
-/// The responses of an interface to its six loads as forms of fields.
-struct ResponseForms {
-  std::size_t interface = 0;  ///< of the options
-  Eigen::Index first_field = 0;
-  Eigen::Index first_form = 0;
-};
-
-/// All that is to be differentiated.
-struct Request {
-  Displacements fields;
-  std::vector<EnergyForm> forms;
-  std::vector<SpectrumForms> spectra;
-  std::vector<ResponseForms> responses;
-  /// Of the options' interfaces: average motions of all fields, (6, fields); empty if nobody asks.
-  std::vector<Eigen::MatrixXd> averages;
-};
-
 /// Derivatives by one parameter.
 struct ByParameter {
   Eigen::VectorXd forms;
@@ -55,93 +28,8 @@ struct ByParameter {
   std::vector<Eigen::MatrixXd> averages;  ///< as in the request
 };
 
-double eigenvalue(double frequency_Hz) { return std::pow(2 * std::numbers::pi * frequency_Hz, 2); }
-
-void add_forms(SpectrumForms& forms, Request& request) {
-  const Eigen::VectorXd& frequencies = forms.spectrum.frequencies_Hz;
-  forms.groups = groups_of(frequencies);
-  for (const ModeGroup& group : forms.groups) {
-    forms.first_forms.push_back(static_cast<Eigen::Index>(request.forms.size()));
-    for (Eigen::Index i = group.first; i < group.first + group.count; ++i) {
-      for (Eigen::Index j = i; j < group.first + group.count; ++j) {
-        const double lambda = (eigenvalue(frequencies[i]) + eigenvalue(frequencies[j])) / 2;
-        request.forms.push_back({forms.first_field + i, forms.first_field + j, lambda});
-      }
-    }
-  }
-}
-
-void add_shape(const Eigen::Matrix3Xd& shape, const std::string& name, double frequency_Hz,
-               SpectrumForms& forms, Request& request) {
-  Spectrum& spectrum = forms.spectrum;
-  if (spectrum.names.empty()) {
-    forms.first_field = static_cast<Eigen::Index>(request.fields.size());
-  }
-  spectrum.names.push_back(name);
-  spectrum.frequencies_Hz.conservativeResize(spectrum.frequencies_Hz.size() + 1);
-  spectrum.frequencies_Hz.tail<1>()[0] = frequency_Hz;
-  request.fields.push_back(&shape);
-}
-
-void request_modes(const ModalBody& body, Request& request) {
-  SpectrumForms forms;
-  for (std::size_t k = 0; k < body.modes.size(); ++k) {
-    if (body.modes[k].kind != kNormalMode) continue;
-    add_shape(body.shapes[k], body.modes[k].name, body.frequencies_Hz[static_cast<Eigen::Index>(k)],
-              forms, request);
-  }
-  add_forms(forms, request);
-  request.spectra.push_back(std::move(forms));
-}
-
-void request_attached(const ModalOptions& options, const ModalBody& body,
-                      const AnalysisFields& solved, Request& request) {
-  for (std::size_t k = 0; k < body.attached.size(); ++k) {
-    const AttachedFrequencies& attached = body.attached[k];
-    SpectrumForms forms;
-    forms.spectrum.is_attached = true;
-    forms.attached = &attached;
-    forms.interface = interface_index(options, attached.interface);
-    const std::string name = attached.body + " on " + attached.interface + " ";
-    const std::vector<Eigen::Matrix3Xd>& shapes = solved.attached_shapes.at(k);
-    for (std::size_t m = 0; m < shapes.size(); ++m) {
-      add_shape(shapes[m], name + std::to_string(m + 1),
-                attached.frequencies_Hz[static_cast<Eigen::Index>(m)], forms, request);
-    }
-    add_forms(forms, request);
-    request.spectra.push_back(std::move(forms));
-  }
-}
-
-void request_responses(const AnalysisFields& solved, Request& request) {
-  for (std::size_t k = 0; k < solved.responses.size(); ++k) {
-    request.responses.push_back({k, static_cast<Eigen::Index>(request.fields.size()),
-                                 static_cast<Eigen::Index>(request.forms.size())});
-    for (const Eigen::Matrix3Xd& response : solved.responses[k]) {
-      const auto field = static_cast<Eigen::Index>(request.fields.size());
-      request.forms.push_back({field, field, 0});
-      request.fields.push_back(&response);
-    }
-  }
-}
-
-void request_averages(const mesher::Mesh& mesh, const ModalOptions& options, Request& request) {
-  request.averages.resize(options.interfaces.size());
-  std::vector<std::size_t> needed;
-  for (const SpectrumForms& forms : request.spectra) {
-    if (forms.attached != nullptr) needed.push_back(forms.interface);
-  }
-  for (const ResponseForms& forms : request.responses) needed.push_back(forms.interface);
-  for (const std::size_t k : needed) {
-    if (request.averages[k].size() > 0) continue;
-    const InterfaceDefinition& interface = options.interfaces[k];
-    request.averages[k] = averages_of(
-        RigidAverage(mesh, mesh.face_set(interface.set), interface.position_m), request.fields);
-  }
-}
-
 ByParameter derivative_by(const DesignParameter& parameter, const mesher::Mesh& mesh,
-                          const ModalOptions& options, const Request& request,
+                          const ModalOptions& options, const SensitivityRequest& request,
                           const BodyGradient& gradient) {
   ByParameter result{Eigen::VectorXd(static_cast<Eigen::Index>(request.forms.size())), 0,
                      request.averages};
@@ -162,6 +50,10 @@ ByParameter derivative_by(const DesignParameter& parameter, const mesher::Mesh& 
   for (std::size_t k = 0; k < result.averages.size(); ++k) {
     if (result.averages[k].size() == 0) continue;
     const InterfaceDefinition& interface = options.interfaces[k];
+    if (interface.is_rigid) {  // its motion is a degree of freedom, wherever its nodes are
+      result.averages[k].setZero();
+      continue;
+    }
     result.averages[k] = average_derivative(mesh, mesh.face_set(interface.set),
                                             interface.position_m, velocity, request.fields);
   }
@@ -169,7 +61,8 @@ ByParameter derivative_by(const DesignParameter& parameter, const mesher::Mesh& 
 }
 
 GroupDerivative group_derivative(const SpectrumForms& forms, std::size_t which,
-                                 const Request& request, const std::vector<ByParameter>& all) {
+                                 const SensitivityRequest& request,
+                                 const std::vector<ByParameter>& all) {
   GroupDerivative result{forms.groups[which], {}};
   const Eigen::Index count = result.group.count;
   for (const ByParameter& by : all) {
@@ -200,8 +93,9 @@ void add_row(Quantity quantity, const Eigen::VectorXd& by_parameter, Sensitiviti
   result.derivatives.bottomRows<1>() = by_parameter.transpose();
 }
 
-void add_stiffness(const ResponseForms& forms, const ModalOptions& options, const Request& request,
-                   const std::vector<ByParameter>& all, Sensitivities& result) {
+void add_stiffness(const ResponseForms& forms, const ModalOptions& options,
+                   const SensitivityRequest& request, const std::vector<ByParameter>& all,
+                   Sensitivities& result) {
   for (Eigen::Index i = 0; i < 6; ++i) {
     const Eigen::Index field = forms.first_field + i;
     const double stiffness = 1 / request.averages[forms.interface](i, field);
@@ -219,23 +113,50 @@ void add_stiffness(const ResponseForms& forms, const ModalOptions& options, cons
   }
 }
 
+/// The average motion of nodes that are coupled rigidly is not that of nodes that stay.
+void check_overlap(const mesher::Mesh& mesh, const ModalOptions& options) {
+  const auto nodes_of = [&](const InterfaceDefinition& interface) {
+    return mesher::nodes_of(mesh.face_set(interface.set)).nodes;
+  };
+  for (const InterfaceDefinition& rigid : options.interfaces) {
+    for (const InterfaceDefinition& other : options.interfaces) {
+      if (!rigid.is_rigid || other.is_rigid) continue;
+      const std::vector<std::int32_t> one = nodes_of(rigid);
+      const std::vector<std::int32_t> two = nodes_of(other);
+      std::vector<std::int32_t> shared;
+      std::set_intersection(one.begin(), one.end(), two.begin(), two.end(),
+                            std::back_inserter(shared));
+      if (shared.empty()) continue;
+      throw InputError("sensitivities are not offered where interface '" + other.name +
+                       "' has nodes of the rigid interface '" + rigid.name +
+                       "'; tie it too, in modes.rigid_interfaces");
+    }
+  }
+}
+
 void check_basis(const ModalOptions& options) {
   if (options.basis == BasisKind::craig_bampton) {
     throw InputError(
         "sensitivities need eigenvectors of the body, a basis of craig-bampton has none; take "
         "modes.basis = \"residual\"");
   }
-  const bool is_tied = std::any_of(options.interfaces.begin(), options.interfaces.end(),
-                                   [](const auto& interface) { return interface.is_rigid; });
-  if (is_tied) {
-    throw InputError(
-        "sensitivities are not offered with rigid interfaces, whose couplings move with the "
-        "nodes; leave out modes.rigid_interfaces");
+}
+
+/// Adds what moves with the couplings of rigid interfaces.
+void add_couplings(const mesher::Mesh& mesh, const ModalOptions& options,
+                   const SensitivityRequest& request, BodyGradient& gradient) {
+  for (std::size_t k = 0; k < options.interfaces.size(); ++k) {
+    const InterfaceDefinition& interface = options.interfaces[k];
+    if (!interface.is_rigid) continue;
+    add_coupling_gradient(
+        mesh, options.formulation, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
+        request.averages[k].bottomRows<3>(), request.fields, request.forms, gradient);
   }
 }
 
 /// Of the last modes their group may go on beyond them.
-void note_cut_group(const Request& request, const AnalysisFields& solved, Sensitivities& result) {
+void note_cut_group(const SensitivityRequest& request, const AnalysisFields& solved,
+                    Sensitivities& result) {
   const Spectrum& modes = request.spectra.front().spectrum;
   if (modes.names.empty()) return;
   const double last_Hz = modes.frequencies_Hz.tail<1>()[0];
@@ -264,13 +185,10 @@ Sensitivities sensitivities(const mesher::Mesh& mesh, const ModalOptions& option
                             const ModalBody& body, const AnalysisFields& fields,
                             std::vector<DesignParameter> parameters) {
   check_basis(options);
-  Request request;
-  request_modes(body, request);
-  request_attached(options, body, fields, request);
-  request_responses(fields, request);
-  request_averages(mesh, options, request);
-  const BodyGradient gradient =
-      body_gradient(mesh, options.formulation, request.fields, request.forms);
+  check_overlap(mesh, options);
+  const SensitivityRequest request = request_of(mesh, options, body, fields);
+  BodyGradient gradient = body_gradient(mesh, options.formulation, request.fields, request.forms);
+  add_couplings(mesh, options, request, gradient);
 
   std::vector<ByParameter> all;
   Sensitivities result;

@@ -99,7 +99,8 @@ inline constexpr double kUncoupled = 1e-6;
 /// Optim. 8 (1994) 207.)
 /// @param body of analyse_modes() on this mesh with these options
 /// @param fields of the same call
-/// @throws InputError for a basis without eigenvectors (Craig-Bampton) and for rigid interfaces.
+/// @throws InputError for a basis without eigenvectors (Craig-Bampton), and for an interface that
+/// shares nodes with a rigid one.
 /// @throws ComputationError as ElementKernel.
 Sensitivities sensitivities(const mesher::Mesh& mesh, const ModalOptions& options,
                             const ModalBody& body, const AnalysisFields& fields,

@@ -40,9 +40,6 @@ void check_sensitivity(const Study& study) {
         "needs eigenvectors, found modes.basis = \"craig-bampton\"; take \"normal\" or "
         "\"residual\"");
   }
-  if (!study.modes.rigid_interfaces.empty()) {
-    refuse("is not offered with modes.rigid_interfaces; take that key away");
-  }
 }
 
 void write_sensitivities(const CommandInput& input, const mesher::Mesh& mesh,

@@ -148,6 +148,12 @@ TEST_CASE("derivatives by nodes and materials are those of repeated analyses") {
   check_all_parameters(block, options_of_block());
 }
 
+TEST_CASE("so they are with a rigid interface, whose coupling moves with the nodes") {
+  ModalOptions options = options_of_block();
+  options.interfaces[0].is_rigid = true;
+  check_all_parameters(block, options);
+}
+
 TEST_CASE("so they are with tied slits, other elements and other formulations") {
   const auto slit = [](double t) {
     const auto is_cut = [](const Eigen::Vector3d& x) {
@@ -319,11 +325,12 @@ TEST_CASE("modes of different symmetry have gradients of their own where nothing
   CHECK(along_x[1] == Approx(along_x[0] + along_y[0]).epsilon(1e-6));
 }
 
-TEST_CASE("sensitivities are refused where there are no eigenvectors, and with rigid interfaces") {
+TEST_CASE("sensitivities are refused where there are no eigenvectors or motions are not averages") {
   ModalOptions options = options_of_block();
   const auto refused = [&] { return analyse(block(0), options, all_materials(block(0))); };
   options.interfaces[0].is_rigid = true;
-  CHECK_THROWS_WITH(refused(), Contains("rigid_interfaces"));
+  options.interfaces.push_back({"seat", "top", {0, 0, kLength}});
+  CHECK_THROWS_WITH(refused(), Contains("'seat' has nodes of the rigid interface 'tip'"));
   options = options_of_block();
   options.basis = BasisKind::craig_bampton;
   CHECK_THROWS_WITH(refused(), Contains("craig-bampton"));
