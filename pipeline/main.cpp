@@ -72,8 +72,14 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
   }
   if (line.show) return show_command({study, folder, console});
-  const bool passed =
-      command.run({study, folder, console, line.target, line.is_binary, ranks, line.redo});
+  const bool passed = command.run({.study = study,
+                                   .folder = folder,
+                                   .console = console,
+                                   .target = line.target,
+                                   .is_binary = line.is_binary,
+                                   .ranks = ranks,
+                                   .redo = line.redo,
+                                   .sensitivity = line.sensitivity});
   if (command.writes_results) remember_study(line.folder, choice);
   return passed;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
@@ -12,7 +13,7 @@
 #include "fe_modal/reduction/mode_conventions.h"
 #include "fe_modal/reduction/mode_naming.h"
 #include "fe_modal/reduction/reduction.h"
-#include "fe_modal/solve/attached_mass.h"
+#include "fe_modal/reduction/static_response.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/solve/make_system.h"
 #include "fe_modal/solve/mechanism.h"
@@ -26,8 +27,6 @@
 
 namespace flexneck::fe_modal {
 namespace {
-
-constexpr Eigen::Index kAttachedCount = 6;
 
 [[noreturn]] void refuse_mechanism(const std::string& motions) {
   throw InputError("the body is a mechanism: " + motions + "; fix it or bond it to its neighbour");
@@ -55,10 +54,6 @@ void check_no_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map, const M
   if (const auto motions = describe_mechanism(mesh, dof_map, system, fixed)) {
     refuse_mechanism(*motions);
   }
-}
-
-Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues) {
-  return eigenvalues.cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
 }
 
 std::vector<Interface> reduce_interfaces(const ModalOptions& options,
@@ -99,13 +94,6 @@ std::vector<ModeRecord> describe_modes(const mesher::Mesh& mesh, const ModalOpti
     records.push_back({names[k], kinds[k], shares[k], residuals[static_cast<Eigen::Index>(k)]});
   }
   return records;
-}
-
-/// Position of an interface among options.interfaces; it is known to be there.
-std::size_t interface_index(const ModalOptions& options, const std::string& name) {
-  const auto found = std::find_if(options.interfaces.begin(), options.interfaces.end(),
-                                  [&](const auto& interface) { return interface.name == name; });
-  return static_cast<std::size_t>(found - options.interfaces.begin());
 }
 
 std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const DofMap& dof_map,
@@ -155,27 +143,14 @@ Eigen::Index eigenvector_count(const Reduction& basis) {
   });
 }
 
-/// @param modes the body's lowest eigenvectors
-std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
-                                               const ModalSystem& system,
-                                               const ShiftInverse& inverse,
-                                               const Eigen::Ref<const Eigen::MatrixXd>& modes,
-                                               const std::vector<RigidAverage>& averages,
-                                               const std::vector<InterfaceLoads>& loads) {
-  const Eigen::Index count = std::min(kAttachedCount, modes.rows());
-  std::vector<AttachedFrequencies> result;
-  for (const RigidAttachment& body : options.attachments) {
-    const std::size_t region = interface_index(options, body.interface);
-    const Matrix6d rigid_mass = rigid_mass_matrix(
-        body.mass_kg, body.center_m - averages[region].point_m(), body.inertia_kg_m2);
-    const AttachedMass mass(system.mass(), loads[region].forces, rigid_mass);
-    const Eigen::VectorXd values =
-        modes.cols() < count
-            ? lowest_eigenpairs(system.stiffness(), mass.matrix(), inverse, count).values
-            : lowest_eigenvalues(mass, inverse, modes, count);
-    result.push_back({body.name, body.interface, frequencies_Hz(values), rigid_mass});
+std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
+    const DofMap& dof_map, const BodyOperators& body, const std::vector<InterfaceLoads>& loads) {
+  std::vector<std::vector<Eigen::Matrix3Xd>> responses;
+  responses.reserve(loads.size());
+  for (const InterfaceLoads& interface : loads) {
+    responses.push_back(expanded(dof_map, static_response_beyond(body, {}, interface.forces)));
   }
-  return result;
+  return responses;
 }
 
 /// "fixed: bolts, x of left", or "free".
@@ -194,7 +169,8 @@ std::string boundary_of(const ModalOptions& options) {
 }  // namespace
 
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
-                        const Progress& progress, StepTimes* step_times, const Progress& warn) {
+                        const Progress& progress, StepTimes* step_times, const Progress& warn,
+                        AnalysisFields* fields) {
   StepTimes unseen;
   StepTimes& times = step_times != nullptr ? *step_times : unseen;
   const auto report = [&](const std::string& line) {
@@ -241,9 +217,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   body.boundary = boundary_of(options);
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
-  for (const auto& vector : pairs.vectors.colwise()) {
-    body.shapes.push_back(dof_map.expand(vector));
-  }
+  body.shapes = expanded(dof_map, pairs.vectors);
   body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
                               relative_residuals(system.stiffness(), system.mass(), pairs, shift));
   const Eigen::Index eigenvectors = eigenvector_count(basis);
@@ -274,8 +248,16 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     times.start("iterate with bodies attached");
     report("solving with rigid bodies attached");
   }
-  body.attached = attach_bodies(options, system, *inverse, pairs.vectors.leftCols(eigenvectors),
-                                averages, loads);
+  body.attached = attach_bodies(options, {system, *inverse, dof_map, averages, loads},
+                                pairs.vectors.leftCols(eigenvectors),
+                                fields != nullptr ? &fields->attached_shapes : nullptr);
+  if (fields != nullptr) {
+    times.start("static responses");
+    if (fixed) {
+      fields->responses = interface_responses(dof_map, operators_of(system, *inverse), loads);
+    }
+    fields->next_Hz = std::sqrt(pairs.next) / (2 * std::numbers::pi);
+  }
   body.solver = inverse->describe();
   times.stop();
   return body;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/system/modal_options.h"
 #include "geometry/foundation/progress.h"
@@ -9,10 +13,22 @@
 
 namespace flexneck::fe_modal {
 
+/// What the derivatives of a body's results are made of beside it (sensitivity.h): fields on all
+/// nodes, (3, n) each.
+struct AnalysisFields {
+  /// For each interface of the options: displacements under its unit loads, force (3) and moment
+  /// (3), m/N and 1/N. None of a free body.
+  std::vector<std::vector<Eigen::Matrix3Xd>> responses;
+  /// For each attachment: modes of the body with it, of unit mass together.
+  std::vector<std::vector<Eigen::Matrix3Xd>> attached_shapes;
+  double next_Hz = 0;  ///< frequency above the last mode; infinite if it is not known
+};
+
 /// Normal modes by shift-invert, completed to the basis asked for, reduced to a modal body.
 /// @param times takes the time of each step if it is not null
 /// @param warn takes a line if the number of modes cuts a cluster of equal frequencies; may be
 /// empty
+/// @param fields takes fields of the same solution if it is not null, for a few solves more
 /// @throws InputError for unknown sets, parts or interfaces, elements that have no such
 /// formulation, more modes than degrees of freedom, a basis that the boundary does not allow, more
 /// than memory holds, or a body that is a mechanism: the message names the parts that move without
@@ -20,6 +36,6 @@ namespace flexneck::fe_modal {
 /// @throws ComputationError if the factorisation or the eigensolver fails, or if a mode is missing.
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                         const Progress& progress, StepTimes* times = nullptr,
-                        const Progress& warn = {});
+                        const Progress& warn = {}, AnalysisFields* fields = nullptr);
 
 }  // namespace flexneck::fe_modal

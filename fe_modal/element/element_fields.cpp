@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/element/element_fields.h"
 
-#include <span>
-
 #include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
-namespace {
 
-/// Values of all fields at an element's nodes, (3 n, fields).
 void gather(std::span<const std::int32_t> nodes, const Displacements& fields,
             Eigen::MatrixXd& values) {
   const auto n = static_cast<Eigen::Index>(nodes.size());
+  values.resize(3 * n, static_cast<Eigen::Index>(fields.size()));
   for (std::size_t f = 0; f < fields.size(); ++f) {
     for (Eigen::Index i = 0; i < n; ++i) {
       for (Eigen::Index a = 0; a < 3; ++a) {
@@ -21,8 +18,6 @@ void gather(std::span<const std::int32_t> nodes, const Displacements& fields,
     }
   }
 }
-
-}  // namespace
 
 void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                       const Displacements& displacements,
@@ -34,7 +29,7 @@ void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formula
     ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
     const std::size_t width = mesher::nodes_per_element(block.kind);
     Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
-    Eigen::MatrixXd values(coordinates.size(), static_cast<Eigen::Index>(displacements.size()));
+    Eigen::MatrixXd values;
     for (std::size_t e = 0; e < block.size(); ++e) {
       const auto nodes = std::span(block.nodes).subspan(width * e, width);
       mesher::copy_positions(mesh, nodes, coordinates);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "fe_modal/element/element_kernel.h"
@@ -12,6 +14,11 @@ namespace flexneck::fe_modal {
 
 /// Displacements of all nodes, (3, n) each.
 using Displacements = std::vector<const Eigen::Matrix3Xd*>;
+
+/// Values of all fields at an element's nodes.
+/// @param values is filled, (3 n, fields): degree of freedom a n + i is direction a of node i
+void gather(std::span<const std::int32_t> nodes, const Displacements& fields,
+            Eigen::MatrixXd& values);
 
 /// Calls `visit` with the gradients and stresses of the displacements in each element and with its
 /// shear modulus, in Pa.

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/element/moduli.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
 
@@ -29,14 +30,6 @@ Eigen::Index pressure_count(PressureSpace space) {
   }
   return 0;
 }
-
-struct Moduli {
-  explicit Moduli(const mesher::Material& material)
-      : mu(material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio))),
-        kappa(material.youngs_modulus_Pa / (3 * (1 - 2 * material.poissons_ratio))),
-        lambda(kappa - 2 * mu / 3) {}
-  double mu, kappa, lambda;
-};
 
 }  // namespace
 
@@ -79,13 +72,33 @@ void ElementKernel::map(const Eigen::Matrix3Xd& nodes_m, Points& points) {
   }
 }
 
-void ElementKernel::differentiate() {
-  const Eigen::Index n = points_.values.rows();
-  for (Eigen::Index q = 0; q < points_.weights.size(); ++q) {
+void ElementKernel::differentiate(const Points& points, Eigen::MatrixXd& gradients) {
+  const Eigen::Index n = points.values.rows();
+  for (Eigen::Index q = 0; q < points.weights.size(); ++q) {
     const Eigen::Matrix3d to_physical =
-        points_.roots[q] * Eigen::Matrix3d(points_.jacobians.middleCols<3>(3 * q)).inverse();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3>>(gradients_.col(q).data(), n, 3) =
-        points_.derivatives.middleCols<3>(3 * q).lazyProduct(to_physical);
+        points.roots[q] * Eigen::Matrix3d(points.jacobians.middleCols<3>(3 * q)).inverse();
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3>>(gradients.col(q).data(), n, 3) =
+        points.derivatives.middleCols<3>(3 * q).lazyProduct(to_physical);
+  }
+}
+
+void ElementKernel::locate(const Eigen::Matrix3Xd& nodes_m, Points& points, ElementPoints& result) {
+  map(nodes_m, points);
+  result.volumes_m3 = points.roots.cwiseAbs2();
+  result.positions_m = nodes_m * points.values;
+  result.values = points.values;
+  result.gradients.resize(3 * points.values.rows(), points.values.cols());
+  differentiate(points, result.gradients);
+  result.gradients *= points.roots.cwiseInverse().asDiagonal();
+}
+
+void ElementKernel::locate(const Eigen::Matrix3Xd& nodes_m, ElementPoints& of_stiffness,
+                           ElementPoints& of_mass) {
+  locate(nodes_m, points_, of_stiffness);
+  if (scheme_.strength == kMassStrength) {
+    of_mass = of_stiffness;
+  } else {
+    locate(nodes_m, mass_points_, of_mass);
   }
 }
 
@@ -126,17 +139,11 @@ void ElementKernel::add_displacement_part(double mu, double square,
   }
 }
 
-double ElementKernel::projected_modulus(const mesher::Material& material) const {
-  if (scheme_.pressures == PressureSpace::none) return 0;
-  const Moduli moduli(material);
-  return scheme_.projected == VolumetricPart::bulk ? moduli.kappa : moduli.lambda;
-}
-
 void ElementKernel::evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                              const Eigen::MatrixXd& fields, PointFields& result) {
   const Eigen::Index n = points_.values.rows();
   map(nodes_m, points_);
-  differentiate();
+  differentiate(points_, gradients_);
   const Eigen::VectorXd to_value = points_.roots.cwiseInverse();
   for (Eigen::Index a = 0; a < 3; ++a) {
     for (Eigen::Index b = 0; b < 3; ++b) {
@@ -146,23 +153,26 @@ void ElementKernel::evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Mate
     }
   }
   result.volumes_m3 = points_.roots.cwiseAbs2();
-  const double projected = projected_modulus(material);
-  const Eigen::MatrixXd divergence =
-      result.gradients[0] + result.gradients[4] + result.gradients[8];
-  result.volumetric_Pa = (Moduli(material).lambda - projected) * divergence;
-  if (scheme_.pressures != PressureSpace::none) {
+  const Moduli moduli = moduli_of(material);
+  const double projected = projected_modulus(scheme_, moduli);
+  result.dilatation = result.gradients[0] + result.gradients[4] + result.gradients[8];
+  result.volumetric_Pa = (moduli.lambda - projected) * result.dilatation;
+  if (scheme_.pressures == PressureSpace::none) {
+    result.projected_dilatation = result.dilatation;
+  } else {
     project_divergence(nodes_m);
-    result.volumetric_Pa += projected * (fields.transpose() * divergence_) *
-                            pressures_.transpose() * to_value.asDiagonal();
+    result.projected_dilatation =
+        (fields.transpose() * divergence_) * pressures_.transpose() * to_value.asDiagonal();
+    result.volumetric_Pa += projected * result.projected_dilatation;
   }
 }
 
 void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                             ElementMatrices& result) {
-  const Moduli moduli(material);
+  const Moduli moduli = moduli_of(material);
 
   map(nodes_m, points_);
-  differentiate();
+  differentiate(points_, gradients_);
   // H_ia,jb = int N_i,a N_j,b holds all that the displacements contribute.
   multiply_by_transpose(1, gradients_, gradients_, 0, products_);
   result.stiffness.resize(products_.rows(), products_.cols());
@@ -170,7 +180,7 @@ void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Mater
   double square = moduli.lambda;
   if (scheme_.pressures != PressureSpace::none) {
     project_divergence(nodes_m);
-    const double projected = projected_modulus(material);
+    const double projected = projected_modulus(scheme_, moduli);
     multiply_by_transpose(projected, divergence_, divergence_, 0, result.stiffness);
     square -= projected;
   } else {

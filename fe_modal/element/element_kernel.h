@@ -21,7 +21,17 @@ struct PointFields {
   Eigen::VectorXd volumes_m3;  ///< (q), what each point stands for
   /// Entry 3 a + b, (k, q): du_a / dx_b of each of k fields.
   std::array<Eigen::MatrixXd, 9> gradients;
-  Eigen::MatrixXd volumetric_Pa;  ///< (k, q): stress is mu (grad + grad^T) + volumetric I
+  Eigen::MatrixXd dilatation;            ///< (k, q): div u
+  Eigen::MatrixXd projected_dilatation;  ///< (k, q): p(div u); div u itself without pressures
+  Eigen::MatrixXd volumetric_Pa;         ///< (k, q): stress is mu (grad + grad^T) + volumetric I
+};
+
+/// An element with n nodes at the q points of a rule.
+struct ElementPoints {
+  Eigen::VectorXd volumes_m3;    ///< (q), what each point stands for
+  Eigen::Matrix3Xd positions_m;  ///< (3, q)
+  Eigen::MatrixXd values;        ///< (n, q), shape functions
+  Eigen::MatrixXd gradients;     ///< (3n, q), row a n + i: dN_i / dx_a, 1/m
 };
 
 /// Stiffness and consistent mass of an element of any kind, linear isotropic elasticity; what kinds
@@ -46,6 +56,10 @@ class ElementKernel {
   void evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                 const Eigen::MatrixXd& fields, PointFields& result);
 
+  /// The points at which compute() integrates stiffness and mass.
+  /// @throws ComputationError if the element is inverted at one of them.
+  void locate(const Eigen::Matrix3Xd& nodes_m, ElementPoints& of_stiffness, ElementPoints& of_mass);
+
  private:
   /// Shape functions at the points of a rule.
   struct Points {
@@ -60,9 +74,10 @@ class ElementKernel {
   };
 
   static void map(const Eigen::Matrix3Xd& nodes_m, Points& points);
-  void differentiate();
+  /// @param gradients dN_i / dx_a at the points, times their roots
+  static void differentiate(const Points& points, Eigen::MatrixXd& gradients);
+  static void locate(const Eigen::Matrix3Xd& nodes_m, Points& points, ElementPoints& result);
   void project_divergence(const Eigen::Matrix3Xd& nodes_m);
-  double projected_modulus(const mesher::Material& material) const;
   void add_displacement_part(double mu, double square, Eigen::MatrixXd& stiffness) const;
 
   ElementScheme scheme_;

@@ -10,6 +10,14 @@
 #include "fe_modal/solve/block_lanczos.h"
 
 namespace flexneck::fe_modal {
+namespace {
+
+Settled settled_to(double residual) {
+  return [residual](const RitzState& state) { return state.residuals.maxCoeff() < residual; };
+}
+
+}  // namespace
+
 Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
                            const Eigen::Matrix3d& inertia_kg_m2) {
   const Eigen::Matrix3d crossed = skew(center_m);
@@ -27,21 +35,26 @@ AttachedMass::AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6
         return momenta;
       }) {}
 
-Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
-                                   const Eigen::Ref<const Eigen::MatrixXd>& modes,
-                                   Eigen::Index count) {
+EigenPairs lowest_eigenpairs(const AttachedMass& mass, const ShiftInverse& inverse,
+                             const Eigen::Ref<const Eigen::MatrixXd>& modes, Eigen::Index count) {
   // Its own method needs no exact solves, which are dear there and never quite exact.
-  if (const auto own = inverse.iterate(mass.matrix(), count)) return own->values;
+  if (auto own = inverse.iterate(mass.matrix(), count)) return *std::move(own);
   // The error of an eigenvalue is the square of this, over the relative gap to the next.
   constexpr double kResidual = 1e-6;
   Eigen::MatrixXd start(modes.rows(), modes.cols() + mass.loads().cols());
   start << modes, inverse.solve(mass.loads());
   start.colwise().normalize();
-  const Settled settled = [](const RitzState& state) {
-    return state.residuals.maxCoeff() < kResidual;
-  };
-  return block_lanczos(mass.matrix(), inverse, EigenPairs(), std::move(start), count, settled)
-      .values;
+  return block_lanczos(mass.matrix(), inverse, EigenPairs(), std::move(start), count,
+                       settled_to(kResidual));
+}
+
+Eigen::MatrixXd converged_vectors(const AttachedMass& mass, const ShiftInverse& inverse,
+                                  const EigenPairs& pairs) {
+  // The error of a vector is this over the relative gap.
+  constexpr double kResidual = 1e-11;
+  return block_lanczos(mass.matrix(), inverse, EigenPairs(), pairs.vectors, pairs.values.size(),
+                       settled_to(kResidual))
+      .vectors;
 }
 
 }  // namespace flexneck::fe_modal

@@ -30,14 +30,18 @@ class AttachedMass {
   OperatorMatrix operator_;
 };
 
-/// The lowest eigenvalues of K x = lambda (M + C^T M_rigid C) x by inverse iteration of the span of
+/// The lowest eigenpairs of K x = lambda (M + C^T M_rigid C) x by inverse iteration of the span of
 /// the body's lowest modes and of its static response to the loads on the region. A mode that is
 /// orthogonal to these in the energy does not move the region, so it is one of the body without
 /// the mass, and none of its lowest: nothing can be missed that is asked for.
 /// @param inverse of K
 /// @param modes (dofs, m) the body's lowest; m is at least `count`
-Eigen::VectorXd lowest_eigenvalues(const AttachedMass& mass, const ShiftInverse& inverse,
-                                   const Eigen::Ref<const Eigen::MatrixXd>& modes,
-                                   Eigen::Index count);
+/// @return whose values are converged, and whose vectors are as good as that takes
+EigenPairs lowest_eigenpairs(const AttachedMass& mass, const ShiftInverse& inverse,
+                             const Eigen::Ref<const Eigen::MatrixXd>& modes, Eigen::Index count);
+
+/// The vectors of such pairs, converged too: what is made of them may be linear in their errors.
+Eigen::MatrixXd converged_vectors(const AttachedMass& mass, const ShiftInverse& inverse,
+                                  const EigenPairs& pairs);
 
 }  // namespace flexneck::fe_modal

@@ -75,6 +75,11 @@ void add_cases(CLI::App& app, CommandLine& line) {
       ->allow_extra_args(false);
 }
 
+void add_sensitivity(CLI::App& app, CommandLine& line) {
+  app.add_flag("--sensitivity", line.sensitivity,
+               "Derivatives by all dimensions and material constants");
+}
+
 void add_redo(CLI::App& app, CommandLine& line) {
   app.add_flag("--force", line.redo, "Redo what has not changed, too");
 }
@@ -117,7 +122,7 @@ struct OptionRow {
   CommandOption option;
   void (*add)(CLI::App&, CommandLine&);
 };
-constexpr std::array<OptionRow, 11> kOptions = {
+constexpr std::array<OptionRow, 12> kOptions = {
     {{CommandOption::folder, add_folder},
      {CommandOption::optional_folder, add_optional_folder},
      {CommandOption::curves, add_curves},
@@ -126,6 +131,7 @@ constexpr std::array<OptionRow, 11> kOptions = {
      {CommandOption::mesh_settings, add_mesh_settings},
      {CommandOption::modes_settings, add_modes_settings},
      {CommandOption::cases, add_cases},
+     {CommandOption::sensitivity, add_sensitivity},
      {CommandOption::redo, add_redo},
      {CommandOption::show, add_show},
      {CommandOption::target, add_target}}};

@@ -21,6 +21,7 @@ struct CommandLine {
   bool is_verbose = false;
   bool show = false;
   bool redo = false;
+  bool sensitivity = false;
   std::filesystem::path target;
   bool is_binary = false;
   CurveChoice curves;

@@ -31,7 +31,7 @@ const std::vector<Command>& commands() {
       {.name = "modes",
        .help = "modes of the mesh: modes.h5",
        .files = same_study,
-       .options = {folder, settings, modes_settings},
+       .options = {folder, settings, modes_settings, sensitivity},
        .run = modes_command},
       {.name = "pictures",
        .help = "draw mesh and modes: mesh.png, modes.png",

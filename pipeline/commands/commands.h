@@ -25,6 +25,7 @@ struct CommandInput {
   const fe_modal::Ranks* ranks = nullptr;  ///< that mpirun has started; null: this process alone
   bool redo = false;                       ///< of run: even what has not changed
   bool is_run = false;                     ///< all that follows is made anew, too
+  bool sensitivity = false;                ///< of modes: their derivatives, too
 };
 
 /// Options that some commands have and others have not.
@@ -35,6 +36,7 @@ enum class CommandOption {
   mesh_settings,
   modes_settings,
   cases,
+  sensitivity,
   redo,
   show,
   target,

@@ -19,6 +19,7 @@
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/modes_options.h"
+#include "pipeline/commands/sensitivity.h"
 #include "pipeline/commands/substructures.h"
 #include "pipeline/isolation/result_files.h"
 
@@ -83,10 +84,10 @@ void check_rounding(const CommandInput& input, const mesher::Mesh& mesh,
 /// Solves and writes the file, and what ParaView opens.
 fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
                           const fe_modal::ModalOptions& options, const std::filesystem::path& path,
-                          StepTimes& times) {
+                          StepTimes& times, fe_modal::AnalysisFields* fields = nullptr) {
   fe_modal::ModalBodyFile file;
   file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times,
-                                      input.console.warnings(path.filename().string()));
+                                      input.console.warnings(path.filename().string()), fields);
   check_rounding(input, mesh, options, file.body);
   times.start("write");
   file.provenance = provenance_of_modes(input);
@@ -117,6 +118,7 @@ void solve_static(const CommandInput& input, const mesher::Mesh& mesh,
 }  // namespace
 
 bool modes_command(const CommandInput& input) {
+  if (input.sensitivity) check_sensitivity(input.study);
   if (input.study.matrices) return modes_of_matrices(input);
   StepTimes times;
   times.start("read");
@@ -142,7 +144,9 @@ bool modes_command(const CommandInput& input) {
   times.start("start PETSc");
   std::optional<fe_modal::PetscSession> session;
   if (input.ranks == nullptr) session.emplace();
-  const fe_modal::ModalBody body = solve(input, mesh.mesh, options, input.folder.modes(), times);
+  fe_modal::AnalysisFields fields;
+  const fe_modal::ModalBody body = solve(input, mesh.mesh, options, input.folder.modes(), times,
+                                         input.sensitivity ? &fields : nullptr);
   input.console.detail()("seconds: " + times.summary());
   const bool whole = input.console.is_verbose();
   input.console.result(fmt::format(
@@ -150,6 +154,9 @@ bool modes_command(const CommandInput& input) {
       mass_text(input.study, body.invariants.mass), input.folder.modes().string(), body.solver,
       mode_table(body, whole), loaded_text(body, whole)));
   input.console.table(basis_text(body));
+  std::filesystem::remove(input.folder.sensitivities());  // of other modes
+  if (input.sensitivity)
+    write_sensitivities(input, mesh.mesh, options, body, fields, provenance_of_modes(input));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
   return true;

@@ -27,6 +27,8 @@ class ResultsFolder {
   std::filesystem::path substructure(const std::string& piece) const {
     return path_ / ("substructure_" + piece + ".h5");
   }
+  /// Derivatives of the modes, where they were asked for.
+  std::filesystem::path sensitivities() const { return path_ / "sensitivities.json"; }
   std::filesystem::path mesh_picture() const { return path_ / "mesh.png"; }
   std::filesystem::path modes_picture() const { return path_ / "modes.png"; }
   std::filesystem::path history(const CaseSection& experiment) const;

@@ -7,7 +7,9 @@
 
 namespace flexneck::pipeline {
 
-std::string stem_of(const Figure& figure) { return fmt::format("figure-{:02}", figure.number); }
+std::string stem_of(const Figure& figure) {
+  return figure.name.empty() ? fmt::format("figure-{:02}", figure.number) : figure.name;
+}
 
 std::string gnuplot_text(const std::string& text) {
   std::string quoted = "'";

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/output_file.h"
+#include "pipeline/output/sensitivity_tables.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/curves.h"
 #include "pipeline/report/html_table.h"
@@ -183,6 +184,7 @@ std::vector<ResultTable> compared_tables(const std::vector<ComparedStudy>& studi
   std::vector<ResultTable> tables = {differing_inputs(studies), verifications(studies),
                                      frequencies(studies)};
   for (const ResultTable& table : studies.front().results.tables) {
+    if (table.name == kSensitivityTable) continue;  // those of relative ones are for people
     const bool is_shared =
         std::any_of(studies.begin() + 1, studies.end(), [&](const ComparedStudy& study) {
           const ResultTable* const other = find_table(study.results, table.name);

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "fe_modal/body/basis_table.h"
+#include "pipeline/output/sensitivity_tables.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/corridors.h"
 
@@ -106,11 +107,24 @@ std::string certification_html(const Results& results, const Study& study) {
 std::string tables_html(const Results& results, const Study& study) {
   std::string html;
   for (const ResultTable& table : results.tables) {
-    if (is_verdicts(table)) continue;
+    if (is_verdicts(table) || is_of_sensitivities(table)) continue;
     html += html_of(html_table_of(table)) + html_list(table.notes);
   }
   if (!html.empty() || study.cases.empty()) return html;
   return note("There are no tables of experiments in this folder yet.");
+}
+
+/// The list of all derivatives is for programs.
+std::string sensitivities_html(const Results& results) {
+  std::string html;
+  for (const ResultTable& table : results.tables) {
+    if (!is_of_sensitivities(table) || table.name == kSensitivityTable) continue;
+    html += html_of(html_table_of(table)) + html_list(table.notes);
+  }
+  if (html.empty()) return html;
+  return html + note(
+                    "All derivatives with their units: the table \"sensitivities\" in "
+                    "sensitivities.json.");
 }
 
 HtmlTable mode_table_of(const fe_modal::ModalBody& body) {
@@ -261,6 +275,7 @@ std::map<std::string, std::string> page_sections(const Results& results, const S
           {"verification", verification_html(results, study)},
           {"tables", tables_html(results, study)},
           {"modes", modes_html(results)},
+          {"sensitivities", sensitivities_html(results)},
           {"remarks", html_list(remarks)},
           {"parameters", parameters_html(study)},
           {"provenance", provenance_html(results, study) + missing_html(results)}};

@@ -27,7 +27,7 @@ struct PageSection {
   const char* title;
   const char* content;  ///< name of its text
 };
-constexpr std::array<PageSection, 10> kSections = {
+constexpr std::array<PageSection, 11> kSections = {
     {{"certification", "Certification", "Certification tests", "certification"},
      {"verification", "Verification", "Verification", "verification"},
      {"view", "In motion", "Modes and motion", "scene"},
@@ -35,6 +35,7 @@ constexpr std::array<PageSection, 10> kSections = {
      {"results", "Results", "Results of the experiments", "tables"},
      {"figures", "Figures", "The paper's figures", "figures"},
      {"modes", "Modes", "Modes and their certificates", "modes"},
+     {"sensitivities", "Sensitivities", "What each input does", "sensitivities"},
      {"remarks", "The paper", "Where the paper contradicts itself or is silent", "remarks"},
      {"inputs", "Inputs", "Inputs and their origin", "parameters"},
      {"provenance", "Provenance", "Provenance", "provenance"}}};
@@ -64,7 +65,10 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   const nlohmann::ordered_json scene = scene_of(results, study);
   const nlohmann::ordered_json curves = curves_of(results, study);
   std::map<std::string, std::string> texts = page_sections(results, study, paper_remarks(study));
-  texts["figures"] = figures_html(draw_figures(results, study, path.parent_path() / "figures"));
+  const std::vector<DrawnFigure> figures =
+      draw_figures(results, study, path.parent_path() / "figures");
+  texts["figures"] = figures_html(figures);
+  texts["sensitivities"] = tornado_html(figures) + texts["sensitivities"];
   texts["head"] = page_head(texts["study"]);
   texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");

@@ -14,6 +14,7 @@
 #include "pipeline/report/figures/mesh_figures.h"
 #include "pipeline/report/figures/neck_drawings.h"
 #include "pipeline/report/figures/response_figures.h"
+#include "pipeline/report/figures/tornado_figure.h"
 
 namespace flexneck::pipeline {
 
@@ -24,7 +25,10 @@ namespace {
 constexpr const char* kScript = "figures.gp";
 
 std::vector<Figure> all_figures(const Results& results, const Study& study) {
-  std::vector<Figure> figures = neck_drawings(results, study);
+  std::vector<Figure> figures = {tornado_figure(results)};
+  if (study.neck() == nullptr) return figures;
+  std::vector<Figure> drawings = neck_drawings(results, study);
+  figures.insert(figures.end(), drawings.begin(), drawings.end());
   for (auto& more : {mesh_figures(results), response_figures(results, study)}) {
     figures.insert(figures.end(), more.begin(), more.end());
   }
@@ -37,6 +41,12 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(folder.string() + ": cannot be made (" + error.message() + ")");
+}
+
+/// Those of another run.
+void remove_files(const fs::path& folder, const Figure& figure) {
+  fs::remove(folder / (stem_of(figure) + ".svg"));
+  fs::remove(folder / (stem_of(figure) + ".csv"));
 }
 
 /// gnuplot does not tell when its last bytes found no room.
@@ -52,15 +62,16 @@ std::string whole_svg(const fs::path& path) {
 
 std::string html_of(const DrawnFigure& drawn) {
   const Figure& figure = drawn.figure;
-  const std::string name = fmt::format("Figure {}", figure.number);
+  const bool is_of_paper = figure.number > 0;
+  const std::string name = is_of_paper ? fmt::format("Figure {}", figure.number) : "Picture";
   std::string html = "<figure id=\"" + stem_of(figure) + "\">\n";
   if (!drawn.svg.empty()) {
     html += "<img loading=\"lazy\" alt=\"" + name + ": " + html_text(figure.caption) +
             "\" src=\"data:image/svg+xml;base64," + base64(std::as_bytes(std::span(drawn.svg))) +
             "\">\n";
   }
-  html += "<figcaption><b>" + name + ".</b> " + html_text(figure.caption) + ". " +
-          "<span class=\"note\">" + html_text(figure.remark);
+  html += "<figcaption>" + (is_of_paper ? "<b>" + name + ".</b> " : "") +
+          html_text(figure.caption) + ". <span class=\"note\">" + html_text(figure.remark);
   html += drawn.svg.empty() ? " Not drawn: there is not " + html_text(figure.missing) + "."
                             : " Data: figures/" + stem_of(figure) + ".csv.";
   return html + "</span></figcaption>\n</figure>\n";
@@ -70,11 +81,17 @@ std::string html_of(const DrawnFigure& drawn) {
 
 std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study,
                                       const fs::path& folder) {
-  if (study.neck() == nullptr) return {};
+  std::vector<Figure> figures = all_figures(results, study);
+  const bool draws = std::any_of(figures.begin(), figures.end(),
+                                 [](const Figure& figure) { return figure.missing.empty(); });
+  if (study.neck() == nullptr && !draws) {
+    remove_files(folder, figures.front());
+    return {};
+  }
   const TemporaryFolder workshop;
   std::vector<DrawnFigure> drawn;
   std::string script;
-  for (Figure& figure : all_figures(results, study)) {
+  for (Figure& figure : figures) {
     if (figure.missing.empty()) {
       write_text(workshop / (stem_of(figure) + ".csv"), figure.csv, Durability::none);
       script += figure.script;
@@ -91,18 +108,23 @@ std::vector<DrawnFigure> draw_figures(const Results& results, const Study& study
       write_text(folder / (stem + ".svg"), each.svg, Durability::none);
       write_text(folder / (stem + ".csv"), each.figure.csv, Durability::none);
     } else {
-      fs::remove(folder / (stem + ".svg"));
-      fs::remove(folder / (stem + ".csv"));
+      remove_files(folder, each.figure);
     }
   }
   return drawn;
 }
 
 std::string figures_html(const std::vector<DrawnFigure>& figures) {
-  if (figures.empty()) return {};
-  std::string html = "<div class=\"figures\">\n";
-  for (const DrawnFigure& figure : figures) html += html_of(figure);
-  return html + "</div>\n";
+  std::string html;
+  for (const DrawnFigure& figure : figures)
+    if (figure.figure.number > 0) html += html_of(figure);
+  return html.empty() ? html : "<div class=\"figures\">\n" + html + "</div>\n";
+}
+
+std::string tornado_html(const std::vector<DrawnFigure>& figures) {
+  for (const DrawnFigure& figure : figures)
+    if (figure.figure.number == 0 && !figure.svg.empty()) return html_of(figure);
+  return {};
 }
 
 }  // namespace flexneck::pipeline

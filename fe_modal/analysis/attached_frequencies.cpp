@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/analysis/attached_frequencies.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "fe_modal/solve/attached_mass.h"
+#include "fe_modal/solve/eigensolver.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr Eigen::Index kAttachedCount = 6;
+
+}  // namespace
+
+Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues) {
+  return eigenvalues.cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
+}
+
+std::size_t interface_index(const ModalOptions& options, const std::string& name) {
+  const auto found = std::find_if(options.interfaces.begin(), options.interfaces.end(),
+                                  [&](const auto& interface) { return interface.name == name; });
+  return static_cast<std::size_t>(found - options.interfaces.begin());
+}
+
+std::vector<Eigen::Matrix3Xd> expanded(const DofMap& dof_map, const Eigen::MatrixXd& vectors) {
+  std::vector<Eigen::Matrix3Xd> shapes;
+  for (const auto& vector : vectors.colwise()) shapes.push_back(dof_map.expand(vector));
+  return shapes;
+}
+
+std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
+                                               const SolvedBody& solved,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& modes,
+                                               std::vector<std::vector<Eigen::Matrix3Xd>>* shapes) {
+  const Eigen::Index count = std::min(kAttachedCount, modes.rows());
+  std::vector<AttachedFrequencies> result;
+  for (const RigidAttachment& body : options.attachments) {
+    const std::size_t region = interface_index(options, body.interface);
+    const Matrix6d rigid_mass = rigid_mass_matrix(
+        body.mass_kg, body.center_m - solved.averages[region].point_m(), body.inertia_kg_m2);
+    const AttachedMass mass(solved.system.mass(), solved.loads[region].forces, rigid_mass);
+    const EigenPairs pairs =
+        modes.cols() < count
+            ? lowest_eigenpairs(solved.system.stiffness(), mass.matrix(), solved.inverse, count)
+            : lowest_eigenpairs(mass, solved.inverse, modes, count);
+    result.push_back({body.name, body.interface, frequencies_Hz(pairs.values), rigid_mass});
+    if (shapes == nullptr) continue;
+    shapes->push_back(expanded(solved.dof_map, converged_vectors(mass, solved.inverse, pairs)));
+  }
+  return result;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/reduction/reduction.h"
+#include "fe_modal/system/modal_options.h"
+#include "fe_modal/system/modal_system.h"
+#include "fe_modal/system/rigid_average.h"
+
+namespace flexneck::fe_modal {
+
+Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues);
+
+/// Position of an interface among options.interfaces; it is known to be there.
+std::size_t interface_index(const ModalOptions& options, const std::string& name);
+
+/// Each column on all nodes, (3, n).
+std::vector<Eigen::Matrix3Xd> expanded(const DofMap& dof_map, const Eigen::MatrixXd& vectors);
+
+/// A body that is assembled and factorised.
+struct SolvedBody {
+  const ModalSystem& system;
+  const ShiftInverse& inverse;
+  const DofMap& dof_map;
+  const std::vector<RigidAverage>& averages;  ///< of the options' interfaces
+  const std::vector<InterfaceLoads>& loads;   ///< likewise
+};
+
+/// The lowest frequencies with each of the options' bodies attached.
+/// @param modes the body's lowest eigenvectors
+/// @param shapes takes the modes with each body, of unit mass together, if it is not null
+std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
+                                               const SolvedBody& solved,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& modes,
+                                               std::vector<std::vector<Eigen::Matrix3Xd>>* shapes);
+
+}  // namespace flexneck::fe_modal

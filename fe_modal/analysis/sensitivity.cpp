@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/analysis/sensitivity.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "fe_modal/analysis/average_derivative.h"
+#include "fe_modal/analysis/body_gradient.h"
+#include "fe_modal/analysis/coupling_gradient.h"
+#include "fe_modal/analysis/sensitivity_request.h"
+#include "fe_modal/analysis/spectrum_derivative.h"
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr std::array<std::string_view, 6> kKindNames = {
+    "frequency", "mean", "directional", "symmetry class", "mass", "static stiffness"};
+constexpr std::array<const char*, 6> kLoads = {"Fx/ux", "Fy/uy", "Fz/uz",
+                                               "Mx/rx", "My/ry", "Mz/rz"};
+
+/// Derivatives by one parameter.
+struct ByParameter {
+  Eigen::VectorXd forms;
+  double mass = 0;
+  std::vector<Eigen::MatrixXd> averages;  ///< as in the request
+};
+
+ByParameter derivative_by(const DesignParameter& parameter, const mesher::Mesh& mesh,
+                          const ModalOptions& options, const SensitivityRequest& request,
+                          const BodyGradient& gradient) {
+  ByParameter result{Eigen::VectorXd(static_cast<Eigen::Index>(request.forms.size())), 0,
+                     request.averages};
+  if (const auto* const constant = std::get_if<MaterialParameter>(&parameter.change)) {
+    result.forms = gradient.by_material.at(constant->material)
+                       .col(static_cast<Eigen::Index>(constant->constant));
+    if (constant->constant == MaterialConstant::density) {
+      result.mass = gradient.volumes_m3[static_cast<Eigen::Index>(constant->material)];
+    }
+    for (Eigen::MatrixXd& average : result.averages) average.setZero();
+    return result;
+  }
+  const auto& velocity = std::get<Eigen::Matrix3Xd>(parameter.change);
+  for (std::size_t k = 0; k < request.forms.size(); ++k) {
+    result.forms[static_cast<Eigen::Index>(k)] = gradient.by_nodes[k].cwiseProduct(velocity).sum();
+  }
+  result.mass = gradient.mass_by_nodes.cwiseProduct(velocity).sum();
+  for (std::size_t k = 0; k < result.averages.size(); ++k) {
+    if (result.averages[k].size() == 0) continue;
+    const InterfaceDefinition& interface = options.interfaces[k];
+    if (interface.is_rigid) {  // its motion is a degree of freedom, wherever its nodes are
+      result.averages[k].setZero();
+      continue;
+    }
+    result.averages[k] = average_derivative(mesh, mesh.face_set(interface.set),
+                                            interface.position_m, velocity, request.fields);
+  }
+  return result;
+}
+
+GroupDerivative group_derivative(const SpectrumForms& forms, std::size_t which,
+                                 const SensitivityRequest& request,
+                                 const std::vector<ByParameter>& all) {
+  GroupDerivative result{forms.groups[which], {}};
+  const Eigen::Index count = result.group.count;
+  for (const ByParameter& by : all) {
+    Eigen::MatrixXd matrix(count, count);
+    Eigen::Index form = forms.first_forms[which];
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = i; j < count; ++j, ++form) {
+        double value = by.forms[form];
+        if (forms.attached != nullptr) {
+          const EnergyForm& pair = request.forms[static_cast<std::size_t>(form)];
+          const Eigen::MatrixXd& motions = request.averages[forms.interface];
+          const Eigen::MatrixXd& changes = by.averages[forms.interface];
+          const Matrix6d& mass = *forms.attached->mass_matrix;
+          value -= pair.lambda * (changes.col(pair.one).dot(mass * motions.col(pair.other)) +
+                                  motions.col(pair.one).dot(mass * changes.col(pair.other)));
+        }
+        matrix(i, j) = matrix(j, i) = value;
+      }
+    }
+    result.by_parameter.push_back(std::move(matrix));
+  }
+  return result;
+}
+
+void add_row(Quantity quantity, const Eigen::VectorXd& by_parameter, Sensitivities& result) {
+  result.quantities.push_back(std::move(quantity));
+  result.derivatives.conservativeResize(result.derivatives.rows() + 1, by_parameter.size());
+  result.derivatives.bottomRows<1>() = by_parameter.transpose();
+}
+
+void add_stiffness(const ResponseForms& forms, const ModalOptions& options,
+                   const SensitivityRequest& request, const std::vector<ByParameter>& all,
+                   Sensitivities& result) {
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const Eigen::Index field = forms.first_field + i;
+    const double stiffness = 1 / request.averages[forms.interface](i, field);
+    Eigen::VectorXd by_parameter(static_cast<Eigen::Index>(all.size()));
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      const double compliance =
+          2 * all[p].averages[forms.interface](i, field) - all[p].forms[forms.first_form + i];
+      by_parameter[static_cast<Eigen::Index>(p)] = -stiffness * stiffness * compliance;
+    }
+    add_row({QuantityKind::static_stiffness,
+             std::string(kLoads.at(static_cast<std::size_t>(i))) + " at " +
+                 options.interfaces[forms.interface].name,
+             i < 3 ? "N/m" : "N m/rad", stiffness},
+            by_parameter, result);
+  }
+}
+
+/// The average motion of nodes that are coupled rigidly is not that of nodes that stay.
+void check_overlap(const mesher::Mesh& mesh, const ModalOptions& options) {
+  const auto nodes_of = [&](const InterfaceDefinition& interface) {
+    return mesher::nodes_of(mesh.face_set(interface.set)).nodes;
+  };
+  for (const InterfaceDefinition& rigid : options.interfaces) {
+    for (const InterfaceDefinition& other : options.interfaces) {
+      if (!rigid.is_rigid || other.is_rigid) continue;
+      const std::vector<std::int32_t> one = nodes_of(rigid);
+      const std::vector<std::int32_t> two = nodes_of(other);
+      std::vector<std::int32_t> shared;
+      std::set_intersection(one.begin(), one.end(), two.begin(), two.end(),
+                            std::back_inserter(shared));
+      if (shared.empty()) continue;
+      throw InputError("sensitivities are not offered where interface '" + other.name +
+                       "' has nodes of the rigid interface '" + rigid.name +
+                       "'; tie it too, in modes.rigid_interfaces");
+    }
+  }
+}
+
+void check_basis(const ModalOptions& options) {
+  if (options.basis == BasisKind::craig_bampton) {
+    throw InputError(
+        "sensitivities need eigenvectors of the body, a basis of craig-bampton has none; take "
+        "modes.basis = \"residual\"");
+  }
+}
+
+/// Adds what moves with the couplings of rigid interfaces.
+void add_couplings(const mesher::Mesh& mesh, const ModalOptions& options,
+                   const SensitivityRequest& request, BodyGradient& gradient) {
+  for (std::size_t k = 0; k < options.interfaces.size(); ++k) {
+    const InterfaceDefinition& interface = options.interfaces[k];
+    if (!interface.is_rigid) continue;
+    add_coupling_gradient(
+        mesh, options.formulation, mesher::nodes_of(mesh.face_set(interface.set)).nodes,
+        request.averages[k].bottomRows<3>(), request.fields, request.forms, gradient);
+  }
+}
+
+/// Of the last modes their group may go on beyond them.
+void note_cut_group(const SensitivityRequest& request, const AnalysisFields& solved,
+                    Sensitivities& result) {
+  const Spectrum& modes = request.spectra.front().spectrum;
+  if (modes.names.empty()) return;
+  const double last_Hz = modes.frequencies_Hz.tail<1>()[0];
+  if (!(solved.next_Hz - last_Hz < kNearlyEqual * solved.next_Hz)) return;
+  result.notes.push_back(modes.names.back() +
+                         " lies within 1 % of the next mode, which was not asked for: raise "
+                         "modes.count, its derivatives are those of a single mode");
+}
+
+}  // namespace
+
+std::string_view name_of(QuantityKind kind) {
+  return kKindNames.at(static_cast<std::size_t>(kind));
+}
+
+Eigen::MatrixXd Sensitivities::relative() const {
+  Eigen::MatrixXd result = derivatives;
+  for (Eigen::Index q = 0; q < result.rows(); ++q)
+    result.row(q) /= quantities[static_cast<std::size_t>(q)].value;
+  for (Eigen::Index p = 0; p < result.cols(); ++p)
+    result.col(p) *= parameters[static_cast<std::size_t>(p)].value;
+  return result;
+}
+
+Sensitivities sensitivities(const mesher::Mesh& mesh, const ModalOptions& options,
+                            const ModalBody& body, const AnalysisFields& fields,
+                            std::vector<DesignParameter> parameters) {
+  check_basis(options);
+  check_overlap(mesh, options);
+  const SensitivityRequest request = request_of(mesh, options, body, fields);
+  BodyGradient gradient = body_gradient(mesh, options.formulation, request.fields, request.forms);
+  add_couplings(mesh, options, request, gradient);
+
+  std::vector<ByParameter> all;
+  Sensitivities result;
+  for (DesignParameter& parameter : parameters) {
+    all.push_back(derivative_by(parameter, mesh, options, request, gradient));
+    if (std::holds_alternative<Eigen::Matrix3Xd>(parameter.change))
+      parameter.change = Eigen::Matrix3Xd();
+    result.parameters.push_back(std::move(parameter));
+  }
+  result.derivatives.resize(0, static_cast<Eigen::Index>(all.size()));
+  for (const SpectrumForms& forms : request.spectra) {
+    for (std::size_t k = 0; k < forms.groups.size(); ++k)
+      add_group(forms.spectrum, group_derivative(forms, k, request, all), result);
+  }
+  for (const ResponseForms& forms : request.responses)
+    add_stiffness(forms, options, request, all, result);
+  Eigen::VectorXd mass(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t p = 0; p < all.size(); ++p) mass[static_cast<Eigen::Index>(p)] = all[p].mass;
+  add_row({QuantityKind::mass, "mass", "kg", body.invariants.mass}, mass, result);
+  note_cut_group(request, fields, result);
+  return result;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/analysis/sensitivity.h"
+
+namespace flexneck::fe_modal {
+
+/// Neighbouring modes that are nearly equal; a single one is a group, too.
+struct ModeGroup {
+  Eigen::Index first = 0;
+  Eigen::Index count = 1;
+};
+
+/// @param frequencies_Hz ascending, above zero
+std::vector<ModeGroup> groups_of(const Eigen::VectorXd& frequencies_Hz);
+
+/// A group and Phi^T (dK - lambda dM) Phi, (count, count), for each parameter.
+struct GroupDerivative {
+  ModeGroup group;
+  std::vector<Eigen::MatrixXd> by_parameter;
+};
+
+/// Frequencies of one eigenproblem, m of them.
+struct Spectrum {
+  std::vector<std::string> names;
+  Eigen::VectorXd frequencies_Hz;  ///< ascending, above zero
+  bool is_attached = false;
+};
+
+/// Appends the rows of a group, and what is to be said of it, to what is known.
+/// @param derivative of the modes of the group; they are numbered as in the spectrum
+void add_group(const Spectrum& spectrum, const GroupDerivative& derivative, Sensitivities& result);
+
+}  // namespace flexneck::fe_modal
