@@ -30,8 +30,8 @@ struct ElementGradient {
 ///
 ///   d/dt u^T K w = int [e div v - (G_u^T sigma_w + G_w^T sigma_u) : grad v
 ///                       + c (b_u (div w - p_w) + b_w (div u - p_u)) . v] dV
-///   e = mu (G_u : G_w + G_u : G_w^T) + (lambda - c) div u div w + c (p_u div w + p_w div u - p_u
-///   p_w)
+///   e = mu (G_u : G_w + G_u : G_w^T) + (lambda - c) div u div w
+///       + c (p_u div w + p_w div u - p_u p_w)
 ///   d/dt u^T M w = int rho u . w div v dV
 ///
 /// where p is the projected dilatation, c the modulus that it acts with, and b the gradient of a p
