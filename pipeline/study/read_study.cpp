@@ -13,6 +13,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/solver_steps.h"
 #include "pipeline/study/sections.h"
+#include "pipeline/study/sweep_section.h"
 
 namespace flexneck::pipeline {
 
@@ -104,6 +105,8 @@ std::span<const Key> study_keys() {
                   UsedBy::named_experiments),
       Key::table("solver", "Integration of the experiments", kSolverKeys, UsedBy::all_experiments),
       Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
+      Key::table("sweep", "Many values of some keys, and what becomes of them: 'flexneck sweep'",
+                 sweep_keys(), UsedBy::named_experiments),
   });
   return kKeys;
 }
@@ -290,6 +293,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   read_tests(root, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
+  if (root.has("sweep")) read_sweep(root.table("sweep"));  // for what is wrong with it
   root.finish();
   check_sections(root, study);
   check_references(study);
