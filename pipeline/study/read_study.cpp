@@ -13,6 +13,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/solver_steps.h"
 #include "pipeline/study/sections.h"
+#include "pipeline/study/study_reader.h"
 #include "pipeline/study/sweep_section.h"
 
 namespace flexneck::pipeline {
@@ -263,8 +264,10 @@ const BodySection& Study::body(const std::string& name) const {
   return bodies[find_name(names_of(bodies), name, "body")];
 }
 
-Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  const StudyDocument document(path, settings, study_keys());
+namespace {
+
+Study study_of(const StudyDocument& document, const std::filesystem::path& path,
+               const std::vector<std::string>& settings) {
   const StudyTable root = document.root();
   Study study;
   study.file = path;
@@ -304,6 +307,42 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   if (study.neck() != nullptr)
     forget_fit_of_changed_neck(root, study.parameters, *study.structure->neck);
   return study;
+}
+
+/// Whether a setting takes part in others, or is made of variables.
+bool concerns_variables(const std::string& setting) {
+  return setting.starts_with("variables.") || setting.starts_with("assembly.") ||
+         setting.find('$') != std::string::npos;
+}
+
+std::vector<std::string> keys_of(const std::vector<std::string>& settings) {
+  std::vector<std::string> keys;
+  keys.reserve(settings.size());
+  for (const std::string& setting : settings) keys.push_back(setting.substr(0, setting.find('=')));
+  return keys;
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  return study_of(StudyDocument(path, settings, study_keys()), path, settings);
+}
+
+StudyReader::StudyReader(std::filesystem::path path, std::vector<std::string> settings)
+    : path_(std::move(path)), settings_(std::move(settings)) {}
+
+Study StudyReader::read(const std::vector<std::string>& more) {
+  std::vector<std::string> all = settings_;
+  all.insert(all.end(), more.begin(), more.end());
+  if (std::any_of(more.begin(), more.end(), concerns_variables)) return read_study(path_, all);
+  std::vector<std::string> keys = keys_of(more);
+  if (!document_ || keys != keys_) {
+    document_.emplace(path_, all, study_keys());
+    keys_ = std::move(keys);
+  } else {
+    for (const std::string& setting : more) document_->set(setting);
+  }
+  return study_of(*document_, path_, all);
 }
 
 std::filesystem::path built_in_study() {
