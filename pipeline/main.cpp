@@ -72,16 +72,16 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
   }
   if (line.show) return show_command({study, folder, console});
-  const bool passed =
-      command.run({study, folder, console, line.target, line.is_binary, ranks, line.redo});
-  if (command.writes_results) remember_study(line.folder, choice);
+  const bool passed = command.run(
+      {study, folder, console, line.target, line.is_binary, ranks, line.redo, false, line.shares});
+  if (command.writes_results && command.is_remembered) remember_study(line.folder, choice);
   return passed;
 }
 
 bool execute(const CommandLine& line, const Console& console, const Ranks* ranks) {
   std::optional<FolderLock> lock;
   const auto take_lock = [&] {
-    if (!line.writes()) return;
+    if (!line.locks()) return;
     lock.emplace(line.folder, line.text,
                  [&](const std::string& warning) { console.warning(warning); });
   };

@@ -266,8 +266,10 @@ const BodySection& Study::body(const std::string& name) const {
 
 namespace {
 
+/// @param known  tests of an earlier reading
 Study study_of(const StudyDocument& document, const std::filesystem::path& path,
-               const std::vector<std::string>& settings) {
+               const std::vector<std::string>& settings,
+               const std::vector<TestSection>& known = {}) {
   const StudyTable root = document.root();
   Study study;
   study.file = path;
@@ -293,7 +295,7 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   study.head_springs = read_all(root, "head_spring", read_head_spring, study.tables);
   study.cases = read_cases(root);
   check_names(names_of(study.cases), "case");
-  read_tests(root, study);
+  read_tests(root, known, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   if (root.has("sweep")) read_sweep(root.table("sweep"));  // for what is wrong with it
@@ -339,10 +341,13 @@ Study StudyReader::read(const std::vector<std::string>& more) {
   if (!document_ || keys != keys_) {
     document_.emplace(path_, all, study_keys());
     keys_ = std::move(keys);
+    tests_.clear();
   } else {
     for (const std::string& setting : more) document_->set(setting);
   }
-  return study_of(*document_, path_, all);
+  Study study = study_of(*document_, path_, all, tests_);
+  if (tests_.empty()) tests_ = study.tests;
+  return study;
 }
 
 std::filesystem::path built_in_study() {

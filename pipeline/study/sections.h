@@ -50,7 +50,8 @@ HeadSpringSection read_head_spring(const StudyTable& spring, std::vector<InputFi
 /// [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
 std::vector<CaseSection> read_cases(const StudyTable& root);
 /// [dummy] and [[test]] of the cases that have been read.
-void read_tests(const StudyTable& root, Study& study);
+/// @param known  tests of an earlier reading of the study, whose regulations are not read again
+void read_tests(const StudyTable& root, const std::vector<TestSection>& known, Study& study);
 void read_solver(const StudyTable& solver, Study& study);
 
 }  // namespace flexneck::pipeline

@@ -27,6 +27,7 @@ class StudyReader {
   std::vector<std::string> settings_;
   std::vector<std::string> keys_;  ///< that the document has been given values of
   std::optional<StudyDocument> document_;
+  std::vector<TestSection> tests_;  ///< of the first reading of the document
 };
 
 }  // namespace flexneck::pipeline

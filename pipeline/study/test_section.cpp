@@ -20,9 +20,16 @@ constexpr Key kTestKeys[] = {
     Key::text("case", kRequired, "Case of the pendulum that is judged"),
 };
 
-ShippedTest rules_of(const StudyTable& table) {
+/// @param known  of an earlier reading, whose files need not be read again
+ShippedTest rules_of(const StudyTable& table, const std::string& test_name,
+                     const std::vector<TestSection>& known) {
   const std::string name = table.text("regulation");
-  if (!table.has("file")) return at_key(table, "regulation", [&] { return shipped_test(name); });
+  const bool has_file = table.has("file");
+  for (const TestSection& each : known)
+    if (each.name == test_name && each.rules.name == name &&
+        (!has_file || each.file == table.file("file")))
+      return {each.rules, each.file};
+  if (!has_file) return at_key(table, "regulation", [&] { return shipped_test(name); });
   const std::filesystem::path file = table.file("file");
   const std::vector<CertificationTest> tests = read_regulation(file);
   return at_key(table, "regulation", [&] {
@@ -47,7 +54,7 @@ void check_case(const StudyTable& table, const Study& study, const TestSection& 
 std::span<const Key> dummy_keys() { return kDummyKeys; }
 std::span<const Key> test_keys() { return kTestKeys; }
 
-void read_tests(const StudyTable& root, Study& study) {
+void read_tests(const StudyTable& root, const std::vector<TestSection>& known, Study& study) {
   if (root.has("dummy")) {
     const StudyTable dummy = root.table("dummy");
     study.dummy = dummy.text("name");
@@ -56,7 +63,7 @@ void read_tests(const StudyTable& root, Study& study) {
   for (const StudyTable& table : root.tables("test")) {
     TestSection test;
     test.name = table.text("name");
-    auto [rules, file] = rules_of(table);
+    auto [rules, file] = rules_of(table, test.name, known);
     test.rules = std::move(rules);
     test.file = std::move(file);
     test.experiment = table.text("case");
