@@ -14,6 +14,7 @@
 #include "pipeline/output/customary_units.h"
 #include "pipeline/sweep/interrupt.h"
 #include "pipeline/sweep/sweep_job.h"
+#include "pipeline/sweep/sweep_pictures.h"
 #include "pipeline/sweep/sweep_summary.h"
 
 namespace flexneck::pipeline {
@@ -53,25 +54,44 @@ Provenance provenance_of_sweep(const Study& study) {
   return provenance;
 }
 
-std::string file_name_of(const std::string& curve) {
-  std::string name = "sweep-bands-" + curve + ".csv";
-  std::replace(name.begin(), name.end(), ' ', '-');
-  std::replace(name.begin(), name.end(), '/', '-');
-  return name;
+/// Pictures and bands of an earlier sweep, which may have had other outputs.
+void remove_former(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> former;
+  for (const std::filesystem::directory_entry& each : std::filesystem::directory_iterator(folder)) {
+    const std::string name = each.path().filename().string();
+    if (name.starts_with("sweep-") && (name.ends_with(".svg") || name.ends_with(".csv")))
+      former.push_back(each.path());
+  }
+  for (const std::filesystem::path& each : former) std::filesystem::remove(each);
 }
 
-void write_bands(const CommandInput& input, const SweepJob& job, const SweepRows& sweep) {
-  if (job.curves().empty()) return;
-  const std::vector<Eigen::MatrixXd> bands = percentile_bands(
+std::vector<Eigen::MatrixXd> write_bands(const CommandInput& input, const SweepJob& job,
+                                         const SweepRows& sweep) {
+  if (job.curves().empty()) return {};
+  std::vector<Eigen::MatrixXd> bands = percentile_bands(
       job.curves(), [&] { return job.rows(); }, sweep.count());
   for (std::size_t k = 0; k < bands.size(); ++k) {
     const CurveColumn& curve = job.curves()[k];
     multibody::Channel channel{curve.name, curve.unit, {}, bands[k], ""};
     for (const double share : kBandShares)
       channel.columns.push_back(fmt::format("{:.0f} %", 100 * share));
-    const std::filesystem::path path = input.folder.file(file_name_of(curve.name));
+    const std::filesystem::path path =
+        input.folder.file("sweep-bands-" + file_part_of(curve.name) + ".csv");
     write_csv(path, curve.time_s, in_customary_units({channel}));
     input.console.result("Percentile bands: " + path.string());
+  }
+  return bands;
+}
+
+/// A sweep is one without pictures, too.
+void draw(const CommandInput& input, const SweepPictures& pictures) {
+  try {
+    const std::vector<std::string> names = draw_sweep(pictures, input.folder.path());
+    if (names.empty()) return;
+    input.console.result(fmt::format("Pictures: {} of sweep-*.svg in {}", names.size(),
+                                     input.folder.path().string()));
+  } catch (const InputError& error) {
+    input.console.warning(std::string("no pictures of the sweep: ") + error.what());
   }
 }
 
@@ -119,11 +139,13 @@ void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& s
   const std::filesystem::path csv = input.folder.file("sweep.csv");
   const SweepTable table =
       write_sweep_table(csv, input.folder.file("sweep.h5"), sweep, job.figures(), rows, provenance);
-  const std::vector<ResultTable> tables =
-      sweep_tables(sweep, job.figures(), table, sensitivities(sweep, table));
+  const std::vector<Sensitivity> sensitivity = sensitivities(sweep, table);
+  const std::vector<ResultTable> tables = sweep_tables(sweep, job.figures(), table, sensitivity);
   write_tables(input.folder.file("sweep.json"), tables, provenance);
   show(input, tables);
-  write_bands(input, job, sweep);
+  remove_former(input.folder.path());
+  const std::vector<Eigen::MatrixXd> bands = write_bands(input, job, sweep);
+  draw(input, {sweep, job.figures(), table, sensitivity, job.curves(), bands});
   input.console.result(
       fmt::format("\nSweep: {} rows, {} failed  ({})", sweep.count(), table.failed, csv.string()));
   require_outputs(job, table);

@@ -9,6 +9,7 @@
 #include "pipeline/sweep/distribution.h"
 #include "pipeline/sweep/shapley.h"
 #include "pipeline/sweep/sobol_indices.h"
+#include "pipeline/sweep/sweep_pictures.h"
 #include "pipeline/sweep/unit_points.h"
 
 using Eigen::Index;
@@ -147,4 +148,18 @@ TEST_CASE("Shapley effects of correlated inputs are within their confidence") {
     sum += found[k].value;
   }
   CHECK(sum == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("rank correlation is that of ranks, with ties and rows that failed") {
+  Eigen::MatrixXd inputs(3, 6);
+  inputs << 1, 2, 3, 4, 5, 6,  //
+      6, 5, 4, 3, 2, 1,        //
+      1, 1, 2, 2, 7, 7;
+  VectorXd output(6);
+  output << 1, 10, 100, 1000, 10000, std::nan("");
+  const VectorXd found = rank_correlations(inputs, output);
+  CHECK(found[0] == Approx(1));
+  CHECK(found[1] == Approx(-1));
+  // Ranks 1.5 1.5 3.5 3.5 5 against 1 2 3 4 5: sums of squares 9 and 10, of products 9.
+  CHECK(found[2] == Approx(9 / std::sqrt(90.0)));
 }

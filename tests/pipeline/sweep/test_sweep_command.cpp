@@ -277,6 +277,28 @@ TEST_CASE("a study with a sweep runs as one without") {
   require_done("run " + study.string() + " -o " + (folder / "out").string());
 }
 
+TEST_CASE("a sweep has its pictures, and the report shows them with the tables") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done("run " + study.string() + " -o " + (folder / "out").string());
+  require_done(sweep(study, folder / "out"));
+  for (const char* const name : {"sweep-scatter-pendulum.flexion.head_rotation.svg",
+                                 "sweep-tornado-pendulum.flexion.neck_rotation_time.svg",
+                                 "sweep-bands-pendulum.flexion.occipital-moment.svg"}) {
+    INFO(name);
+    CHECK_THAT(bytes_of(folder / "out" / name), Contains("</svg>"));
+  }
+  require_done("report " + study.string() + " -o " + (folder / "out").string());
+  const std::string page = bytes_of(folder / "out/report.html");
+  CHECK_THAT(page, Contains("Parameters varied") && Contains("Outputs over all rows") &&
+                       Contains("Percentiles of all rows: pendulum.flexion.occipital-moment"));
+  // Nothing of the page is left of outputs that a later sweep has not.
+  require_done(sweep(study, folder / "out",
+                     "--set 'sweep.outputs=[\"modes.mass\", "
+                     "\"pendulum.flexion.head_rotation\"]'"));
+  CHECK_FALSE(fs::exists(folder / "out/sweep-tornado-pendulum.flexion.neck_rotation_time.svg"));
+}
+
 TEST_CASE("a grid and a list have the rows that their values make, in order") {
   const TemporaryFolder folder;
   const std::string two =
