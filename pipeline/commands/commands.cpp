@@ -71,6 +71,7 @@ const std::vector<Command>& commands() {
        .options = {folder, settings, shares},
        .run = sweep_command,
        .locks = false,
+       .has_shards = true,
        .is_remembered = false},
       {.name = "simulate",
        .help = "run a model file: <model>.h5 and <model>.csv",

@@ -66,6 +66,7 @@ struct Command {
   bool writes_results = true;                        ///< into the folder of results
   bool begins = false;                               ///< makes a folder from a study that is named
   bool locks = true;          ///< the folder, all the time; otherwise it does so itself
+  bool has_shards = false;    ///< which processes of mpirun are
   bool is_remembered = true;  ///< the folder remembers its study
 };
 

@@ -131,9 +131,17 @@ void require_outputs(const SweepJob& job, const SweepTable& table) {
     throw ComputationError("curve '" + job.curves().front().name + "': " + why);
 }
 
+/// By one process: several shards may find themselves the last ones.
 void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& sweep) {
-  const FolderLock lock(input.folder.path(), "sweep",
-                        [&](const std::string& warning) { input.console.warning(warning); });
+  std::optional<FolderLock> lock;
+  try {
+    lock.emplace(input.folder.path(), "sweep",
+                 [&](const std::string& warning) { input.console.warning(warning); });
+  } catch (const InputError& error) {
+    if (input.shares.shard.empty()) throw;
+    input.console.step(std::string("The table is not made here: ") + error.what());
+    return;
+  }
   const Provenance provenance = provenance_of_sweep(input.study);
   MergedRows rows = job.rows();
   const std::filesystem::path csv = input.folder.file("sweep.csv");

@@ -108,7 +108,8 @@ class Drawing {
     }
     begin(stem, csv, 640, 120 + 40 * static_cast<int>(bars.size()));
     script_ += fmt::format(
-        "set xlabel {}\nset yrange [-0.7:{}]\nset ytics ({}) noenhanced\nset xzeroaxis\n"
+        "set xlabel {}\nset yrange [-0.7:{}]\nset ytics ({}) noenhanced\nset yzeroaxis lt 1 lc rgb "
+        "'#444444'\n"
         "set style fill solid 0.7\n"
         "plot '{}.csv' using (0):4:(0):1:($4-0.3):($4+0.3) with boxxyerror lc rgb '#0072b2' "
         "notitle, '' using 1:4:2:3 with xerrorbars pt 0 lw 1.5 lc rgb '#444444' notitle\n",
@@ -201,7 +202,8 @@ class Drawing {
     names_.push_back(stem + ".svg");
     script_ += fmt::format(
         "reset\nset datafile separator comma\nset terminal svg size {},{} dynamic rounded font "
-        "'sans-serif,12' background '#ffffff'\nset output '{}.svg'\nset border 3 lc rgb '#444444'\n"
+        "'sans-serif,12' background '#ffffff'\nset xtics rotate by -35\nset output '{}.svg'\nset "
+        "border 3 lc rgb '#444444'\n"
         "set tics nomirror\nset grid lc rgb '#dddddd' lt 1\n",
         width, height, stem);
   }

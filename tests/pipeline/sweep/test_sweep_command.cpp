@@ -100,6 +100,25 @@ TEST_CASE("a sweep is the same to the last bit with any threads and shards") {
   CHECK(lines_of(bytes_of(folder / "one/sweep.csv")).size() == 61);
 }
 
+TEST_CASE("processes of mpirun are shards") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done(sweep(study, folder / "one"));
+  const std::string mpirun =
+      "timeout 100 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+      "OMPI_MCA_rmaps_base_oversubscribe=1 mpirun --quiet -n 2 " +
+      testing::flexneck_program() + " ";
+  const testing::CommandOutcome outcome = run_shell(mpirun + sweep(study, folder / "two"));
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 0);
+  CHECK(fs::exists(folder / "two/sweep-shards/2-of-2/rows.txt"));
+  CHECK(table_in(folder / "two") == table_in(folder / "one"));
+  const testing::CommandOutcome refused =
+      run_shell(mpirun + sweep(study, folder / "two", "--shard 1/2"));
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.text, Contains("expected none under mpirun"));
+}
+
 TEST_CASE("shards that are not all there are completed without --shard") {
   const TemporaryFolder folder;
   const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
