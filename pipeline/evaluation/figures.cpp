@@ -121,6 +121,7 @@ std::vector<JudgedFigure> figures_at_rest(const CertificationTest& test) {
 
 std::size_t place_of(const std::vector<JudgedFigure>& figures, const std::string& name) {
   std::vector<std::string> names;
+  names.reserve(figures.size());
   for (const JudgedFigure& each : figures) names.push_back(with_underscores(each.name));
   return find_name(names, with_underscores(name), "figure");
 }

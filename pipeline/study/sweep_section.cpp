@@ -7,7 +7,6 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "geometry/foundation/output_file.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
