@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/output_file.h"
 #include "pipeline/sweep/bootstrap.h"
 
@@ -19,8 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr FileFormat kSweepFormat = {"flexneck sweep", 1, "flexneck sweep"};
 
 /// As CSV has a text: in quotes where it needs them.
 std::string quoted(const std::string& text) {

@@ -9,11 +9,14 @@
 
 #include <Eigen/Core>
 
+#include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/provenance.h"
 #include "pipeline/sweep/merged_rows.h"
 #include "pipeline/sweep/sweep_rows.h"
 
 namespace flexneck::pipeline {
+
+inline constexpr FileFormat kSweepFormat = {"flexneck sweep", 1, "flexneck sweep"};
 
 /// An output and its SI unit.
 struct OutputColumn {

@@ -162,4 +162,8 @@ coefficient = 0.5
     CHECK(speed < 2.5);
   }
   CHECK_THAT(bytes_of(folder / "out/sweep.json"), Contains("shapley effects"));
+  const CommandOutcome told = run_flexneck("info " + (folder / "out/sweep.h5").string());
+  CHECK(told.exit_code == 0);
+  CHECK_THAT(told.text, Contains("inputs speed [m/s]: 32 rows") &&
+                            Contains("outputs pendulum.other.head_rotation [rad]: 32 rows"));
 }
