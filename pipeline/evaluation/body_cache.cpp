@@ -41,6 +41,12 @@ BodyCache::~BodyCache() {
   solvers_.run([this] { session_.reset(); });  // where it was begun
 }
 
+void BodyCache::start() {
+  solvers_.run([this] {
+    if (!session_) session_.emplace();
+  });
+}
+
 BodyCache::Body BodyCache::known(const std::string& key) {
   const std::scoped_lock lock(mutex_);
   const Body* const found = bodies_.find(key);
@@ -52,6 +58,7 @@ BodyCache::Body BodyCache::body(const Study& study, BodyUse use) {
                           std::to_string(static_cast<int>(use));
   Body found = known(key);
   if (found) return found;
+  start();
   solvers_.run([&] {
     found = known(key);  // another thread may have asked for the same
     if (found) return;
@@ -76,13 +83,11 @@ fe_modal::ModalBody BodyCache::solved(const Study& study, BodyUse use) {
       meshes_.keep(key, make_mesh(study, console_));
       mesh = meshes_.find(key);
     }
-    if (!session_) session_.emplace();
     return modes_of_mesh(study, *mesh, use);
   }
   if (!study.matrices)
     throw InputError(study.file.string() +
                      ": expected [geometry] or [matrices] for the modes, found neither");
-  if (!session_) session_.emplace();
   return solved_matrices(study);
 }
 

@@ -38,6 +38,9 @@ class BodyCache {
   /// @throws as make_mesh() and modes_of_mesh() do; a failure is not kept.
   Body body(const Study& study, BodyUse use);
 
+  /// Starts PETSc, which changes variables of the environment: before other threads begin.
+  void start();
+
   /// How often modes were computed.
   std::size_t solved_count() const;
 

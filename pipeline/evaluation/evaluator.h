@@ -56,6 +56,8 @@ class Evaluator {
   /// The study with these settings. @throws as read_study() does.
   Study study(const std::vector<std::string>& settings);
 
+  /// Starts what meshes and solves: before other threads begin.
+  void start() { bodies_.start(); }
   const Study& base() const { return base_; }
   /// How often modes were computed.
   std::size_t solved_count() const { return bodies_.solved_count(); }

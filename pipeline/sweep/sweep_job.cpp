@@ -164,6 +164,8 @@ bool SweepJob::compute(const SweepShare& share, const Progress& tell) {
   std::uint64_t count = 0;
   for (auto counting = due; counting();) ++count;
   if (tell) tell(fmt::format("{} rows to compute, {} there already", count, rows_done(shard)));
+  if (count == 0) return true;
+  evaluator_.start();
   Countdown countdown(count, tell);
   RowRun run;
   run.next_due = due;
