@@ -14,6 +14,7 @@ find_package(CHOLMOD REQUIRED)
 find_package(METIS REQUIRED)
 find_package(MUMPS REQUIRED)
 find_package(UDUNITS2 REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers only: Sobol' sequences, special functions
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)

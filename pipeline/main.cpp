@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -7,6 +8,8 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -19,6 +22,7 @@
 #include "pipeline/commands/command_line.h"
 #include "pipeline/folder/folder_lock.h"
 #include "pipeline/folder/remembered_study.h"
+#include "pipeline/sweep/process_rank.h"
 
 namespace {
 
@@ -79,15 +83,16 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
                                    .is_binary = line.is_binary,
                                    .ranks = ranks,
                                    .redo = line.redo,
-                                   .sensitivity = line.sensitivity});
-  if (command.writes_results) remember_study(line.folder, choice);
+                                   .sensitivity = line.sensitivity,
+                                   .shares = line.shares});
+  if (command.writes_results && command.is_remembered) remember_study(line.folder, choice);
   return passed;
 }
 
 bool execute(const CommandLine& line, const Console& console, const Ranks* ranks) {
   std::optional<FolderLock> lock;
   const auto take_lock = [&] {
-    if (!line.writes()) return;
+    if (!line.locks()) return;
     lock.emplace(line.folder, line.text,
                  [&](const std::string& warning) { console.warning(warning); });
   };
@@ -131,9 +136,33 @@ int exit_code_of(const CommandLine& line, const Ranks* ranks) {
   }
 }
 
+/// Of a sweep on several processes, which are its shards, each by itself; none of other commands.
+std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) {
+  const std::optional<Shard> shard = shard_of_process();
+  if (!shard) return {};
+  try {
+    CommandLine line = parse_command_line(words);
+    if (line.command == nullptr || !line.command->has_shards || !line.answer.empty()) return {};
+    if (!line.shares.shard.empty())
+      throw flexneck::InputError(
+          "--shard: expected none under mpirun, whose processes are the parts");
+    line.shares.shard = fmt::format("{}/{}", shard->index, shard->count);
+    line.shares.threads = std::max(1, line.shares.threads);
+    return line;
+  } catch (const flexneck::InputError&) {
+    if (shard->index == 1) throw;  // one line is enough
+    std::_Exit(kUnusableInput);
+  }
+}
+
 int run(int argc, char** argv) {
+  const std::vector<std::string> words(argv, argv + argc);
   std::optional<Ranks> ranks;
   if (Ranks::are_many()) {
+    if (const std::optional<CommandLine> line = line_of_shard(words)) {
+      forget_other_processes();
+      return exit_code_of(*line, nullptr);
+    }
     ranks.emplace([](const std::string& line) {
       fmt::print(stderr, "flexneck: {}\n", flexneck::printable(line));
     });
@@ -142,7 +171,7 @@ int run(int argc, char** argv) {
     ranks->serve();
     return 0;
   }
-  return exit_code_of(parse_command_line({argv, argv + argc}), ranks ? &*ranks : nullptr);
+  return exit_code_of(parse_command_line(words), ranks ? &*ranks : nullptr);
 }
 
 void tell_without_console(const char* text) noexcept {

@@ -5,9 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <regex>
 #include <string>
+#include <unordered_map>
 
 #include <udunits2.h>
 
@@ -86,7 +88,7 @@ bool is_gravity(std::string_view unit, std::string_view beside) {
 }
 
 /// Factor between two units. An offset (as in degrees Celsius) has no place here.
-double factor(std::string_view from, std::string_view to) {
+double computed_factor(std::string_view from, std::string_view to) {
   const Unit source = parse_unit(is_gravity(from, to) ? "gn" : from);
   const Unit target = parse_unit(is_gravity(to, from) ? "gn" : to);
   const Converter converter(ut_get_converter(source.get(), target.get()), cv_free);
@@ -98,6 +100,31 @@ double factor(std::string_view from, std::string_view to) {
                      std::string(from) + "', which measures something else");
   }
   return cv_convert_double(converter.get(), 1.0);
+}
+
+/// Factors that have been asked for: a unit takes far longer to parse than a number, and a file has
+/// few of them. UDUNITS-2 keeps a state of its own, so it serves one thread at a time.
+class FactorTable {
+ public:
+  double factor(std::string_view from, std::string_view to) {
+    const std::string pair = std::string(from) + '\n' + std::string(to);
+    const std::scoped_lock lock(mutex_);
+    const auto known = factors_.find(pair);
+    if (known != factors_.end()) return known->second;
+    const double found = computed_factor(from, to);
+    constexpr std::size_t kMax = 1000;  // of files that make ever new ones
+    if (factors_.size() < kMax) factors_.emplace(pair, found);
+    return found;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::string, double> factors_;
+};
+
+double factor(std::string_view from, std::string_view to) {
+  static FactorTable table;
+  return table.factor(from, to);
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/child_tasks.h"
 
-#include "pipeline/commands/make_mesh.h"
+#include "pipeline/evaluation/make_mesh.h"
 #include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {

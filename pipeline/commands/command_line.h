@@ -26,9 +26,11 @@ struct CommandLine {
   bool is_binary = false;
   CurveChoice curves;
   NeckLoadChoice neck_loads;
+  RowShares shares;
 
   /// Whether anything goes into the folder.
   bool writes() const { return command->writes_results && !show && !folder.empty(); }
+  bool locks() const { return writes() && command->locks; }
   Verbosity verbosity() const {
     return is_quiet ? Verbosity::quiet : is_verbose ? Verbosity::verbose : Verbosity::normal;
   }

@@ -15,6 +15,12 @@ class Ranks;
 
 namespace flexneck::pipeline {
 
+/// How the rows of a sweep are shared out; empty and 0 where nothing is said.
+struct RowShares {
+  std::string shard;  ///< "2/8"
+  int threads = 0;
+};
+
 /// What every command gets.
 struct CommandInput {
   const Study& study;
@@ -26,6 +32,7 @@ struct CommandInput {
   bool redo = false;                       ///< of run: even what has not changed
   bool is_run = false;                     ///< all that follows is made anew, too
   bool sensitivity = false;                ///< of modes: their derivatives, too
+  RowShares shares = {};                   ///< of sweep
 };
 
 /// Options that some commands have and others have not.
@@ -41,7 +48,8 @@ enum class CommandOption {
   show,
   target,
   curves,
-  neck_loads
+  neck_loads,
+  shares
 };
 
 /// What a command's files are.
@@ -60,6 +68,9 @@ struct Command {
   bool (*run_on_files)(const FileInput&) = nullptr;  ///< null if it works on a study
   bool writes_results = true;                        ///< into the folder of results
   bool begins = false;                               ///< makes a folder from a study that is named
+  bool locks = true;          ///< the folder, all the time; otherwise it does so itself
+  bool has_shards = false;    ///< which processes of mpirun are
+  bool is_remembered = true;  ///< the folder remembers its study
 };
 
 /// All commands, in the order of --help; the first one is that of a line without a command.
@@ -83,5 +94,7 @@ bool pendulum_command(const CommandInput& input);
 bool verify_command(const CommandInput& input);
 bool report_command(const CommandInput& input);
 bool study_command(const CommandInput& input);
+/// The rows of [sweep] and, once all are there, sweep.csv, sweep.h5 and sweep.json.
+bool sweep_command(const CommandInput& input);
 
 }  // namespace flexneck::pipeline

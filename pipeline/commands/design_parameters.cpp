@@ -13,7 +13,7 @@
 #include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/node_velocity.h"
-#include "pipeline/commands/make_mesh.h"
+#include "pipeline/evaluation/make_mesh.h"
 
 namespace flexneck::pipeline {
 

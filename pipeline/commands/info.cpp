@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/hdf5_file.h"
 #include "mesher/mesh/bounding_box.h"
 #include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/file_commands.h"
@@ -13,6 +14,7 @@
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/output/result_table.h"
 #include "pipeline/output/summary.h"
+#include "pipeline/sweep/sweep_table.h"
 #include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {
@@ -81,6 +83,23 @@ std::string describe_history(const fs::path& path) {
   return text + provenance_text(file.provenance);
 }
 
+/// Rows and columns of a table of a sweep.
+std::string describe_sweep(const fs::path& path) {
+  const Hdf5Reader file(path, kSweepFormat);
+  std::string text;
+  for (const std::string group : {"/inputs", "/outputs"}) {
+    for (const std::string& name : file.members(group)) {
+      const std::string column = group + "/" + name;
+      const std::string unit = file.string_attribute(column, "units");
+      text += fmt::format("{}{} {}{}: {} rows", text.empty() ? "" : "\n", group.substr(1), name,
+                          unit == "1" ? "" : " [" + unit + "]", file.shape(column).at(0));
+    }
+  }
+  const std::size_t failed = file.has("/failed/rows") ? file.shape("/failed/rows").at(0) : 0;
+  return text + fmt::format("\n{} rows lack outputs", failed) +
+         provenance_text(read_provenance(file));
+}
+
 std::string describe_tables(const fs::path& path) {
   const TableFile file = read_tables(path);
   std::string text;
@@ -107,7 +126,8 @@ struct Kind {
   std::string (*describe)(const fs::path&);
 };
 
-constexpr std::array<Kind, 3> kKinds = {{{mesher::kMeshFormat.name, describe_mesh},
+constexpr std::array<Kind, 4> kKinds = {{{kSweepFormat.name, describe_sweep},
+                                         {mesher::kMeshFormat.name, describe_mesh},
                                          {fe_modal::kModalBodyFormat.name, describe_modes},
                                          {multibody::kHistoryFormat.name, describe_history}}};
 
@@ -130,9 +150,10 @@ bool info_command(const FileInput& input) {
     if (text.empty() && is_json && holds_tables(path)) text = describe_tables(path);
     if (text.empty() && is_json) text = describe_verification(path);
     if (text.empty()) {
-      throw InputError(path.string() +
-                       ": expected a mesh, modes, a history, tables or a verification of flexneck, "
-                       "found another kind of file");
+      throw InputError(
+          path.string() +
+          ": expected a mesh, modes, a history, a sweep, tables or a verification of flexneck, "
+          "found another kind of file");
     }
     input.console.result(path.string() + ": " + described_format(path, format) + "\n" + text);
   }

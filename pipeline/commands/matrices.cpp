@@ -11,7 +11,7 @@
 #include "fe_modal/exchange/exported_matrices.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/mode_table.h"
-#include "pipeline/commands/modes_options.h"
+#include "pipeline/evaluation/modes_options.h"
 
 namespace flexneck::pipeline {
 

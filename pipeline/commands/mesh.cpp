@@ -11,8 +11,8 @@
 #include "geometry/foundation/error.h"
 #include "geometry/neck/neck_measures.h"
 #include "pipeline/commands/commands.h"
-#include "pipeline/commands/make_mesh.h"
 #include "pipeline/commands/mesh_result.h"
+#include "pipeline/evaluation/make_mesh.h"
 
 namespace flexneck::pipeline {
 

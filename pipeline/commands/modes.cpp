@@ -6,7 +6,6 @@
 
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/analysis/modal_analysis.h"
-#include "fe_modal/element/rounding.h"
 #include "fe_modal/exchange/modes_xdmf.h"
 #include "fe_modal/solve/distributed/ranks.h"
 #include "fe_modal/system/memory_needs.h"
@@ -18,9 +17,10 @@
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/mode_table.h"
-#include "pipeline/commands/modes_options.h"
 #include "pipeline/commands/sensitivity.h"
 #include "pipeline/commands/substructures.h"
+#include "pipeline/evaluation/modes_options.h"
+#include "pipeline/evaluation/structure_modes.h"
 #include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {
@@ -44,41 +44,12 @@ void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
   if (partition != mesh.partitions.end()) options.element_ranks = partition->second;
 }
 
-/// The mesh with each material's modulus of static tests.
-mesher::Mesh with_static_moduli(mesher::Mesh mesh, const MaterialModels& models) {
-  for (mesher::Material& material : mesh.materials) {
-    const auto model = models.find(material.name);
-    if (model != models.end()) material.youngs_modulus_Pa *= model->second.static_modulus_ratio;
-  }
-  return mesh;
-}
-
 Provenance provenance_of_modes(const CommandInput& input) {
   Provenance provenance = modes_provenance(input.study);
   provenance.inputs.push_back(
       {input.folder.mesh().filename().string(), hash_of_file(input.folder.mesh().string())});
   provenance.libraries = fe_modal::library_versions();
   return provenance;
-}
-
-/// Warns where rounding costs more digits than frequencies are given with, and refuses where the
-/// result is wrong.
-void check_rounding(const CommandInput& input, const mesher::Mesh& mesh,
-                    const fe_modal::ModalOptions& options, const fe_modal::ModalBody& body) {
-  constexpr double kWorthTelling = 1e-6;
-  constexpr double kWrong = 1e-3;
-  const double error = fe_modal::rounding_error(mesh, options.formulation, body);
-  if (error <= kWorthTelling) return;
-  const auto nearest = std::max_element(mesh.materials.begin(), mesh.materials.end(),
-                                        [](const mesher::Material& a, const mesher::Material& b) {
-                                          return a.poissons_ratio < b.poissons_ratio;
-                                        });
-  const std::string line = fmt::format(
-      "rounding moves the first frequency by {:.1e} of it: Poisson's ratio of '{}' is {:.15g}, too "
-      "near 1/2 for so slender a body; each nine less makes a tenth of the error",
-      error, nearest->name, nearest->poissons_ratio);
-  if (!(error < kWrong)) throw ComputationError(line);
-  input.console.warning(line);
 }
 
 /// Solves and writes the file, and what ParaView opens.
@@ -88,7 +59,8 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
   fe_modal::ModalBodyFile file;
   file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times,
                                       input.console.warnings(path.filename().string()), fields);
-  check_rounding(input, mesh, options, file.body);
+  if (const std::string line = rounding_remark(mesh, options, file.body); !line.empty())
+    input.console.warning(line);
   times.start("write");
   file.provenance = provenance_of_modes(input);
   warn_of_replaced(input, path, fe_modal::kModalBodyFormat, file.provenance);

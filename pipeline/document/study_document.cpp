@@ -11,7 +11,9 @@
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/output_file.h"
 #include "pipeline/document/assemblies.h"
+#include "pipeline/document/former_names.h"
 #include "pipeline/document/study_node.h"
+#include "pipeline/document/toml_source.h"
 
 namespace flexneck::pipeline {
 
@@ -239,6 +241,12 @@ StudyTable StudyDocument::root() const {
   // Shares the ownership of the document: a table may outlive it.
   node->records = std::shared_ptr<StudyRecords>(impl_, &impl_->records);
   return StudyTable(std::move(node));
+}
+
+void StudyDocument::set(const std::string& setting) {
+  std::vector<std::string> told;  // when the document was read
+  apply_setting(impl_->content.root, with_current_names(setting, impl_->keys, told));
+  impl_->records = {impl_->content.parameters, {}};
 }
 
 const std::vector<InputFile>& StudyDocument::files() const { return impl_->content.files; }

@@ -88,6 +88,11 @@ class StudyDocument {
                 std::span<const Key> keys);
 
   StudyTable root() const;
+  /// Puts another value in the place of one, as a setting does, without reading the files again.
+  /// What has been read so far is forgotten: parameters and defaults begin anew. Tables that were
+  /// handed out end with this.
+  /// @param setting  neither of variables nor made of them, which took their places for good
+  void set(const std::string& setting);
   /// The files read, in the order of inclusion, with the hash of their contents.
   const std::vector<InputFile>& files() const;
   /// What the files say in words of an earlier version, a line each.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <limits>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -90,16 +91,15 @@ History simulate_case(const Model& model, const Study& study, const CaseSection&
              : multibody::simulate_from_equilibrium(model, study.solver, output);
 }
 
-/// Of as many outputs as there are.
-PendulumRun run_of(const Model& model, const CaseSection& experiment, const History& history,
-                   int every) {
-  PendulumRun run;
-  run.channels =
-      pendulum_channels(history.time_s, pendulum_signals(model, history, experiment), experiment);
-  for (multibody::Channel& channel : run.channels)
-    channel.values = thinned(channel.values.transpose(), every).transpose();
-  run.history = thinned(history, every);
-  return run;
+/// The history of as many outputs as there are.
+History history_of(const Model& model, const Study& study, const CaseSection& experiment,
+                   const multibody::OutputOptions& output) {
+  try {
+    return simulate_case(model, study, experiment, output);
+  } catch (const multibody::IncompleteRun& stopped) {
+    if (stopped.history.time_s.size() == 0) throw;
+    return stopped.history;
+  }
 }
 
 }  // namespace
@@ -117,13 +117,25 @@ PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
                          const fe_modal::ModalBody& body) {
   const Model model = prepared_model(study, experiment, body);
   const int every = samples_per_output(study.output_interval_s);
-  const multibody::OutputOptions output{experiment.duration_s, study.output_interval_s / every};
-  try {
-    return run_of(model, experiment, simulate_case(model, study, experiment, output), every);
-  } catch (const multibody::IncompleteRun& stopped) {
-    if (stopped.history.time_s.size() == 0) throw;
-    return run_of(model, experiment, stopped.history, every);
-  }
+  const History history = history_of(model, study, experiment,
+                                     {experiment.duration_s, study.output_interval_s / every});
+  PendulumRun run;
+  run.channels =
+      pendulum_channels(history.time_s, pendulum_signals(model, history, experiment), experiment);
+  for (multibody::Channel& channel : run.channels)
+    channel.values = thinned(channel.values.transpose(), every).transpose();
+  run.history = thinned(history, every);
+  return run;
+}
+
+PendulumRun run_pendulum_unfiltered(const Study& study, const CaseSection& experiment,
+                                    const fe_modal::ModalBody& body) {
+  const Model model = prepared_model(study, experiment, body);
+  PendulumRun run;
+  run.history =
+      history_of(model, study, experiment, {experiment.duration_s, study.output_interval_s});
+  run.channels = unfiltered_channels(pendulum_signals(model, run.history, experiment));
+  return run;
 }
 
 PendulumResult pendulum_result(const Study& study, const CaseSection& experiment,
@@ -143,7 +155,10 @@ PendulumResult pendulum_result(const Study& study, const CaseSection& experiment
   PendulumResult result;
   result.head_rotation = thrown("head rotation");
   result.neck_rotation = thrown("neck rotation");
-  result.head_acceleration = peak("head acceleration filtered");
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  result.head_acceleration = has_channel(channels, kFilteredHeadAcceleration)
+                                 ? peak(kFilteredHeadAcceleration)
+                                 : multibody::Peak{kUnknown, kUnknown};
   result.base_moment = peak("base moment");
   result.occipital_moment = peak("occipital moment");
   const Eigen::VectorXd rotation = channel_named(channels, "head rotation");

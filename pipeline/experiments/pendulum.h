@@ -40,6 +40,11 @@ struct PendulumRun {
 PendulumRun run_pendulum(const Study& study, const CaseSection& experiment,
                          const fe_modal::ModalBody& body);
 
+/// The same for who needs no filtered channel: sampled at the study's output interval only, which
+/// is several times faster. Its channels are unfiltered_channels().
+PendulumRun run_pendulum_unfiltered(const Study& study, const CaseSection& experiment,
+                                    const fe_modal::ModalBody& body);
+
 /// What it takes to integrate a case over its time, recorded at its end only.
 struct IntegrationCost {
   double processor_s = 0;  ///< measured, of this thread
@@ -53,8 +58,9 @@ IntegrationCost integration_cost(const Study& study, const CaseSection& experime
 struct PendulumResult {
   multibody::Peak head_rotation, neck_rotation;   ///< the way the case throws the head
   multibody::Peak base_moment, occipital_moment;  ///< largest in size
-  multibody::Peak head_acceleration;              ///< filtered, largest in size
-  double equilibrium_rotation = 0;                ///< head rotation at the start, rad
+  /// Filtered, largest in size; NaN of a run without filtered channels.
+  multibody::Peak head_acceleration;
+  double equilibrium_rotation = 0;          ///< head rotation at the start, rad
   std::optional<double> zero_crossing_s;    ///< of the head rotation, back through the equilibrium
   std::optional<double> run_frequency_Hz;   ///< between crossings after the pulse
   std::optional<double> run_damping_ratio;  ///< from successive peaks

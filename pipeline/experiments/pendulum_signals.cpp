@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/experiments/pendulum_signals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -134,6 +135,11 @@ std::string filter_text(const MomentDefinition& moment) {
   return of_moment + ", force " + name_of(moment.force_filter);
 }
 
+Channel channel(const char* name, const char* unit, const VectorXd& values,
+                const std::string& filter = "") {
+  return {name, unit, {name}, values.transpose(), filter};
+}
+
 }  // namespace
 
 std::vector<Channel> pendulum_channels(const VectorXd& time_s, const PendulumSignals& signals,
@@ -144,26 +150,34 @@ std::vector<Channel> pendulum_channels(const VectorXd& time_s, const PendulumSig
     filter(time_s, cfc, values);
     return VectorXd(values.transpose());
   };
-  std::vector<Channel> channels;
-  const auto add = [&](const char* name, const char* unit, const VectorXd& values,
-                       const std::string& filter = "") {
-    channels.push_back({name, unit, {name}, values.transpose(), filter});
-  };
-  add("head rotation", "rad", signals.head_rotation);
-  add("neck rotation", "rad", signals.neck_rotation);
-  add("head acceleration", "m/s^2", signals.head_acceleration);
-  add("head acceleration filtered", "m/s^2",
-      filtered(signals.head_acceleration, ChannelClass::cfc1000), "CFC 1000");
-  add("base moment", "N*m", signals.base_moment);
-  add("occipital moment", "N*m", signals.occipital_moment);
-  add("load cell moment", "N*m",
-      moment_by_formula(filtered(signals.cell_moment, experiment.moment.moment_filter),
-                        filtered(signals.cell_shear, experiment.moment.force_filter),
-                        experiment.moment.arm_m, experiment.direction),
-      filter_text(experiment.moment));
-  add("arm velocity", "m/s", signals.arm_velocity);
-  add("arm deceleration", "m/s^2", signals.arm_deceleration);
+  const Channel acceleration =
+      channel(kFilteredHeadAcceleration, "m/s^2",
+              filtered(signals.head_acceleration, ChannelClass::cfc1000), "CFC 1000");
+  const Channel moment =
+      channel(kLoadCellMoment, "N*m",
+              moment_by_formula(filtered(signals.cell_moment, experiment.moment.moment_filter),
+                                filtered(signals.cell_shear, experiment.moment.force_filter),
+                                experiment.moment.arm_m, experiment.direction),
+              filter_text(experiment.moment));
+  std::vector<Channel> channels = unfiltered_channels(signals);
+  channels.insert(channels.begin() + 3, acceleration);  // beside the unfiltered one
+  channels.insert(channels.begin() + 6, moment);        // beside the other moments
   return channels;
+}
+
+std::vector<Channel> unfiltered_channels(const PendulumSignals& signals) {
+  return {channel("head rotation", "rad", signals.head_rotation),
+          channel("neck rotation", "rad", signals.neck_rotation),
+          channel("head acceleration", "m/s^2", signals.head_acceleration),
+          channel("base moment", "N*m", signals.base_moment),
+          channel("occipital moment", "N*m", signals.occipital_moment),
+          channel("arm velocity", "m/s", signals.arm_velocity),
+          channel("arm deceleration", "m/s^2", signals.arm_deceleration)};
+}
+
+bool has_channel(const std::vector<Channel>& channels, const std::string& name) {
+  return std::any_of(channels.begin(), channels.end(),
+                     [&](const Channel& each) { return each.name == name; });
 }
 
 VectorXd channel_named(const std::vector<Channel>& channels, const std::string& name) {

@@ -48,6 +48,15 @@ std::vector<multibody::Channel> pendulum_channels(const Eigen::VectorXd& time_s,
                                                   const PendulumSignals& signals,
                                                   const CaseSection& experiment);
 
+// The channels that are filtered.
+inline constexpr const char* kFilteredHeadAcceleration = "head acceleration filtered";
+inline constexpr const char* kLoadCellMoment = "load cell moment";
+
+/// Those of them that no filter has changed.
+std::vector<multibody::Channel> unfiltered_channels(const PendulumSignals& signals);
+
+bool has_channel(const std::vector<multibody::Channel>& channels, const std::string& name);
+
 /// A channel by its name, one value per time. @throws InputError if there is none.
 Eigen::VectorXd channel_named(const std::vector<multibody::Channel>& channels,
                               const std::string& name);

@@ -131,14 +131,19 @@ Provenance mesh_provenance(const Study& study) {
   return provenance;
 }
 
-Provenance modes_provenance(const Study& study) {
-  Provenance provenance = provenance_of(study.files, study.parameters);
+std::vector<Parameter> modes_values(const Study& study, bool with_attached) {
+  std::vector<Parameter> values = study.parameters;
   const std::string attached = "body." + study.modes.attached_body + ".";
-  std::erase_if(provenance.parameters, [&](const Parameter& each) {
+  std::erase_if(values, [&](const Parameter& each) {
     const UsedBy user = used_by(each);
-    return user != UsedBy::mesh && user != UsedBy::modes && !each.key.starts_with(attached);
+    return user != UsedBy::mesh && user != UsedBy::modes &&
+           !(with_attached && each.key.starts_with(attached));
   });
-  return provenance;
+  return values;
+}
+
+Provenance modes_provenance(const Study& study) {
+  return provenance_of(study.files, modes_values(study));
 }
 
 Provenance experiment_provenance(const Study& study, CaseSection::Kind kind) {

@@ -53,6 +53,9 @@ Provenance provenance_of(const Study& study, const std::vector<std::string>& pre
 
 /// What the study says of [geometry] and [mesh], save what only the solver asks of its materials.
 std::vector<Parameter> mesh_values(const Study& study);
+/// What the study says of the mesh and the modes.
+/// @param with_attached  of the attached body, too, for the frequencies with it
+std::vector<Parameter> modes_values(const Study& study, bool with_attached = true);
 /// What a mesh is made from: these values, and the script or file.
 /// @throws InputError if that file cannot be read.
 Provenance mesh_provenance(const Study& study);

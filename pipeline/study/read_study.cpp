@@ -14,6 +14,8 @@
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/solver_steps.h"
 #include "pipeline/study/sections.h"
+#include "pipeline/study/study_reader.h"
+#include "pipeline/study/sweep_section.h"
 
 namespace flexneck::pipeline {
 
@@ -122,6 +124,8 @@ std::vector<Key> all_study_keys() {
                   UsedBy::named_experiments),
       Key::table("solver", "Integration of the experiments", kSolverKeys, UsedBy::all_experiments),
       Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
+      Key::table("sweep", "Many values of some keys, and what becomes of them: 'flexneck sweep'",
+                 sweep_keys(), UsedBy::named_experiments),
   };
   keys.insert(keys.end(), experiments.begin(), experiments.end());
   return keys;
@@ -257,7 +261,7 @@ void add_file(std::vector<InputFile>& files, const InputFile& file) {
 }
 
 /// Bodies, joints and forces, and the cases that are made of them.
-void read_experiments(const StudyTable& root, Study& study) {
+void read_experiments(const StudyTable& root, const std::vector<TestSection>& known, Study& study) {
   study.pulses = read_all(root, "pulse", read_pulse, study.tables);
   const StudyModels models(root, names_of(study.interfaces));
   study.cases = read_cases(root, models);
@@ -269,7 +273,7 @@ void read_experiments(const StudyTable& root, Study& study) {
   }
   study.model = models.whole(longest_s > 0 ? longest_s : 1);
   for (const InputFile& file : study.model.files) add_file(study.tables, file);
-  read_tests(root, study);
+  read_tests(root, known, study);
   select_cases(root, study);
 }
 
@@ -299,8 +303,12 @@ const multibody::RigidBody& Study::rigid_body(const std::string& name) const {
   return *rigid;
 }
 
-Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  const StudyDocument document(path, settings, study_keys());
+namespace {
+
+/// @param known  tests of an earlier reading
+Study study_of(const StudyDocument& document, const std::filesystem::path& path,
+               const std::vector<std::string>& settings,
+               const std::vector<TestSection>& known = {}) {
   const StudyTable root = document.root();
   Study study;
   study.file = path;
@@ -317,9 +325,10 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.modes = read_modes(root.table("modes"));
   study.substructures = read_substructures(root.table("substructures"));
   study.interfaces = read_all(root, "interface", read_interface);
-  read_experiments(root, study);
+  read_experiments(root, known, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
+  if (root.has("sweep")) read_sweep(root.table("sweep"));  // for what is wrong with it
   root.finish();
   check_sections(root, study);
   check_references(study);
@@ -329,6 +338,45 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
   study.warnings = document.warnings();
   if (study.neck() != nullptr)
     forget_fit_of_changed_neck(root, study.parameters, *study.structure->neck);
+  return study;
+}
+
+/// Whether a setting takes part in others, or is made of variables.
+bool concerns_variables(const std::string& setting) {
+  return setting.starts_with("variables.") || setting.starts_with("assembly.") ||
+         setting.find('$') != std::string::npos;
+}
+
+std::vector<std::string> keys_of(const std::vector<std::string>& settings) {
+  std::vector<std::string> keys;
+  keys.reserve(settings.size());
+  for (const std::string& setting : settings) keys.push_back(setting.substr(0, setting.find('=')));
+  return keys;
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  return study_of(StudyDocument(path, settings, study_keys()), path, settings);
+}
+
+StudyReader::StudyReader(std::filesystem::path path, std::vector<std::string> settings)
+    : path_(std::move(path)), settings_(std::move(settings)) {}
+
+Study StudyReader::read(const std::vector<std::string>& more) {
+  std::vector<std::string> all = settings_;
+  all.insert(all.end(), more.begin(), more.end());
+  if (std::any_of(more.begin(), more.end(), concerns_variables)) return read_study(path_, all);
+  std::vector<std::string> keys = keys_of(more);
+  if (!document_ || keys != keys_) {
+    document_.emplace(path_, all, study_keys());
+    keys_ = std::move(keys);
+    tests_.clear();
+  } else {
+    for (const std::string& setting : more) document_->set(setting);
+  }
+  Study study = study_of(*document_, path_, all, tests_);
+  if (tests_.empty()) tests_ = study.tests;
   return study;
 }
 

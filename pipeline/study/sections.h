@@ -46,7 +46,8 @@ bool fits(const std::string& name, const std::string& pattern);
 /// @throws InputError for a name that no case has.
 void select_cases(const StudyTable& root, Study& study);
 /// [dummy] and [[test]] of the cases that have been read.
-void read_tests(const StudyTable& root, Study& study);
+/// @param known  tests of an earlier reading of the study, whose regulations are not read again
+void read_tests(const StudyTable& root, const std::vector<TestSection>& known, Study& study);
 void read_solver(const StudyTable& solver, Study& study);
 
 }  // namespace flexneck::pipeline

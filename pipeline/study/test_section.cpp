@@ -22,9 +22,16 @@ constexpr Key kTestKeys[] = {
     Key::text("case", kRequired, "Case that is judged; by a regulation one of the pendulum"),
 };
 
-ShippedTest rules_of(const StudyTable& table) {
+/// @param known  of an earlier reading, whose files need not be read again
+ShippedTest rules_of(const StudyTable& table, const std::string& test_name,
+                     const std::vector<TestSection>& known) {
   const std::string name = table.text("regulation");
-  if (!table.has("file")) return at_key(table, "regulation", [&] { return shipped_test(name); });
+  const bool has_file = table.has("file");
+  for (const TestSection& each : known)
+    if (each.name == test_name && each.rules.name == name &&
+        (!has_file || each.file == table.file("file")))
+      return {each.rules, each.file};
+  if (!has_file) return at_key(table, "regulation", [&] { return shipped_test(name); });
   const std::filesystem::path file = table.file("file");
   const std::vector<CertificationTest> tests = read_regulation(file);
   return at_key(table, "regulation", [&] {
@@ -44,10 +51,11 @@ void check_direction(const StudyTable& table, const Study& study, const TestSect
 }
 
 /// By a regulation.
-void read_certification(const StudyTable& table, Study& study) {
+void read_certification(const StudyTable& table, const std::vector<TestSection>& known,
+                        Study& study) {
   TestSection test;
   test.name = table.text("name");
-  auto [rules, file] = rules_of(table);
+  auto [rules, file] = rules_of(table, test.name, known);
   test.rules = std::move(rules);
   test.file = std::move(file);
   test.experiment = table.text("case");
@@ -59,14 +67,14 @@ void read_certification(const StudyTable& table, Study& study) {
   study.tests.push_back(std::move(test));
 }
 
-void read_test(const StudyTable& table, Study& study) {
+void read_test(const StudyTable& table, const std::vector<TestSection>& known, Study& study) {
   const std::string experiment = table.text("case");
   at_key(table, "case", [&] { return find_name(names_of(study.cases), experiment, "case"); });
   MeasuredTest measured = read_measured(table, study.tables);
   measured.name = table.text("name");
   measured.experiment = experiment;
   if (table.has("regulation"))
-    read_certification(table, study);
+    read_certification(table, known, study);
   else if (measured.is_empty())
     table.refuse("regulation",
                  "expected this key, or [[test.curve]], [[test.corridor]] or "
@@ -87,7 +95,7 @@ std::span<const Key> test_keys() {
   return keys;
 }
 
-void read_tests(const StudyTable& root, Study& study) {
+void read_tests(const StudyTable& root, const std::vector<TestSection>& known, Study& study) {
   if (root.has("dummy")) {
     const StudyTable dummy = root.table("dummy");
     study.dummy = dummy.text("name");
@@ -96,7 +104,7 @@ void read_tests(const StudyTable& root, Study& study) {
   std::vector<std::string> names;
   for (const StudyTable& table : root.tables("test")) {
     names.push_back(table.text("name"));
-    read_test(table, study);
+    read_test(table, known, study);
     table.finish();
   }
   check_names(names, "test");

@@ -7,6 +7,7 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
+#include "tests/pipeline/sweep/sweep_runs.h"
 #include "tests/support/coarse_neck.h"
 #include "tests/support/flexneck_command.h"
 
@@ -91,4 +92,17 @@ TEST_CASE("what fails on the second rank only is said once by the first, and bot
   std::fill_n(ranks.begin(), elements / 2, 1);
   mesher::write_mesh(folder / "mesh.h5", file);
   check_refused(run_on_two_ranks("modes -q -o " + out + testing::kCoarseNeck), "base_plate", 3);
+}
+
+TEST_CASE("two ranks are shards of a sweep, whose table one rank makes, too") {
+  const TemporaryFolder folder;
+  const std::filesystem::path study = testing::write_beam_study(folder.path(), testing::kHypercube);
+  require_success(run_flexneck(testing::sweep(study, folder / "one")));
+  require_success(run_on_two_ranks(testing::sweep(study, folder / "two")));
+  CHECK(std::filesystem::exists(folder / "two/sweep-shards/2-of-2/rows.txt"));
+  CHECK(testing::table_in(folder / "two") == testing::table_in(folder / "one"));
+  const CommandOutcome refused =
+      run_on_two_ranks(testing::sweep(study, folder / "two", "--shard 1/2"));
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.text, Contains("expected none under mpirun"));
 }

@@ -3,7 +3,7 @@
 
 #include "mesher/exchange/inp_writer.h"
 #include "pipeline/commands/exports/export_formats.h"
-#include "pipeline/commands/modes_options.h"
+#include "pipeline/evaluation/modes_options.h"
 
 namespace flexneck::pipeline {
 

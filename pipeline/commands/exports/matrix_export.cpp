@@ -5,7 +5,7 @@
 #include "fe_modal/exchange/exported_matrices.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/exports/export_formats.h"
-#include "pipeline/commands/modes_options.h"
+#include "pipeline/evaluation/modes_options.h"
 
 namespace flexneck::pipeline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/commands/make_mesh.h"
+#include "pipeline/evaluation/make_mesh.h"
 
 #include <algorithm>
 #include <cmath>

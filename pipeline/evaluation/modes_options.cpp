@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/commands/modes_options.h"
+#include "pipeline/evaluation/modes_options.h"
 
 #include <algorithm>
 #include <set>

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/evaluation/body_cache.h"
+
+#include <utility>
+#include <vector>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/evaluation/make_mesh.h"
+#include "pipeline/folder/results_folder.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+std::string text_of(const std::vector<Parameter>& parameters) {
+  std::string text;
+  for (const Parameter& each : parameters) text += each.key + '\n' + each.value + '\n';
+  return text;
+}
+
+}  // namespace
+
+template <class Thing>
+const Thing* BodyCache::Last<Thing>::find(const std::string& key) {
+  const auto place = places_.find(key);
+  if (place == places_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, place->second);
+  return &entries_.front().second;
+}
+
+template <class Thing>
+void BodyCache::Last<Thing>::keep(const std::string& key, Thing thing) {
+  entries_.emplace_front(key, std::move(thing));
+  places_[key] = entries_.begin();
+  if (entries_.size() <= count_) return;
+  places_.erase(entries_.back().first);
+  entries_.pop_back();
+}
+
+BodyCache::~BodyCache() {
+  solvers_.run([this] { session_.reset(); });  // where it was begun
+}
+
+void BodyCache::start() {
+  solvers_.run([this] {
+    if (!session_) session_.emplace();
+  });
+}
+
+BodyCache::Body BodyCache::known(const std::string& key) {
+  const std::scoped_lock lock(mutex_);
+  const Body* const found = bodies_.find(key);
+  return found == nullptr ? nullptr : *found;
+}
+
+BodyCache::Body BodyCache::body(const Study& study, BodyUse use) {
+  const std::string key = text_of(modes_values(study, use == BodyUse::attached)) +
+                          std::to_string(static_cast<int>(use));
+  Body found = known(key);
+  if (found) return found;
+  start();
+  solvers_.run([&] {
+    found = known(key);  // another thread may have asked for the same
+    if (found) return;
+    found = std::make_shared<const fe_modal::ModalBody>(without_shapes(solved(study, use)));
+    const std::scoped_lock lock(mutex_);
+    bodies_.keep(key, found);
+    ++solved_;
+  });
+  return found;
+}
+
+std::size_t BodyCache::solved_count() const {
+  const std::scoped_lock lock(mutex_);
+  return solved_;
+}
+
+fe_modal::ModalBody BodyCache::solved(const Study& study, BodyUse use) {
+  if (study.structure) {
+    const std::string key = text_of(mesh_values(study));
+    const mesher::Mesh* mesh = meshes_.find(key);
+    if (mesh == nullptr) {
+      meshes_.keep(key, make_mesh(study, console_));
+      mesh = meshes_.find(key);
+    }
+    return modes_of_mesh(study, *mesh, use);
+  }
+  if (!study.matrices)
+    throw InputError(study.file.string() +
+                     ": expected [geometry] or [matrices] for the modes, found neither");
+  return solved_matrices(study);
+}
+
+}  // namespace flexneck::pipeline

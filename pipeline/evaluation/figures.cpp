@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/evaluation/figures.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/verdict/response_rules.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr std::string_view kFrequencyOf = "frequency.";
+
+/// A row of a list of figures; the list is the one place that says which there are.
+template <class Result>
+struct Row {
+  std::string name;
+  const char* unit;
+  Figure (*read)(const Result&);
+  PendulumSource source = PendulumSource::channels;
+};
+
+template <class Rows>
+const auto& row_named(const Rows& rows, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.push_back(row.name);
+  return rows[find_name(names, name, "figure")];
+}
+
+Figure known(double value) { return {value, {}}; }
+
+template <multibody::Peak PendulumResult::*peak>
+Figure value_of(const PendulumResult& result) {
+  return known((result.*peak).value);
+}
+
+template <multibody::Peak PendulumResult::*peak>
+Figure time_of(const PendulumResult& result) {
+  return known((result.*peak).time_s);
+}
+
+template <std::optional<double> PendulumResult::*figure>
+Figure oscillation(const PendulumResult& result) {
+  return {result.*figure, "the head does not swing back and forth for long enough"};
+}
+
+template <double multibody::SystemMode::*figure>
+Figure mode_figure(const multibody::SystemMode& mode) {
+  return known(mode.*figure);
+}
+
+template <double StaticTestResult::*figure>
+Figure test_figure(const StaticTestResult& result) {
+  return known(result.*figure);
+}
+
+std::span<const Row<PendulumResult>> pendulum_rows() {
+  using R = PendulumResult;
+  constexpr auto kFiltered = PendulumSource::filtered_channels;
+  static const std::array<Row<R>, 13> rows = {{
+      {"head_rotation", "rad", value_of<&R::head_rotation>},
+      {"head_rotation_time", "s", time_of<&R::head_rotation>},
+      {"neck_rotation", "rad", value_of<&R::neck_rotation>},
+      {"neck_rotation_time", "s", time_of<&R::neck_rotation>},
+      {"base_moment", "N*m", value_of<&R::base_moment>},
+      {"base_moment_time", "s", time_of<&R::base_moment>},
+      {"occipital_moment", "N*m", value_of<&R::occipital_moment>},
+      {"occipital_moment_time", "s", time_of<&R::occipital_moment>},
+      {"head_acceleration", "m/s^2", value_of<&R::head_acceleration>, kFiltered},
+      {"head_acceleration_time", "s", time_of<&R::head_acceleration>, kFiltered},
+      {"zero_crossing", "s", oscillation<&R::zero_crossing_s>},
+      {"run_frequency", "Hz", oscillation<&R::run_frequency_Hz>},
+      {"run_damping_ratio", "1", oscillation<&R::run_damping_ratio>},
+  }};
+  return rows;
+}
+
+std::span<const Row<multibody::SystemMode>> system_rows() {
+  using M = multibody::SystemMode;
+  static const std::array<Row<M>, 2> rows = {{
+      {kSystemFrequency, "Hz", mode_figure<&M::frequency_Hz>, PendulumSource::system_mode},
+      {"system_damping_ratio", "1", mode_figure<&M::damping_ratio>, PendulumSource::system_mode},
+  }};
+  return rows;
+}
+
+std::span<const Row<StaticTestResult>> static_rows() {
+  using R = StaticTestResult;
+  static const std::array<Row<R>, 5> rows = {{
+      {"rotation", "rad", test_figure<&R::rotation>},
+      {"base_moment", "N*m", test_figure<&R::base_moment>},
+      {"deflection", "m", test_figure<&R::deflection>},
+      {"initial_stiffness", "N*m/rad", test_figure<&R::initial_stiffness>},
+      {"final_stiffness", "N*m/rad", test_figure<&R::final_stiffness>},
+  }};
+  return rows;
+}
+
+bool is_system_figure(const std::string& name) {
+  const auto rows = system_rows();
+  return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
+}
+
+std::string with_underscores(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+constexpr const char* kInside = "figures_inside";
+
+/// As the rules name them, of a head that does not move.
+std::vector<JudgedFigure> figures_at_rest(const CertificationTest& test) {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(3);
+  return judged_response(test, {Eigen::VectorXd::LinSpaced(3, 0, 1), rest, rest});
+}
+
+std::size_t place_of(const std::vector<JudgedFigure>& figures, const std::string& name) {
+  std::vector<std::string> names;
+  names.reserve(figures.size());
+  for (const JudgedFigure& each : figures) names.push_back(with_underscores(each.name));
+  return find_name(names, with_underscores(name), "figure");
+}
+
+}  // namespace
+
+std::string unit_of_modes_figure(const std::string& name) {
+  if (name.starts_with(kFrequencyOf) && name.size() > kFrequencyOf.size()) return "Hz";
+  const std::vector<std::string> names = {"mass", kSystemFrequency, "frequency.<mode>"};
+  return find_name(names, name, "figure") == 0 ? "kg" : "Hz";
+}
+
+double modes_figure(const fe_modal::ModalBody& body, const std::string& name) {
+  if (name.starts_with(kFrequencyOf))
+    return body.frequencies_Hz[body.mode_index(name.substr(kFrequencyOf.size()))];
+  if (name == "mass") return body.invariants.mass;
+  if (body.attached.empty())
+    throw InputError("expected modes.attached_body, found none: there is no system frequency");
+  return body.attached.front().frequencies_Hz[0];
+}
+
+std::string unit_of_pendulum_figure(const std::string& name) {
+  if (is_system_figure(name)) return row_named(system_rows(), name).unit;
+  std::vector<std::string> names;
+  for (const auto& row : pendulum_rows()) names.push_back(row.name);
+  for (const auto& row : system_rows()) names.push_back(row.name);
+  find_name(names, name, "figure");
+  return row_named(pendulum_rows(), name).unit;
+}
+
+PendulumSource source_of_pendulum_figure(const std::string& name) {
+  return is_system_figure(name) ? PendulumSource::system_mode
+                                : row_named(pendulum_rows(), name).source;
+}
+
+Figure pendulum_figure(const PendulumResult& result, const std::string& name) {
+  return row_named(pendulum_rows(), name).read(result);
+}
+
+double system_figure(const multibody::SystemMode& mode, const std::string& name) {
+  return *row_named(system_rows(), name).read(mode).value;
+}
+
+std::string unit_of_static_figure(const std::string& name) {
+  return row_named(static_rows(), name).unit;
+}
+
+double static_figure(const StaticTestResult& result, const std::string& name) {
+  return *row_named(static_rows(), name).read(result).value;
+}
+
+std::string unit_of_verdict_figure(const std::string& name, const CertificationTest& test) {
+  if (name == kInside) return "1";
+  const std::vector<JudgedFigure> figures = figures_at_rest(test);
+  return figures[place_of(figures, name)].unit;
+}
+
+Figure verdict_figure(const Verdict& verdict, const std::string& name) {
+  if (name == kInside) return known(static_cast<double>(verdict.passed_count()));
+  const JudgedFigure& figure = verdict.figures[place_of(verdict.figures, name)];
+  return {figure.value, figure.problem};
+}
+
+}  // namespace flexneck::pipeline

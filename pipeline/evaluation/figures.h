@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fe_modal/body/modal_body.h"
+#include "multibody/analysis/linearisation.h"
+#include "pipeline/experiments/pendulum.h"
+#include "pipeline/experiments/static_test.h"
+#include "pipeline/verdict/verdict.h"
+
+namespace flexneck::pipeline {
+
+/// A figure that was read off a result.
+struct Figure {
+  std::optional<double> value;  ///< SI
+  std::string problem;          ///< why there is none
+};
+
+/// SI units of figures by their names.
+/// @throws InputError for a name that is none of a kind; it tells those there are.
+std::string unit_of_modes_figure(const std::string& name);
+std::string unit_of_pendulum_figure(const std::string& name);
+std::string unit_of_static_figure(const std::string& name);
+std::string unit_of_verdict_figure(const std::string& name, const CertificationTest& test);
+
+/// Of the structure with the body attached, by finite elements; of the pendulum, by its modes.
+inline constexpr const char* kSystemFrequency = "system_frequency";
+
+/// "mass", "system_frequency" of the body attached, "frequency.<mode>".
+/// @throws InputError for a mode that is not among those computed, or without a body attached.
+double modes_figure(const fe_modal::ModalBody& body, const std::string& name);
+
+/// What a figure of the pendulum is read off.
+enum class PendulumSource {
+  channels,           ///< those without a filter
+  filtered_channels,  ///< the others too
+  system_mode         ///< small motions about the hanging equilibrium: no run
+};
+PendulumSource source_of_pendulum_figure(const std::string& name);
+Figure pendulum_figure(const PendulumResult& result, const std::string& name);
+double system_figure(const multibody::SystemMode& mode, const std::string& name);
+
+double static_figure(const StaticTestResult& result, const std::string& name);
+
+/// A figure of a verdict, with '_' for each space of its name; "figures_inside" is
+/// how many of them are within their limits.
+Figure verdict_figure(const Verdict& verdict, const std::string& name);
+
+}  // namespace flexneck::pipeline

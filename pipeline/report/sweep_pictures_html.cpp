@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/report/sweep_pictures_html.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "geometry/foundation/input_file.h"
+#include "pipeline/plotting/embedding.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Kinds of pictures in the order of the page, and what they show.
+struct PictureKind {
+  const char* prefix;
+  const char* what;
+};
+constexpr std::array<PictureKind, 3> kKinds = {
+    {{"sweep-tornado-", "Shares of the variance, or rank correlations, of "},
+     {"sweep-scatter-", "Rows of the sweep: "},
+     {"sweep-bands-", "Percentiles of all rows: "}}};
+
+std::string picture(const fs::path& path, const std::string& caption) {
+  const std::string svg = text_of_file(path);
+  return "<figure>\n<img alt=\"" + html_text(caption) + "\" src=\"data:image/svg+xml;base64," +
+         base64(std::as_bytes(std::span(svg))) + "\">\n<figcaption>" + html_text(caption) +
+         "</figcaption>\n</figure>\n";
+}
+
+}  // namespace
+
+std::string sweep_pictures_html(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const fs::directory_entry& each : fs::directory_iterator(folder, none))
+    if (each.path().extension() == ".svg") files.push_back(each.path());
+  std::sort(files.begin(), files.end());
+  std::string html;
+  for (const PictureKind& kind : kKinds) {
+    const std::string prefix = kind.prefix;
+    for (const fs::path& file : files)
+      if (const std::string stem = file.stem().string(); stem.starts_with(prefix))
+        html += picture(file, kind.what + stem.substr(prefix.size()));
+  }
+  return html;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace flexneck::pipeline {
+
+/// The pictures that `flexneck sweep` has left in a folder, for the page; empty if there are none.
+std::string sweep_pictures_html(const std::filesystem::path& folder);
+
+}  // namespace flexneck::pipeline

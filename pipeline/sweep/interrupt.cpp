@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/sweep/interrupt.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+// A handler of signals reaches nothing else.
+std::atomic<bool> asked = false;
+struct sigaction usual {};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void ask(int /*signal*/) {
+  asked = true;
+  ::sigaction(SIGINT, &usual, nullptr);
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  asked = false;
+  ::sigaction(SIGINT, nullptr, &before_);
+  if (before_.sa_handler == SIG_IGN) return;  // as of a command in the background
+  usual = before_;
+  struct sigaction action {};
+  action.sa_handler = ask;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGINT, &action, nullptr);
+}
+
+Interrupt::~Interrupt() { ::sigaction(SIGINT, &before_, nullptr); }
+
+const std::atomic<bool>& Interrupt::is_asked() { return asked; }
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/sweep/row_file.h"
+
+namespace flexneck::pipeline {
+
+/// Part `index` of `count` of the rows of a sweep, from 1: neighbouring rows, which share stages.
+struct Shard {
+  std::uint64_t index = 1;
+  std::uint64_t count = 1;
+
+  std::uint64_t first(std::uint64_t rows) const { return rows * (index - 1) / count; }
+  std::uint64_t end(std::uint64_t rows) const { return rows * index / count; }
+  /// "2-of-8"
+  std::string name() const { return std::to_string(index) + "-of-" + std::to_string(count); }
+};
+
+/// Where the rows of shards are kept: <folder>/sweep-shards/2-of-8/rows.txt
+std::filesystem::path folder_of_shard(const std::filesystem::path& results, const Shard& shard);
+std::filesystem::path rows_of_shard(const std::filesystem::path& results, const Shard& shard);
+
+/// The files of all shards that there are, of whatever definition and division.
+std::vector<std::filesystem::path> row_files(const std::filesystem::path& results);
+
+/// The rows of several files, ascending, each once.
+class MergedRows {
+ public:
+  MergedRows(const std::vector<std::filesystem::path>& files, const RowFormat& format);
+
+  /// Reads the next row. @return false at the end
+  bool next(RowResult& result);
+
+ private:
+  struct Source {
+    std::unique_ptr<RowReader> reader;
+    RowResult first;  ///< that was not handed over yet
+    bool has_first = false;
+  };
+  std::vector<Source> sources_;
+};
+
+}  // namespace flexneck::pipeline

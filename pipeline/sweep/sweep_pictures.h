@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "pipeline/sweep/sweep_summary.h"
+
+namespace flexneck::pipeline {
+
+/// Spearman's rank correlation of each input with an output over the rows that have it; ranks of
+/// equal values are their mean. NaN where one does not vary.
+/// @param inputs (parameters, rows)
+Eigen::VectorXd rank_correlations(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& output);
+
+/// What the pictures show.
+struct SweepPictures {
+  const SweepRows& sweep;
+  const std::vector<OutputColumn>& outputs;
+  const SweepTable& table;
+  const std::vector<Sensitivity>& sensitivity;
+  const std::vector<CurveColumn>& curves;
+  const std::vector<Eigen::MatrixXd>& bands;  ///< as percentile_bands() has them
+};
+
+/// Draws into a folder, by gnuplot: sweep-scatter-<output>.svg, the output over each input, at most
+/// kMaxPoints rows; sweep-tornado-<output>.svg, indices or effects with their confidence, of other
+/// plans that sample the rank correlations; sweep-bands-<curve>.svg.
+/// @return their names
+/// @throws as run_gnuplot() does.
+std::vector<std::string> draw_sweep(const SweepPictures& pictures,
+                                    const std::filesystem::path& folder);
+
+/// A name of a file: what an output or a curve is called, with '-' for what files have not.
+std::string file_part_of(const std::string& name);
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A study that is read again with other values against one that is read anew.
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/study/study_reader.h"
+
+using namespace flexneck;
+using namespace flexneck::pipeline;
+
+namespace {
+
+std::string text_of(const std::vector<Parameter>& parameters) {
+  std::string text;
+  for (const Parameter& each : parameters)
+    text += each.key + "=" + each.value + " " + std::string(name_of(each.origin)) + "\n";
+  return text;
+}
+
+double damping_ratio(const Study& study) {
+  return study.model.of_structure.begin()->second.damping_ratio.value();
+}
+
+void check_same(const Study& a, const Study& b) {
+  CHECK(text_of(a.parameters) == text_of(b.parameters));
+  CHECK(text_of(a.defaults) == text_of(b.defaults));
+  CHECK(a.settings == b.settings);
+  CHECK(damping_ratio(a) == damping_ratio(b));
+}
+
+}  // namespace
+
+TEST_CASE("a study that is read again with other values is the one that is read anew") {
+  const std::vector<std::string> base = {"modes.count=6"};
+  StudyReader reader(built_in_study(), base);
+  for (const char* const value : {"0.7", "0.8", "0.7"}) {
+    const std::string damping = std::string("body.neck.damping_ratio=") + value;
+    const std::string duration = std::string("case.flexion-60.duration=\"") + value + " s\"";
+    check_same(reader.read({damping, duration}),
+               read_study(built_in_study(), {base[0], damping, duration}));
+  }
+  // Other keys, and none: nothing is left of those before.
+  check_same(reader.read({"solver.relative_tolerance=1e-7"}),
+             read_study(built_in_study(), {base[0], "solver.relative_tolerance=1e-7"}));
+  check_same(reader.read({}), read_study(built_in_study(), base));
+}
+
+TEST_CASE("a value that is refused does not stay for the next reading") {
+  StudyReader reader(built_in_study(), {});
+  REQUIRE(damping_ratio(reader.read({"body.neck.damping_ratio=0.7"})) == 0.7);
+  CHECK_THROWS_AS(reader.read({"body.neck.damping_ratio=much"}), InputError);
+  CHECK(damping_ratio(reader.read({"body.neck.damping_ratio=0.6"})) == 0.6);
+  CHECK_THROWS_AS(reader.read({"body.nack.damping_ratio=1"}), InputError);
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// 'flexneck sweep' as users run it: shared out, killed, stopped, on a full disk.
+#include <chrono>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/temporary_folder.h"
+#include "tests/pipeline/sweep/sweep_runs.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using namespace flexneck::testing;
+namespace fs = std::filesystem;
+
+TEST_CASE("a sweep is the same to the last bit with any threads and shards") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done(sweep(study, folder / "one", "--threads 1"));
+  require_done(sweep(study, folder / "two", "--threads 2"));
+  for (const char* const shard : {"3/3", "1/3", "2/3"})
+    require_done(sweep(study, folder / "shards", std::string("--threads 1 --shard ") + shard));
+  const std::string table = table_in(folder / "one");
+  CHECK(table_in(folder / "two") == table);
+  CHECK(table_in(folder / "shards") == table);
+  // Nothing is left to do, and nothing changes.
+  require_done(sweep(study, folder / "shards"));
+  CHECK(table_in(folder / "shards") == table);
+  CHECK(lines_of(bytes_of(folder / "one/sweep.csv")).size() == 61);
+}
+
+TEST_CASE("shards that are not all there are completed without --shard") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done(sweep(study, folder / "one"));
+  require_done(sweep(study, folder / "some", "--shard 2/4"));
+  CHECK_FALSE(fs::exists(folder / "some/sweep.csv"));
+  const testing::CommandOutcome outcome = run_flexneck(sweep(study, folder / "some"));
+  CHECK_THAT(outcome.text, Contains("45 rows to compute, 15 there already"));
+  CHECK(table_in(folder / "some") == table_in(folder / "one"));
+}
+
+TEST_CASE("twenty kills leave the same table") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  const auto start = std::chrono::steady_clock::now();
+  require_done(sweep(study, folder / "whole"));
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - start;
+  int killed = 0;
+  unsigned random = 12345;  // any sequence of times will do
+  for (int k = 0; k < 20; ++k) {
+    random = random * 1664525U + 1013904223U;
+    const double share = 0.2 + 0.8 * (random >> 8U) / (1U << 24U);
+    const testing::CommandOutcome outcome =
+        run_shell("timeout -s KILL " + std::to_string(share * whole.count()) + " " +
+                  testing::flexneck_program() + " " + sweep(study, folder / "killed"));
+    killed += outcome.exit_code == 137 ? 1 : 0;
+    // So that there is something left to be killed.
+    if (outcome.exit_code == 0) fs::remove_all(folder / "killed");
+  }
+  CHECK(killed > 3);
+  require_done(sweep(study, folder / "killed"));
+  CHECK(table_in(folder / "killed") == table_in(folder / "whole"));
+}
+
+TEST_CASE("a row that is damaged is computed again with those after it") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done(sweep(study, folder / "out"));
+  const std::string table = table_in(folder / "out");
+  const fs::path rows = folder / "out/sweep-shards/1-of-1/rows.txt";
+  std::string text = bytes_of(rows);
+  const std::size_t place = text.find("\n40,") + 6;
+  text[place] = text[place] == '7' ? '8' : '7';
+  std::ofstream(rows, std::ios::binary) << text;
+  const testing::CommandOutcome outcome = run_flexneck(sweep(study, folder / "out"));
+  CHECK_THAT(outcome.text, Contains("20 rows to compute, 40 there already"));
+  CHECK(table_in(folder / "out") == table);
+}
+
+TEST_CASE("other values begin a sweep anew, and say so") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done(sweep(study, folder / "out"));
+  const testing::CommandOutcome outcome =
+      run_flexneck(sweep(study, folder / "out", "--set case.flexion.duration='0.2 s'"));
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("begun anew") && Contains("60 rows to compute, 0 there"));
+}
+
+TEST_CASE("Ctrl-C keeps what is done") {
+  // In the foreground, timeout signals the command only, and once.
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(
+      folder.path(),
+      small_sweep("key = \"body.neck.damping_ratio\"\ndistribution = \"uniform\"\n"
+                  "from = 0.5\nto = 0.9\n",
+                  R"("pendulum.far.head_acceleration")", "plan = \"random\"\nsamples = 100000"));
+  const testing::CommandOutcome outcome =
+      run_shell("timeout --foreground -s INT 1.5 " + testing::flexneck_program() + " " +
+                sweep(study, folder / "out"));
+  INFO(outcome.text);
+  CHECK_THAT(outcome.text, Contains("of 100000 rows are done and kept"));
+  const std::size_t lines = lines_of(bytes_of(folder / "out/sweep-shards/1-of-1/rows.txt")).size();
+  CHECK(lines > 2);
+  CHECK_THAT(outcome.text, Contains(std::to_string(lines - 1) + " of 100000"));
+}
+
+TEST_CASE("a disk that fills up ends a sweep with one line; then it goes on") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done(sweep(study, folder / "whole"));
+  // A file may have 2 kB: that stands for the disk.
+  const testing::CommandOutcome outcome =
+      run_shell("sh -c 'ulimit -f 4; exec " + testing::flexneck_program() + " -q " +
+                sweep(study, folder / "full") + "'");
+  check_refused(outcome, "cannot be written", 3);
+  CHECK_THAT(outcome.text, Contains("the rows before are kept"));
+  require_done(sweep(study, folder / "full"));
+  CHECK(table_in(folder / "full") == table_in(folder / "whole"));
+}
+
+TEST_CASE("a sweep has its pictures, and the report shows them with the tables") {
+  const TemporaryFolder folder;
+  const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
+  require_done("run " + study.string() + " -o " + (folder / "out").string());
+  require_done(sweep(study, folder / "out"));
+  for (const char* const name : {"sweep-scatter-pendulum.flexion.head_rotation.svg",
+                                 "sweep-tornado-pendulum.flexion.neck_rotation_time.svg",
+                                 "sweep-bands-pendulum.flexion.occipital-moment.svg"}) {
+    INFO(name);
+    CHECK_THAT(bytes_of(folder / "out" / name), Contains("</svg>"));
+  }
+  require_done("report " + study.string() + " -o " + (folder / "out").string());
+  const std::string page = bytes_of(folder / "out/report.html");
+  CHECK_THAT(page, Contains("Parameters varied") && Contains("Outputs over all rows") &&
+                       Contains("Percentiles of all rows: pendulum.flexion.occipital-moment"));
+  // Nothing of the page is left of outputs that a later sweep has not.
+  require_done(sweep(study, folder / "out",
+                     "--set 'sweep.outputs=[\"modes.mass\", "
+                     "\"pendulum.flexion.head_rotation\"]'"));
+  CHECK_FALSE(fs::exists(folder / "out/sweep-tornado-pendulum.flexion.neck_rotation_time.svg"));
+}
