@@ -68,15 +68,16 @@ std::vector<Eigenmode> overdamped_modes(std::vector<RealEigenvalue> values) {
 
 }  // namespace
 
-std::vector<Eigenmode> eigenmodes_of(const MatrixXd& A, Index positions) {
-  const Index rates = A.rows() - positions;
+std::vector<Eigenmode> eigenmodes_of(const MatrixXd& A, Index positions, Index internal) {
+  const Index rates = A.rows() - positions - internal;
   if (rates == 0) return {};
   // In units of time that make the largest stiffness one.
-  const double largest = A.bottomLeftCorner(rates, positions).cwiseAbs().maxCoeff();
+  const double largest = A.block(positions, 0, rates, positions).cwiseAbs().maxCoeff();
   const double rate = largest > 0 ? std::sqrt(largest) : 1.0;
   MatrixXd scaled = A / rate;
-  scaled.topRightCorner(positions, rates) *= rate;
-  scaled.bottomLeftCorner(rates, positions) /= rate;
+  scaled.block(0, positions, positions, rates) *= rate;
+  scaled.block(positions, 0, rates, positions) /= rate;
+  scaled.block(positions, positions + rates, rates, internal) /= rate;
   const Eigen::EigenSolver<MatrixXd> eigen(scaled);
   if (eigen.info() != Eigen::Success)
     throw ComputationError("the eigenvalues of the linearised system did not converge");
@@ -96,8 +97,13 @@ std::vector<Eigenmode> eigenmodes_of(const MatrixXd& A, Index positions) {
            shape});
     if (lambda.imag() == 0) real.push_back({lambda.real() * rate, shape.real().normalized()});
   }
-  for (Eigenmode& mode : overdamped_modes(std::move(real))) modes.push_back(std::move(mode));
-  modes.resize(static_cast<std::size_t>(rates));  // the rest have no restoring force
+  if (internal == 0) {
+    for (Eigenmode& mode : overdamped_modes(std::move(real))) modes.push_back(std::move(mode));
+    modes.resize(static_cast<std::size_t>(rates));  // the rest have no restoring force
+  } else {
+    for (const RealEigenvalue& each : real)
+      if (each.value > kGrowth * rate) modes.push_back({mode_of_pair(each.value, 0), each.shape});
+  }
   std::stable_sort(modes.begin(), modes.end(), [](const Eigenmode& a, const Eigenmode& b) {
     return a.mode.frequency_Hz < b.mode.frequency_Hz;
   });

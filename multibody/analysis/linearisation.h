@@ -38,10 +38,13 @@ struct Eigenmode {
   Eigen::VectorXcd shape;
 };
 
-/// The modes of y' = A y, y = [positions; rates], ascending in frequency, as modes_of().
+/// The modes of y' = A y, y = [positions; rates; internal], ascending in frequency, as modes_of().
+/// With internal variables, which relax, overdamped motion cannot be told from relaxation: only
+/// motions that swing or grow are modes then.
 /// @param positions  how many; the rest are rates. Positions may be more than rates by what
 ///                   normalised quaternions have too many.
-std::vector<Eigenmode> eigenmodes_of(const Eigen::MatrixXd& A, Eigen::Index positions);
+std::vector<Eigenmode> eigenmodes_of(const Eigen::MatrixXd& A, Eigen::Index positions,
+                                     Eigen::Index internal = 0);
 
 /// A mode of a whole model: how its markers swing, x(t) = Re(amplitude exp(i omega t)), scaled so
 /// that the largest displacement of a marker is a metre (if none is displaced, the largest
@@ -71,8 +74,9 @@ std::vector<ModeShape> linearise(const Model& model, LinearisedAt at);
 
 /// Small motions about that equilibrium, or about steady rotation where prescribed bodies turn (see
 /// LinearisedAt), ascending in frequency. An overdamped mode has a damping ratio of one or more and
-/// the damped frequency zero; a motion without restoring force has frequency zero. One that grows
-/// is unstable: with a frequency it swings, with frequency zero it moves away.
+/// the damped frequency zero; a motion without restoring force has frequency zero; of models with
+/// sections that relax neither is listed. One that grows is unstable: with a frequency it swings,
+/// with frequency zero it moves away.
 /// @throws as linearise().
 std::vector<SystemMode> system_modes(const Model& model);
 

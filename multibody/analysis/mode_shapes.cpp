@@ -76,7 +76,7 @@ std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& equations, const Vec
   const System& system = equations.system();
   ReducedDynamics reduced(equations, positions, 0, frame);
   const std::vector<Eigenmode> modes =
-      eigenmodes_of(second_order(reduced.stiffness(), reduced.damping()), reduced.count());
+      eigenmodes_of(reduced.state_matrix(), reduced.count(), system.internal_count);
   equations.set_positions(0, positions);
   const VectorXd still = VectorXd::Zero(system.velocity_count);
   equations.set_velocities(still);
@@ -100,16 +100,20 @@ std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& equations, const Vec
 class TreeLinearisation {
  public:
   explicit TreeLinearisation(const Model& model)
-      : tree_(model), dynamics_(tree_), state_(tree::given_state(tree_)) {}
+      : tree_(model), dynamics_(tree_), state_(tree::given_state(tree_)) {
+    dynamics_.update(0, state_);
+    tree_.internal(state_) = dynamics_.forces().internal();
+  }
 
   std::vector<ModeShape> modes() {
-    const Index n = tree_.position_count + tree_.velocity_count;
+    const Index n = tree_.position_count + tree_.velocity_count + tree_.internal_count;
     MatrixXd A(n, n);
     for (Index i = 0; i < n; ++i) {
       const double step = kDifference * std::max(1.0, std::abs(state_[i]));
       A.col(i) = (rate_at(i, step) - rate_at(i, -step)).head(n) / (2 * step);
     }
-    return shapes_of(eigenmodes_of(A, tree_.position_count), marker_motions());
+    return shapes_of(eigenmodes_of(A, tree_.position_count, tree_.internal_count),
+                     marker_motions());
   }
 
  private:

@@ -81,6 +81,8 @@ template <ForceElement Kind>
 void check_load(const Kind& element, const Vector3d& axis) {
   if constexpr (TimedForce<Kind>)
     if (!is_constant(element.load_over_time())) refuse(title(element) + " changes with time");
+  if constexpr (RelaxingForce<Kind>)
+    if (element.branch_count() > 0) refuse(title(element) + " relaxes");
   if constexpr (WorldForce<Kind>)
     if (!is_along(element.direction, axis))
       refuse(title(element) + " is not along the axis about which prescribed bodies turn");

@@ -57,6 +57,7 @@ class DescriptorEquations final : public Equations {
   Vector given_state() override {
     Vector state = multibody::given_state(model_, system_);
     join(model_, equations_, state, Check::positions_and_velocities);
+    system_.internal(state) = equations_.forces().internal();
     return state;
   }
 
@@ -74,14 +75,21 @@ class DescriptorEquations final : public Equations {
     state.segment(system_.position_count, system_.velocity_count) =
         carried_velocities(model_, system_);
     projection_.apply(0, state);
+    system_.internal(state) = equations_.forces().internal();
     return state;
   }
 
   void settle(double time_s, Vector& state) override {
+    equations_.relax();
     Vector positions = state.head(system_.position_count);
     // The prescribed bodies may have moved on.
     projection_.converge_positions(time_s, positions);
     state.head(system_.position_count) = settled_positions(equations_, positions, time_s);
+    if (system_.internal_count == 0) return;
+    equations_.relax();
+    equations_.set_positions(time_s, state.head(system_.position_count));
+    equations_.set_velocities(state.segment(system_.position_count, system_.velocity_count));
+    system_.internal(state) = equations_.forces().internal();
   }
 
   void set_interval(double begin_s, double end_s) override {
@@ -91,6 +99,7 @@ class DescriptorEquations final : public Equations {
     equations_.evaluate(time_s, state, rate);
   }
   void finish_step(double time_s, Vector& state, Vector& rate) override {
+    equations_.give_internal(state);
     projection_.apply_behind_step(time_s, state);
     equations_.evaluate_updated(state, rate);
   }
@@ -112,13 +121,17 @@ class DescriptorEquations final : public Equations {
   }
 
   Layout layout() const override {
-    return {system_.position_count, system_.velocity_count, system_.constraint_count};
+    return {system_.position_count, system_.velocity_count, system_.internal_count,
+            system_.constraint_count};
   }
   void retract(Eigen::Ref<Vector> positions,
                const Eigen::Ref<const Vector>& change) const override {
     system_.retract(positions, change);
   }
   const Vector& multipliers() const override { return equations_.multipliers(); }
+  void begin_step(const Vector& state, const Vector& rate, double length_s) override {
+    equations_.begin_step(state, rate, length_s);
+  }
   void residual(double time_s, const Vector& state, const Vector& accelerations,
                 const Vector& multipliers, Vector& residual) override {
     equations_.residual(time_s, state, accelerations, multipliers, residual);
@@ -141,6 +154,7 @@ class DescriptorEquations final : public Equations {
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     // The correction is of the size of the interpolation's error: with the factors from before it,
     // velocities and accelerations are as exact as the interpolated state.
+    equations_.give_internal(state);
     projection_.apply(time_s, state, false);
     equations_.solve();
     equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
@@ -153,9 +167,8 @@ class DescriptorEquations final : public Equations {
     for (std::size_t b = 0; b < system_.bodies.size(); ++b)
       recorder.modal(column, system_.bodies[b].index, equations_.body(b).a);
     if (!equations_.solver().redundant_rows().empty()) record_undetermined(recorder);
-    const Index quadratures = system_.position_count + system_.velocity_count;
-    recorder.energy(column, energies_of(equations_, state), state[quadratures],
-                    state[quadratures + 1]);
+    recorder.energy(column, energies_of(equations_, state), state[state.size() - 2],
+                    state[state.size() - 1]);
   }
 
  private:

@@ -209,6 +209,7 @@ void EquationsOfMotion::solve() {
 }
 
 void EquationsOfMotion::evaluate(double time_s, const ConstVector& state, VectorXd& rate) {
+  give_internal(state);
   set_positions(time_s, state.head(system_.position_count));
   set_velocities(state.segment(system_.position_count, system_.velocity_count));
   evaluate_updated(state, rate);
@@ -233,14 +234,15 @@ void EquationsOfMotion::fill_rate(const ConstVector& state, const ConstVector& a
     Q_rate.tail(m) = V.tail(m);
   }
   rate.segment(nq, nv) = accelerations;
-  rate[nq + nv] = dissipation_W(velocities);
-  rate[nq + nv + 1] = work_W();
+  system_.internal(rate) = forces_.internal_rate();
+  rate.tail<2>() << dissipation_W(velocities), work_W();
 }
 
 void EquationsOfMotion::residual(double time_s, const ConstVector& state,
                                  const ConstVector& accelerations, const ConstVector& multipliers,
                                  VectorXd& residual) {
   const Index nv = system_.velocity_count;
+  forces_.follow_step();
   update_positions(time_s, state.head(system_.position_count));
   set_velocities(state.segment(system_.position_count, nv));
   multipliers_ = multipliers;

@@ -38,6 +38,13 @@ class EquationsOfMotion {
   void set_velocities(const ConstVector& velocities);
   /// Accelerations and multipliers.
   void solve();
+  // What set_velocities() takes the internal variables of force elements to be; see ForceSet.
+  void relax() { forces_.relax(); }
+  void give_internal(const ConstVector& state) { forces_.give_internal(system_.internal(state)); }
+  void begin_step(const ConstVector& state, const ConstVector& rate, double length_s) {
+    forces_.begin_step(system_.internal(state), system_.internal(rate), length_s);
+  }
+
   /// Rate of the whole state (System::state_count()): all three steps.
   void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
   /// The same once positions and velocities are updated.
@@ -47,7 +54,8 @@ class EquationsOfMotion {
                  Eigen::VectorXd& rate) const;
 
   /// What accelerations and multipliers leave of the equations of motion, M V' + B^T lambda - u,
-  /// above what the positions leave of the constraints. Nothing is factorised.
+  /// above what the positions leave of the constraints, at the end of the step that begin_step()
+  /// told. Nothing is factorised.
   void residual(double time_s, const ConstVector& state, const ConstVector& accelerations,
                 const ConstVector& multipliers, Eigen::VectorXd& residual);
 

@@ -5,10 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/foundation/error.h"
 #include "multibody/descriptor/initial_state.h"
 #include "multibody/descriptor/reduced_dynamics.h"
-#include "multibody/model/joint_check.h"
+#include "multibody/model/carriers.h"
 #include "multibody/numerics/rest.h"
 
 namespace flexneck::multibody {
@@ -57,54 +56,14 @@ class DescriptorRest final : public RestProblem {
   std::optional<ReducedDynamics> reduced_;
 };
 
-/// Velocity of the prescribed body that each free body hangs on, through joints; none if there is
-/// none.
-class Carriers {
- public:
-  Carriers(const Model& model, const System& system)
-      : system_(system), velocities_(system.bodies.size()) {
-    // As many passes as the longest chain of joints is long.
-    for (std::size_t pass = 0; pass <= system.bodies.size(); ++pass)
-      for (std::size_t k = 0; k < model.joints.size(); ++k) {
-        if (model.joints[k].kind->holds_nothing()) continue;
-        carry(k, model.joints[k].marker_i, model.joints[k].marker_j);
-        carry(k, model.joints[k].marker_j, model.joints[k].marker_i);
-      }
-  }
-
-  const std::optional<Vector3d>& velocity(std::size_t body) const { return velocities_[body]; }
-
- private:
-  void carry(std::size_t joint, std::size_t from, std::size_t to) {
-    const SystemMarker& source = system_.markers[from];
-    const std::size_t target = system_.markers[to].free_body;
-    if (target == JointPlace::kNoBody) return;
-    const std::optional<Vector3d> velocity =
-        source.free_body == JointPlace::kNoBody
-            ? std::optional<Vector3d>(system_.prescribed[source.prescribed_body].at(0).velocity_m_s)
-            : velocities_[source.free_body];
-    if (!velocity) return;
-    if (velocities_[target] && (*velocities_[target] - *velocity).norm() > 0)
-      throw InputError("joint '" + system_.joints[joint].name + "': body '" +
-                       system_.bodies[target].name +
-                       "' hangs on prescribed bodies of different initial velocity; a start from "
-                       "equilibrium needs one velocity");
-    velocities_[target] = velocity;
-  }
-
-  const System& system_;
-  std::vector<std::optional<Vector3d>> velocities_;
-};
-
 }  // namespace
 
 VectorXd carried_velocities(const Model& model, const System& system) {
-  const Carriers carriers(model, system);
+  check_no_body_floats(model);
+  const auto carriers = carrier_velocities(model);
   VectorXd velocities = VectorXd::Zero(system.velocity_count);
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    if (!carriers.velocity(b)) refuse_floating_body(system.bodies[b].name);
-    velocities.segment<3>(system.bodies[b].velocity) = *carriers.velocity(b);
-  }
+  for (const FreeBody& body : system.bodies)
+    velocities.segment<3>(body.velocity) = *carriers[body.index];
   return velocities;
 }
 

@@ -69,6 +69,7 @@ ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& p
       origin_(positions),
       time_s_(time_s),
       frame_(std::move(frame)) {
+  equations_.relax();
   equations_.set_positions(time_s_, origin_);
   if (origin_.size() == 0) return;
   // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
@@ -192,6 +193,48 @@ MatrixXd ReducedDynamics::damping() {
     result.col(i) = (solve(-velocities) - solve(velocities)) / (2 * step);
   }
   return result;
+}
+
+VectorXd ReducedDynamics::rates_at(const VectorXd& xi) {
+  VectorXd rates(count() + equations_.system().internal_count);
+  rates << accelerations_at(xi), equations_.forces().internal_rate();
+  return rates;
+}
+
+MatrixXd ReducedDynamics::state_matrix() {
+  const Index k = count();
+  const Index internal = equations_.system().internal_count;
+  const VectorXd at_rest = VectorXd::Zero(k);
+  VectorXd state = VectorXd::Zero(equations_.system().state_count());
+  auto z = equations_.system().internal(state);
+  if (internal > 0) {
+    accelerations_at(at_rest);
+    z = equations_.forces().internal();
+    equations_.give_internal(state);
+  }
+  MatrixXd A = MatrixXd::Zero(2 * k + internal, 2 * k + internal);
+  A.block(0, k, k, k).setIdentity();
+  A.block(k, k, k, k) = -damping();
+  for (Index i = 0; i < k; ++i) {
+    VectorXd xi = VectorXd::Unit(k, i);
+    const double step = kDifference / extent(xi);
+    xi *= step;
+    A.block(k, 0, k + internal, k).col(i) = (rates_at(xi) - rates_at(-xi)) / (2 * step);
+  }
+  // Loads are linear in the internal variables.
+  for (Index i = 0; i < internal; ++i) {
+    const double value = z[i];
+    const auto rates_with = [&](double shift) {
+      z[i] = value + shift;
+      equations_.give_internal(state);
+      return rates_at(at_rest);
+    };
+    A.col(2 * k + i).tail(k + internal) =
+        (rates_with(kDifference) - rates_with(-kDifference)) / (2 * kDifference);
+    z[i] = value;
+  }
+  equations_.relax();
+  return A;
 }
 
 }  // namespace flexneck::multibody

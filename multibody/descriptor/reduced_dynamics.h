@@ -25,7 +25,7 @@ struct TurningFrame {
 /// (B N = 0, N^T M N = I), and the joints are closed again behind it. Velocities and accelerations
 /// are those against a frame, in which the prescribed bodies are at rest (equations.md section 10).
 /// Since N^T M Vdot = N^T u, in a frame at rest the accelerations of xi at rest are minus the
-/// gradient of the potential energy.
+/// gradient of the potential energy. Force elements are relaxed but for state_matrix().
 class ReducedDynamics {
  public:
   /// @param equations  of a frame at rest with Drive::held; must outlive this
@@ -50,10 +50,15 @@ class ReducedDynamics {
   /// -d accelerations / d xi and -d accelerations / d xidot by central differences, (k, k).
   Eigen::MatrixXd stiffness();
   Eigen::MatrixXd damping();
+  /// A of y' = A y, y = [xi; xi'; z], z the internal variables of force elements about those they
+  /// have at rest, (2k + internal); in a frame at rest.
+  Eigen::MatrixXd state_matrix();
   /// Velocities that the positions set last have with the frame.
   Eigen::VectorXd carried_velocities() const;
 
  private:
+  /// Accelerations of xi and rates of the internal variables, (k + internal), at rest.
+  Eigen::VectorXd rates_at(const Eigen::VectorXd& xi);
   /// Accelerations of xi at the positions set last.
   /// @param velocities  against the frame
   Eigen::VectorXd solve(const Eigen::VectorXd& velocities);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "multibody/equations/internal_error.h"
+
 namespace flexneck::multibody {
 namespace {
 
@@ -59,11 +61,15 @@ ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
              present.displacement / root_mass);
     consider(first + 5, error.segment(v + 6, m).norm() / root_mass, present.velocity / root_mass);
   }
+  consider_internal(system_.internal(error), system_.size_m, tolerance_,
+                    system_.bodies.size() * kComponents, worst);
   return worst;
 }
 
 std::string StateError::name_of(std::size_t component) const {
   if (system_.bodies.empty()) return "work, as no body is free";
+  const std::size_t of_bodies = system_.bodies.size() * kComponents;
+  if (component >= of_bodies) return name_of_branch(system_.model.forces, component - of_bodies);
   const std::string& body = system_.bodies[component / kComponents].name;
   return std::string(kNames[component % kComponents]) + " of body '" + body + "'";
 }

@@ -9,6 +9,7 @@
 #include "multibody/descriptor/body_dynamics.h"
 #include "multibody/descriptor/kkt_solver.h"
 #include "multibody/descriptor/node_kinematics.h"
+#include "multibody/equations/force_set.h"
 #include "multibody/model/model.h"
 #include "multibody/model/prescribed_path.h"
 
@@ -30,9 +31,10 @@ struct SystemMarker {
   std::size_t prescribed_body = JointPlace::kNoBody;  ///< among the prescribed ones
 };
 
-/// A model laid out for the equations. Its state is a vector y = [Q; V; e]: positions and
-/// velocities of the free bodies in the model's order, and two quadratures e: the energy that
-/// damping has dissipated and the work of forces and prescribed bodies.
+/// A model laid out for the equations. Its state is a vector y = [Q; V; z; e]: positions and
+/// velocities of the free bodies in the model's order, internal variables z of the force elements,
+/// and two quadratures e: the energy that damping has dissipated and the work of forces and
+/// prescribed bodies.
 struct System {
   static constexpr Eigen::Index kQuadratures = 2;
 
@@ -50,10 +52,18 @@ struct System {
   Eigen::Index position_count = 0;
   Eigen::Index velocity_count = 0;
   Eigen::Index constraint_count = 0;
+  Eigen::Index internal_count = 0;
   /// Largest distance in a body: from its origin to a joint, or its radius. One for points alone.
   double size_m = 0;
 
-  Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
+  Eigen::Index state_count() const {
+    return position_count + velocity_count + internal_count + kQuadratures;
+  }
+  /// The part of a state that internal variables are.
+  template <class State>
+  auto internal(State&& state) const {
+    return state.segment(position_count + velocity_count, internal_count);
+  }
   std::vector<Eigen::Index> body_sizes() const;
   /// By how many metres a unit of each velocity moves its body, (velocity_count): a radian the
   /// system's size, a modal coordinate the root mean square of its mass.

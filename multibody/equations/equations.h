@@ -45,9 +45,10 @@ class Equations {
   /// Of the last evaluation: pieces() tells where loads have kinks.
   virtual const ForceSet& forces() const = 0;
 
-  /// How many positions (with which a state begins), velocities (which follow) and constraints.
+  /// How many positions (with which a state begins), velocities and internal variables of force
+  /// elements (which follow; then come two quadratures), and how many constraints.
   struct Layout {
-    Eigen::Index positions, velocities, constraints;
+    Eigen::Index positions, velocities, internal, constraints;
   };
   virtual Layout layout() const = 0;
   /// Positions moved by a displacement of the kind of velocities.
@@ -55,6 +56,9 @@ class Equations {
                        const Eigen::Ref<const Vector>& change) const = 0;
   /// Of the last derivative() or finish_step(), (constraints).
   virtual const Vector& multipliers() const = 0;
+  /// Where a step begins, for residual(): internal variables are those at its end, which the
+  /// positions there say.
+  virtual void begin_step(const Vector& state, const Vector& rate, double length_s) = 0;
   /// What given accelerations and multipliers leave of the equations of motion, (velocities), above
   /// what the positions leave of the constraints.
   virtual void residual(double time_s, const Vector& state, const Vector& accelerations,

@@ -5,7 +5,38 @@
 
 namespace flexneck::multibody {
 
-ForceSet::ForceSet(const Model& model) : model_(model) {
+using Eigen::Index;
+
+Index internal_count(const Forces& forces) {
+  std::size_t branches = 0;
+  forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
+    if constexpr (RelaxingForce<Kind>)
+      for (const Kind& element : elements) branches += element.branch_count();
+  });
+  return 6 * static_cast<Index>(branches);
+}
+
+std::string name_of_branch(const Forces& forces, std::size_t branch) {
+  std::string who;
+  std::size_t before = 0;
+  forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
+    if constexpr (RelaxingForce<Kind>)
+      for (const Kind& element : elements) {
+        if (before <= branch && branch < before + element.branch_count())
+          who = "relaxation of " + title(element);
+        before += element.branch_count();
+      }
+  });
+  return who;
+}
+
+ForceSet::ForceSet(const Model& model)
+    : model_(model),
+      internal_(Eigen::VectorXd::Zero(internal_count(model.forces))),
+      internal_rate_(internal_),
+      given_(internal_),
+      begin_(internal_),
+      begin_rate_(internal_) {
   model.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     for (const Kind& element : elements) {
       auto slots = element.markers(model.joints);
@@ -40,6 +71,28 @@ std::size_t ForceSet::slot_of(std::size_t marker) {
   return markers_.size() - 1;
 }
 
+void ForceSet::give_internal(const ConstVector& values) {
+  given_ = values;
+  known_ = InternalVariables::Known::now;
+}
+
+void ForceSet::begin_step(const ConstVector& values, const ConstVector& rates, double length_s) {
+  begin_ = values;
+  begin_rate_ = rates;
+  step_s_ = length_s;
+}
+
+InternalVariables ForceSet::internal_of_branch(std::size_t branch) {
+  const bool in_step = known_ == InternalVariables::Known::begin;
+  return InternalVariables{known_,
+                           in_step ? begin_.data() : given_.data(),
+                           begin_rate_.data(),
+                           step_s_,
+                           internal_.data(),
+                           internal_rate_.data()}
+      .of_branch(branch);
+}
+
 void ForceSet::evaluate(double time_s) {
   if (slots_.empty()) return;
   sums_ = {};
@@ -48,6 +101,7 @@ void ForceSet::evaluate(double time_s) {
     slot.moment_Nm.setZero();
   }
   int* piece = pieces_.data();
+  std::size_t branch = 0;
   model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     const auto& slots = std::get<Slots<Kind>>(slots_of_kind_).of_element;
     for (std::size_t k = 0; k < elements.size(); ++k) {
@@ -55,7 +109,12 @@ void ForceSet::evaluate(double time_s) {
       ForceMarker& j = slots_[slots[k].back()];
       ForceLoad load;
       if constexpr (PiecewiseForce<Kind>) load.piece = {piece[0], piece[1]};
-      elements[k].act({i, j, model_.joints, time_s}, load, sums_);
+      ForceInput input{i, j, model_.joints, time_s};
+      if constexpr (RelaxingForce<Kind>) {
+        input.internal = internal_of_branch(branch);
+        branch += elements[k].branch_count();
+      }
+      elements[k].act(input, load, sums_);
       if constexpr (PiecewiseForce<Kind>) {
         *piece++ = load.piece.deflection;
         *piece++ = load.piece.rate;

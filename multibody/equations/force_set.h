@@ -18,6 +18,11 @@ struct ForceMarker : MarkerKinematics {
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
 };
 
+/// How many internal variables the force elements have: six a branch (RelaxingForce).
+Eigen::Index internal_count(const Forces& forces);
+/// What messages call a branch by its index among all.
+std::string name_of_branch(const Forces& forces, std::size_t branch);
+
 /// All force elements of a model (equations.md section 8), whatever their kinds. Both formulations
 /// hand in the motion of the markers that forces touch and apply the loads they get.
 class ForceSet {
@@ -29,6 +34,19 @@ class ForceSet {
   const std::vector<std::size_t>& markers() const { return markers_; }
   ForceMarker& slot(std::size_t k) { return slots_[k]; }
   const ForceMarker& slot(std::size_t k) const { return slots_[k]; }
+
+  // What evaluate() takes the internal variables to be, from now on.
+  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
+  /// Relaxed, as at first: at rest for long.
+  void relax() { known_ = InternalVariables::Known::relaxed; }
+  /// Those given, (internal_count).
+  void give_internal(const ConstVector& values);
+  /// Those at the end of a step over which strains change evenly, from these values and rates.
+  void begin_step(const ConstVector& values, const ConstVector& rates, double length_s);
+  void follow_step() { known_ = InternalVariables::Known::begin; }
+  /// Of the last evaluate(), and their rates.
+  const Eigen::VectorXd& internal() const { return internal_; }
+  const Eigen::VectorXd& internal_rate() const { return internal_rate_; }
 
   /// Loads and powers of the motions in the slots. Allocates nothing.
   void evaluate(double time_s);
@@ -59,6 +77,7 @@ class ForceSet {
   };
 
   std::size_t slot_of(std::size_t marker);
+  InternalVariables internal_of_branch(std::size_t branch);
 
   const Model& model_;
   std::vector<std::size_t> markers_;
@@ -66,6 +85,10 @@ class ForceSet {
   std::vector<bool> prescribed_;  ///< of the slots
   Forces::OfEachKind<Slots> slots_of_kind_;
   std::vector<int> pieces_;
+  InternalVariables::Known known_ = InternalVariables::Known::relaxed;
+  Eigen::VectorXd internal_, internal_rate_;
+  Eigen::VectorXd given_, begin_, begin_rate_;
+  double step_s_ = 0;
   ForceEnergies sums_;
 };
 

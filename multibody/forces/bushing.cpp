@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/forces/bushing.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "multibody/numerics/rotation.h"
@@ -12,27 +11,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
-/// Symmetric within rounding, and no negative eigenvalue: it must not feed energy.
-void check_matrix(const std::string& who, const std::string& what, const Matrix6d& matrix) {
-  constexpr double kSlack = 1e-9;
-  if (!matrix.allFinite()) refuse_force(who, what + " is not finite");
-  const double size = matrix.cwiseAbs().maxCoeff();
-  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kSlack * size)
-    refuse_force(who, what + " must be symmetric");
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(matrix, Eigen::EigenvaluesOnly);
-  if (eigen.eigenvalues()[0] < -kSlack * size)
-    refuse_force(who, what + " must not have a negative eigenvalue, but has " +
-                          std::to_string(eigen.eigenvalues()[0]));
-}
 
 }  // namespace
 
 void Bushing::check(const std::string& who, const ForceSites& sites) const {
   check_pair(who, marker_i, marker_j, sites);
-  check_matrix(who, "stiffness", stiffness);
-  check_matrix(who, "damping", damping);
+  check_stiffness(who, "stiffness", stiffness);
+  check_stiffness(who, "damping", damping);
 }
 
 void Bushing::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const {

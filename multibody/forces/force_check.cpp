@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 #include "geometry/foundation/error.h"
 
 namespace flexneck::multibody {
@@ -32,6 +34,20 @@ void check_direction(const std::string& who, const Eigen::Vector3d& direction) {
   if (std::abs(direction.norm() - 1) <= kSlack) return;
   refuse_force(who, "direction must be a unit vector, but its length is " +
                         std::to_string(direction.norm()));
+}
+
+void check_stiffness(const std::string& who, const std::string& what,
+                     const Eigen::Matrix<double, 6, 6>& matrix) {
+  constexpr double kSlack = 1e-9;
+  if (!matrix.allFinite()) refuse_force(who, what + " is not finite");
+  const double size = matrix.cwiseAbs().maxCoeff();
+  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kSlack * size)
+    refuse_force(who, what + " must be symmetric");
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(matrix,
+                                                                         Eigen::EigenvaluesOnly);
+  if (eigen.eigenvalues()[0] < -kSlack * size)
+    refuse_force(who, what + " must not have a negative eigenvalue, but has " +
+                          std::to_string(eigen.eigenvalues()[0]));
 }
 
 void check_not_negative(const std::string& who, const std::string& what, double value) {

@@ -26,6 +26,10 @@ void check_pair(const std::string& who, std::size_t marker_i, std::size_t marker
                 const ForceSites& sites);
 /// A unit vector.
 void check_direction(const std::string& who, const Eigen::Vector3d& direction);
+/// Of a stiffness or a damping: symmetric within rounding, and no negative eigenvalue, since it
+/// must not feed energy.
+void check_stiffness(const std::string& who, const std::string& what,
+                     const Eigen::Matrix<double, 6, 6>& matrix);
 void check_not_negative(const std::string& who, const std::string& what, double value);
 
 }  // namespace flexneck::multibody

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "multibody/forces/force_check.h"
+#include "multibody/forces/internal_variables.h"
 #include "multibody/forces/resistance.h"
 #include "multibody/joints/joint.h"
 #include "multibody/numerics/time_table.h"
@@ -34,6 +35,7 @@ struct ForceInput {
   const MarkerKinematics& j;
   const std::vector<Joint>& joints;  ///< of the model
   double time_s;
+  InternalVariables internal = {};  ///< of a RelaxingForce
 };
 
 /// The load of a force element, world axes, on j's body at j's origin. On i's body, if i is another
@@ -86,6 +88,20 @@ concept WorldForce = requires(const Kind& element) {
 template <class Kind>
 concept PiecewiseForce = requires {
   requires Kind::kHasKinks;
+};
+
+/// It has dashpots of its own, with six internal variables a branch: a displacement, m, and a
+/// rotation, rad.
+template <class Kind>
+concept RelaxingForce = requires(const Kind& element) {
+  { element.branch_count() } -> std::convertible_to<std::size_t>;
+};
+
+/// It resists every motion between its two bodies, marker_i and marker_j, so that one carries the
+/// other.
+template <class Kind>
+concept HoldingForce = requires {
+  requires Kind::kHolds;
 };
 
 /// How messages call an element: spring 'rope'.

@@ -7,6 +7,7 @@
 #include "multibody/forces/line_force.h"
 #include "multibody/forces/marker_spring.h"
 #include "multibody/forces/point_force.h"
+#include "multibody/forces/section.h"
 #include "multibody/forces/torque.h"
 
 namespace flexneck::multibody {
@@ -18,6 +19,7 @@ using Forces = ForceLists<PointForce,       // [[force]] in model files
                           MarkerSpring,     // [[spring]]
                           Bushing,          // [[bushing]]
                           JointResistance,  // [[resistance]]
-                          LineForce>;       // [[line_force]]
+                          LineForce,        // [[line_force]]
+                          Section>;         // [[section]]
 
 }  // namespace flexneck::multibody

@@ -82,9 +82,10 @@ void JointGuard::check(double time_s, std::size_t joint, const Violation& positi
 }
 
 void refuse_floating_body(const std::string& body) {
-  throw InputError("body '" + body +
-                   "': no joint connects it, directly or through others, to a prescribed body, so "
-                   "it has no equilibrium");
+  throw InputError(
+      "body '" + body +
+      "': no joint or section connects it, directly or through others, to a prescribed body, "
+      "so it has no equilibrium");
 }
 
 }  // namespace flexneck::multibody

@@ -50,6 +50,7 @@ GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius,
       alpha_(spectral_radius),
       nq_(equations.layout().positions),
       nv_(equations.layout().velocities),
+      ni_(equations.layout().internal),
       nc_(equations.layout().constraints),
       matrix_(equations, y.size()),
       now_{Vector::Zero(nv_), Vector::Zero(nc_), Vector::Zero(nv_)},
@@ -103,6 +104,7 @@ void GeneralisedAlpha::linearise(double length_s) {
 
 bool GeneralisedAlpha::attempt(double length_s) {
   now_.a = now_.V_rate + length_s * offset_rate_;
+  equations_.begin_step(y_, rate_, length_s);
   const bool first = !linearised_;
   if (first) linearise(length_s);
   const auto succeeds = [&] {
@@ -167,6 +169,7 @@ bool GeneralisedAlpha::iterate(double length_s) {
     const double left = ratio < 1 ? size.value * ratio / (1 - ratio) : size.value;
     if (left <= kConverged) {
       update_end(length_s);
+      y_next_.segment(nq_ + nv_, ni_) = equations_.forces().internal();
       return true;
     }
     if (k > 0 && ratio > kSlow) return false;
@@ -185,10 +188,7 @@ ErrorEstimate GeneralisedAlpha::local_error(double length_s) {
 
 void GeneralisedAlpha::accept(double length_s) {
   equations_.rate(y_next_, next_.V_rate, rate_next_);
-  const Index quadratures = y_.size() - nq_ - nv_;
-  y_next_.tail(quadratures) =
-      y_.tail(quadratures) +
-      length_s / 2 * (rate_.tail(quadratures) + rate_next_.tail(quadratures));
+  y_next_.tail<2>() = y_.tail<2>() + length_s / 2 * (rate_.tail<2>() + rate_next_.tail<2>());
   offset_rate_ = (next_.a - next_.V_rate) / length_s;
   std::swap(before_, now_);
   std::swap(now_, next_);

@@ -76,7 +76,7 @@ class GeneralisedAlpha final : public TimeIntegrator {
 
   Equations& equations_;
   AlphaParameters alpha_;
-  Eigen::Index nq_, nv_, nc_;
+  Eigen::Index nq_, nv_, ni_, nc_;
   IterationMatrix matrix_;
   Accelerations now_, next_, before_;
   Vector offset_rate_;  ///< (a_n - V'_n) / h

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "multibody/equations/equations.h"
+#include "multibody/model/carriers.h"
 #include "multibody/model/joint_check.h"
 #include "multibody/tree/marker_residual.h"
 #include "multibody/tree/tree_dynamics.h"
@@ -27,24 +28,31 @@ class RecursiveEquations final : public Equations {
         guard_(model, {solver.relative_tolerance, solver.absolute_tolerance}, tree_.size_m),
         markers_(model.markers.size()) {}
 
-  Vector given_state() override { return tree::given_state(tree_); }
+  Vector given_state() override { return relaxed(tree::given_state(tree_)); }
 
   Vector given_place() override { return tree::given_positions(tree_); }
 
   Vector equilibrium_state() override {
-    for (const tree::TreeBody& body : tree_.bodies)
-      if (body.joint_index == tree::kNone) refuse_floating_body(body.name);
+    const auto carriers = carrier_velocities(tree_.model);
+    bool any_floats = false;
+    for (const tree::TreeBody& body : tree_.bodies) {
+      const bool floats = body.joint_index == tree::kNone;
+      if (floats && !carriers[body.index]) refuse_floating_body(body.name);
+      any_floats = any_floats || floats;
+    }
     tree::TreeDynamics held(tree_, Drive::held);
     tree::TreeRest rest(held, tree::given_positions(tree_));
     find_equilibrium(rest);
-    // Rates against the prescribed bodies are zero: all moves with them.
-    return rest.state();
+    // Rates against the prescribed bodies are zero: all moves with them. Those of bodies without a
+    // joint are against the world.
+    return relaxed(any_floats ? carried(held, rest.state(), carriers) : rest.state());
   }
 
   void settle(double time_s, Vector& state) override {
+    dynamics_.relax();
     tree::TreeRest rest(dynamics_, state, time_s);
     find_equilibrium(rest);
-    state = rest.state();
+    state = relaxed(rest.state(), time_s);
   }
 
   void set_interval(double begin_s, double end_s) override {
@@ -65,15 +73,21 @@ class RecursiveEquations final : public Equations {
   const ForceSet& forces() const override { return dynamics_.forces(); }
   int evaluations() const override { return dynamics_.evaluations(); }
 
-  Layout layout() const override { return {tree_.position_count, tree_.velocity_count, 0}; }
+  Layout layout() const override {
+    return {tree_.position_count, tree_.velocity_count, tree_.internal_count, 0};
+  }
   void retract(Eigen::Ref<Vector> positions,
                const Eigen::Ref<const Vector>& change) const override {
     tree::retract(tree_, change, positions);
   }
   const Vector& multipliers() const override { return no_multipliers_; }
+  void begin_step(const Vector& state, const Vector& rate, double length_s) override {
+    dynamics_.begin_step(state, rate, length_s);
+  }
   /// In the form V' - F(Q, V), which has the unit matrix as mass.
   void residual(double time_s, const Vector& state, const Vector& accelerations,
                 const Vector& /*multipliers*/, Vector& residual) override {
+    dynamics_.follow_step();
     dynamics_.update(time_s, state);
     dynamics_.solve();
     residual = accelerations - dynamics_.accelerations();
@@ -87,6 +101,7 @@ class RecursiveEquations final : public Equations {
 
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     normalise(state);
+    dynamics_.give_internal(state);
     dynamics_.update(time_s, state);
     dynamics_.solve();
     for (std::size_t k = 0; k < tree_.markers.size(); ++k) {
@@ -98,11 +113,33 @@ class RecursiveEquations final : public Equations {
       recorder.joint(column, k, dynamics_.joint_reaction(k), dynamics_.joint_axes(k));
     for (std::size_t b = 0; b < tree_.bodies.size(); ++b)
       recorder.modal(column, tree_.bodies[b].index, dynamics_.modal(b));
-    const Index quadratures = tree_.position_count + tree_.velocity_count;
-    recorder.energy(column, dynamics_.energies(), state[quadratures], state[quadratures + 1]);
+    recorder.energy(column, dynamics_.energies(), state[state.size() - 2], state[state.size() - 1]);
   }
 
  private:
+  /// A state at rest with all bodies at the velocity of what carries them.
+  Vector carried(tree::TreeDynamics& held, const Vector& state,
+                 const std::vector<std::optional<Eigen::Vector3d>>& velocities) const {
+    held.update(0, state);
+    std::vector<BodyState> bodies;
+    for (std::size_t b = 0; b < tree_.bodies.size(); ++b) {
+      bodies.push_back(held.body_state(b));
+      const auto& velocity = velocities[tree_.bodies[b].index];
+      bodies.back().velocities.setZero();
+      if (velocity) bodies.back().velocities.head<3>() = *velocity;
+    }
+    return tree::state_of(tree_, bodies);
+  }
+
+  /// The state with the internal variables that force elements have at rest for long.
+  Vector relaxed(Vector state, double time_s = 0) {
+    if (tree_.internal_count == 0) return state;
+    dynamics_.relax();
+    dynamics_.update(time_s, state);
+    tree_.internal(state) = dynamics_.forces().internal();
+    return state;
+  }
+
   void check_joints(double time_s) {
     const std::vector<Joint>& joints = tree_.model.joints;
     for (std::size_t k = 0; k < joints.size(); ++k) {

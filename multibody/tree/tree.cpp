@@ -108,7 +108,10 @@ bool is_tree(const Model& model) {
   return !walked.closing_joint && !walked.unsuited_joint;
 }
 
-Tree::Tree(const Model& of) : model(of), body_of_joint(of.joints.size(), kNone) {
+Tree::Tree(const Model& of)
+    : model(of),
+      body_of_joint(of.joints.size(), kNone),
+      internal_count(multibody::internal_count(of.forces)) {
   const Walk walked = walk(model);
   if (walked.unsuited_joint) {
     const Joint& joint = model.joints[*walked.unsuited_joint];

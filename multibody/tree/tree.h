@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "multibody/equations/force_set.h"
 #include "multibody/model/model.h"
 #include "multibody/model/prescribed_path.h"
 #include "multibody/tree/body_inertia.h"
@@ -50,10 +51,10 @@ struct TreeMarker {
   Carrier carrier;
 };
 
-/// A model as trees of bodies in joint coordinates. Its state is y = [q; u; e]: for each body in
+/// A model as trees of bodies in joint coordinates. Its state is y = [q; u; z; e]: for each body in
 /// the tree's order, inner ones first, its joint's coordinates (TreeJoint) and its modal ones, then
-/// their rates, then two quadratures: the energy that damping has dissipated and the work of forces
-/// and prescribed bodies.
+/// their rates, then internal variables of the force elements and two quadratures: the energy that
+/// damping has dissipated and the work of forces and prescribed bodies.
 struct Tree {
   static constexpr Eigen::Index kQuadratures = 2;
 
@@ -68,10 +69,18 @@ struct Tree {
   std::vector<std::size_t> body_of_joint;  ///< which hangs on the model's joint; kNone if free
   Eigen::Index position_count = 0;
   Eigen::Index velocity_count = 0;
+  Eigen::Index internal_count = 0;
   /// Largest distance in a body: from its origin to a joint, or its radius. One for points alone.
   double size_m = 0;
 
-  Eigen::Index state_count() const { return position_count + velocity_count + kQuadratures; }
+  Eigen::Index state_count() const {
+    return position_count + velocity_count + internal_count + kQuadratures;
+  }
+  /// The part of a state that internal variables are.
+  template <class State>
+  auto internal(State&& state) const {
+    return state.segment(position_count + velocity_count, internal_count);
+  }
 };
 
 /// Positions moved by a displacement of the kind of velocities, (velocity_count), finite.

@@ -190,6 +190,7 @@ void TreeDynamics::apply(const TreeMarker& marker, const NodeMotion& node, const
 }
 
 void TreeDynamics::evaluate(double time_s, const ConstVector& state, VectorXd& rate) {
+  give_internal(state);
   update(time_s, state, Purpose::motion);
   solve();
   fill_rate(state, accelerations_, rate);
@@ -208,8 +209,8 @@ void TreeDynamics::fill_rate(const ConstVector& state, const ConstVector& accele
     rate.segment(body.position + q, m) = state.segment(nq + body.velocity + u, m);
   }
   rate.segment(nq, nv) = accelerations;
-  rate[nq + nv] = dissipation_W();
-  rate[nq + nv + 1] = work_W();
+  tree_.internal(rate) = forces_.internal_rate();
+  rate.tail<2>() << dissipation_W(), work_W();
 }
 
 }  // namespace flexneck::multibody::tree

@@ -28,6 +28,14 @@ class TreeDynamics {
   /// ones that do not turn (TreeBody::rides). Nothing that moves depends on them.
   enum class Purpose { motion, reactions };
 
+  // What update() takes the internal variables of force elements to be; see ForceSet.
+  void relax() { forces_.relax(); }
+  void give_internal(const ConstVector& state) { forces_.give_internal(tree_.internal(state)); }
+  void begin_step(const ConstVector& state, const ConstVector& rate, double length_s) {
+    forces_.begin_step(tree_.internal(state), tree_.internal(rate), length_s);
+  }
+  void follow_step() { forces_.follow_step(); }
+
   /// Positions and velocities of everything, inertia and loads.
   void update(double time_s, const ConstVector& state, Purpose purpose = Purpose::reactions);
   /// Accelerations and joint reactions.

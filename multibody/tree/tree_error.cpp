@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "multibody/equations/internal_error.h"
+
 namespace flexneck::multibody::tree {
 namespace {
 
@@ -66,11 +68,15 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
     consider(first + 2, scale * error.segment(q + nq, m).norm(), scale * present.displacement);
     consider(first + 3, scale * error.segment(u + nu, m).norm(), scale * present.velocity);
   }
+  consider_internal(tree_.internal(error), tree_.size_m, tolerance_, tree_.bodies.size() * kParts,
+                    worst);
   return worst;
 }
 
 std::string TreeError::name_of(std::size_t component) const {
   if (tree_.bodies.empty()) return "work, as no body is free";
+  const std::size_t of_bodies = tree_.bodies.size() * kParts;
+  if (component >= of_bodies) return name_of_branch(tree_.model.forces, component - of_bodies);
   const TreeBody& body = tree_.bodies[component / kParts];
   const std::size_t part = component % kParts;
   const bool of_joint = part < 2 && body.joint_index != kNone;

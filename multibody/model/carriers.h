@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "multibody/model/model.h"
+
+namespace flexneck::multibody {
+
+/// For each body of a model, the initial velocity of the prescribed body that it hangs on, directly
+/// or through others, m/s: by joints, or by force elements that resist every motion
+/// (HoldingForce). None of a body that hangs on nothing.
+/// @throws InputError if a body hangs on prescribed ones of different velocity.
+std::vector<std::optional<Eigen::Vector3d>> carrier_velocities(const Model& model);
+
+/// @throws InputError for a free body that hangs on nothing: it has no equilibrium.
+void check_no_body_floats(const Model& model);
+
+}  // namespace flexneck::multibody
