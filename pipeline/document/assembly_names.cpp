@@ -39,6 +39,8 @@ const std::vector<Section>& sections() {
       {"torque", none, {{"marker", marker}}},
       {"spring", none, {{"lower", marker}, {"upper", marker}}},
       {"bushing", none, {{"lower", marker}, {"upper", marker}}},
+      {"section", none, {{"lower", marker}, {"upper", marker}}},
+      {"line_force", none, {{"lower", marker}, {"upper", marker}}},
       {"resistance", none, {{"joint", joint}}},
       {"channel",
        none,

@@ -63,43 +63,6 @@ TimeTable load_over_time(const StudyTable& table, const std::string& constant,
   }
 }
 
-// -------------------------------------------------------------------------------- bushings
-
-constexpr Key kBushingKeys[] = {
-    Key::text("name", kRequired, "Name of the bushing"),
-    Key::text("lower", kRequired, "Marker in whose axes the matrices are"),
-    Key::text("upper", kRequired, "The other marker"),
-    Key::quantities("translation_stiffness", "N/m", kNone,
-                    "Forces over translations: three on the diagonal, or nine row by row"),
-    Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
-    Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
-    Key::quantities("translation_damping", "N*s/m", kNone, "Forces over velocities"),
-    Key::quantities("rotation_damping", "N*m*s/rad", kNone, "Moments over angular velocities"),
-    Key::quantities("coupling_damping", "N*s/rad", kNone, "Forces over angular velocities"),
-};
-
-/// Nine numbers row by row, or three on the diagonal.
-Eigen::Matrix3d block(const StudyTable& table, const std::string& key, const std::string& unit) {
-  if (!table.has(key)) return Eigen::Matrix3d::Zero();
-  const std::vector<double> values = table.quantities(key, 0, unit);
-  if (values.size() == 3)
-    return Eigen::Map<const Eigen::Vector3d>(values.data()).asDiagonal().toDenseMatrix();
-  if (values.size() != 9)
-    table.refuse(key, "expected 3 entries (a diagonal) or 9 (a matrix row by row), found " +
-                          std::to_string(values.size()));
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
-}
-
-/// @param rate  "" for a stiffness, "*s" for a damping
-Eigen::Matrix<double, 6, 6> bushing_matrix(const StudyTable& table, const std::string& what,
-                                           const std::string& rate) {
-  Eigen::Matrix<double, 6, 6> matrix;
-  const Eigen::Matrix3d coupling = block(table, "coupling_" + what, "N" + rate + "/rad");
-  matrix << block(table, "translation_" + what, "N" + rate + "/m"), coupling, coupling.transpose(),
-      block(table, "rotation_" + what, "N*m" + rate + "/rad");
-  return matrix;
-}
-
 // ------------------------------------------------------------------------ springs, resistances
 
 constexpr auto kSpringKeys =
@@ -159,17 +122,6 @@ void read_spring(const StudyTable& table, Assembly& assembly) {
   table.finish();
 }
 
-void read_bushing(const StudyTable& table, Assembly& assembly) {
-  multibody::Bushing bushing;
-  bushing.name = table.text("name");
-  bushing.marker_i = marker_named(table, "lower", assembly);
-  bushing.marker_j = marker_named(table, "upper", assembly);
-  bushing.stiffness = bushing_matrix(table, "stiffness", "");
-  bushing.damping = bushing_matrix(table, "damping", "*s");
-  assembly.model.forces.add(std::move(bushing));
-  table.finish();
-}
-
 void read_resistance(const StudyTable& table, Assembly& assembly) {
   multibody::JointResistance resistance;
   resistance.name = table.text("name");
@@ -204,10 +156,8 @@ std::vector<ModelSection> force_sections() {
        read_line_force},
       {Key::tables("spring", "Springs and dampers between the origins of two markers", kSpringKeys),
        read_spring},
-      {Key::tables("bushing",
-                   "Linear springs and dampers between two markers in all six directions",
-                   kBushingKeys),
-       read_bushing},
+      bushing_section(),
+      elastic_section(),
       {Key::tables("resistance", "Resistances to the motion of joints", kJointResistanceKeys),
        read_resistance},
   };

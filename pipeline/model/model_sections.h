@@ -22,6 +22,8 @@ ModelSection body_section();
 ModelSection marker_section();
 ModelSection joint_section();
 ModelSection motor_section();
+ModelSection bushing_section();
+ModelSection elastic_section();
 std::vector<ModelSection> force_sections();  ///< of each kind of force element
 /// All of them, in the order in which one kind of table may name things of another.
 std::vector<ModelSection> model_sections();

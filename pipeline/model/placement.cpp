@@ -61,25 +61,52 @@ namespace {
 /// Of a screw joint; of others zero.
 double lead_m_per_rad(const Joint& joint) { return joint.lead_m / (2 * std::numbers::pi); }
 
-Pose start_pose(const Joint& joint, const JointStart& start) {
+/// Two markers of which one says where the other is at the start.
+struct Link {
+  std::size_t marker_i, marker_j;
+  Pose step;  ///< j in i's axes
+  // How j moves along and about an axis that is the same in both markers' axes.
+  Vector3d axis = Vector3d::UnitX();
+  double speed_m_s = 0;
+  double rate_rad_s = 0;
+};
+
+Link link_of(const Joint& joint, const JointStart& start) {
   const double angle = start.angle_rad.value_or(0);
-  return {(start.distance_m.value_or(0) + lead_m_per_rad(joint) * angle) * joint.axis,
-          Quaterniond(Eigen::AngleAxisd(angle, joint.axis))};
+  const double rate = start.rate_rad_s.value_or(0);
+  const double lead = lead_m_per_rad(joint);
+  return {joint.marker_i,
+          joint.marker_j,
+          {(start.distance_m.value_or(0) + lead * angle) * joint.axis,
+           Quaterniond(Eigen::AngleAxisd(angle, joint.axis))},
+          joint.axis,
+          start.speed_m_s.value_or(0) + lead * rate,
+          rate};
 }
 
-/// Calls visit(joint index, from, to) along the joints, from what is done to what is not.
+/// Joints, then sections, which begin without load.
+std::vector<Link> links_of(const Model& model, const std::vector<JointStart>& starts) {
+  std::vector<Link> links;
+  for (std::size_t k = 0; k < model.joints.size(); ++k)
+    if (model.joints[k].kind->motion != nullptr)
+      links.push_back(link_of(model.joints[k], starts[k]));
+  for (const multibody::Section& section : model.forces.of<multibody::Section>())
+    links.push_back({section.marker_i, section.marker_j, {section.rest_m}});
+  return links;
+}
+
+/// Calls visit(link, from, to) along the links, from what is done to what is not.
 template <class Visit>
-void walk(const Model& model, std::vector<bool>& done, const Visit& visit) {
+void walk(const Model& model, const std::vector<Link>& links, std::vector<bool>& done,
+          const Visit& visit) {
   for (bool progress = true; progress;) {
     progress = false;
-    for (std::size_t k = 0; k < model.joints.size(); ++k) {
-      const Joint& joint = model.joints[k];
-      if (joint.kind->motion == nullptr) continue;
-      const Marker* from = &model.markers[joint.marker_i];
-      const Marker* to = &model.markers[joint.marker_j];
+    for (const Link& link : links) {
+      const Marker* from = &model.markers[link.marker_i];
+      const Marker* to = &model.markers[link.marker_j];
       if (done[to->body]) std::swap(from, to);
       if (!done[from->body] || done[to->body]) continue;
-      visit(k, *from, *to);
+      visit(link, *from, *to);
       done[to->body] = progress = true;
     }
   }
@@ -88,18 +115,17 @@ void walk(const Model& model, std::vector<bool>& done, const Visit& visit) {
 }  // namespace
 
 void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vector<bool> posed) {
-  walk(model, posed, [&](std::size_t k, const Marker& from, const Marker& to) {
-    const Joint& joint = model.joints[k];
-    const Pose step = start_pose(joint, starts[k]);
-    const bool outwards = &from == &model.markers[joint.marker_i];
-    model.bodies[to.body].initial_pose =
-        pose_of(model.bodies[from.body]) * marker_pose(model, from) *
-        (outwards ? step : inverse(step)) * inverse(marker_pose(model, to));
-    model.bodies[to.body].initial_pose.rotation.normalize();
-  });
+  walk(model, links_of(model, starts), posed,
+       [&](const Link& link, const Marker& from, const Marker& to) {
+         const bool outwards = &from == &model.markers[link.marker_i];
+         model.bodies[to.body].initial_pose =
+             pose_of(model.bodies[from.body]) * marker_pose(model, from) *
+             (outwards ? link.step : inverse(link.step)) * inverse(marker_pose(model, to));
+         model.bodies[to.body].initial_pose.rotation.normalize();
+       });
   for (std::size_t b = 0; b < posed.size(); ++b) {
     if (posed[b]) continue;
-    throw InputError("no joint connects the body '" + model.bodies[b].name +
+    throw InputError("no joint or section connects the body '" + model.bodies[b].name +
                      "' with one whose place is known; join it, or give it a position");
   }
 }
@@ -107,23 +133,21 @@ void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
 void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vector<bool> moving) {
   for (std::size_t b = 0; b < moving.size(); ++b)
     moving[b] = moving[b] || std::holds_alternative<PrescribedBody>(model.bodies[b].kind);
-  walk(model, moving, [&](std::size_t k, const Marker& from, const Marker& to) {
-    const Joint& joint = model.joints[k];
-    const Pose frame = pose_of(model.bodies[from.body]) * marker_pose(model, from);
-    const bool outwards = &from == &model.markers[joint.marker_i];
-    const Body& carrier = model.bodies[from.body];
-    Body& body = model.bodies[to.body];
-    const BodyMotion motion = motion_of(carrier);
-    // The axis is the same in both markers' axes.
-    const Vector3d axis = (outwards ? 1 : -1) * (frame.rotation * joint.axis);
-    const double rate = starts[k].rate_rad_s.value_or(0);
-    const Vector3d w = motion.w + rate * axis;
-    const Vector3d at = (body.initial_pose * marker_pose(model, to)).position_m;
-    const Vector3d v = motion.v + motion.w.cross(at - pose_of(carrier).position_m) +
-                       (starts[k].speed_m_s.value_or(0) + lead_m_per_rad(joint) * rate) * axis;
-    body.initial_velocity_m_s = v + w.cross(body.initial_pose.position_m - at);
-    body.initial_angular_velocity_rad_s = body.initial_pose.rotation.conjugate() * w;
-  });
+  walk(model, links_of(model, starts), moving,
+       [&](const Link& link, const Marker& from, const Marker& to) {
+         const Pose frame = pose_of(model.bodies[from.body]) * marker_pose(model, from);
+         const bool outwards = &from == &model.markers[link.marker_i];
+         const Body& carrier = model.bodies[from.body];
+         Body& body = model.bodies[to.body];
+         const BodyMotion motion = motion_of(carrier);
+         const Vector3d axis = (outwards ? 1 : -1) * (frame.rotation * link.axis);
+         const Vector3d w = motion.w + link.rate_rad_s * axis;
+         const Vector3d at = (body.initial_pose * marker_pose(model, to)).position_m;
+         const Vector3d v =
+             motion.v + motion.w.cross(at - pose_of(carrier).position_m) + link.speed_m_s * axis;
+         body.initial_velocity_m_s = v + w.cross(body.initial_pose.position_m - at);
+         body.initial_angular_velocity_rad_s = body.initial_pose.rotation.conjugate() * w;
+       });
 }
 
 }  // namespace flexneck::pipeline

@@ -214,6 +214,38 @@ TEST_CASE("a beam section bent to an arc of its length carries the moment of an 
   CHECK(energy == Approx(kEI * turn * turn / (2 * kLength_m)).epsilon(1e-12));
 }
 
+TEST_CASE("a chain of sections under a load at its end tends to the published elastica") {
+  // K. Mattiasson, Int. J. Numer. Meth. Eng. 17 (1981) 145, P L^2 / (E I) = 10.
+  constexpr double kShortening = 0.55500;
+  constexpr double kDeflection = 0.81061;
+  constexpr double kTurn = 1.43029;
+  constexpr double kEI = 2;
+  const auto error_of = [&](int sections) {
+    ModelBuilder build;
+    std::size_t below = build.marker("ground", build.ground());
+    for (int k = 1; k <= sections; ++k) {
+      const double l = 1.0 / sections;
+      const std::string name = "plate " + std::to_string(k);
+      const auto marker = build.marker(name, build.body(name, ball(0.1, 1e-4), {{0, 0, k * l}}));
+      build.model.forces.add(
+          Section{name, below, marker, {0, 0, l}, beam_stiffness(l, 1e7, kEI, 5)});
+      below = marker;
+    }
+    build.force("load", below, Vector3d::UnitX(), constant_table(10 * kEI));
+    const History history = simulate_from_equilibrium(build.model, {}, {1e-5, 1e-5});
+    const MarkerHistory& tip = history.marker("plate " + std::to_string(sections));
+    const Eigen::Vector4d q = tip.rotation.col(0);
+    const double turn = 2 * std::atan2(q[2], q[0]);
+    return Vector3d(tip.position_m(0, 0) - kDeflection, 1 - tip.position_m(2, 0) - kShortening,
+                    turn - kTurn)
+        .norm();
+  };
+  const double coarse = error_of(4);
+  const double fine = error_of(8);
+  CHECK(coarse < 2e-3);
+  CHECK(fine < coarse / 8);
+}
+
 TEST_CASE("a block on a section that relaxes moves as its linear equations say") {
   const RelaxingOscillator oscillator;
   constexpr double kVelocity = 3;

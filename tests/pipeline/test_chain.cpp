@@ -13,6 +13,7 @@
 #include "pipeline/model/model_file.h"
 #include "tests/support/coarse_neck.h"
 #include "tests/support/flexneck_command.h"
+#include "tests/support/model_text.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
@@ -21,13 +22,13 @@ using Settings = std::vector<std::string>;
 
 namespace {
 
-/// The neck and its pieces, made once.
+/// The neck and its pieces.
 class Bodies {
  public:
-  Bodies() {
+  explicit Bodies(const std::string& settings = {}) {
     const std::string more = " " + std::string(FLEXNECK_SOURCE_DIR) +
                              "/pipeline/studies/hybrid3_chain.toml -q -o " +
-                             folder_.path().string() + testing::kCoarseNeck;
+                             folder_.path().string() + testing::kCoarseNeck + settings;
     for (const char* stage : {"mesh", "modes"}) {
       const testing::CommandOutcome outcome = testing::run_flexneck(stage + more);
       INFO(outcome.text);
@@ -43,6 +44,9 @@ class Bodies {
                          ".modes_file=" + (folder_ / ("substructure_" + disc + ".h5")).string());
     }
     return settings;
+  }
+  std::string file_of(const std::string& piece) const {
+    return (folder_ / ("substructure_" + piece + ".h5")).string();
   }
   /// With its whole static compliance.
   Settings single() const {
@@ -96,6 +100,38 @@ Rest chain_under(int load_lbf,
   return rest_under(load_lbf, "static_chain", bodies().chain(), "disc_4.top", formulation);
 }
 
+/// The discs as sections between rigid plates, under the same load.
+Rest sections_under(double load_lbf, multibody::Formulation formulation) {
+  std::string text = R"(
+[solver]
+end_time = "0.1 ms"
+relative_tolerance = 1e-8
+[[body]]
+name = "ground"
+kind = "ground"
+)" + testing::origin_marker_text("ground", "top");
+  for (int k = 1; k <= 4; ++k) {
+    const std::string disc = "disc_" + std::to_string(k);
+    const std::string below = k == 1 ? "ground" : "disc_" + std::to_string(k - 1);
+    const std::string base = k == 1 ? "base" : "to_" + below;
+    const std::string top = k == 4 ? "top" : "to_disc_" + std::to_string(k + 1);
+    text += testing::box_text(disc, "top") + "\n[[section]]\nname = \"" + disc + "\"\nlower = \"" +
+            below + ".top\"\nupper = \"" + disc + ".top\"\nmodes_file = \"" +
+            bodies().file_of(disc) + "\"\nbase = \"" + base + "\"\ntop = \"" + top + "\"\n";
+  }
+  text += "[[force]]\nname = \"load\"\nmarker = \"disc_4.top\"\ndirection = [1, 0, 0]\n" +
+          ("magnitude = \"" + std::to_string(load_lbf) + " lbf\"\n");
+  const TemporaryFolder folder;
+  ModelFile file =
+      read_model_file(testing::write_text(folder / "sections.toml", text).string(), {});
+  file.solver.formulation = formulation;
+  const History history =
+      multibody::simulate_from_equilibrium(file.model, file.solver, {1e-4, 1e-4});
+  const multibody::MarkerHistory& marker = history.marker("disc_4.top");
+  const Eigen::Vector4d q = marker.rotation.col(0);
+  return {marker.position_m.col(0), 2 * std::atan2(q[2], q[0]), 0};
+}
+
 Rest single_under(int load_lbf, const Settings& settings) {
   return rest_under(load_lbf, "static_test", settings, "neck.top",
                     multibody::Formulation::recursive);
@@ -123,6 +159,57 @@ TEST_CASE("the chain is the single body where deflections are small") {
     CHECK(chain_modes.at(k).frequency_Hz ==
           Approx(single_modes.at(k).frequency_Hz).epsilon(2 * kRigidCuts));
   }
+}
+
+TEST_CASE("discs as sections between rigid plates deflect as the chain of modal bodies") {
+  const auto formulation =
+      GENERATE(multibody::Formulation::descriptor, multibody::Formulation::recursive);
+  const auto compare = [&](int load_lbf, double tolerance) {
+    CAPTURE(load_lbf);
+    const Rest chain = chain_under(load_lbf);
+    const Rest sections = sections_under(load_lbf, formulation);
+    CHECK(sections.top_m.x() == Approx(chain.top_m.x()).epsilon(tolerance));
+    CHECK(sections.top_m.z() == Approx(chain.top_m.z()).epsilon(tolerance));
+    CHECK(sections.rotation_rad == Approx(chain.rotation_rad).epsilon(tolerance));
+  };
+  compare(1, 1e-3);
+  // A modal body moves its top straight ahead, a section along an arc (tests/multibody).
+  compare(100, 2e-2);
+}
+
+TEST_CASE("a section between two files of modes relaxes from the one stiffness to the other") {
+  // Of 1200 psi and 0.49 with the shear modulus at 0.39 and the bulk modulus as it is.
+  const Bodies slow(
+      " --set geometry.materials.butyl.youngs_modulus='469.84 psi'"
+      " --set geometry.materials.butyl.poissons_ratio=0.496084");
+  const auto section_of = [&](const std::string& relaxation) {
+    const TemporaryFolder folder;
+    const std::string text =
+        "[solver]\nend_time = \"1 s\"\n[[body]]\nname = \"ground\"\nkind = \"ground\"\n" +
+        testing::origin_marker_text("ground", "top") + testing::box_text("plate", "at") +
+        "[[section]]\nname = \"disc\"\nlower = \"ground.top\"\nupper = \"plate.at\"\n"
+        "modes_file = \"" +
+        bodies().file_of("disc_4") + "\"\nbase = \"to_disc_3\"\ntop = \"top\"\n" + relaxation;
+    return read_model_file(testing::write_text(folder / "section.toml", text).string(), {})
+        .model.forces.of<multibody::Section>()
+        .front();
+  };
+  const std::string slow_file = "slow_modes_file = \"" + slow.file_of("disc_4") + "\"\n";
+  const multibody::Section elastic = section_of("");
+  const multibody::Section relaxing = section_of(
+      slow_file + "relaxation_times = [\"29 ms\", \"1 s\"]\nrelaxation_shares = [0.3, 0.1]\n");
+  REQUIRE(relaxing.branches.size() == 2);
+  CHECK(relaxing.branches[0].relaxation_time_s == Approx(0.029));
+  const auto& first = relaxing.branches[0].stiffness;
+  const auto& second = relaxing.branches[1].stiffness;
+  CHECK((relaxing.stiffness + first + second - elastic.stiffness).norm() <
+        1e-12 * elastic.stiffness.norm());
+  CHECK((first - 3 * second).norm() < 1e-12 * first.norm());
+  // Nearly incompressible, so that shear decides even the bending of a bonded disc.
+  CHECK(relaxing.stiffness(0, 0) / elastic.stiffness(0, 0) == Approx(0.39).epsilon(0.01));
+  const double axial = relaxing.stiffness(2, 2) / elastic.stiffness(2, 2);
+  CHECK(axial > 0.391);
+  CHECK(axial < 0.5);
 }
 
 TEST_CASE("at 100 lbf the stiffened body comes nearer to the chain than the linear one") {

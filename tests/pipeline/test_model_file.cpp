@@ -265,7 +265,7 @@ TEST_CASE("what a model gets wrong is told in one line with the place and the re
              Contains("principal moment of inertia may be negative"));
   CHECK_THAT(told("kind = \"pin\"", "kind = \"ball\""), Contains("angle: unknown key"));
   CHECK_THAT(told("lower = \"ground.hook\"", "lower = \"lower.tip\""),
-             Contains("no joint connects the body 'upper'"));
+             Contains("no joint or section connects the body 'upper'"));
   CHECK_THAT(
       told("interval = \"1 ms\"", "interval = \"1 ms\"\nmarkers = [\"lower.tipp\"]"),
       Contains("output.markers: there is no marker 'lower.tipp' (did you mean 'lower.tip'?)"));

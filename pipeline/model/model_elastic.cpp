@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Force elements that resist every motion between two markers.
+#include <numeric>
+
+#include "fe_modal/body/condensed_section.h"
+#include "geometry/foundation/error.h"
+#include "pipeline/document/table_values.h"
+#include "pipeline/isolation/result_files.h"
+#include "pipeline/model/model_sections.h"
+
+namespace flexneck::pipeline {
+namespace {
+
+using Eigen::Vector3d;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr auto kBushingKeys = std::to_array<Key>({
+    Key::text("name", kRequired, "Name of the bushing"),
+    Key::text("lower", kRequired, "Marker in whose axes the matrices are"),
+    Key::text("upper", kRequired, "The other marker"),
+    Key::quantities("translation_stiffness", "N/m", kNone,
+                    "Forces over translations: three on the diagonal, or nine row by row"),
+    Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
+    Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
+    Key::quantities("translation_damping", "N*s/m", kNone, "Forces over velocities"),
+    Key::quantities("rotation_damping", "N*m*s/rad", kNone, "Moments over angular velocities"),
+    Key::quantities("coupling_damping", "N*s/rad", kNone, "Forces over angular velocities"),
+});
+
+constexpr auto kSectionKeys = std::to_array<Key>({
+    Key::text("name", kRequired, "Name of the section"),
+    Key::text("lower", kRequired, "Marker at its base, in whose axes length and stiffness are"),
+    Key::text("upper", kRequired, "Marker at its top, turned like the lower one without load"),
+    Key::quantities("length", "m", kNone, "From the lower marker to the upper one without load",
+                    {.size = 3}),
+    Key::quantities("translation_stiffness", "N/m", kNone,
+                    "Forces at the top over its translations, the base held: three on the "
+                    "diagonal, or nine row by row"),
+    Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
+    Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
+    Key::file("modes_file", kNone,
+              "In place of length and stiffness: modes of a body with its base fixed that are the "
+              "static shapes of its top"),
+    Key::text("base", kNone, "Of modes_file: the interface on the fixed nodes"),
+    Key::text("top", kNone, "Of modes_file: the interface of the static shapes"),
+    Key::file("slow_modes_file", kNone,
+              "As modes_file, with the moduli of slow motions; without it the whole stiffness "
+              "relaxes by the shares"),
+    Key::quantities("relaxation_times", "s", kNone, "Relaxation times of Maxwell branches"),
+    Key::numbers("relaxation_shares", kNone,
+                 "Of each branch, the share of the stiffness that it takes with it; their sum is "
+                 "at most one, and with slow_modes_file they share what that lacks"),
+});
+
+/// Nine numbers row by row, or three on the diagonal.
+Eigen::Matrix3d block(const StudyTable& table, const std::string& key, const std::string& unit) {
+  if (!table.has(key)) return Eigen::Matrix3d::Zero();
+  const std::vector<double> values = table.quantities(key, 0, unit);
+  if (values.size() == 3)
+    return Eigen::Map<const Vector3d>(values.data()).asDiagonal().toDenseMatrix();
+  if (values.size() != 9)
+    table.refuse(key, "expected 3 entries (a diagonal) or 9 (a matrix row by row), found " +
+                          std::to_string(values.size()));
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
+}
+
+/// @param rate  "" for a stiffness, "*s" for a damping
+Matrix6d matrix_of(const StudyTable& table, const std::string& what, const std::string& rate) {
+  Matrix6d matrix;
+  const Eigen::Matrix3d coupling = block(table, "coupling_" + what, "N" + rate + "/rad");
+  matrix << block(table, "translation_" + what, "N" + rate + "/m"), coupling, coupling.transpose(),
+      block(table, "rotation_" + what, "N*m" + rate + "/rad");
+  return matrix;
+}
+
+void read_bushing(const StudyTable& table, Assembly& assembly) {
+  multibody::Bushing bushing;
+  bushing.name = table.text("name");
+  bushing.marker_i = marker_named(table, "lower", assembly);
+  bushing.marker_j = marker_named(table, "upper", assembly);
+  bushing.stiffness = matrix_of(table, "stiffness", "");
+  bushing.damping = matrix_of(table, "damping", "*s");
+  assembly.model.forces.add(std::move(bushing));
+  table.finish();
+}
+
+/// Length and stiffness of a section, as a file of modes or the table gives them.
+struct LengthAndStiffness {
+  Vector3d length_m;
+  Matrix6d stiffness;
+};
+
+LengthAndStiffness condensed(const StudyTable& table, const std::string& key, Assembly& assembly) {
+  const std::filesystem::path path = table.file(key);
+  const fe_modal::CondensedSection section = at_key(table, key, [&] {
+    return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"));
+  });
+  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
+  return {section.top_m - section.base_m, section.stiffness.bottomRightCorner<6, 6>()};
+}
+
+LengthAndStiffness length_and_stiffness(const StudyTable& table, Assembly& assembly) {
+  if (table.has("modes_file")) {
+    for (const char* key :
+         {"length", "translation_stiffness", "rotation_stiffness", "coupling_stiffness"})
+      if (table.has(key)) table.refuse(key, "modes_file gives it already");
+    return condensed(table, "modes_file", assembly);
+  }
+  for (const char* key : {"base", "top", "slow_modes_file"})
+    if (table.has(key)) table.refuse(key, "it belongs to modes_file, which is not there");
+  if (!table.has("length")) table.refuse("length", "expected length and stiffness, or modes_file");
+  return {quantity_vector(table, "length"), matrix_of(table, "stiffness", "")};
+}
+
+/// What of the stiffness relaxes, and leaves the rest.
+Matrix6d relaxing_part(const StudyTable& table, const LengthAndStiffness& quick, double shares,
+                       Assembly& assembly) {
+  if (!table.has("slow_modes_file")) return shares * quick.stiffness;
+  const LengthAndStiffness slow = condensed(table, "slow_modes_file", assembly);
+  if ((slow.length_m - quick.length_m).norm() > 1e-9 * quick.length_m.norm())
+    table.refuse("slow_modes_file", "the section is not as long as that of modes_file");
+  return quick.stiffness - slow.stiffness;
+}
+
+std::vector<double> relaxation_shares(const StudyTable& table, std::size_t branches) {
+  const std::vector<double> shares =
+      table.has("relaxation_shares") ? table.numbers("relaxation_shares") : std::vector<double>{};
+  if (shares.size() != branches)
+    table.refuse("relaxation_shares", "expected one for each of relaxation_times, " +
+                                          std::to_string(branches) + ", found " +
+                                          std::to_string(shares.size()));
+  for (const double share : shares)
+    if (!(share > 0)) table.refuse("relaxation_shares", "expected positive shares");
+  if (std::accumulate(shares.begin(), shares.end(), 0.0) > 1 + 1e-12)
+    table.refuse("relaxation_shares", "their sum is above one: more than the stiffness relaxes");
+  return shares;
+}
+
+void read_section(const StudyTable& table, Assembly& assembly) {
+  multibody::Section section;
+  section.name = table.text("name");
+  section.marker_i = marker_named(table, "lower", assembly);
+  section.marker_j = marker_named(table, "upper", assembly);
+  const LengthAndStiffness quick = length_and_stiffness(table, assembly);
+  section.rest_m = quick.length_m;
+  section.stiffness = quick.stiffness;
+  const std::vector<double> times = table.has("relaxation_times")
+                                        ? table.quantities("relaxation_times", 0, "s")
+                                        : std::vector<double>{};
+  const std::vector<double> shares = relaxation_shares(table, times.size());
+  if (times.empty() && table.has("slow_modes_file"))
+    table.refuse("slow_modes_file", "nothing relaxes: there are no relaxation_times");
+  if (!times.empty()) {
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    const Matrix6d relaxing = relaxing_part(table, quick, sum, assembly);
+    section.stiffness -= relaxing;
+    for (std::size_t k = 0; k < times.size(); ++k)
+      section.branches.push_back({shares[k] / sum * relaxing, times[k]});
+  }
+  assembly.model.forces.add(std::move(section));
+  table.finish();
+}
+
+}  // namespace
+
+ModelSection bushing_section() {
+  return {
+      Key::tables("bushing", "Linear springs and dampers between two markers in all six directions",
+                  kBushingKeys),
+      read_bushing};
+}
+
+ModelSection elastic_section() {
+  return {Key::tables("section", "Slender elastic parts between two markers, which may relax",
+                      kSectionKeys),
+          read_section};
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/temporary_folder.h"
+#include "pipeline/model/model_file.h"
+#include "tests/support/model_text.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using namespace flexneck::pipeline;
+using testing::with;
+
+namespace {
+
+/// A box on the end of a section.
+std::string section_text() {
+  return "[solver]\nend_time = \"1 s\"\n[[body]]\nname = \"ground\"\nkind = \"ground\"\n" +
+         testing::origin_marker_text("ground", "hook") + testing::box_text("box", "at") + R"(
+[[section]]
+name = "rubber"
+lower = "ground.hook"
+upper = "box.at"
+length = ["0 m", "10 mm", "20 mm"]
+translation_stiffness = ["1 N/mm", "2 N/mm", "3 N/mm"]
+rotation_stiffness = ["4 N*m/rad", "5 N*m/rad", "6 N*m/rad"]
+relaxation_times = ["30 ms", "1 s"]
+relaxation_shares = [0.5, 0.25]
+)";
+}
+
+ModelFile read(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_model_file(testing::write_text(folder / "model.toml", text).string(), {});
+}
+
+}  // namespace
+
+TEST_CASE("a section shares its stiffness among branches, and places what hangs on it") {
+  const ModelFile file = read(section_text());
+  const multibody::Section& section = file.model.forces.of<multibody::Section>().front();
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  const Vector6d stiffness = (Vector6d() << 1000, 2000, 3000, 4, 5, 6).finished();
+  const auto is_diagonal = [&](const Eigen::Matrix<double, 6, 6>& matrix, double share) {
+    return matrix.isApprox(share * stiffness.asDiagonal().toDenseMatrix(), 1e-14);
+  };
+  CHECK(is_diagonal(section.stiffness, 0.25));
+  REQUIRE(section.branches.size() == 2);
+  CHECK(is_diagonal(section.branches[0].stiffness, 0.5));
+  CHECK(section.branches[0].relaxation_time_s == 0.03);
+  CHECK(is_diagonal(section.branches[1].stiffness, 0.25));
+  CHECK(file.model.bodies[1].initial_pose.position_m.isApprox(Eigen::Vector3d(0, 0.01, 0.02)));
+}
+
+TEST_CASE("what a section cannot mean is refused by its key") {
+  const auto refused = [](const std::string& part, const std::string& by, const char* message) {
+    CHECK_THROWS_WITH(read(with(section_text(), part, by)), Contains(message));
+  };
+  refused("[0.5, 0.25]", "[0.5, 0.6]", "relaxation_shares: their sum is above one");
+  refused("[0.5, 0.25]", "[0.5]",
+          "relaxation_shares: expected one for each of relaxation_times, 2");
+  refused("[0.5, 0.25]", "[0.5, 0]", "relaxation_shares: expected positive shares");
+  refused("\"30 ms\"", "\"-30 ms\"", "relaxation time of branch 1 must be positive");
+  refused("length =", "base = \"base\"\nlength =", "base: it belongs to modes_file");
+  refused("length = [\"0 m\", \"10 mm\", \"20 mm\"]", "", "expected length and stiffness");
+  refused("length =", "modes_file = \"none.h5\"\nlength =", "length: modes_file gives it already");
+  refused("\"1 N/mm\", \"2 N/mm\", \"3 N/mm\"", "\"1 N/mm\", \"-2 N/mm\", \"3 N/mm\"",
+          "must not have a negative eigenvalue");
+}
