@@ -89,7 +89,8 @@ void add_show(CLI::App& app, CommandLine& line) {
 }
 
 void add_target(CLI::App& app, CommandLine& line) {
-  app.add_option("--to", line.target, "File to write")->option_text("FILE");
+  app.add_option("--to", line.target, "File to write; of ISO-MME TEST/TEST.mme")
+      ->option_text("FILE");
   app.add_flag("--binary", line.is_binary, "A .msh in bytes instead of text");
 }
 

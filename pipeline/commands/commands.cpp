@@ -55,10 +55,13 @@ const std::vector<Command>& commands() {
        .run = verify_command},
       {.name = "export",
        .help =
-           "mesh for gmsh or CalculiX, K and M, modes for the ATB: .msh, .inp, .mtx, .petsc, .dat",
-       .files = same_study,
+           "mesh for gmsh or CalculiX, K and M, modes for the ATB: .msh, .inp, .mtx, .petsc, .dat; "
+           "of a run its channels as ISO-MME: .mme",
+       .files = {"STUDY.toml or RUN.h5",
+                 "Default: the study that the folder was made with; a run for .mme"},
        .options = {folder, settings, target},
        .run = export_command,
+       .run_on_files = export_run_command,
        .writes_results = false},
       {.name = "report",
        .help = "all results on one page: report.html",
