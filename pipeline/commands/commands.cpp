@@ -55,8 +55,7 @@ const std::vector<Command>& commands() {
        .run = verify_command},
       {.name = "export",
        .help =
-           "mesh for gmsh or CalculiX, K and M, modes for the ATB: .msh, .inp, .mtx, .petsc, .dat; "
-           "of a run its channels as ISO-MME: .mme",
+           "for other programs: .msh, .inp, .mtx, .petsc, .dat; the channels of a run: .mme",
        .files = {"STUDY.toml or RUN.h5",
                  "Default: the study that the folder was made with; a run for .mme"},
        .options = {folder, settings, target},
