@@ -50,16 +50,18 @@ struct UnitName {
 };
 
 /// Of several for one of ours the first is written.
-constexpr std::array<UnitName, 11> kUnits = {{
+constexpr std::array<UnitName, 13> kUnits = {{
     {"Nm", "N*m"},
     {"m/(s*s)", "m/s^2"},
     {"rad/(s*s)", "rad/s^2"},
     {"kNm", "kN*m"},
     {"Nmm", "N*mm"},
+    {"deg", "deg"},
+    {"deg/s", "deg/s"},
+    {"deg/(s*s)", "deg/s^2"},
     {"\u00b0", "deg"},
     {"\u00b0/s", "deg/s"},
     {"\u00b0/s\u00b2", "deg/s^2"},
-    {"deg/(s*s)", "deg/s^2"},
     {"m/s\u00b2", "m/s^2"},
     {"m/s2", "m/s^2"},
 }};

@@ -107,7 +107,9 @@ TEST_CASE("units of the standard and others of the same dimension are taken, gra
   CHECK_THROWS_WITH(in_unit(read_curve(folder.path(), kMoment), "N"), Contains("something else"));
   folder.write("Channel/test.001", with(kMmeMoment, ":Nm", ":NOVALUE"));
   CHECK(read_curve(folder.path(), kMoment).unit.empty());
-  CHECK(unit_to_mme(unit_from_mme("m/(s*s)", "11HEADCG00H3ACXA")) == "m/(s*s)");
+  CHECK(unit_to_mme("m/s^2") == "m/(s*s)");
+  CHECK(unit_to_mme("deg") == "deg");
+  CHECK(unit_from_mme("\u00b0/s", "11HEADCG00H3AVYA") == "deg/s");
 }
 
 TEST_CASE("the last letter of a code says what the channel has passed, and it is not done again") {
