@@ -59,7 +59,8 @@ fs::path index_of(const fs::path& test) {
     throw InputError(test.string() + ": expected lines \"Key :value\" of a test of ISO-MME");
   const fs::path folder = test.has_parent_path() ? test.parent_path() : fs::path(".");
   std::vector<fs::path> places = entries(folder, [](const fs::path& path) {
-    return lower(path.filename().string()) == "channel" && fs::is_directory(path);
+    std::error_code ignored;
+    return lower(path.filename().string()) == "channel" && fs::is_directory(path, ignored);
   });
   places.push_back(folder);
   const std::string name = lower(test.stem().string()) + ".chn";

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/core.h>
+
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/exports/export_formats.h"
 #include "pipeline/commands/exports/mme_codes.h"
@@ -37,18 +39,30 @@ const CaseSection& case_of(const Study& study, const fs::path& file) {
                    "again with 'flexneck run'");
 }
 
+std::string type_of(const MmeSource& source) {
+  if (source.experiment == nullptr) return "simulation";
+  return source.experiment->kind == CaseSection::Kind::static_test ? "static neck test"
+                                                                   : "head/neck pendulum";
+}
+
+std::vector<std::string> comments_on(const multibody::HistoryFile& run, const MmeSource& source) {
+  std::vector<std::string> comments = {"computed by " + run.provenance.program + ", not measured"};
+  if (source.experiment != nullptr)
+    comments.emplace_back(
+        "direction 1 or 2: sign other than that of SAE J211; rotations are positive towards the "
+        "side that the head tips to");
+  return comments;
+}
+
 ResultTable table_of(const MmeTest& test, const std::string& name) {
   ResultTable table = {"iso-mme",
                        "Channels of the test " + name,
                        {{"file", ""}, {"code", ""}, {"channel", ""}, {"unit", ""}},
                        {},
                        {}};
-  for (const MmeChannel& channel : test.channels) {
-    const std::string number = std::to_string(table.rows.size() + 1);
+  for (const MmeChannel& channel : test.channels)
     table.rows.push_back(
-        {"." + std::string(3 - std::min<std::size_t>(3, number.size()), '0') + number, channel.code,
-         channel.name, channel.unit});
-  }
+        {fmt::format(".{:03}", table.rows.size() + 1), channel.code, channel.name, channel.unit});
   return table;
 }
 
@@ -58,7 +72,6 @@ void export_mme_test(const FileInput& input) {
   const fs::path& file = input.files.front();
   const multibody::HistoryFile run = read_history(file);
   require_whole_run(file, run.history);
-  MmeTest test;
   MmeSource source;
   std::optional<Study> study;
   if (is_of_a_case(run)) {
@@ -66,17 +79,9 @@ void export_mme_test(const FileInput& input) {
     source = {&case_of(*study, file), study->dummy};
     require_same_inputs(file, run.provenance, *study, {}, "flexneck run");
   }
-  const std::string name = file.stem().string();
-  test.title = name;
-  test.type = source.experiment == nullptr                                ? "simulation"
-              : source.experiment->kind == CaseSection::Kind::static_test ? "static neck test"
-                                                                          : "head/neck pendulum";
-  test.object = source.dummy;
-  test.comments = {"computed by " + run.provenance.program + ", not measured",
-                   "direction 1 or 2: sign other than that of SAE J211; rotations are positive "
-                   "towards the side that the head tips to"};
   std::vector<std::string> left_out;
-  test.channels = mme_channels(run, source, left_out);
+  const MmeTest test = {file.stem().string(), type_of(source), source.dummy,
+                        comments_on(run, source), mme_channels(run, source, left_out)};
   write_mme_test(input.target, test);
   for (const std::string& line : left_out) input.console.warning(file.string() + ": " + line);
   input.console.result(printed(table_of(test, input.target.stem().string())));
