@@ -97,6 +97,7 @@ TEST_CASE("units of the standard and others of the same dimension are taken, gra
     folder.write("Channel/test.002", with(kMmeAcceleration, ":g\n", ":" + text + "\n"));
     return in_unit(read_curve(folder.path(), "11HEADCG00H3ACXA"), "m/s^2").values[0];
   };
+  CHECK(unit("G") == Approx(9.80665).epsilon(1e-15));
   CHECK(unit("m/(s*s)") == 1);
   CHECK(unit("m/s\xb2") == 1);
   CHECK(unit("mm/s^2") == Approx(1e-3).epsilon(1e-15));
