@@ -15,7 +15,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-# A weight on a spring of joints: a pendulum that swings.
+# Andrews' squeezing mechanism: seven angles.
 MODEL = Path(__file__).resolve().parents[3] / "pipeline/models/andrews.toml"
 
 

@@ -9,10 +9,13 @@
 
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/exports/mme_codes.h"
+#include "pipeline/document/curve_file.h"
+#include "pipeline/experiments/pendulum_signals.h"
 #include "pipeline/iso_mme/channel_code.h"
 #include "pipeline/iso_mme/test_folder.h"
 #include "pipeline/iso_mme/test_writer.h"
 #include "tests/pipeline/iso_mme/mme_folder.h"
+#include "tests/support/coarse_neck.h"
 #include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"
 
@@ -208,4 +211,33 @@ TEST_CASE("'flexneck export' writes a run, and a rating reads it again") {
                 "one run");
   check_refused(run_flexneck("export -q " + in + "/no.h5 --to " + in + "/b/b.mme"), "no.h5");
   CHECK_FALSE(fs::exists(folder / "b"));
+}
+
+TEST_CASE(
+    "a case is exported with the dummy and the plane of the study that its folder remembers") {
+  const TemporaryFolder folder;
+  const std::string out = " -q -o " + (folder / "out").string();
+  REQUIRE(run_flexneck("mesh" + out + testing::kCoarseNeck).exit_code == 0);
+  REQUIRE(run_flexneck("modes" + out).exit_code == 0);
+  REQUIRE(run_flexneck("pendulum --case lateral-65" + out).exit_code == 0);
+  const fs::path run = folder / "out/pendulum-lateral-65.h5";
+  const std::string to = "export -q " + run.string() + " --to " + (folder / "lab/lab.mme").string();
+  REQUIRE(run_flexneck(to).exit_code == 0);
+  const multibody::HistoryFile history = multibody::read_history(run);
+  for (const auto& [code, channel] : {std::pair("D0TMONUP00H3MOXB", "load cell moment"),
+                                      std::pair("D0HEADCG00H3AC0A", "head acceleration filtered"),
+                                      std::pair("D0HEAD0000H3AN10", "head rotation")}) {
+    const Curve curve = read_curve(folder / "lab", code);
+    CHECK(same_bits(curve.values, channel_named(history.channels, channel)));
+    // The run's own times are sums of shorter steps.
+    CHECK((curve.time_s - history.history.time_s).cwiseAbs().maxCoeff() < 1e-15);
+  }
+  const std::string bytes = bytes_of(folder / "lab/Channel/lab.001");
+  REQUIRE(run_flexneck(to).exit_code == 0);
+  CHECK(bytes_of(folder / "lab/Channel/lab.001") == bytes);
+  // The folder's study has gone on.
+  REQUIRE(
+      run_flexneck("mesh --set body.head.mass='4.8 kg'" + out + testing::kCoarseNeck).exit_code ==
+      0);
+  check_refused(run_flexneck(to), "was made with body.head.mass");
 }
