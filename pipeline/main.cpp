@@ -49,19 +49,28 @@ StudyChoice choose_study(const CommandLine& line, const Console& console) {
   return choice;
 }
 
+bool works_on_files(const CommandLine& line) {
+  if (line.command->run_on_files == nullptr) return false;
+  return line.command->run == nullptr ||
+         std::any_of(line.files.begin(), line.files.end(),
+                     [](const std::string& file) { return file.ends_with(".h5"); });
+}
+
 /// Does the command. @param take_lock is called once its arguments are known to be right
 bool do_command(const CommandLine& line, const Console& console, const Ranks* ranks,
                 const std::function<void()>& take_lock) {
   const Command& command = *line.command;
   const ResultsFolder folder(line.folder);
-  if (command.run_on_files != nullptr) {
+  if (works_on_files(line)) {
     take_lock();
     return command.run_on_files({{line.files.begin(), line.files.end()},
                                  line.settings,
                                  folder,
                                  console,
                                  line.curves,
-                                 line.neck_loads});
+                                 line.neck_loads,
+                                 line.target,
+                                 line.is_binary});
   }
   if (line.files.size() > 1) {
     throw flexneck::InputError(command.name + ": expected one study, found '" + line.files[1] +

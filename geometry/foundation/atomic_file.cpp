@@ -9,6 +9,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/file_seconds.h"
+#include "geometry/foundation/fresh_name.h"
 
 namespace flexneck {
 
@@ -17,17 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr mode_t kPermissions = 0666;  ///< less the user's mask
-
-/// Tries fresh names in the folder until one is free. @return the name, or an empty one with errno.
-template <typename Take>
-fs::path take_fresh_name(const fs::path& folder, const Take& take) {
-  for (int number = 0;; ++number) {
-    fs::path name = folder / (".flexneck-" + std::to_string(::getpid()) + "-" +
-                              std::to_string(number) + ".part");
-    if (take(name)) return name;
-    if (errno != EEXIST) return {};
-  }
-}
 
 bool sync(int descriptor) {
   const FileClock clock(FileClock::Work::sync);

@@ -89,7 +89,8 @@ void add_show(CLI::App& app, CommandLine& line) {
 }
 
 void add_target(CLI::App& app, CommandLine& line) {
-  app.add_option("--to", line.target, "File to write")->option_text("FILE");
+  app.add_option("--to", line.target, "File to write; of ISO-MME TEST/TEST.mme")
+      ->option_text("FILE");
   app.add_flag("--binary", line.is_binary, "A .msh in bytes instead of text");
 }
 
@@ -98,7 +99,8 @@ void add_curves(CLI::App& app, CommandLine& line) {
   const auto add = [&](const char* name, std::string& value, const char* label, const char* help) {
     app.add_option(name, value, help)->option_text(label);
   };
-  add("--channel", curves.channel, "NAME", "Column of both files, where there are several");
+  add("--channel", curves.channel, "NAME",
+      "Column of both files, where there are several; of ISO-MME the code");
   add("--reference-channel", curves.reference_channel, "NAME",
       "Column of the reference, where its name is another one");
   add("--unit", curves.unit, "UNIT", "Of the values in a file that names no units");

@@ -64,13 +64,14 @@ struct Command {
   std::string help;
   FileArguments files;
   std::vector<CommandOption> options;
-  bool (*run)(const CommandInput&);                  ///< null if it works on files
-  bool (*run_on_files)(const FileInput&) = nullptr;  ///< null if it works on a study
-  bool writes_results = true;                        ///< into the folder of results
-  bool begins = false;                               ///< makes a folder from a study that is named
-  bool locks = true;          ///< the folder, all the time; otherwise it does so itself
-  bool has_shards = false;    ///< which processes of mpirun are
-  bool is_remembered = true;  ///< the folder remembers its study
+  bool (*run)(const CommandInput&);  ///< null if it works on files
+  /// Null if it works on a study; with both it is of the files of runs, which end in .h5.
+  bool (*run_on_files)(const FileInput&) = nullptr;
+  bool writes_results = true;  ///< into the folder of results
+  bool begins = false;         ///< makes a folder from a study that is named
+  bool locks = true;           ///< the folder, all the time; otherwise it does so itself
+  bool has_shards = false;     ///< which processes of mpirun are
+  bool is_remembered = true;   ///< the folder remembers its study
 };
 
 /// All commands, in the order of --help; the first one is that of a line without a command.

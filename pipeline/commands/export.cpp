@@ -20,26 +20,44 @@ std::string offered() {
   return text;
 }
 
-const ExportFormat& format_of(const CommandInput& input) {
-  if (input.target.empty())
+const ExportFormat& format_of(const std::filesystem::path& target, bool is_binary) {
+  if (target.empty())
     throw InputError("export: name the file to write, --to FILE with an ending of " + offered());
   const auto formats = export_formats();
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const ExportFormat& format) {
-    return input.target.extension() == format.ending;
+    return target.extension() == format.ending;
   });
   if (found == formats.end())
-    throw InputError(input.target.string() + ": expected a file with an ending of " + offered());
-  if (input.is_binary && !found->may_be_binary)
-    throw InputError(input.target.string() + ": --binary has no meaning for a " +
+    throw InputError(target.string() + ": expected a file with an ending of " + offered());
+  if (is_binary && !found->may_be_binary)
+    throw InputError(target.string() + ": --binary has no meaning for a " +
                      std::string(found->ending));
   return *found;
 }
 
 }  // namespace
 
+bool export_run_command(const FileInput& input) {
+  const ExportFormat& format = format_of(input.target, input.is_binary);
+  if (format.write_run == nullptr)
+    throw InputError(input.target.string() + ": expected an ending of .mme for the run " +
+                     input.files.front().string() + "; other files are of a study's mesh");
+  if (input.files.size() != 1)
+    throw InputError("export: expected one run, found '" + input.files[1].string() + "' too");
+  if (!input.settings.empty())
+    throw InputError("--set: has no meaning for a run, which is exported as it is");
+  input.console.step("Writing " + input.target.string());
+  format.write_run(input);
+  return true;
+}
+
 bool export_command(const CommandInput& input) {
   const std::filesystem::path& target = input.target;
-  const ExportFormat& format = format_of(input);
+  const ExportFormat& format = format_of(target, input.is_binary);
+  if (format.write == nullptr)
+    throw InputError(target.string() +
+                     ": name the run, such as 'flexneck export out/pendulum-flexion-80.h5 --to " +
+                     target.string() + "'");
   mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),
                       "flexneck mesh");

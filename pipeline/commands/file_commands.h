@@ -33,6 +33,8 @@ struct FileInput {
   const Console& console;
   CurveChoice curves = {};
   NeckLoadChoice neck_loads = {};
+  std::filesystem::path target = {};  ///< of export
+  bool is_binary = false;             ///< likewise
 };
 
 /// Runs a model file (pipeline/models/README.md): <its name>.h5 and <its name>.csv in the folder, a
@@ -57,6 +59,10 @@ bool rate_command(const FileInput& input);
 /// Nij of a neck's loads; writes nij.json if there is a folder.
 /// @throws InputError for loads that cannot be read or filtered.
 bool nij_command(const FileInput& input);
+
+/// Writes the run of a file of ours in a foreign format.
+/// @throws InputError for a format that is none of a run, or a run that it cannot take.
+bool export_run_command(const FileInput& input);
 
 /// What files that users write may say: the keys of studies, models and tables of references.
 /// @throws InputError for a name that is none of a kind of file, a table or a key in it.

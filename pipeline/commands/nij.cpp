@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -18,8 +20,11 @@ namespace {
 
 constexpr double kEqualIntervals = 1e-4;  ///< relative; times are written with few digits
 
-Curve load(const FileInput& input, const std::string& column, const std::string& si_unit) {
-  return in_unit(read_curve(input.files.front(), column), si_unit);
+/// Channels of a test have files, and times, of their own.
+void require_times_of(const Curve& force, const Curve& other) {
+  if (other.time_s.size() == force.time_s.size() && other.time_s == force.time_s) return;
+  throw InputError(other.label() + ": expected the times of " + force.label() +
+                   ", found others; record both together");
 }
 
 /// Between samples. @throws InputError unless it is the same everywhere: a filter needs that.
@@ -36,6 +41,56 @@ double interval_of(const Curve& curve) {
                     curve.file, interval_s, found_s, times_s[k - 1]));
   }
   return interval_s;
+}
+
+/// In SI units.
+struct NeckLoads {
+  Curve force, moment;
+  std::optional<Curve> shear;
+};
+
+NeckLoads read_loads(const FileInput& input) {
+  const NeckLoadChoice& choice = input.neck_loads;
+  const auto load = [&](const std::string& column, const char* si_unit) {
+    return in_unit(read_curve(input.files.front(), column), si_unit);
+  };
+  NeckLoads loads{load(choice.force, "N"), load(choice.moment, "N*m"), {}};
+  if (!choice.shear.empty()) loads.shear = load(choice.shear, "N");
+  require_times_of(loads.force, loads.moment);
+  if (loads.shear) require_times_of(loads.force, *loads.shear);
+  return loads;
+}
+
+/// Each load by CFC 600 before they are put together, since of a test some may have passed it.
+CondyleLoads at_condyles(const NeckLoads& loads, double arm_m) {
+  constexpr multibody::ChannelClass kClass = multibody::ChannelClass::cfc600;
+  const double interval_s = interval_of(loads.force);
+  const auto filtered = [&](const Curve& curve) -> Eigen::VectorXd {
+    if (!needs_filter(curve, kClass)) return curve.values;
+    try {
+      return multibody::cfc_filtered(curve.values, interval_s, kClass);
+    } catch (const InputError& error) {
+      throw InputError(curve.file + ": " + error.what());
+    }
+  };
+  CondyleLoads at = {filtered(loads.force), filtered(loads.moment), interval_s, true};
+  if (loads.shear) at.moment_y_Nm = condyle_moment(filtered(*loads.shear), at.moment_y_Nm, arm_m);
+  return at;
+}
+
+/// Each file once.
+std::vector<InputFile> inputs_of(const NeckLoads& loads) {
+  std::vector<InputFile> files;
+  const auto add = [&](const Curve& curve) {
+    const std::string name = curve.source.filename().string();
+    const bool is_there = std::any_of(files.begin(), files.end(),
+                                      [&](const InputFile& file) { return file.name == name; });
+    if (!is_there) files.push_back({name, hash_of_file(curve.source.string())});
+  };
+  add(loads.force);
+  add(loads.moment);
+  if (loads.shear) add(*loads.shear);
+  return files;
 }
 
 ResultTable table_of(const std::array<NijPeak, 4>& peaks, const Eigen::VectorXd& times_s,
@@ -73,27 +128,17 @@ bool nij_command(const FileInput& input) {
                      std::to_string(input.files.size()));
   const NeckLoadChoice& choice = input.neck_loads;
   const NeckIntercepts& intercepts = neck_intercepts(choice.dummy);
-  const Curve force = load(input, choice.force, "N");
-  const Curve moment = load(input, choice.moment, "N*m");
-  CondyleLoads loads = {force.values, moment.values, interval_of(force)};
-  if (!choice.shear.empty())
-    loads.moment_y_Nm = condyle_moment(load(input, choice.shear, "N").values, moment.values,
-                                       intercepts.condyle_arm_m);
-  ResultTable table;
-  try {
-    table = table_of(nij(loads, intercepts), force.time_s, intercepts);
-  } catch (const InputError& error) {
-    throw InputError(force.file + ": " + error.what());
-  }
+  const NeckLoads loads = read_loads(input);
+  const Curve& force = loads.force;
+  ResultTable table = table_of(nij(at_condyles(loads, intercepts.condyle_arm_m), intercepts),
+                               force.time_s, intercepts);
   table.notes.insert(
       table.notes.begin(),
       fmt::format("{}: '{}', '{}'{}", force.file, choice.force, choice.moment,
                   choice.shear.empty() ? "" : " less the arm times '" + choice.shear + "'"));
   if (!input.folder.path().empty()) {
     input.folder.make();
-    write_tables(
-        input.folder.file("nij.json"), {table},
-        provenance_of({{input.files[0].filename().string(), hash_of_file(input.files[0])}}, {}));
+    write_tables(input.folder.file("nij.json"), {table}, provenance_of(inputs_of(loads), {}));
   }
   input.console.result(printed(table));
   return true;

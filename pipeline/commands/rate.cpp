@@ -128,9 +128,28 @@ ResultTable cora_table(const ResampledPair& pair, bool is_asked) {
 }
 
 /// Of each part: it must not be the same name twice.
-std::vector<InputFile> inputs_of(const FileInput& input) {
-  return {{"reference/" + input.files[0].filename().string(), hash_of_file(input.files[0])},
-          {"computed/" + input.files[1].filename().string(), hash_of_file(input.files[1])}};
+std::vector<InputFile> inputs_of(const CurvesOfOneUnit& curves) {
+  const auto file = [](const std::string& part, const Curve& curve) -> InputFile {
+    return {part + "/" + curve.source.filename().string(), hash_of_file(curve.source.string())};
+  };
+  return {file("reference", curves.reference), file("computed", curves.computed)};
+}
+
+/// ", CFC 600 by its code", of a channel of ISO-MME.
+std::string filter_text(const Curve& curve) {
+  if (!curve.filter) return {};
+  return ", " + std::string(curve.filter->text.empty() ? "unfiltered" : curve.filter->text) +
+         " by its code";
+}
+
+/// Ratings compare curves as they are.
+void warn_of_filters(const FileInput& input, const CurvesOfOneUnit& curves) {
+  const auto& reference = curves.reference.filter;
+  const auto& computed = curves.computed.filter;
+  if (reference && computed && reference->text != computed->text)
+    input.console.warning("the channels have passed different filters: " +
+                          curves.reference.label() + filter_text(curves.reference) + ", " +
+                          curves.computed.label() + filter_text(curves.computed));
 }
 
 }  // namespace
@@ -142,6 +161,7 @@ bool rate_command(const FileInput& input) {
   const CurveChoice& choice = input.curves;
   const AskedInterval asked = {time_of("--from", choice.from), time_of("--to", choice.to)};
   const CurvesOfOneUnit curves = read_curves(input);
+  warn_of_filters(input, curves);
   const ResampledPair pair = resampled(curves.reference, curves.computed, asked);
   std::vector<ResultTable> tables;
   try {
@@ -151,14 +171,16 @@ bool rate_command(const FileInput& input) {
                      error.what());
   }
   tables.front().notes = {
-      "reference  " + label_in_table(curves.reference, curves.computed),
-      "computed   " + label_in_table(curves.computed, curves.reference),
+      "reference  " + label_in_table(curves.reference, curves.computed) +
+          filter_text(curves.reference),
+      "computed   " + label_in_table(curves.computed, curves.reference) +
+          filter_text(curves.computed),
       fmt::format(
           "{} samples at 10 kHz{}", pair.reference.size(),
           pair.is_interpolated ? ", interpolated linearly between those of the files" : "")};
   if (!input.folder.path().empty()) {
     input.folder.make();
-    write_tables(input.folder.file("rating.json"), tables, provenance_of(inputs_of(input), {}));
+    write_tables(input.folder.file("rating.json"), tables, provenance_of(inputs_of(curves), {}));
   }
   for (const ResultTable& table : tables) input.console.result(printed(table));
   return true;

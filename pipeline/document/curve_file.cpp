@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 #include <vector>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/units.h"
+#include "pipeline/document/channel_class.h"
 #include "pipeline/document/csv_lines.h"
+#include "pipeline/iso_mme/test_folder.h"
 
 namespace flexneck::pipeline {
 namespace {
@@ -44,6 +47,19 @@ Columns columns_of(const CsvLines& file, const Cells& cells, const std::string& 
   return columns;
 }
 
+Curve read_mme_curve(const std::filesystem::path& path, const std::string& code) {
+  FoundMmeChannel found = read_mme_channel(path, code);
+  MmeChannel& channel = found.channel;
+  Eigen::VectorXd time_s = channel.time_s();
+  return {path.string(),
+          channel.code,
+          channel.unit,
+          std::move(time_s),
+          std::move(channel.values),
+          std::move(found.file),
+          mme_filter(channel.code)};
+}
+
 }  // namespace
 
 std::string Curve::label() const {
@@ -52,6 +68,7 @@ std::string Curve::label() const {
 }
 
 Curve read_curve(const std::filesystem::path& path, const std::string& column) {
+  if (names_mme_test(path)) return read_mme_curve(path, column);
   CsvLines file(path);
   Cells cells;
   if (!file.next(cells)) file.refuse("expected a line with the columns' names and units");
@@ -76,8 +93,12 @@ Curve read_curve(const std::filesystem::path& path, const std::string& column) {
   }
   if (times_s.size() < 2) file.refuse("expected at least two rows of numbers");
   const auto count = static_cast<Eigen::Index>(times_s.size());
-  return {path.string(), columns.header.name, columns.header.unit,
-          Eigen::VectorXd::Map(times_s.data(), count), Eigen::VectorXd::Map(values.data(), count)};
+  return {path.string(),
+          columns.header.name,
+          columns.header.unit,
+          Eigen::VectorXd::Map(times_s.data(), count),
+          Eigen::VectorXd::Map(values.data(), count),
+          path};
 }
 
 Curve in_unit(Curve curve, const std::string& unit) {
@@ -89,6 +110,16 @@ Curve in_unit(Curve curve, const std::string& unit) {
   }
   curve.unit = unit;
   return curve;
+}
+
+bool needs_filter(const Curve& curve, multibody::ChannelClass wanted) {
+  if (!curve.filter) return true;
+  const MmeFilter& filter = *curve.filter;
+  if (!filter.is_special && (!filter.passed || *filter.passed >= wanted))
+    return filter.passed != wanted;
+  throw InputError(curve.label() + ": by the last letter of its code the channel has passed \"" +
+                   std::string(filter.text) + "\" already, which " + name_of(wanted) +
+                   " cannot be had from; take the channel as it was recorded, or no filter");
 }
 
 }  // namespace flexneck::pipeline

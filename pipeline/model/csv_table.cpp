@@ -7,6 +7,8 @@
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/document/csv_lines.h"
+#include "pipeline/document/curve_file.h"
+#include "pipeline/iso_mme/test_folder.h"
 
 namespace flexneck::pipeline {
 namespace {
@@ -29,10 +31,22 @@ Header header_of(const CsvLines& file, const std::string& cell, const std::strin
   }
 }
 
+TableColumns read_mme_columns(const std::filesystem::path& path, const std::string& x_unit,
+                              const std::string& y_unit, const std::string& code) {
+  if (x_unit != "s")
+    throw InputError(path.string() + ": expected a CSV file with a column in '" + x_unit +
+                     "' first; channels of ISO-MME are over time");
+  const Curve curve = in_unit(read_curve(path, code), y_unit);
+  return {{curve.time_s.begin(), curve.time_s.end()},
+          {curve.values.begin(), curve.values.end()},
+          curve.source};
+}
+
 }  // namespace
 
 TableColumns read_csv_columns(const std::filesystem::path& path, const std::string& x_unit,
                               const std::string& y_unit, const std::string& column) {
+  if (names_mme_test(path)) return read_mme_columns(path, x_unit, y_unit, column);
   CsvLines file(path);
   std::vector<std::string> cells;
   if (!file.next(cells)) file.refuse("expected a line with the columns' names and units");
@@ -42,6 +56,7 @@ TableColumns read_csv_columns(const std::filesystem::path& path, const std::stri
   const Header x = header_of(file, cells[0], x_unit);
   const Header y = header_of(file, cells[y_index], y_unit);
   TableColumns table;
+  table.source = path;
   while (file.next(cells)) {
     const double value = file.number(cells[0], x.to_si);
     if (!table.x.empty() && !(value > table.x.back()))

@@ -55,7 +55,7 @@ struct ColumnKeys {
   std::string x, x_unit, y, y_unit;
   std::string file = "table";
 };
-/// Two lists under the keys x and y, or a CSV file.
+/// Two lists under the keys x and y, or a file (csv_table.h).
 TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
                           std::vector<InputFile>& files);
 

@@ -43,7 +43,7 @@ TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
                             "'; leave one out, over a table of another file by " + key + " = []");
   const std::filesystem::path path = table.file(keys.file);
   TableColumns columns = read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
-  files.push_back({path.filename().string(), hash_of_file(path.string())});
+  files.push_back({columns.source.filename().string(), hash_of_file(columns.source.string())});
   return columns;
 }
 

@@ -59,6 +59,21 @@ std::vector<std::string> curve_row(const MeasuredRun& run, const MeasuredCurve& 
           fmt::format("{:.3f}", cora)};
 }
 
+/// Of a measured channel of ISO-MME whose class is not that of the computed one; else empty.
+std::string filter_difference(const MeasuredRun& run, const MeasuredCurve& measured) {
+  if (!measured.curve.filter) return {};
+  const MmeFilter& filter = *measured.curve.filter;
+  const std::string computed =
+      run.run->channels[find_name(names_of(run.run->channels), measured.channel, "channel")].filter;
+  const bool is_open = !filter.passed && !filter.is_special;
+  if (filter.text == computed || (is_open && computed.empty())) return {};
+  const auto text = [](std::string_view name) {
+    return name.empty() ? std::string("no filter") : std::string(name);
+  };
+  return where(run.test) + "'" + measured.channel + "' has passed " + text(filter.text) +
+         " as measured, " + text(computed) + " as computed.";
+}
+
 /// Linear between the samples of a curve that reaches so far.
 double value_at(const Curve& curve, double time_s) {
   Index k = 1;
@@ -193,8 +208,12 @@ ResultTable measured_curve_table(const std::vector<MeasuredRun>& runs) {
   table.columns = {{"test", ""},   {"case", ""}, {"channel", ""},      {"measured", ""},
                    {"from", "ms"}, {"to", "ms"}, {"ISO/TS 18571", ""}, {"CORA", ""}};
   for (const MeasuredRun& run : runs)
-    for (const MeasuredCurve& curve : run.test.curves)
-      if (run.run) table.rows.push_back(of_test(run.test, [&] { return curve_row(run, curve); }));
+    for (const MeasuredCurve& curve : run.test.curves) {
+      if (!run.run) continue;
+      table.rows.push_back(of_test(run.test, [&] { return curve_row(run, curve); }));
+      const std::string difference = filter_difference(run, curve);
+      if (!difference.empty()) table.notes.push_back(difference);
+    }
   note_missing_runs(runs, table);
   table.notes.emplace_back(
       "1 is full agreement. The parts of each rating: 'flexneck rate MEASURED.csv COMPUTED.csv'. "

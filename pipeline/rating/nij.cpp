@@ -43,7 +43,8 @@ VectorXd condyle_moment(const VectorXd& force_x_N, const VectorXd& moment_y_Nm, 
 std::array<NijPeak, 4> nij(const CondyleLoads& loads, const NeckIntercepts& intercepts) {
   if (loads.force_z_N.size() != loads.moment_y_Nm.size())
     throw InputError("expected as many values of the force as of the moment");
-  const auto filtered = [&](const VectorXd& load) {
+  const auto filtered = [&](const VectorXd& load) -> VectorXd {
+    if (loads.is_filtered) return load;
     return multibody::cfc_filtered(load, loads.interval_s, multibody::ChannelClass::cfc600);
   };
   const VectorXd force = filtered(loads.force_z_N);

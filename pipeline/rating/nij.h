@@ -26,11 +26,12 @@ inline constexpr std::array<NeckIntercepts, 2> kNeckIntercepts = {{
 /// @throws InputError for a name that is not in the table; the message lists all.
 const NeckIntercepts& neck_intercepts(const std::string& dummy);
 
-/// Loads at the occipital condyles by the signs of SAE J211, at equidistant times, not filtered.
+/// Loads at the occipital condyles by the signs of SAE J211, at equidistant times.
 struct CondyleLoads {
   Eigen::VectorXd force_z_N;    ///< shape (n); positive is tension
   Eigen::VectorXd moment_y_Nm;  ///< shape (n); positive is flexion
   double interval_s = 0;
+  bool is_filtered = false;  ///< both by CFC 600 already
 };
 
 /// Moment at the condyles of what an upper load cell reads, both by the signs of SAE J211:

@@ -18,11 +18,17 @@ std::vector<std::string> figures() { return {"peak", "time of peak", "first zero
 
 constexpr Key kCurveKeys[] = {
     Key::text("channel", kRequired, "Channel of the case's run that was measured"),
-    Key::file("table", kRequired,
-              "CSV file: its first line \"time [ms],angle [deg]\", or two columns without names"),
-    Key::text("column", kNone, "Column of that file, where it has more than two"),
+    Key::file(
+        "table", kRequired,
+        "CSV file: its first line \"time [ms],angle [deg]\", or two columns without names; or a "
+        "test of ISO-MME: its folder, its .mme or a channel's file"),
+    Key::text("column", kNone,
+              "Column of that file, where it has more than two; code of the test's channel"),
     Key::text("unit", kNone, "Unit of the values, where the file names none"),
-    Key::text("filter", kNone, "Channel class that the values are filtered by; none if not there",
+    Key::text("filter", kNone,
+              "Channel class that the values are filtered by, unless their ISO-MME code says that "
+              "they are; "
+              "none if not there",
               {.choices = channel_class_names}),
     Key::quantity("time_zero", "s", "0", "Time in the file that is the case's zero"),
     Key::quantity("from", "s", kNone, "Time of the case from which the curve is rated"),
@@ -78,9 +84,20 @@ double sample_interval_s(const Curve& curve) {
 Curve read_file(const StudyTable& table, const std::string& column, std::vector<InputFile>& files) {
   const std::filesystem::path path = table.file("table");
   Curve curve = read_curve(path, column);
-  files.push_back({path.filename().string(), hash_of_file(path.string())});
+  files.push_back({curve.source.filename().string(), hash_of_file(curve.source.string())});
   set_unit(table, curve);
   return curve;
+}
+
+/// By the key "filter".
+void filter_as_asked(const StudyTable& table, Curve& curve) {
+  const multibody::ChannelClass wanted = read_channel_class(table, "filter");
+  at_key(table, "filter", [&] {
+    if (needs_filter(curve, wanted))
+      curve.values = multibody::cfc_filtered(curve.values, sample_interval_s(curve), wanted);
+    return true;
+  });
+  if (curve.filter) curve.filter = mme_filter(std::string(1, mme_filter_letter(name_of(wanted))));
 }
 
 MeasuredCurve read_measured_curve(const StudyTable& table, std::vector<InputFile>& files) {
@@ -88,11 +105,7 @@ MeasuredCurve read_measured_curve(const StudyTable& table, std::vector<InputFile
   measured.channel = table.text("channel");
   measured.curve = read_file(table, table.text("column"), files);
   Curve& curve = measured.curve;
-  if (table.has("filter"))
-    curve.values = at_key(table, "filter", [&] {
-      return multibody::cfc_filtered(curve.values, sample_interval_s(curve),
-                                     read_channel_class(table, "filter"));
-    });
+  if (table.has("filter")) filter_as_asked(table, curve);
   curve.time_s.array() -= table.quantity("time_zero");
   if (table.has("from")) measured.from_s = table.quantity("from");
   if (table.has("to")) measured.to_s = table.quantity("to");

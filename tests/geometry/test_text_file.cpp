@@ -69,3 +69,18 @@ TEST_CASE("a text that is not one is refused with its line") {
   CHECK_THROWS_WITH(read("a\nb\n\xff"), Contains("text:3:") && Contains("found \\xff"));
   CHECK_THROWS_WITH(read("\x1b[2J"), Contains("text:1:") && Contains("found \\x1b"));
 }
+
+TEST_CASE("a text that is not UTF-8 is Windows-1252, of which ISO-8859-1 is a part") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& bytes) {
+    std::ofstream(folder / "text", std::ios::binary) << bytes;
+    return read_encoded_text(folder / "text", 100);
+  };
+  CHECK(read("plain\r\n") == "plain\r\n");
+  CHECK(read("\xef\xbb\xbf\u00e9 \u20ac") == "\u00e9 \u20ac");
+  CHECK(read("\xe9t\xe9 \xb0\xff") == "\u00e9t\u00e9 \u00b0\u00ff");
+  CHECK(read("\x80 \x93\x94 \x9f") == "\u20ac \u201c\u201d \u0178");
+  CHECK_THROWS_WITH(read("a\n\x81"), Contains("text:2: ") && Contains("\\x81"));
+  CHECK_THROWS_WITH(read("\xe9\x1b[31m"), Contains("\\x1b"));
+  CHECK_THROWS_WITH(read(std::string(101, 'a')), Contains("found more"));
+}

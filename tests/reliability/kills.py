@@ -22,8 +22,10 @@ def left_behind(scenario, found, by):
     wrong = scenarios.differences(found, expected)
     if by != signal.SIGKILL:
         return wrong
-    # Nobody is told of this one: its lock and its temporary folder stay, whose lock the system ends.
-    return [name for name in wrong if name != scenarios.LOCK and not name.startswith("tmp/flexneck-")]
+    # Nobody is told of this one: its lock and its temporary folder stay, whose lock the system ends, and the
+    # hidden one of an export to a folder.
+    return [name for name in wrong
+            if name != scenarios.LOCK and not name.startswith(("tmp/flexneck-", "out/.flexneck-"))]
 
 
 def fault_of(scenario, by, end, found, again, mended):

@@ -209,6 +209,7 @@ def make(program, base, wanted=""):
         ("modes", folders.bar, ["modes", "msh4.toml"]),
         ("simulate", folders.bar, ["simulate", "model.toml"]),
         ("export", folders.bar, ["export", "msh4.toml", "--to", "out/bar.inp"]),
+        ("mme", folders.bar, ["export", "out/model.h5", "--to", "out/lab/lab.mme"]),
         ("neck-mesh", folders.older_neck, ["mesh", *COARSE]),
         ("neck-modes", folders.neck, ["modes", *COARSE, "--set", "modes.count=5"]),
         ("neck-report", folders.neck, ["report", *COARSE]),

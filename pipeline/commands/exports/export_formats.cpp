@@ -7,12 +7,13 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr std::array<ExportFormat, 5> kFormats = {
+constexpr std::array<ExportFormat, 6> kFormats = {
     {{".msh", "the mesh for gmsh", export_msh, true},
      {".inp", "a deck for CalculiX", export_deck},
      {".mtx", "K and M in Matrix Market's format", export_matrices},
      {".petsc", "K and M in PETSc's", export_matrices},
-     {".dat", "the modes for the ATB", export_atb_modes}}};
+     {".dat", "the modes for the ATB", export_atb_modes},
+     {".mme", "the channels of a run as ISO-MME", nullptr, false, export_mme_test}}};
 
 }  // namespace
 

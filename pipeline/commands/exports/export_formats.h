@@ -15,8 +15,9 @@ struct ExportFormat {
   std::string_view ending;
   std::string_view content;
   /// @param mesh of the folder; may be changed
-  void (*write)(const CommandInput& input, mesher::Mesh& mesh);
-  bool may_be_binary = false;  ///< knows --binary
+  void (*write)(const CommandInput& input, mesher::Mesh& mesh);  ///< null if it is of a run
+  bool may_be_binary = false;                                    ///< knows --binary
+  void (*write_run)(const FileInput& input) = nullptr;           ///< of the run that a file holds
 };
 
 std::span<const ExportFormat> export_formats();
@@ -33,5 +34,9 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh);
 
 /// The modes of this mesh for the ATB.
 void export_atb_modes(const CommandInput& input, mesher::Mesh& mesh);
+
+/// The channels of a run, the only one of input.files, as a test of ISO-MME
+/// (iso_mme/test_writer.h). A case's are those of the study that its folder remembers.
+void export_mme_test(const FileInput& input);
 
 }  // namespace flexneck::pipeline

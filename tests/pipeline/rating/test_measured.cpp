@@ -8,6 +8,7 @@
 
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/signals/cfc_filter.h"
+#include "pipeline/iso_mme/test_writer.h"
 #include "pipeline/rating/measured_tables.h"
 #include "pipeline/study/study.h"
 
@@ -41,6 +42,15 @@ class OwnTest {
   }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
+  }
+  /// The same as the only channel of a test of ISO-MME, from -10 ms to 200 ms.
+  void write_channel(const std::string& name, char filter) const {
+    MmeTest test;
+    VectorXd values(421);
+    for (int k = 0; k <= 420; ++k)
+      values[k] = 60 * std::sin((0.5 * k - 10) * std::numbers::pi / 100);
+    test.channels = {{"11HEAD0000H3ANY" + std::string(1, filter), "", "deg", -0.01, 5e-4, values}};
+    write_mme_test(folder_ / name / (name + ".mme"), test);
   }
   MeasuredRun read(const std::string& tables) const {
     std::ofstream(folder_ / "study.toml") << "include = [\"" << built_in_study().string() << "\"]\n"
@@ -144,6 +154,38 @@ TEST_CASE("limits of peaks, their times and zero crossings are judged in any uni
                     Contains("test.lab.limit.1.low: ") && Contains("found 'kg'"));
   CHECK_THROWS_WITH(verdict("peak", "low = \"62 deg\"\nhigh = \"61 deg\"\n"),
                     Contains("expected a value above low"));
+}
+
+TEST_CASE("a channel of a test of ISO-MME stands for a CSV file, filtered as its code says") {
+  const OwnTest own;
+  own.write_curve("lab.csv", 1, 0);
+  const std::string asked = "filter = \"CFC 180\"\n";
+  const auto read = [&](char filter, const std::string& keys) {
+    const std::string name = std::string("lab") + filter;
+    own.write_channel(name, filter);
+    return own.read("[[test.curve]]\nchannel = \"head rotation\"\ntable = \"" + name + "\"\n" +
+                    keys);
+  };
+  const MeasuredRun plain = read('0', "");
+  const ResultTable table = measured_curve_table({plain});
+  CHECK(table.rows.at(0) == std::vector<std::string>{"lab", "flexion-60", "head rotation",
+                                                     "lab0: 11HEAD0000H3ANY0", "0.0", "200.0",
+                                                     "1.000", "1.000"});
+  CHECK(table.notes.size() == measured_curve_table({own.read(kCurve)}).notes.size());
+  const VectorXd open = plain.test.curves.at(0).curve.values;
+  CHECK(read('C', asked).test.curves.at(0).curve.values == open);
+  for (const char wider : {'0', 'P', 'B'}) {
+    const VectorXd filtered = multibody::cfc_filtered(open, 5e-4, multibody::ChannelClass::cfc180);
+    CHECK(read(wider, asked).test.curves.at(0).curve.values == filtered);
+  }
+  CHECK_THROWS_WITH(read('D', asked), Contains("test.lab.curve.1.filter: ") &&
+                                          Contains("has passed \"CFC 60\" already"));
+  CHECK_THAT(measured_curve_table({read('D', "")}).notes.at(0),
+             Contains("'head rotation' has passed CFC 60 as measured, no filter as computed"));
+  own.refuses("[[test.curve]]\nchannel = \"head rotation\"\ntable = \"labD\"\nunit = \"deg\"\n",
+              "names the unit 'deg' already");
+  own.refuses("[[test.curve]]\nchannel = \"head rotation\"\ntable = \"labD\"\ncolumn = \"x\"\n",
+              "there is no channel 'x'");
 }
 
 TEST_CASE("measured data that cannot be is refused with what there is") {

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
+#include "multibody/signals/cfc_filter.h"
+#include "pipeline/iso_mme/test_writer.h"
 #include "pipeline/rating/iso18571.h"
 #include "tests/pipeline/rating/rated_signals.h"
 #include "tests/support/files.h"
@@ -242,6 +244,61 @@ TEST_CASE("'flexneck rate' takes values of any size") {
     };
     CHECK(overall(scaled.text) == overall(plain.text));
   }
+}
+
+TEST_CASE("'flexneck rate' takes channels of ISO-MME, says what they have passed, and warns") {
+  const RatedFolder folder;
+  const auto write = [&](const char* name, const std::string& code, const VectorXd& values) {
+    pipeline::MmeTest test;
+    test.channels = {{code, "", "deg", 0, kInterval_s, 45 / std::atan(1) * values}};
+    pipeline::write_mme_test(folder.path(name) / (std::string(name) + ".mme"), test);
+  };
+  write("lab", "11HEAD0000H3ANYC", RatedFolder::reference());
+  write("run", "11HEAD0000H3ANY0", RatedFolder::computed());
+  CHECK(folder.run("rate -q reference.csv computed.csv -o a").exit_code == 0);
+  const CommandOutcome outcome = folder.run(
+      "rate lab computed.csv --reference-channel 11HEAD0000H3ANYC --channel 'head angle' "
+      "-o b");
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text,
+             Contains("reference  lab: '11HEAD0000H3ANYC' [deg], CFC 180 by its code") &&
+                 !Contains("Warning"));
+  const auto overall = [&](const char* out) {
+    return cell(nlohmann::json::parse(bytes_of(folder.path(out))).at("tables").at(0), 4);
+  };
+  CHECK(overall("b/rating.json") == overall("a/rating.json"));
+  CHECK_THAT(bytes_of(folder.path("b/rating.json")), Contains("reference/lab.001"));
+  CHECK_THAT(folder.run("rate lab/lab.mme run/Channel/run.001").text,
+             Contains("Warning: the channels have passed different filters: ") &&
+                 Contains("unfiltered by its code"));
+}
+
+TEST_CASE("'flexneck nij' filters no load a second time that has passed CFC 600 by its code") {
+  const RatedFolder folder;
+  const Eigen::Index count = 400;
+  const VectorXd spike = 3000 * VectorXd::Unit(count, 200);
+  const auto write = [&](char filter, const VectorXd& force) {
+    pipeline::MmeTest test;
+    const VectorXd none = VectorXd::Zero(count);
+    test.channels = {{std::string("11NECKUP00H3FOZ") + filter, "", "N", 0, kInterval_s, force},
+                     {"11NECKUP00H3MOYB", "", "N*m", 0, kInterval_s, none},
+                     {"11NECKUP00H3FOXA", "", "N", 0, kInterval_s, none},
+                     {"11NECKUP00H3FOXB", "", "N", 1e-3, kInterval_s, none}};
+    pipeline::write_mme_test(folder.path("lab/lab.mme"), test);
+    return std::string("nij lab --moment 11NECKUP00H3MOYB --force 11NECKUP00H3FOZ") + filter;
+  };
+  const auto nij = [&](double force) { return fmt::format("Nij      {:.6f}", force / 6806); };
+  const VectorXd once =
+      multibody::cfc_filtered(spike, kInterval_s, multibody::ChannelClass::cfc600);
+  for (const char* const shear : {"", " --shear 11NECKUP00H3FOXA"}) {
+    CHECK_THAT(folder.run(write('A', spike) + shear).text, Contains(nij(once.maxCoeff())));
+    CHECK_THAT(folder.run(write('B', spike) + shear).text, Contains(nij(3000)));
+  }
+  check_refused(folder.run(write('C', spike)), "CFC 600 cannot be had from");
+  check_refused(folder.run(write('A', spike) + " --shear 11NECKUP00H3FOXB"),
+                "expected the times of");
+  check_refused(folder.run(write('A', spike) + " --shear 11NECKUP00H3MOYB"), "something else");
 }
 
 TEST_CASE("'flexneck nij' gives the four combinations of loads in a file") {

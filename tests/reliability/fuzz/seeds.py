@@ -21,6 +21,7 @@ WORDS = {
     "regulation": ["pipeline/verdict/regulation", "pipeline/document/study_node"],
     "results": ["pipeline/output/result_table", "pipeline/verification/", "pipeline/output/prov"],
     "matrix": ["fe_modal/exchange/matrix_market"],
+    "mme": ["pipeline/iso_mme/"],
 }
 TOML = ['"""', "'''", "[[", "]]", "[", "]", "{ value = ", ", origin = \"published\"", " }", " = ",
         "include = [\"hybrid3_c.toml\"]", "include = [\"study.toml\"]", "inf", "nan", "1979-05-27",
@@ -32,6 +33,7 @@ FUNCTIONS = ["sin(", "sqrt(", "min(", "max(", "sum(", "rint(", "pi", "gn", "t", 
 EXTRA = {"study": TOML + UNITS, "model": TOML + UNITS + FUNCTIONS, "settings": TOML,
          "reference": TOML + UNITS, "regulation": TOML + UNITS, "quantity": UNITS, "expression": FUNCTIONS,
          "curve": UNITS + [",", "\r\n", "time [ms]", "\"head rotation [deg]\"", "# ", "nan", "1e999"],
+         "mme": UNITS + [":", "\n", "\r\n", "NOVALUE", "Nm", "====\n", "\xb0", "\x93", "11HEAD0000H3ANYC", "nan", "1e999"],
          "table": UNITS + [",", "\r\n", "time [ms]", "# ", "\xef\xbb\xbf", "nan", "1e999"],
          "results": ["{", "}", "[", "]", ":", ",", "null", "true", "\\u0000", "\\ud800", "1e999"],
          "deck": ["*INCLUDE, INPUT=deck.inp\n", "GENERATE", "C3D10", "C3D15", "C3D8", "C3D20R", "\n*", ",\n"],
@@ -145,6 +147,21 @@ ROW = {"quantity": "bending 1", "detail": "of", "unit": "Hz", "value": "1", "ref
 VERIFICATION = {"format": "flexneck verification", "schema_version": 1, "passed": True,
                 "reference_origins": "published", "rows": [ROW, {**ROW, "error_percent": None}],
                 "provenance": TABLES["provenance"]}
+MME_INDEX = """Instrumentation standard    :SAEJ211
+Number of channels          :1
+Name of channel 001         :11NECKUP00H3MOYP / Neck Upper Moment Y
+"""
+MME_CHANNEL = """Channel code                :11NECKUP00H3MOYP
+Reference channel           :implicit
+Name of the channel         :Neck Upper Moment Y
+Sampling interval           :0.0001
+Unit                        :Nm
+Time of first sample        :-0.0002
+Number of samples           :3
+-6.774550E-4
++1
+8.210000E-3
+"""
 SETTINGS = ["modes.count=4", "body.head.mass=2 kg\nbody.base.mass={ value = \"1 kg\" }",
             "solver.gravity=[\"0 gn\", \"0 gn\", \"9.81 m/s^2\"]", "a.b.c.d=1\na.b=2", "modes=1",
             "modes.fixed=[\"x\"]\nmodes.count=\"\"\"x\"\"\"", "body.head={ name = \"x\" }"]
@@ -205,6 +222,7 @@ def inputs():
         "deck": [DECK, TETRAHEDRON],
         "expression": EXPRESSIONS,
         "model": [part for text in models for part in _tables_of(_beside(text))],
+        "mme": [MME_CHANNEL, MME_INDEX + "====\n" + MME_CHANNEL],
         "reference": [_text_of("pipeline/verification/hybrid3.toml")],
         "regulation": [_text_of(f"pipeline/regulations/572.{part}.toml") for part in (33, 123, 133)],
         "results": [json.dumps(TABLES), json.dumps(VERIFICATION, indent=1)],
