@@ -61,7 +61,7 @@ ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
              present.displacement / root_mass);
     consider(first + 5, error.segment(v + 6, m).norm() / root_mass, present.velocity / root_mass);
   }
-  consider_internal(system_.internal(error), system_.size_m, tolerance_,
+  consider_internal(system_.internal(error), system_.internal_blocks, system_.size_m, tolerance_,
                     system_.bodies.size() * kComponents, worst);
   return worst;
 }

@@ -33,7 +33,8 @@ System::System(const Model& of)
     : model(of),
       joints(of.joints),
       gravity_m_s2(of.gravity_m_s2),
-      internal_count(multibody::internal_count(of.forces)) {
+      internal_count(multibody::internal_count(of.forces)),
+      internal_blocks(multibody::internal_blocks(of.forces)) {
   std::vector<std::size_t> free_index(model.bodies.size(), kNone);
   std::vector<std::size_t> prescribed_index(model.bodies.size(), kNone);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

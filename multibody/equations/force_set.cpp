@@ -7,13 +7,23 @@ namespace flexneck::multibody {
 
 using Eigen::Index;
 
-Index internal_count(const Forces& forces) {
-  std::size_t branches = 0;
+std::vector<InternalBlock> internal_blocks(const Forces& forces) {
+  std::vector<InternalBlock> blocks;
+  Index begin = 0;
   forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     if constexpr (RelaxingForce<Kind>)
-      for (const Kind& element : elements) branches += element.branch_count();
+      for (const Kind& element : elements)
+        for (std::size_t branch = 0; branch < element.branch_count(); ++branch) {
+          blocks.push_back({begin, element.branch_size()});
+          begin += element.branch_size();
+        }
   });
-  return 6 * static_cast<Index>(branches);
+  return blocks;
+}
+
+Index internal_count(const Forces& forces) {
+  const std::vector<InternalBlock> blocks = internal_blocks(forces);
+  return blocks.empty() ? 0 : blocks.back().begin + blocks.back().size;
 }
 
 std::string name_of_branch(const Forces& forces, std::size_t branch) {
@@ -49,16 +59,20 @@ ForceSet::ForceSet(const Model& model)
 
 std::string ForceSet::name_of_piece(std::size_t index) const {
   std::string who;
+  std::string_view what =
+      index % 2 == 0 ? "a stop or a kink of its curve" : "its friction or hysteresis turns over";
   std::size_t before = 0;
   model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     if constexpr (PiecewiseForce<Kind>) {
       const std::size_t at = index / 2;
-      if (before <= at && at < before + elements.size()) who = title(elements[at - before]);
+      if (before <= at && at < before + elements.size()) {
+        who = title(elements[at - before]);
+        if constexpr (NamedKink<Kind>) what = Kind::kKink;
+      }
       before += elements.size();
     }
   });
-  return who + (index % 2 == 0 ? ": a stop or a kink of its curve"
-                               : ": its friction or hysteresis turns over");
+  return who + ": " + std::string(what);
 }
 
 std::size_t ForceSet::slot_of(std::size_t marker) {
@@ -82,15 +96,14 @@ void ForceSet::begin_step(const ConstVector& values, const ConstVector& rates, d
   step_s_ = length_s;
 }
 
-InternalVariables ForceSet::internal_of_branch(std::size_t branch) {
+InternalVariables ForceSet::internal_variables() {
   const bool in_step = known_ == InternalVariables::Known::begin;
-  return InternalVariables{known_,
-                           in_step ? begin_.data() : given_.data(),
-                           begin_rate_.data(),
-                           step_s_,
-                           internal_.data(),
-                           internal_rate_.data()}
-      .of_branch(branch);
+  return {known_,
+          in_step ? begin_.data() : given_.data(),
+          begin_rate_.data(),
+          step_s_,
+          internal_.data(),
+          internal_rate_.data()};
 }
 
 void ForceSet::evaluate(double time_s) {
@@ -101,7 +114,7 @@ void ForceSet::evaluate(double time_s) {
     slot.moment_Nm.setZero();
   }
   int* piece = pieces_.data();
-  std::size_t branch = 0;
+  InternalVariables internal = internal_variables();
   model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     const auto& slots = std::get<Slots<Kind>>(slots_of_kind_).of_element;
     for (std::size_t k = 0; k < elements.size(); ++k) {
@@ -111,8 +124,9 @@ void ForceSet::evaluate(double time_s) {
       if constexpr (PiecewiseForce<Kind>) load.piece = {piece[0], piece[1]};
       ForceInput input{i, j, model_.joints, time_s};
       if constexpr (RelaxingForce<Kind>) {
-        input.internal = internal_of_branch(branch);
-        branch += elements[k].branch_count();
+        input.internal = internal;
+        internal = internal.behind(static_cast<Index>(elements[k].branch_count()) *
+                                   elements[k].branch_size());
       }
       elements[k].act(input, load, sums_);
       if constexpr (PiecewiseForce<Kind>) {

@@ -18,7 +18,9 @@ struct ForceMarker : MarkerKinematics {
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
 };
 
-/// How many internal variables the force elements have: six a branch (RelaxingForce).
+/// Where the internal variables of the force elements' branches are, in their order.
+std::vector<InternalBlock> internal_blocks(const Forces& forces);
+/// How many there are.
 Eigen::Index internal_count(const Forces& forces);
 /// What messages call a branch by its index among all.
 std::string name_of_branch(const Forces& forces, std::size_t branch);
@@ -77,7 +79,7 @@ class ForceSet {
   };
 
   std::size_t slot_of(std::size_t marker);
-  InternalVariables internal_of_branch(std::size_t branch);
+  InternalVariables internal_variables();
 
   const Model& model_;
   std::vector<std::size_t> markers_;

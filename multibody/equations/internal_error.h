@@ -2,23 +2,28 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "multibody/forces/internal_variables.h"
 #include "multibody/numerics/error_estimate.h"
 
 namespace flexneck::multibody {
 
-/// Errors of internal variables of force elements, six a branch: against the tolerance as positions
-/// are, distances against the system's size and angles against a radian.
-/// @param first_component  of the first branch; one each
+/// Errors of internal variables of force elements: against the tolerance as positions are,
+/// distances against the system's size and angles against a radian.
+/// @param first_component  of the first block; one each
 template <class Segment>
-void consider_internal(const Segment& error, double size_m, const Tolerance& tolerance,
-                       std::size_t first_component, ErrorEstimate& worst) {
-  for (Eigen::Index at = 0; at < error.size(); at += 6) {
-    const std::size_t component = first_component + static_cast<std::size_t>(at / 6);
-    worst.consider(component, tolerance.ratio(error.template segment<3>(at).norm(), size_m));
-    worst.consider(component, tolerance.ratio(error.template segment<3>(at + 3).norm(), 1));
+void consider_internal(const Segment& error, const std::vector<InternalBlock>& blocks,
+                       double size_m, const Tolerance& tolerance, std::size_t first_component,
+                       ErrorEstimate& worst) {
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const auto of_block = error.segment(blocks[k].begin, blocks[k].size);
+    const double moved =
+        std::hypot(of_block.template head<3>().norm(), of_block.tail(blocks[k].size - 6).norm());
+    worst.consider(first_component + k, tolerance.ratio(moved, size_m));
+    worst.consider(first_component + k, tolerance.ratio(of_block.template segment<3>(3).norm(), 1));
   }
 }
 

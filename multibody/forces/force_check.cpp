@@ -37,14 +37,13 @@ void check_direction(const std::string& who, const Eigen::Vector3d& direction) {
 }
 
 void check_stiffness(const std::string& who, const std::string& what,
-                     const Eigen::Matrix<double, 6, 6>& matrix) {
+                     const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   constexpr double kSlack = 1e-9;
   if (!matrix.allFinite()) refuse_force(who, what + " is not finite");
   const double size = matrix.cwiseAbs().maxCoeff();
   if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kSlack * size)
     refuse_force(who, what + " must be symmetric");
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(matrix,
-                                                                         Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
   if (eigen.eigenvalues()[0] < -kSlack * size)
     refuse_force(who, what + " must not have a negative eigenvalue, but has " +
                           std::to_string(eigen.eigenvalues()[0]));

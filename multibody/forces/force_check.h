@@ -29,7 +29,7 @@ void check_direction(const std::string& who, const Eigen::Vector3d& direction);
 /// Of a stiffness or a damping: symmetric within rounding, and no negative eigenvalue, since it
 /// must not feed energy.
 void check_stiffness(const std::string& who, const std::string& what,
-                     const Eigen::Matrix<double, 6, 6>& matrix);
+                     const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 void check_not_negative(const std::string& who, const std::string& what, double value);
 
 }  // namespace flexneck::multibody

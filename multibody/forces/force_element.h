@@ -90,11 +90,11 @@ concept PiecewiseForce = requires {
   requires Kind::kHasKinks;
 };
 
-/// It has dashpots of its own, with six internal variables a branch: a displacement, m, and a
-/// rotation, rad.
+/// It has dashpots of its own, with a block of internal variables (InternalBlock) for each branch.
 template <class Kind>
 concept RelaxingForce = requires(const Kind& element) {
   { element.branch_count() } -> std::convertible_to<std::size_t>;
+  { element.branch_size() } -> std::convertible_to<Eigen::Index>;
 };
 
 /// It resists every motion between its two bodies, marker_i and marker_j, so that one carries the
@@ -102,6 +102,12 @@ concept RelaxingForce = requires(const Kind& element) {
 template <class Kind>
 concept HoldingForce = requires {
   requires Kind::kHolds;
+};
+
+/// Its kinks are all of one sort, kKink.
+template <class Kind>
+concept NamedKink = requires {
+  { Kind::kKink } -> std::convertible_to<std::string_view>;
 };
 
 /// How messages call an element: spring 'rope'.

@@ -7,8 +7,8 @@
 
 namespace flexneck::multibody {
 
-/// Internal variables of a force element: the strains of its dashpots, six a branch, that follow
-/// the motion with a delay. How the element finds them when it acts, and its answer.
+/// Internal variables of a force element: the strains of its dashpots, a block for each branch,
+/// that follow the motion with a delay. How the element finds them when it acts, and its answer.
 struct InternalVariables {
   enum class Known {
     relaxed,  ///< not at all: at rest for long, no dashpot is loaded
@@ -23,40 +23,51 @@ struct InternalVariables {
   double* found_values = nullptr;  ///< answer: now
   double* found_rates = nullptr;
 
-  /// Those of a branch.
-  InternalVariables of_branch(std::size_t branch) const {
-    const auto part = [&](auto* all) { return all == nullptr ? all : all + 6 * branch; };
+  /// Those that begin behind the first so many.
+  InternalVariables behind(Eigen::Index count) const {
+    const auto part = [&](auto* all) { return all == nullptr ? all : all + count; };
     return {known, part(values), part(rates), length_s, part(found_values), part(found_rates)};
   }
 };
 
-/// A spring and a dashpot in line, in six directions at once (a Maxwell branch).
-struct MaxwellBranch {
-  using Vector6d = Eigen::Matrix<double, 6, 1>;
+/// Of one branch: what an element says of its variables, for sizes and messages.
+struct InternalBlock {
+  Eigen::Index begin = 0;  ///< among all
+  /// A displacement, m, a rotation, rad, then further displacements, m.
+  Eigen::Index size = 0;
+};
 
-  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+/// A spring and a dashpot in line, for several strains at once (a Maxwell branch).
+template <class Strain, class Stiffness>
+struct MaxwellBranch {
+  Stiffness stiffness;
   double relaxation_time_s = 0;
 
-  /// The spring's part s of a strain e, whose dashpot has the rest z: z' = s / tau. Over a step of
-  /// length h from s0, e0 it is the exact solution for an even change of the strain:
-  /// exp(-h/tau) s0 + (1 - exp(-h/tau)) tau/h (e - e0).
-  Vector6d spring_strain(const Vector6d& strain, const InternalVariables& internal) const {
-    const double tau = relaxation_time_s;
-    Vector6d spring = Vector6d::Zero();
-    if (internal.known == InternalVariables::Known::now) {
-      spring = strain - Eigen::Map<const Vector6d>(internal.values);
-    } else if (internal.known == InternalVariables::Known::begin) {
-      const Vector6d before = tau * Eigen::Map<const Vector6d>(internal.rates);
-      const Vector6d strain_before = Eigen::Map<const Vector6d>(internal.values) + before;
-      const double periods = internal.length_s / tau;
-      const double kept = periods > 0 ? -std::expm1(-periods) / periods : 1;
-      spring = std::exp(-periods) * before + kept * (strain - strain_before);
-    }
-    if (internal.found_values != nullptr) {
-      Eigen::Map<Vector6d>{internal.found_values} = strain - spring;
-      Eigen::Map<Vector6d>{internal.found_rates} = spring / tau;
-    }
-    return spring;
+  /// The spring's part s of a strain e, whose dashpot has the rest z, z' = s / tau, is
+  /// share e + offset: e - z, or over a step of length h from s0, e0 the exact solution for an even
+  /// change of the strain, exp(-h/tau) s0 + (1 - exp(-h/tau)) tau/h (e - e0).
+  struct SpringStrain {
+    double share = 0;
+    Strain offset;
+    Strain of(const Strain& strain) const { return share * strain + offset; }
+  };
+  SpringStrain spring(const InternalVariables& internal) const {
+    using Map = Eigen::Map<const Strain>;
+    const Eigen::Index size = stiffness.rows();
+    if (internal.known == InternalVariables::Known::relaxed) return {0, Strain::Zero(size)};
+    const Map values(internal.values, size);
+    if (internal.known == InternalVariables::Known::now) return {1, -values};
+    const Strain before = relaxation_time_s * Map(internal.rates, size);
+    const double periods = internal.length_s / relaxation_time_s;
+    const double share = periods > 0 ? -std::expm1(-periods) / periods : 1;
+    return {share, std::exp(-periods) * before - share * (values + before)};
+  }
+
+  /// Tells the variables that go with a spring's strain.
+  void answer(const Strain& strain, const Strain& spring, const InternalVariables& internal) const {
+    if (internal.found_values == nullptr) return;
+    Eigen::Map<Strain>(internal.found_values, strain.size()) = strain - spring;
+    Eigen::Map<Strain>(internal.found_rates, strain.size()) = spring / relaxation_time_s;
   }
 };
 

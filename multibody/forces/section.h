@@ -13,27 +13,45 @@ namespace flexneck::multibody {
 ///   w = R_mid^T (p_j - p_i) - sinc(theta_b / 2) r,   R_mid = R_i exp(~theta / 2),
 /// with r the rest length and direction and theta_b the part of theta across it: what is bent to an
 /// arc of the same length is not stretched. For small motions e is what j has moved, in i's axes.
-/// Energy e^T K e / 2, so that loads follow exactly, whatever the rotation (below pi).
-/// Maxwell branches add stiffness that relaxes: e^T K e / 2 + sum s^T K_b s / 2, s the strain of
-/// the branch's spring (MaxwellBranch).
+///
+/// Slits add gaps g >= 0 (openings without friction): the energy is the least of
+/// [e; g]^T K [e; g] / 2 over them, so that loads follow from it exactly, whatever the rotation
+/// (below pi), and closing and opening creates no energy. Maxwell branches add stiffness that
+/// relaxes: sum s^T K_b s / 2, s the strain of the branch's spring (MaxwellBranch).
 struct Section {
   static constexpr std::string_view kName = "section";
   static constexpr bool kHolds = true;
+  static constexpr bool kHasKinks = true;  ///< where a gap opens or closes
+  static constexpr std::string_view kKink = "a gap opens or closes";
+
+  static constexpr int kMaxGaps = 4;
+  using Strain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6 + kMaxGaps, 1>;
+  using Stiffness =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6 + kMaxGaps, 6 + kMaxGaps>;
+  using Branch = MaxwellBranch<Strain, Stiffness>;
 
   std::string name;
   std::size_t marker_i = 0;
   std::size_t marker_j = 0;
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< r: from i to j without load, i's axes
-  /// K, that of slow motions: loads on j over its motion, both at j in i's axes; N, N m; m, rad.
-  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
-  std::vector<MaxwellBranch> branches = {};
+  /// K, that of slow motions, (6 + gaps): loads on j over its motion, both at j in i's axes, above
+  /// forces of gaps over openings; N, N m; m, rad.
+  Stiffness stiffness = Stiffness::Zero(6, 6);
+  std::vector<Branch> branches = {};  ///< of the same size
 
+  Eigen::Index gap_count() const { return stiffness.rows() - 6; }
   void check(const std::string& who, const ForceSites& sites) const;
   std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
     return {marker_i, marker_j};
   }
   std::size_t branch_count() const { return branches.size(); }
+  Eigen::Index branch_size() const { return stiffness.rows(); }
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
+
+  /// [e; g] with the gaps that go with the motion e.
+  /// @param which_open  answer: a bit each
+  Strain with_gaps(const Eigen::Matrix<double, 6, 1>& e, const InternalVariables& internal,
+                   int& which_open) const;
 };
 
 }  // namespace flexneck::multibody

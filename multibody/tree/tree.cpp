@@ -111,7 +111,8 @@ bool is_tree(const Model& model) {
 Tree::Tree(const Model& of)
     : model(of),
       body_of_joint(of.joints.size(), kNone),
-      internal_count(multibody::internal_count(of.forces)) {
+      internal_count(multibody::internal_count(of.forces)),
+      internal_blocks(multibody::internal_blocks(of.forces)) {
   const Walk walked = walk(model);
   if (walked.unsuited_joint) {
     const Joint& joint = model.joints[*walked.unsuited_joint];

@@ -70,6 +70,7 @@ struct Tree {
   Eigen::Index position_count = 0;
   Eigen::Index velocity_count = 0;
   Eigen::Index internal_count = 0;
+  std::vector<InternalBlock> internal_blocks;
   /// Largest distance in a body: from its origin to a joint, or its radius. One for points alone.
   double size_m = 0;
 

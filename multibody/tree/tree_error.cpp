@@ -68,8 +68,8 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
     consider(first + 2, scale * error.segment(q + nq, m).norm(), scale * present.displacement);
     consider(first + 3, scale * error.segment(u + nu, m).norm(), scale * present.velocity);
   }
-  consider_internal(tree_.internal(error), tree_.size_m, tolerance_, tree_.bodies.size() * kParts,
-                    worst);
+  consider_internal(tree_.internal(error), tree_.internal_blocks, tree_.size_m, tolerance_,
+                    tree_.bodies.size() * kParts, worst);
   return worst;
 }
 

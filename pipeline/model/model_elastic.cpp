@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Force elements that resist every motion between two markers.
+#include <cmath>
 #include <numeric>
 
 #include "fe_modal/body/condensed_section.h"
@@ -38,6 +39,14 @@ constexpr auto kSectionKeys = std::to_array<Key>({
                     "diagonal, or nine row by row"),
     Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
     Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
+    Key::quantities("gap_stiffness", "N/m", kNone,
+                    "Of slits: forces of their gaps over openings, a square matrix row by row; the "
+                    "stiffness is that with all gaps closed"),
+    Key::quantities("gap_translation_coupling", "N/m", kNone,
+                    "Force of each gap over the top's three translations, gap by gap; negative "
+                    "where a motion opens the gap"),
+    Key::quantities("gap_rotation_coupling", "N/rad", kNone,
+                    "Force of each gap over the top's three rotations, likewise"),
     Key::file("modes_file", kNone,
               "In place of length and stiffness: modes of a body with its base fixed that are the "
               "static shapes of its top"),
@@ -84,10 +93,47 @@ void read_bushing(const StudyTable& table, Assembly& assembly) {
   table.finish();
 }
 
+using SectionStiffness = multibody::Section::Stiffness;
+
+/// Rows of three, one for each gap; none if the key is not there.
+Eigen::MatrixXd gap_rows(const StudyTable& table, const std::string& key, const std::string& unit,
+                         Eigen::Index gaps) {
+  if (!table.has(key)) return Eigen::MatrixXd::Zero(gaps, 3);
+  const std::vector<double> values =
+      table.quantities(key, static_cast<std::size_t>(3 * gaps), unit);
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(values.data(),
+                                                                                     gaps, 3);
+}
+
+/// The stiffness of the motions with rows and columns of the gaps.
+SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
+  if (!table.has("gap_stiffness")) {
+    for (const char* key : {"gap_translation_coupling", "gap_rotation_coupling"})
+      if (table.has(key)) table.refuse(key, "it belongs to gap_stiffness, which is not there");
+    return motions;
+  }
+  const std::vector<double> values = table.quantities("gap_stiffness", 0, "N/m");
+  const auto gaps = static_cast<Eigen::Index>(std::lround(std::sqrt(values.size())));
+  if (gaps * gaps != static_cast<Eigen::Index>(values.size()) || gaps < 1 ||
+      gaps > multibody::Section::kMaxGaps)
+    table.refuse("gap_stiffness",
+                 "expected a square matrix of one to four gaps row by row, found " +
+                     std::to_string(values.size()) + " numbers");
+  SectionStiffness stiffness = SectionStiffness::Zero(6 + gaps, 6 + gaps);
+  stiffness.topLeftCorner<6, 6>() = motions;
+  stiffness.bottomRightCorner(gaps, gaps) =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          values.data(), gaps, gaps);
+  stiffness.bottomLeftCorner(gaps, 6) << gap_rows(table, "gap_translation_coupling", "N/m", gaps),
+      gap_rows(table, "gap_rotation_coupling", "N/rad", gaps);
+  stiffness.topRightCorner(6, gaps) = stiffness.bottomLeftCorner(gaps, 6).transpose();
+  return stiffness;
+}
+
 /// Length and stiffness of a section, as a file of modes or the table gives them.
 struct LengthAndStiffness {
   Vector3d length_m;
-  Matrix6d stiffness;
+  SectionStiffness stiffness;
 };
 
 LengthAndStiffness condensed(const StudyTable& table, const std::string& key, Assembly& assembly) {
@@ -96,25 +142,27 @@ LengthAndStiffness condensed(const StudyTable& table, const std::string& key, As
     return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"));
   });
   assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
-  return {section.top_m - section.base_m, section.stiffness.bottomRightCorner<6, 6>()};
+  return {section.top_m - section.base_m,
+          SectionStiffness(section.stiffness.bottomRightCorner<6, 6>())};
 }
 
 LengthAndStiffness length_and_stiffness(const StudyTable& table, Assembly& assembly) {
   if (table.has("modes_file")) {
     for (const char* key :
-         {"length", "translation_stiffness", "rotation_stiffness", "coupling_stiffness"})
+         {"length", "translation_stiffness", "rotation_stiffness", "coupling_stiffness",
+          "gap_stiffness", "gap_translation_coupling", "gap_rotation_coupling"})
       if (table.has(key)) table.refuse(key, "modes_file gives it already");
     return condensed(table, "modes_file", assembly);
   }
   for (const char* key : {"base", "top", "slow_modes_file"})
     if (table.has(key)) table.refuse(key, "it belongs to modes_file, which is not there");
   if (!table.has("length")) table.refuse("length", "expected length and stiffness, or modes_file");
-  return {quantity_vector(table, "length"), matrix_of(table, "stiffness", "")};
+  return {quantity_vector(table, "length"), with_gaps(table, matrix_of(table, "stiffness", ""))};
 }
 
 /// What of the stiffness relaxes, and leaves the rest.
-Matrix6d relaxing_part(const StudyTable& table, const LengthAndStiffness& quick, double shares,
-                       Assembly& assembly) {
+SectionStiffness relaxing_part(const StudyTable& table, const LengthAndStiffness& quick,
+                               double shares, Assembly& assembly) {
   if (!table.has("slow_modes_file")) return shares * quick.stiffness;
   const LengthAndStiffness slow = condensed(table, "slow_modes_file", assembly);
   if ((slow.length_m - quick.length_m).norm() > 1e-9 * quick.length_m.norm())
@@ -152,7 +200,7 @@ void read_section(const StudyTable& table, Assembly& assembly) {
     table.refuse("slow_modes_file", "nothing relaxes: there are no relaxation_times");
   if (!times.empty()) {
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-    const Matrix6d relaxing = relaxing_part(table, quick, sum, assembly);
+    const SectionStiffness relaxing = relaxing_part(table, quick, sum, assembly);
     section.stiffness -= relaxing;
     for (std::size_t k = 0; k < times.size(); ++k)
       section.branches.push_back({shares[k] / sum * relaxing, times[k]});

@@ -83,7 +83,7 @@ struct RelaxingOscillator {
     Section section{"rubber", at_ground, at_block};
     section.stiffness(0, 0) = slow_N_m;
     for (const auto& [stiffness, time] : branches) {
-      MaxwellBranch branch{Matrix6d::Zero(), time};
+      Section::Branch branch{Matrix6d::Zero(), time};
       branch.stiffness(0, 0) = stiffness;
       section.branches.push_back(branch);
     }

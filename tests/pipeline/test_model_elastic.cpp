@@ -54,6 +54,24 @@ TEST_CASE("a section shares its stiffness among branches, and places what hangs 
   CHECK(file.model.bodies[1].initial_pose.position_m.isApprox(Eigen::Vector3d(0, 0.01, 0.02)));
 }
 
+TEST_CASE("a section has rows and columns for the gaps of its slits, which relax with it") {
+  const ModelFile file = read(with(section_text(), "relaxation_times", R"(
+gap_stiffness = ["8 N/mm", "1 N/mm", "1 N/mm", "9 N/mm"]
+gap_translation_coupling = ["0 N/m", "0 N/m", "-5 N/m", "1 N/m", "0 N/m", "-6 N/m"]
+gap_rotation_coupling = ["0 N/rad", "2 N/rad", "0 N/rad", "0 N/rad", "3 N/rad", "0 N/rad"]
+relaxation_times)"));
+  const multibody::Section& section = file.model.forces.of<multibody::Section>().front();
+  REQUIRE(section.gap_count() == 2);
+  const Eigen::MatrixXd whole = 4 * section.stiffness;
+  CHECK(whole.isApprox(whole.transpose()));
+  CHECK(whole.bottomRightCorner(2, 2).isApprox(
+      (Eigen::Matrix2d() << 8000, 1000, 1000, 9000).finished()));
+  const Eigen::Matrix<double, 6, 1> second = whole.bottomLeftCorner(2, 6).row(1);
+  CHECK(second.isApprox((Eigen::Matrix<double, 6, 1>() << 1, 0, -6, 0, 3, 0).finished()));
+  CHECK(whole(6, 4) == Approx(2));
+  CHECK(Eigen::MatrixXd(section.branches[0].stiffness).isApprox(0.5 * whole));
+}
+
 TEST_CASE("what a section cannot mean is refused by its key") {
   const auto refused = [](const std::string& part, const std::string& by, const char* message) {
     CHECK_THROWS_WITH(read(with(section_text(), part, by)), Contains(message));
@@ -66,6 +84,11 @@ TEST_CASE("what a section cannot mean is refused by its key") {
   refused("length =", "base = \"base\"\nlength =", "base: it belongs to modes_file");
   refused("length = [\"0 m\", \"10 mm\", \"20 mm\"]", "", "expected length and stiffness");
   refused("length =", "modes_file = \"none.h5\"\nlength =", "length: modes_file gives it already");
+  refused("length =", "gap_stiffness = [\"1 N/m\", \"2 N/m\"]\nlength =",
+          "gap_stiffness: expected a square matrix of one to four gaps");
+  refused("length =", "gap_stiffness = [\"-1 N/m\"]\nlength =", "negative eigenvalue");
+  refused("length =", "gap_rotation_coupling = [\"1 N/rad\"]\nlength =",
+          "gap_rotation_coupling: it belongs to gap_stiffness");
   refused("\"1 N/mm\", \"2 N/mm\", \"3 N/mm\"", "\"1 N/mm\", \"-2 N/mm\", \"3 N/mm\"",
           "must not have a negative eigenvalue");
 }
