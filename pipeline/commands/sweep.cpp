@@ -12,7 +12,7 @@
 #include "pipeline/folder/folder_lock.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/customary_units.h"
-#include "pipeline/sweep/interrupt.h"
+#include "pipeline/sampling/interrupt.h"
 #include "pipeline/sweep/sweep_job.h"
 #include "pipeline/sweep/sweep_pictures.h"
 #include "pipeline/sweep/sweep_summary.h"
