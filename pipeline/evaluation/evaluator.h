@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,14 +54,20 @@ class Evaluator {
   /// @throws InputError or ComputationError for a study that is refused or cannot be computed.
   Evaluation evaluate(const std::vector<std::string>& settings, const WantedOutputs& wanted);
 
-  /// Figures of the modes alone with their derivatives in closed form. None where there is no such
-  /// form: of other figures, of curves, and by what changes more than the mesh.
-  /// @param moved  settings in the place of the others, and by how much the number is moved in them
+  /// Whether wanted outputs have derivatives in closed form: figures of the modes alone, by what
+  /// changes nothing but the mesh.
+  /// @param moved  settings in the place of the others
+  /// @throws InputError for a study that is refused.
+  bool has_slopes(const std::vector<std::string>& settings,
+                  const std::vector<std::vector<std::string>>& moved, const WantedOutputs& wanted);
+
+  /// These figures with their derivatives.
+  /// @param moved  by how much the number is moved in other settings
+  /// @pre has_slopes()
   /// @throws as evaluate() does, and InputError where a mesh of another topology comes out.
-  std::optional<FigureSlopes> slopes(
-      const std::vector<std::string>& settings,
-      const std::vector<std::pair<std::vector<std::string>, double>>& moved,
-      const WantedOutputs& wanted);
+  FigureSlopes slopes(const std::vector<std::string>& settings,
+                      const std::vector<std::pair<std::vector<std::string>, double>>& moved,
+                      const WantedOutputs& wanted);
 
   /// The study with these settings. @throws as read_study() does.
   Study study(const std::vector<std::string>& settings);

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fit/study_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/units.h"
+#include "pipeline/document/product_text.h"
+#include "pipeline/rating/cora.h"
+#include "pipeline/rating/iso18571.h"
+#include "pipeline/rating/resampling.h"
+
+namespace flexneck::pipeline {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// A text such as "36.1 Hz" in SI; a pure number where the output is one.
+double number_of(const FitTarget& target, const char* key, const std::string& text,
+                 const std::string& unit) {
+  try {
+    if (unit != "1") return parse_quantity(text, unit);
+    const ProductText product = parse_product(text);
+    if (!product.names.empty() || !product.unit.empty())
+      throw InputError("expected a pure number, found \"" + text + "\"");
+    return product.number;
+  } catch (const InputError& error) {
+    target.table.refuse(key, error.what());
+  }
+}
+
+/// The unit of such a text, and the factor to it from SI.
+std::pair<std::string, double> unit_of_text(const std::string& text, const std::string& si_unit) {
+  if (si_unit == "1") return {"1", 1};
+  const std::string unit = parse_product(text).unit;
+  return {unit, factor_from_si(si_unit, unit)};
+}
+
+FitTerm window_term(const FitTarget& target, const std::string& unit) {
+  FitTerm::Window window;
+  if (!target.low.empty()) window.low = number_of(target, "low", target.low, unit);
+  if (!target.high.empty()) window.high = number_of(target, "high", target.high, unit);
+  if (!(window.low < window.high))
+    target.table.refuse("high", "expected more than low, the window crosses itself");
+  constexpr double kShare = 0.1;
+  const double smoothing = target.smoothing.empty()
+                               ? kShare * (window.high - window.low)
+                               : number_of(target, "smoothing", target.smoothing, unit);
+  if (!(smoothing > 0)) target.table.refuse("smoothing", "expected a positive value");
+  return {target.name, 0, smoothing, window, target.is_held_out};
+}
+
+FitTerm value_term(const FitTarget& target, const std::string& unit) {
+  const double value = number_of(target, "value", target.value, unit);
+  const double deviation =
+      target.relative_deviation
+          ? *target.relative_deviation * std::abs(value)
+          : number_of(target, "standard_deviation", target.standard_deviation, unit);
+  if (!(deviation > 0))
+    target.table.refuse(target.relative_deviation ? "relative_deviation" : "standard_deviation",
+                        "expected a positive deviation");
+  return {target.name, value, deviation, {}, target.is_held_out};
+}
+
+std::string wanted_text(const FitTarget& target) {
+  if (target.is_window())
+    return (target.low.empty() ? "below " + target.high
+            : target.high.empty() ? "above " + target.low
+                                  : target.low + " to " + target.high);
+  return target.value +
+         (target.relative_deviation ? fmt::format(" +- {:g} %", 100 * *target.relative_deviation)
+                                    : " +- " + target.standard_deviation);
+}
+
+/// Linear between the samples. @pre the samples cover the time
+double interpolated(const VectorXd& times_s, const VectorXd& values, double time_s) {
+  const auto after = std::lower_bound(times_s.begin() + 1, times_s.end() - 1, time_s);
+  const Index k = after - times_s.begin();
+  const double share =
+      std::clamp((time_s - times_s[k - 1]) / (times_s[k] - times_s[k - 1]), 0.0, 1.0);
+  return (1 - share) * values[k - 1] + share * values[k];
+}
+
+double time_of_point(const FitCurve& curve, int point) {
+  return curve.from_s + (curve.to_s - curve.from_s) * point / (curve.points - 1);
+}
+
+double rating_of(const FitCurve& wanted, const Curve& computed) {
+  const ResampledPair pair = resampled(wanted.target, computed, {wanted.from_s, wanted.to_s});
+  return *wanted.rating == 0 ? rate_iso18571(pair.reference, pair.computed).overall
+                             : rate_cora(pair.reference, pair.computed).overall;
+}
+
+Origin origin_of(const Study& study, const FitTarget& target) {
+  const std::string path = "fit.target." + target.table.text("name") + ".";
+  for (const Parameter& each : study.parameters)
+    if (each.key == path + "value" || each.key == path + "low" || each.key == path + "high" ||
+        each.key == path + "table")
+      return each.origin;
+  return Origin::synthetic;
+}
+
+}  // namespace
+
+StudyFit::StudyFit(Evaluator& evaluator, FitSection section, unsigned threads)
+    : evaluator_(evaluator), section_(std::move(section)) {
+  std::vector<FitTerm> all = terms();
+  check_parameters();
+  evaluator_.require_produced(wanted_);
+  const auto plain = [this](const VectorXd& at) { return observables(at); };
+  differences_ = central_differences(plain, ranges(), threads);
+  FitModel model{[this](const VectorXd& at) { return values(at); },
+                 [this](const VectorXd& at) { return slopes(at); }};
+  objective_.emplace(ranges(), std::move(all), std::move(model));
+  find_start();
+  look_for_closed_slopes();
+}
+
+VariedKey StudyFit::varied(std::size_t parameter) const {
+  const FitParameter& of = section_.parameters[parameter];
+  return {"fit.parameter '" + of.name + "'", of.key, of.unit};
+}
+
+std::vector<FitRange> StudyFit::ranges() const {
+  std::vector<FitRange> all;
+  for (const FitParameter& each : section_.parameters) {
+    all.push_back({each.name, each.from, each.to, {}});
+    if (each.mean) all.back().prior = FitRange::Normal{*each.mean, each.standard_deviation};
+  }
+  return all;
+}
+
+void StudyFit::check_parameters() const {
+  std::vector<TwoSettings> all;
+  for (std::size_t k = 0; k < section_.parameters.size(); ++k) {
+    const FitParameter& each = section_.parameters[k];
+    static_cast<void>(si_unit_of(varied(k)));
+    const auto at = [&](double share) {
+      return setting_of(varied(k), each.from + share * (each.to - each.from));
+    };
+    all.push_back({varied(k), at(0.25), at(0.75)});
+  }
+  check_varied(evaluator_, all, wanted_, "fit", "the targets");
+}
+
+void StudyFit::find_start() {
+  VectorXd at(static_cast<Index>(section_.parameters.size()));
+  const Study& study = evaluator_.base();
+  for (std::size_t k = 0; k < section_.parameters.size(); ++k) {
+    const FitParameter& each = section_.parameters[k];
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(study.file.string() + ": " + varied(k).who + ": " + why);
+    };
+    double& value = at[static_cast<Index>(k)];
+    if (each.start) {
+      value = *each.start;
+      continue;
+    }
+    const Parameter* found = nullptr;
+    for (const std::vector<Parameter>* const list : {&study.defaults, &study.parameters})
+      for (const Parameter& parameter : *list)
+        if (parameter.key == each.key) found = &parameter;
+    if (found == nullptr)
+      refuse("expected the key start, since the study has no value of '" + each.key + "'");
+    try {
+      const SiUnit unit = si_unit_of(varied(k));
+      value = unit.name == "1" ? parse_product(found->value).number
+                               : parse_quantity(found->value, unit.name) / unit.factor;
+    } catch (const InputError&) {
+      refuse("expected the key start, since the study's value is no number: " + found->value);
+    }
+    if (!(each.from <= value && value <= each.to))
+      refuse(fmt::format("expected bounds that hold the start, found {:g} to {:g} and the study's "
+                         "{}; widen them, or give start",
+                         each.from, each.to, found->value));
+  }
+  start_ = objective_->place(at);
+}
+
+void StudyFit::add_figure_terms(const FitTarget& target, std::vector<FitTerm>& terms) {
+  WantedOutputs found;
+  try {
+    found = evaluator_.wanted({target.output}, {});
+  } catch (const InputError& error) {
+    target.table.refuse("output", error.what());
+  }
+  wanted_.figures.push_back(found.figures.front());
+  const std::string si_unit = unit_of(found.figures.front(), evaluator_.base());
+  terms.push_back(target.is_window() ? window_term(target, si_unit) : value_term(target, si_unit));
+  const auto [unit, factor] = unit_of_text(
+      !target.value.empty() ? target.value : (target.low.empty() ? target.high : target.low),
+      si_unit);
+  targets_.push_back({target.name, target.output, unit, factor, wanted_text(target), {}});
+}
+
+void StudyFit::add_curve_terms(const FitTarget& target, std::vector<FitTerm>& terms) {
+  const FitCurve& curve = *target.curve;
+  WantedOutputs found;
+  Curve wanted;
+  try {
+    found = evaluator_.wanted({}, {curve.output});
+    wanted = in_unit(curve.target, unit_of_curve(found.curves.front()));
+  } catch (const InputError& error) {
+    target.table.refuse("curve", error.what());
+  }
+  const double end_s = case_of(found.curves.front(), evaluator_.base()).duration_s;
+  if (curve.from_s < 0 || curve.to_s > end_s)
+    target.table.refuse("to", fmt::format("expected times within the case, 0 s to {:g} s, found "
+                                          "{:g} s to {:g} s",
+                                          end_s, curve.from_s, curve.to_s));
+  wanted_.curves.push_back(found.curves.front());
+  const std::string si_unit = unit_of_curve(found.curves.front());
+  if (curve.rating) {
+    terms.push_back(target.is_window() ? window_term(target, "1") : value_term(target, "1"));
+    targets_.push_back({target.name, curve.output, "1", 1, wanted_text(target), {}});
+    return;
+  }
+  const double deviation =
+      number_of(target, "standard_deviation", target.standard_deviation, si_unit);
+  if (!(deviation > 0)) target.table.refuse("standard_deviation", "expected a positive value");
+  for (int k = 0; k < curve.points; ++k)
+    terms.push_back({target.name,
+                     interpolated(wanted.time_s, wanted.values, time_of_point(curve, k)),
+                     deviation, {}, target.is_held_out});
+  const auto [unit, factor] = unit_of_text(target.standard_deviation, si_unit);
+  targets_.push_back({target.name, curve.output, unit, factor,
+                      curve.target.file + " +- " + target.standard_deviation, {}});
+}
+
+std::vector<FitTerm> StudyFit::terms() {
+  std::vector<FitTerm> all;
+  for (const FitTarget& each : section_.targets) {
+    each.curve ? add_curve_terms(each, all) : add_figure_terms(each, all);
+    targets_.back().origin = origin_of(evaluator_.base(), each);
+  }
+  return all;
+}
+
+std::vector<std::string> StudyFit::settings(const VectorXd& parameters) const {
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < section_.parameters.size(); ++k)
+    all.push_back(setting_of(varied(k), parameters[static_cast<Index>(k)]));
+  return all;
+}
+
+VectorXd StudyFit::observables_of(const Evaluation& evaluation) const {
+  std::vector<double> values;
+  Index figure = 0;
+  std::size_t place = 0;  // of a curve
+  for (const FitTarget& target : section_.targets) {
+    if (!target.curve) {
+      values.push_back(evaluation.figures[figure++]);
+      continue;
+    }
+    const FitCurve& wanted = *target.curve;
+    const VectorXd& times_s = evaluation.times_s[place];
+    const VectorXd& curve = evaluation.curves[place];
+    if (wanted.rating) {
+      const std::string unit = unit_of_curve(wanted_.curves[place]);
+      values.push_back(rating_of(wanted, in_unit({wanted.output, "", unit, times_s, curve},
+                                                 wanted.target.unit)));
+    } else {
+      for (int k = 0; k < wanted.points; ++k)
+        values.push_back(interpolated(times_s, curve, time_of_point(wanted, k)));
+    }
+    ++place;
+  }
+  return VectorXd::Map(values.data(), static_cast<Index>(values.size()));
+}
+
+VectorXd StudyFit::observables(const VectorXd& parameters) {
+  const Evaluation evaluation = evaluator_.evaluate(settings(parameters), wanted_);
+  if (!evaluation.problem.empty()) throw ComputationError(evaluation.problem);
+  return observables_of(evaluation);
+}
+
+StudyFit::Moved StudyFit::moved(const VectorXd& parameters) const {
+  constexpr double kStep = 1e-3;  // of the range
+  Moved all;
+  for (Index k = 0; k < parameters.size(); ++k) {
+    const FitRange& range = objective_->ranges()[static_cast<std::size_t>(k)];
+    const double step = kStep * range.width();
+    const double side = parameters[k] + step > range.to ? -step : step;
+    VectorXd other = parameters;
+    other[k] += side;
+    all.emplace_back(settings(other), side);
+  }
+  return all;
+}
+
+void StudyFit::look_for_closed_slopes() {
+  const VectorXd at = objective_->parameters(start_);
+  std::vector<std::vector<std::string>> others;
+  for (const auto& [other, width] : moved(at)) others.push_back(other);
+  try {
+    has_closed_slopes_ = evaluator_.has_slopes(settings(at), others, wanted_);
+  } catch (const InputError&) {
+    has_closed_slopes_ = false;  // the first fit tells what is wrong
+  }
+}
+
+std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {
+  {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& [place, known] : known_)
+      if (place == parameters) return known;
+  }
+  ModelSlopes found;
+  try {
+    FigureSlopes slopes = evaluator_.slopes(settings(parameters), moved(parameters), wanted_);
+    found = {std::move(slopes.values), std::move(slopes.derivatives)};
+  } catch (const InputError&) {
+    return std::nullopt;  // as of a mesh of another topology
+  }
+  constexpr std::size_t kKept = 64;
+  const std::scoped_lock lock(mutex_);
+  if (known_.size() == kKept) known_.erase(known_.begin());
+  known_.emplace_back(parameters, found);
+  return found;
+}
+
+ModelSlopes StudyFit::slopes(const VectorXd& parameters) {
+  if (has_closed_slopes_)
+    if (std::optional<ModelSlopes> found = closed_slopes(parameters)) return *found;
+  return differences_(parameters);
+}
+
+VectorXd StudyFit::values(const VectorXd& parameters) {
+  if (has_closed_slopes_)
+    if (const std::optional<ModelSlopes> found = closed_slopes(parameters)) return found->values;
+  return observables(parameters);
+}
+
+}  // namespace flexneck::pipeline
