@@ -9,6 +9,7 @@
 #include "pipeline/commands/commands.h"
 #include "pipeline/console/wrapped_text.h"
 #include "pipeline/fit/fit_job.h"
+#include "pipeline/fit/fit_pictures.h"
 #include "pipeline/fit/fit_tables.h"
 #include "pipeline/fit/fitted_study.h"
 #include "pipeline/fit/uniqueness.h"
@@ -64,6 +65,26 @@ void show_families(const CommandInput& input, const StudyFit& fit, const FitResu
   }
 }
 
+/// Pictures of an earlier fit, which may have had other targets.
+void remove_former(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> former;
+  for (const std::filesystem::directory_entry& each : std::filesystem::directory_iterator(folder))
+    if (each.path().filename().string().starts_with("fit-") && each.path().extension() == ".svg")
+      former.push_back(each.path());
+  for (const std::filesystem::path& each : former) std::filesystem::remove(each);
+}
+
+/// A fit is one without pictures, too.
+void draw(const CommandInput& input, const StudyFit& fit, const FitResult& result) {
+  try {
+    const std::vector<std::string> names = draw_fit(fit, result, input.folder.path());
+    input.console.result(
+        fmt::format("Pictures: {} of fit-*.svg in {}", names.size(), input.folder.path().string()));
+  } catch (const InputError& error) {
+    input.console.warning(std::string("no pictures of the fit: ") + error.what());
+  }
+}
+
 }  // namespace
 
 bool fit_command(const CommandInput& input) {
@@ -74,17 +95,16 @@ bool fit_command(const CommandInput& input) {
   const Interrupt interrupt;
   StudyFit fit(evaluator, std::move(section), std::max(1U, threads / starts));
   const std::filesystem::path& results = input.folder.path();
-  input.console.step(fmt::format(
-      "Fit of {}: parameters: {}, targets: {}, starts: {}; slopes {}; threads: {}",
-      input.study.file.string(), fit.section().parameters.size(), fit.targets().size(), starts,
-      fit.has_closed_slopes() ? "in closed form" : "by differences", threads));
+  input.console.step(
+      fmt::format("Fit of {}: parameters: {}, targets: {}, starts: {}; slopes {}; threads: {}",
+                  input.study.file.string(), fit.section().parameters.size(), fit.targets().size(),
+                  starts, fit.has_closed_slopes() ? "in closed form" : "by differences", threads));
   FitJob job(fit, results, threads, &Interrupt::is_asked());
   FitResult result;
   try {
     result = job.run([&](const std::string& line) { input.console.step(line); });
   } catch (const FitStopped&) {
-    throw ComputationError("stopped: what is done is kept in " +
-                           FitJob::folder(results).string() +
+    throw ComputationError("stopped: what is done is kept in " + FitJob::folder(results).string() +
                            "; the same command goes on with the rest");
   }
   const std::vector<ResultTable> tables = fit_tables(fit, result);
@@ -95,6 +115,8 @@ bool fit_command(const CommandInput& input) {
   show_families(input, fit, result);
   show(input, tables);
   input.console.result("\nFitted study: " + fitted.string());
+  remove_former(results);
+  draw(input, fit, result);
   return true;
 }
 

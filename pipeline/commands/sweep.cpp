@@ -12,6 +12,7 @@
 #include "pipeline/folder/folder_lock.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/customary_units.h"
+#include "pipeline/plotting/figure.h"
 #include "pipeline/sampling/interrupt.h"
 #include "pipeline/sweep/sweep_job.h"
 #include "pipeline/sweep/sweep_pictures.h"

@@ -145,8 +145,11 @@ std::vector<Minimum> FitJob::fit_all(const Progress& tell) {
   const FitObjective& objective = fit_.objective();
   const Index parameters = objective.parameter_count();
   const auto observables = static_cast<Index>(objective.terms().size());
-  Step step{"starts", "fits", static_cast<std::uint64_t>(fit_.section().starts),
-            3 + parameters + observables, {}};
+  Step step{"starts",
+            "fits",
+            static_cast<std::uint64_t>(fit_.section().starts),
+            3 + parameters + observables,
+            {}};
   step.compute = [&](std::uint64_t number) {
     const auto seed = static_cast<std::uint64_t>(fit_.section().seed);
     const VectorXd start = number == 0
@@ -163,8 +166,11 @@ std::vector<Minimum> FitJob::fit_all(const Progress& tell) {
 std::vector<Profile> FitJob::all_profiles(const FitResult& result, const Progress& tell) {
   const FitObjective& objective = fit_.objective();
   const Index parameters = objective.parameter_count();
-  Step step{"profiles", "profiles", static_cast<std::uint64_t>(parameters),
-            3 + 2 * kProfilePoints + parameters, {}};
+  Step step{"profiles",
+            "profiles",
+            static_cast<std::uint64_t>(parameters),
+            3 + 2 * kProfilePoints + parameters,
+            {}};
   step.compute = [&](std::uint64_t number) {
     const auto parameter = static_cast<Index>(number);
     const Profile found = profile_of(objective, result.best(), parameter,
@@ -187,8 +193,11 @@ HistoryMatch FitJob::history(const Progress& tell) {
   const auto point = [&](std::uint64_t number) {
     return prior_point(objective, static_cast<std::uint64_t>(fit_.section().seed), number);
   };
-  Step step{"history", "points of the prior", static_cast<std::uint64_t>(count),
-            static_cast<Index>(objective.terms().size()), {}};
+  Step step{"history",
+            "points of the prior",
+            static_cast<std::uint64_t>(count),
+            static_cast<Index>(objective.terms().size()),
+            {}};
   step.compute = [&](std::uint64_t number) {
     return RowResult{number, fit_.observables(objective.parameters(point(number))), {}, {}};
   };

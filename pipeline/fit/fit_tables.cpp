@@ -34,9 +34,9 @@ ResultTable parameter_table(const StudyFit& fit, const FitResult& result) {
   ResultTable table;
   table.name = "fit parameters";
   table.title = "Fitted parameters, with 95 % confidence";
-  table.columns = {{"parameter", ""}, {"unit", ""},          {"value", ""}, {"from", ""},
-                   {"to", ""},        {"by", ""},            {"bounds", ""}, {"start", ""},
-                   {"deviation", ""}, {"remark", ""},        {"key", ""}};
+  table.columns = {{"parameter", ""}, {"unit", ""},   {"value", ""},  {"from", ""},
+                   {"to", ""},        {"by", ""},     {"bounds", ""}, {"start", ""},
+                   {"deviation", ""}, {"remark", ""}, {"key", ""}};
   const FitObjective& objective = fit.objective();
   const std::vector<FittedParameter> fitted = fitted_parameters(objective, result);
   const VectorXd start = objective.parameters(fit.start());
@@ -67,7 +67,8 @@ std::vector<std::string> target_row(const ShownTarget& shown, const FitObjective
     squares += std::pow(objective.terms()[k].residual(values[static_cast<Index>(k)]), 2);
   const double value = values[static_cast<Index>(first)];
   const bool is_one = count == 1;
-  const double residual = is_one ? term.residual(value) : std::sqrt(squares / static_cast<double>(count));
+  const double residual =
+      is_one ? term.residual(value) : std::sqrt(squares / static_cast<double>(count));
   return {shown.name,
           shown.wanted,
           is_one ? number(value * shown.factor) : fmt::format("{} points", count),
@@ -84,9 +85,8 @@ ResultTable target_table(const StudyFit& fit, const FitResult& result) {
   ResultTable table;
   table.name = "fit targets";
   table.title = "Targets and what the best fit makes of them";
-  table.columns = {{"target", ""},  {"wanted", ""},     {"fit", ""},    {"unit", ""},
-                   {"error", "%"},  {"deviations", ""}, {"window", ""}, {"use", ""},
-                   {"origin", ""},  {"output", ""}};
+  table.columns = {{"target", ""},     {"wanted", ""}, {"fit", ""}, {"unit", ""},   {"error", "%"},
+                   {"deviations", ""}, {"window", ""}, {"use", ""}, {"origin", ""}, {"output", ""}};
   const std::vector<FitTerm>& terms = fit.objective().terms();
   std::size_t first = 0;
   for (const ShownTarget& shown : fit.targets()) {
@@ -106,15 +106,15 @@ ResultTable family_table(const StudyFit& fit, const FitResult& result) {
   ResultTable table;
   table.name = "fit families";
   table.title = "Minima that the fits ended in, the best first";
-  table.columns = named(fit.section().parameters, {{"family", ""}, {"chi-squared", ""},
-                                                   {"starts", ""}, {"verdict", ""}});
+  table.columns = named(fit.section().parameters,
+                        {{"family", ""}, {"chi-squared", ""}, {"starts", ""}, {"verdict", ""}});
   for (std::size_t k = 0; k < result.families.size(); ++k) {
     const Family& family = result.families[k];
     std::vector<std::string> row = {std::to_string(k + 1), number(family.best.chi_squared, 4),
                                     std::to_string(family.starts.size()),
-                                    family.meets_targets  ? "meets the targets"
-                                    : family.is_as_good   ? "as good as the best"
-                                                          : "worse"};
+                                    family.meets_targets ? "meets the targets"
+                                    : family.is_as_good  ? "as good as the best"
+                                                         : "worse"};
     if (!family.best.has_converged) row.back() += ", not converged";
     const VectorXd at = fit.objective().parameters(family.best.place);
     for (Index i = 0; i < at.size(); ++i)
@@ -123,9 +123,10 @@ ResultTable family_table(const StudyFit& fit, const FitResult& result) {
   }
   const auto failed = std::count_if(result.minima.begin(), result.minima.end(),
                                     [](const Minimum& each) { return each.has_failed(); });
-  table.notes = {fmt::format("{} starts, {} of them failed. Minima within {:g} of the bounds' width "
-                             "of one another are one family.",
-                             result.minima.size(), failed, kSamePlace)};
+  table.notes = {
+      fmt::format("{} starts, {} of them failed. Minima within {:g} of the bounds' width "
+                  "of one another are one family.",
+                  result.minima.size(), failed, kSamePlace)};
   return table;
 }
 
@@ -185,7 +186,8 @@ ResultTable history_table(const StudyFit& fit, const HistoryMatch& history) {
   ResultTable table;
   table.name = "fit history";
   table.title = "Share of the prior that meets the targets, with 95 % confidence";
-  table.columns = {{"target", ""}, {"points", ""}, {"of", ""}, {"share", "%"}, {"from", "%"}, {"to", "%"}};
+  table.columns = {{"target", ""}, {"points", ""}, {"of", ""},
+                   {"share", "%"}, {"from", "%"},  {"to", "%"}};
   const auto add = [&](const std::string& name, const Share& share) {
     table.rows.push_back({name, std::to_string(share.count), std::to_string(share.of),
                           number(100 * share.value, 4), number(100 * share.low, 4),
@@ -196,7 +198,8 @@ ResultTable history_table(const StudyFit& fit, const HistoryMatch& history) {
   for (std::size_t k = 0; k < targets.size(); ++k)
     add(targets[k].first + (targets[k].second ? " (held out)" : ""), history.by_target[k]);
   table.notes = {fmt::format(
-      "Random points of the prior, {} of which failed. Met is a window by its edges, a value within "
+      "Random points of the prior, {} of which failed. Met is a window by its edges, a value "
+      "within "
       "{:g} standard deviations, a curve if the root of their mean square is. Confidence after "
       "Clopper and Pearson.",
       history.failed, fit.section().history_deviations)};
@@ -227,6 +230,7 @@ ResultTable failure_table(const FitResult& result) {
 
 std::vector<FittedParameter> fitted_parameters(const FitObjective& objective,
                                                const FitResult& result) {
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
   constexpr double kTwoSided = 1.959963984540054;  // normal quantile of 0.975
   std::vector<FittedParameter> all;
   const VectorXd at = objective.parameters(result.best().place);
@@ -238,12 +242,14 @@ std::vector<FittedParameter> fitted_parameters(const FitObjective& objective,
     found.is_by_profile = !result.profiles.empty();
     if (found.is_by_profile) {
       const Profile& profile = result.profiles[static_cast<std::size_t>(k)];
-      constexpr double kOpen = std::numeric_limits<double>::infinity();
       found.low = profile.low ? range.from + *profile.low * range.width() : -kOpen;
       found.high = profile.high ? range.from + *profile.high * range.width() : kOpen;
     } else {
       found.low = found.value - kTwoSided * found.deviation;
       found.high = found.value + kTwoSided * found.deviation;
+      // Beyond the bounds it tells nothing.
+      if (found.low < range.from) found.low = -kOpen;
+      if (found.high > range.to) found.high = kOpen;
     }
     all.push_back(found);
   }

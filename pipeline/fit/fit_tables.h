@@ -17,7 +17,7 @@ std::vector<ResultTable> fit_tables(const StudyFit& fit, const FitResult& result
 struct FittedParameter {
   double value = 0;
   double deviation = 0;  ///< by the linear theory; may be infinite
-  double low = 0;        ///< by profile likelihood where there is one; infinite where it is open
+  double low = 0;        ///< by profile likelihood where there is one; infinite beyond the bounds
   double high = 0;
   bool is_by_profile = false;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fit/fitted_study.h"
 
+#include <cmath>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -78,9 +79,12 @@ void put_fitted(toml::table& root, const FitParameter& parameter, const FittedPa
     labelled.insert("value", exact_text(fitted.value) + " " + parameter.unit);
   }
   labelled.insert("origin", "calibrated");
-  labelled.insert("note", fmt::format("flexneck fit: {:.5g} to {:.5g} with 95 % confidence{}",
-                                      fitted.low, fitted.high,
-                                      fitted.is_by_profile ? ", profile likelihood" : ""));
+  const auto end = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.5g}", value) : std::string("open");
+  };
+  labelled.insert("note", "flexneck fit: 95 % confidence from " + end(fitted.low) + " to " +
+                              end(fitted.high) +
+                              (fitted.is_by_profile ? ", profile likelihood" : ""));
   labelled.is_inline(true);
   const std::vector<std::string> parts = parts_of(parameter.key);
   table_for(root, parts).insert_or_assign(parts.back(), std::move(labelled));
@@ -89,13 +93,14 @@ void put_fitted(toml::table& root, const FitParameter& parameter, const FittedPa
 std::string comments(const StudyFit& fit, const FitResult& result) {
   const Study& study = fit.evaluator().base();
   std::string text = wrapped(verdict_of_fit(fit.objective(), result), "# ");
-  text += wrapped("A fit, not a measurement: the tables beside it (fit.json) tell what it rests on.",
-                  "# ");
+  text += wrapped(
+      "A fit, not a measurement: the tables beside it (fit.json) tell what it rests on.", "# ");
   const Provenance made = provenance_of(study);
   std::string inputs;
   for (const InputFile& each : made.inputs)
     inputs += (inputs.empty() ? "" : ", ") + each.name + " " + each.hash;
-  text += wrapped("Made by " + made.program + " (" + made.git_hash + ") from " + inputs + ".", "# ");
+  text +=
+      wrapped("Made by " + made.program + " (" + made.git_hash + ") from " + inputs + ".", "# ");
   for (const std::string& each : fit.section().choices)
     text += wrapped("Chosen with the targets in sight: " + each, "# ");
   return text;

@@ -114,11 +114,12 @@ bool has_converged(Status status) {
 
 /// Runs it to its end. @return whether that is a minimum
 bool minimise(Functor& functor, VectorXd& x, const FitSearch& search) {
-  constexpr double kTolerance = 1e-7;  // of the sum of squares and of the variables
-  constexpr double kFirstStep = 0.1;   // of the norm of the variables, some pi each
+  constexpr double kTolerance = 1e-4;       // of the sum of squares
+  constexpr double kPlaceTolerance = 1e-6;  // of the norm of the variables
+  constexpr double kFirstStep = 0.1;        // of the norm of the variables, some pi each
   Eigen::LevenbergMarquardt<Functor> method(functor);
   method.setFtol(kTolerance);
-  method.setXtol(kTolerance);
+  method.setXtol(kPlaceTolerance);
   method.setFactor(kFirstStep);
   method.setMaxfev(10L * search.steps);  // a step may take several
   method.setExternalScaling(true);

@@ -58,10 +58,9 @@ FitTerm window_term(const FitTarget& target, const std::string& unit) {
 
 FitTerm value_term(const FitTarget& target, const std::string& unit) {
   const double value = number_of(target, "value", target.value, unit);
-  const double deviation =
-      target.relative_deviation
-          ? *target.relative_deviation * std::abs(value)
-          : number_of(target, "standard_deviation", target.standard_deviation, unit);
+  const double deviation = target.relative_deviation ? *target.relative_deviation * std::abs(value)
+                                                     : number_of(target, "standard_deviation",
+                                                                 target.standard_deviation, unit);
   if (!(deviation > 0))
     target.table.refuse(target.relative_deviation ? "relative_deviation" : "standard_deviation",
                         "expected a positive deviation");
@@ -70,12 +69,12 @@ FitTerm value_term(const FitTarget& target, const std::string& unit) {
 
 std::string wanted_text(const FitTarget& target) {
   if (target.is_window())
-    return (target.low.empty() ? "below " + target.high
+    return (target.low.empty()    ? "below " + target.high
             : target.high.empty() ? "above " + target.low
                                   : target.low + " to " + target.high);
-  return target.value +
-         (target.relative_deviation ? fmt::format(" +- {:g} %", 100 * *target.relative_deviation)
-                                    : " +- " + target.standard_deviation);
+  return target.value + (target.relative_deviation
+                             ? fmt::format(" +- {:g} %", 100 * *target.relative_deviation)
+                             : " +- " + target.standard_deviation);
 }
 
 /// Linear between the samples. @pre the samples cover the time
@@ -112,7 +111,6 @@ StudyFit::StudyFit(Evaluator& evaluator, FitSection section, unsigned threads)
     : evaluator_(evaluator), section_(std::move(section)) {
   std::vector<FitTerm> all = terms();
   check_parameters();
-  evaluator_.require_produced(wanted_);
   const auto plain = [this](const VectorXd& at) { return observables(at); };
   differences_ = central_differences(plain, ranges(), threads);
   FitModel model{[this](const VectorXd& at) { return values(at); },
@@ -120,6 +118,7 @@ StudyFit::StudyFit(Evaluator& evaluator, FitSection section, unsigned threads)
   objective_.emplace(ranges(), std::move(all), std::move(model));
   find_start();
   look_for_closed_slopes();
+  check_produced();
 }
 
 VariedKey StudyFit::varied(std::size_t parameter) const {
@@ -176,9 +175,10 @@ void StudyFit::find_start() {
       refuse("expected the key start, since the study's value is no number: " + found->value);
     }
     if (!(each.from <= value && value <= each.to))
-      refuse(fmt::format("expected bounds that hold the start, found {:g} to {:g} and the study's "
-                         "{}; widen them, or give start",
-                         each.from, each.to, found->value));
+      refuse(
+          fmt::format("expected bounds that hold the start, found {:g} to {:g} and the study's "
+                      "{}; widen them, or give start",
+                      each.from, each.to, found->value));
   }
   start_ = objective_->place(at);
 }
@@ -227,10 +227,16 @@ void StudyFit::add_curve_terms(const FitTarget& target, std::vector<FitTerm>& te
   for (int k = 0; k < curve.points; ++k)
     terms.push_back({target.name,
                      interpolated(wanted.time_s, wanted.values, time_of_point(curve, k)),
-                     deviation, {}, target.is_held_out});
+                     deviation,
+                     {},
+                     target.is_held_out});
   const auto [unit, factor] = unit_of_text(target.standard_deviation, si_unit);
-  targets_.push_back({target.name, curve.output, unit, factor,
-                      curve.target.file + " +- " + target.standard_deviation, {}});
+  targets_.push_back({target.name,
+                      curve.output,
+                      unit,
+                      factor,
+                      curve.target.file + " +- " + target.standard_deviation,
+                      {}});
 }
 
 std::vector<FitTerm> StudyFit::terms() {
@@ -263,8 +269,8 @@ VectorXd StudyFit::observables_of(const Evaluation& evaluation) const {
     const VectorXd& curve = evaluation.curves[place];
     if (wanted.rating) {
       const std::string unit = unit_of_curve(wanted_.curves[place]);
-      values.push_back(rating_of(wanted, in_unit({wanted.output, "", unit, times_s, curve},
-                                                 wanted.target.unit)));
+      values.push_back(rating_of(
+          wanted, in_unit({wanted.output, "", unit, times_s, curve}, wanted.target.unit)));
     } else {
       for (int k = 0; k < wanted.points; ++k)
         values.push_back(interpolated(times_s, curve, time_of_point(wanted, k)));
@@ -303,6 +309,12 @@ void StudyFit::look_for_closed_slopes() {
   } catch (const InputError&) {
     has_closed_slopes_ = false;  // the first fit tells what is wrong
   }
+}
+
+void StudyFit::check_produced() {
+  // The solution at the start is that of the first fit, too.
+  if (has_closed_slopes_ && closed_slopes(objective_->parameters(start_))) return;
+  evaluator_.require_produced(wanted_);
 }
 
 std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {

@@ -72,6 +72,7 @@ class StudyFit {
   /// Settings with each parameter moved a little, and by how much.
   Moved moved(const Eigen::VectorXd& parameters) const;
   void look_for_closed_slopes();
+  void check_produced();
   std::optional<ModelSlopes> closed_slopes(const Eigen::VectorXd& parameters);
   ModelSlopes slopes(const Eigen::VectorXd& parameters);
   Eigen::VectorXd values(const Eigen::VectorXd& parameters);

@@ -61,11 +61,11 @@ void add_bounds(const FitObjective& objective, const FitResult& result,
 }
 
 std::string met_text(const FitObjective& objective, const FitResult& result) {
-  return fmt::format("The best {} the targets: chi-squared {:.3g}, at most {:.3g} of {} targets "
-                     "and priors and {} parameters.",
-                     result.families.front().meets_targets ? "meets" : "does not meet",
-                     result.best().chi_squared, largest_good_chi_squared(objective),
-                     objective.told_count(), objective.parameter_count());
+  return fmt::format(
+      "The best {} the targets: chi-squared {:.3g}, at most {:.3g} of {} targets "
+      "and priors and {} parameters.",
+      result.families.front().meets_targets ? "meets" : "does not meet", result.best().chi_squared,
+      largest_good_chi_squared(objective), objective.told_count(), objective.parameter_count());
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ std::string verdict_of_fit(const FitObjective& objective, const FitResult& resul
   const std::vector<std::string> clauses = against_uniqueness(objective, result);
   std::string text;
   if (clauses.empty()) {
-    text = fmt::format("Unique within the bounds, as far as {} {} tell{}",
-                       result.minima.size() == 1 ? "a single" : std::to_string(result.minima.size()),
-                       result.minima.size() == 1 ? "start" : "starts",
-                       result.minima.size() == 1 ? "s" : "");
+    text = fmt::format(
+        "Unique within the bounds, as far as {} {} tell{}",
+        result.minima.size() == 1 ? "a single" : std::to_string(result.minima.size()),
+        result.minima.size() == 1 ? "start" : "starts", result.minima.size() == 1 ? "s" : "");
   } else {
     text = "Not unique: ";
     for (std::size_t k = 0; k < clauses.size(); ++k) text += (k > 0 ? "; " : "") + clauses[k];
