@@ -141,21 +141,27 @@ std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) c
   return rows;
 }
 
+std::vector<VectorXd> FitJob::starts() const {
+  constexpr int kTries = 100;  // for each start
+  const int count = fit_.section().starts;
+  const auto dimensions = static_cast<int>(fit_.objective().parameter_count());
+  const auto seed = static_cast<std::uint64_t>(fit_.section().seed);
+  std::vector<VectorXd> places = {fit_.start()};
+  for (int k = 1; k <= kTries * count && static_cast<int>(places.size()) < count; ++k) {
+    VectorXd point = shifted_sobol_point(static_cast<std::uint64_t>(k), dimensions, seed);
+    if (fit_.is_accepted(fit_.objective().parameters(point))) places.push_back(std::move(point));
+  }
+  return places;
+}
+
 std::vector<Minimum> FitJob::fit_all(const Progress& tell) {
   const FitObjective& objective = fit_.objective();
   const Index parameters = objective.parameter_count();
   const auto observables = static_cast<Index>(objective.terms().size());
-  Step step{"starts",
-            "fits",
-            static_cast<std::uint64_t>(fit_.section().starts),
-            3 + parameters + observables,
-            {}};
+  const std::vector<VectorXd> places = starts();
+  Step step{"starts", "fits", places.size(), 3 + parameters + observables, {}};
   step.compute = [&](std::uint64_t number) {
-    const auto seed = static_cast<std::uint64_t>(fit_.section().seed);
-    const VectorXd start = number == 0
-                               ? fit_.start()
-                               : shifted_sobol_point(number, static_cast<int>(parameters), seed);
-    const Minimum found = least_squares(objective, start, search());
+    const Minimum found = least_squares(objective, places[number], search());
     return RowResult{number, row_of(found, observables), found.problem, {}};
   };
   std::vector<Minimum> minima;

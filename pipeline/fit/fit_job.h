@@ -70,6 +70,8 @@ class FitJob {
     std::function<RowResult(std::uint64_t)> compute;
   };
   std::vector<RowResult> rows_of(const Step& step, const Progress& tell) const;
+  /// The study's own, then Sobol' points that the study does not refuse.
+  std::vector<Eigen::VectorXd> starts() const;
   std::vector<Minimum> fit_all(const Progress& tell);
   std::vector<Profile> all_profiles(const FitResult& result, const Progress& tell);
   HistoryMatch history(const Progress& tell);

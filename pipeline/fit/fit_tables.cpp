@@ -124,7 +124,8 @@ ResultTable family_table(const StudyFit& fit, const FitResult& result) {
   const auto failed = std::count_if(result.minima.begin(), result.minima.end(),
                                     [](const Minimum& each) { return each.has_failed(); });
   table.notes = {
-      fmt::format("{} starts, {} of them failed. Minima within {:g} of the bounds' width "
+      fmt::format("{} starts that the study accepts, {} of them failed. Minima within {:g} of the "
+                  "bounds' width "
                   "of one another are one family.",
                   result.minima.size(), failed, kSamePlace)};
   return table;

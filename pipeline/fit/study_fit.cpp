@@ -280,6 +280,15 @@ VectorXd StudyFit::observables_of(const Evaluation& evaluation) const {
   return VectorXd::Map(values.data(), static_cast<Index>(values.size()));
 }
 
+bool StudyFit::is_accepted(const VectorXd& parameters) {
+  try {
+    static_cast<void>(evaluator_.study(settings(parameters)));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 VectorXd StudyFit::observables(const VectorXd& parameters) {
   const Evaluation evaluation = evaluator_.evaluate(settings(parameters), wanted_);
   if (!evaluation.problem.empty()) throw ComputationError(evaluation.problem);

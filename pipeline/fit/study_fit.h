@@ -51,6 +51,9 @@ class StudyFit {
 
   /// "key=value" for each parameter.
   std::vector<std::string> settings(const Eigen::VectorXd& parameters) const;
+  /// Whether the study with these values is one that can be read, such as of a neck whose parts
+  /// fit.
+  bool is_accepted(const Eigen::VectorXd& parameters);
   /// Observables without slopes. @throws InputError or ComputationError where there are none.
   Eigen::VectorXd observables(const Eigen::VectorXd& parameters);
   /// Whether slopes are known in closed form; otherwise they are taken by differences.
