@@ -235,7 +235,8 @@ void StudyFit::add_curve_terms(const FitTarget& target, std::vector<FitTerm>& te
                       curve.output,
                       unit,
                       factor,
-                      curve.target.file + " +- " + target.standard_deviation,
+                      std::filesystem::path(curve.target.file).filename().string() + " +- " +
+                          target.standard_deviation,
                       {}});
 }
 
