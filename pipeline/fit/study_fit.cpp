@@ -296,13 +296,14 @@ VectorXd StudyFit::observables(const VectorXd& parameters) {
   return observables_of(evaluation);
 }
 
-StudyFit::Moved StudyFit::moved(const VectorXd& parameters) const {
+StudyFit::Moved StudyFit::moved(const VectorXd& parameters, double direction) const {
   constexpr double kStep = 1e-3;  // of the range
   Moved all;
   for (Index k = 0; k < parameters.size(); ++k) {
     const FitRange& range = objective_->ranges()[static_cast<std::size_t>(k)];
-    const double step = kStep * range.width();
-    const double side = parameters[k] + step > range.to ? -step : step;
+    const double step = direction * kStep * range.width();
+    const double end = parameters[k] + step;
+    const double side = end < range.from || end > range.to ? -step : step;
     VectorXd other = parameters;
     other[k] += side;
     all.emplace_back(settings(other), side);
@@ -313,7 +314,7 @@ StudyFit::Moved StudyFit::moved(const VectorXd& parameters) const {
 void StudyFit::look_for_closed_slopes() {
   const VectorXd at = objective_->parameters(start_);
   std::vector<std::vector<std::string>> others;
-  for (const auto& [other, width] : moved(at)) others.push_back(other);
+  for (const auto& [other, width] : moved(at, 1)) others.push_back(other);
   try {
     has_closed_slopes_ = evaluator_.has_slopes(settings(at), others, wanted_);
   } catch (const InputError&) {
@@ -333,17 +334,23 @@ std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {
     for (const auto& [place, known] : known_)
       if (place == parameters) return known;
   }
-  ModelSlopes found;
-  try {
-    FigureSlopes slopes = evaluator_.slopes(settings(parameters), moved(parameters), wanted_);
-    found = {std::move(slopes.values), std::move(slopes.derivatives)};
-  } catch (const InputError&) {
-    return std::nullopt;  // as of a mesh of another topology
+  std::optional<ModelSlopes> found;
+  // To the other side where the study or the mesh refuses one.
+  for (const double direction : {1.0, -1.0}) {
+    try {
+      FigureSlopes slopes =
+          evaluator_.slopes(settings(parameters), moved(parameters, direction), wanted_);
+      found = ModelSlopes{std::move(slopes.values), std::move(slopes.derivatives)};
+      break;
+    } catch (const InputError&) {
+      continue;
+    }
   }
+  if (!found) return std::nullopt;  // as of a mesh of another topology
   constexpr std::size_t kKept = 64;
   const std::scoped_lock lock(mutex_);
   if (known_.size() == kKept) known_.erase(known_.begin());
-  known_.emplace_back(parameters, found);
+  known_.emplace_back(parameters, *found);
   return found;
 }
 

@@ -73,7 +73,8 @@ class StudyFit {
 
   using Moved = std::vector<std::pair<std::vector<std::string>, double>>;
   /// Settings with each parameter moved a little, and by how much.
-  Moved moved(const Eigen::VectorXd& parameters) const;
+  /// @param direction  1 or -1; the other one at a bound
+  Moved moved(const Eigen::VectorXd& parameters, double direction) const;
   void look_for_closed_slopes();
   void check_produced();
   std::optional<ModelSlopes> closed_slopes(const Eigen::VectorXd& parameters);
