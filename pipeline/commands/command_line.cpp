@@ -120,9 +120,12 @@ void add_neck_loads(CLI::App& app, CommandLine& line) {
   add("--dummy", loads.dummy, "NAME [50th-male]", "50th-male or 5th-female");
 }
 
-void add_shares(CLI::App& app, CommandLine& line) {
+void add_shards(CLI::App& app, CommandLine& line) {
   app.add_option("--shard", line.shares.shard, "Compute a part of the rows only, e.g. 2/8")
       ->option_text("I/N");
+}
+
+void add_threads(CLI::App& app, CommandLine& line) {
   app.add_option("--threads", line.shares.threads, "That compute rows; all processors if not given")
       ->option_text("N")
       ->check(CLI::Range(1, 1024));
@@ -132,12 +135,13 @@ struct OptionRow {
   CommandOption option;
   void (*add)(CLI::App&, CommandLine&);
 };
-constexpr std::array<OptionRow, 13> kOptions = {
+constexpr std::array<OptionRow, 14> kOptions = {
     {{CommandOption::folder, add_folder},
      {CommandOption::optional_folder, add_optional_folder},
      {CommandOption::curves, add_curves},
      {CommandOption::neck_loads, add_neck_loads},
-     {CommandOption::shares, add_shares},
+     {CommandOption::shards, add_shards},
+     {CommandOption::threads, add_threads},
      {CommandOption::settings, add_settings},
      {CommandOption::mesh_settings, add_mesh_settings},
      {CommandOption::modes_settings, add_modes_settings},

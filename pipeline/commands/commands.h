@@ -15,7 +15,7 @@ class Ranks;
 
 namespace flexneck::pipeline {
 
-/// How the rows of a sweep are shared out; empty and 0 where nothing is said.
+/// How the work of a sweep or a fit is shared out; empty and 0 where nothing is said.
 struct RowShares {
   std::string shard;  ///< "2/8"
   int threads = 0;
@@ -32,7 +32,7 @@ struct CommandInput {
   bool redo = false;                       ///< of run: even what has not changed
   bool is_run = false;                     ///< all that follows is made anew, too
   bool sensitivity = false;                ///< of modes: their derivatives, too
-  RowShares shares = {};                   ///< of sweep
+  RowShares shares = {};                   ///< of sweep and fit
 };
 
 /// Options that some commands have and others have not.
@@ -49,7 +49,8 @@ enum class CommandOption {
   target,
   curves,
   neck_loads,
-  shares
+  shards,
+  threads
 };
 
 /// What a command's files are.
@@ -97,5 +98,8 @@ bool report_command(const CommandInput& input);
 bool study_command(const CommandInput& input);
 /// The rows of [sweep] and, once all are there, sweep.csv, sweep.h5 and sweep.json.
 bool sweep_command(const CommandInput& input);
+/// The free parameters of [fit] that bring the results to its targets, and how far these fix them:
+/// fit.json, fitted.toml.
+bool fit_command(const CommandInput& input);
 
 }  // namespace flexneck::pipeline

@@ -75,16 +75,26 @@ std::size_t BodyCache::solved_count() const {
   return solved_;
 }
 
+FigureSlopes BodyCache::slopes(const Study& study, BodyUse use,
+                               const std::vector<MovedStudy>& moved,
+                               const std::vector<std::string>& figures) {
+  FigureSlopes found;
+  start();
+  solvers_.run([&] { found = modes_slopes(study, mesh_of(study), use, moved, figures, console_); });
+  const std::scoped_lock lock(mutex_);
+  ++solved_;
+  return found;
+}
+
+const mesher::Mesh& BodyCache::mesh_of(const Study& study) {
+  const std::string key = text_of(mesh_values(study));
+  if (const mesher::Mesh* const mesh = meshes_.find(key)) return *mesh;
+  meshes_.keep(key, make_mesh(study, console_));
+  return *meshes_.find(key);
+}
+
 fe_modal::ModalBody BodyCache::solved(const Study& study, BodyUse use) {
-  if (study.structure) {
-    const std::string key = text_of(mesh_values(study));
-    const mesher::Mesh* mesh = meshes_.find(key);
-    if (mesh == nullptr) {
-      meshes_.keep(key, make_mesh(study, console_));
-      mesh = meshes_.find(key);
-    }
-    return modes_of_mesh(study, *mesh, use);
-  }
+  if (study.structure) return modes_of_mesh(study, mesh_of(study), use);
   if (!study.matrices)
     throw InputError(study.file.string() +
                      ": expected [geometry] or [matrices] for the modes, found neither");

@@ -8,11 +8,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/body/modal_body.h"
 #include "mesher/mesh/mesh.h"
 #include "pipeline/console/console.h"
+#include "pipeline/evaluation/modes_slopes.h"
 #include "pipeline/evaluation/serial_thread.h"
 #include "pipeline/evaluation/structure_modes.h"
 #include "pipeline/study/study.h"
@@ -38,6 +40,11 @@ class BodyCache {
   /// @throws as make_mesh() and modes_of_mesh() do; a failure is not kept.
   Body body(const Study& study, BodyUse use);
 
+  /// Figures of the modes with their derivatives, on the thread of the solvers; nothing is kept but
+  /// the mesh. @throws as flexneck::pipeline::modes_slopes() does.
+  FigureSlopes slopes(const Study& study, BodyUse use, const std::vector<MovedStudy>& moved,
+                      const std::vector<std::string>& figures);
+
   /// Starts PETSc, which changes variables of the environment: before other threads begin.
   void start();
 
@@ -61,7 +68,8 @@ class BodyCache {
   };
 
   Body known(const std::string& key);
-  /// On the thread of the solvers.
+  /// On the thread of the solvers, both.
+  const mesher::Mesh& mesh_of(const Study& study);
   fe_modal::ModalBody solved(const Study& study, BodyUse use);
 
   const Console& console_;

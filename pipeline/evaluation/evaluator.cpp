@@ -248,4 +248,32 @@ Evaluation Evaluator::evaluate(const std::vector<std::string>& settings,
   return evaluation;
 }
 
+bool Evaluator::has_slopes(const std::vector<std::string>& settings,
+                           const std::vector<std::vector<std::string>>& moved,
+                           const WantedOutputs& wanted) {
+  const auto is_of_modes = [](const OutputName& each) { return each.of == Of::modes; };
+  if (!wanted.curves.empty() || !has_modes_slopes(base_) ||
+      !std::all_of(wanted.figures.begin(), wanted.figures.end(), is_of_modes))
+    return false;
+  const Study at = study(settings);
+  return std::all_of(moved.begin(), moved.end(), [&](const std::vector<std::string>& other) {
+    return differ_in_mesh_only(at, study(other));
+  });
+}
+
+FigureSlopes Evaluator::slopes(
+    const std::vector<std::string>& settings,
+    const std::vector<std::pair<std::vector<std::string>, double>>& moved,
+    const WantedOutputs& wanted) {
+  std::vector<MovedStudy> others;
+  for (const auto& [other, width] : moved) others.push_back({study(other), width});
+  std::vector<std::string> figures;
+  BodyUse use = BodyUse::experiments;
+  for (const OutputName& each : wanted.figures) {
+    figures.push_back(each.figure);
+    if (is_of_attached(each)) use = BodyUse::attached;
+  }
+  return bodies_.slopes(study(settings), use, others, figures);
+}
+
 }  // namespace flexneck::pipeline

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -52,6 +53,21 @@ class Evaluator {
   /// @param settings  "key=value", besides those of the base study
   /// @throws InputError or ComputationError for a study that is refused or cannot be computed.
   Evaluation evaluate(const std::vector<std::string>& settings, const WantedOutputs& wanted);
+
+  /// Whether wanted outputs have derivatives in closed form: figures of the modes alone, by what
+  /// changes nothing but the mesh.
+  /// @param moved  settings in the place of the others
+  /// @throws InputError for a study that is refused.
+  bool has_slopes(const std::vector<std::string>& settings,
+                  const std::vector<std::vector<std::string>>& moved, const WantedOutputs& wanted);
+
+  /// These figures with their derivatives.
+  /// @param moved  by how much the number is moved in other settings
+  /// @pre has_slopes()
+  /// @throws as evaluate() does, and InputError where a mesh of another topology comes out.
+  FigureSlopes slopes(const std::vector<std::string>& settings,
+                      const std::vector<std::pair<std::vector<std::string>, double>>& moved,
+                      const WantedOutputs& wanted);
 
   /// The study with these settings. @throws as read_study() does.
   Study study(const std::vector<std::string>& settings);

@@ -3,18 +3,39 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <span>
 #include <string_view>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/verdict/response_rules.h"
+#include "pipeline/verification/mode_rank.h"
 
 namespace flexneck::pipeline {
 
 namespace {
 
 constexpr std::string_view kFrequencyOf = "frequency.";
+constexpr std::string_view kFrequencyByRank = "frequency_by_rank.";
+
+/// "bending 2"
+struct ModeRank {
+  std::string kind;
+  std::size_t rank = 0;  ///< from 1
+};
+
+ModeRank mode_rank(const std::string& text) {
+  const std::size_t space = text.rfind(' ');
+  const std::string number = space == std::string::npos ? "" : text.substr(space + 1);
+  ModeRank found{text.substr(0, space), 0};
+  std::from_chars(number.data(), number.data() + number.size(), found.rank);
+  if (found.rank < 1 || std::to_string(found.rank) != number)
+    throw InputError("expected a kind of mode and its rank such as \"bending 2\", found \"" + text +
+                     "\"");
+  find_name(mode_kinds(), found.kind, "kind of mode");
+  return found;
+}
 
 /// A row of a list of figures; the list is the one place that says which there are.
 template <class Result>
@@ -130,14 +151,30 @@ std::size_t place_of(const std::vector<JudgedFigure>& figures, const std::string
 
 std::string unit_of_modes_figure(const std::string& name) {
   if (name.starts_with(kFrequencyOf) && name.size() > kFrequencyOf.size()) return "Hz";
-  const std::vector<std::string> names = {"mass", kSystemFrequency, "frequency.<mode>"};
+  if (name.starts_with(kFrequencyByRank)) {
+    mode_rank(name.substr(kFrequencyByRank.size()));
+    return "Hz";
+  }
+  const std::vector<std::string> names = {kMass, kSystemFrequency, "frequency.<mode>",
+                                          "frequency_by_rank.<kind> <rank>"};
   return find_name(names, name, "figure") == 0 ? "kg" : "Hz";
 }
 
+std::size_t mode_of_figure(const fe_modal::ModalBody& body, const std::string& name) {
+  if (!name.starts_with(kFrequencyByRank))
+    return static_cast<std::size_t>(body.mode_index(name.substr(kFrequencyOf.size())));
+  const ModeRank asked = mode_rank(name.substr(kFrequencyByRank.size()));
+  const std::vector<std::size_t> modes = modes_of_kind(body, asked.kind);
+  if (asked.rank > modes.size())
+    throw InputError("expected a mode among those computed, found " + std::to_string(modes.size()) +
+                     " of kind " + asked.kind + "; raise modes.count");
+  return modes[asked.rank - 1];
+}
+
 double modes_figure(const fe_modal::ModalBody& body, const std::string& name) {
-  if (name.starts_with(kFrequencyOf))
-    return body.frequencies_Hz[body.mode_index(name.substr(kFrequencyOf.size()))];
-  if (name == "mass") return body.invariants.mass;
+  if (name == kMass) return body.invariants.mass;
+  if (name != kSystemFrequency)
+    return body.frequencies_Hz[static_cast<Eigen::Index>(mode_of_figure(body, name))];
   if (body.attached.empty())
     throw InputError("expected modes.attached_body, found none: there is no system frequency");
   return body.attached.front().frequencies_Hz[0];

@@ -29,9 +29,15 @@ std::string unit_of_verdict_figure(const std::string& name, const CertificationT
 /// Of the structure with the body attached, by finite elements; of the pendulum, by its modes.
 inline constexpr const char* kSystemFrequency = "system_frequency";
 
-/// "mass", "system_frequency" of the body attached, "frequency.<mode>".
+/// Of the structure.
+inline constexpr const char* kMass = "mass";
+
+/// "mass", "system_frequency" of the body attached, "frequency.<mode>", and by kind and rank
+/// "frequency_by_rank.bending 2", of the second lowest.
 /// @throws InputError for a mode that is not among those computed, or without a body attached.
 double modes_figure(const fe_modal::ModalBody& body, const std::string& name);
+/// The mode whose frequency such a figure is.
+std::size_t mode_of_figure(const fe_modal::ModalBody& body, const std::string& name);
 
 /// What a figure of the pendulum is read off.
 enum class PendulumSource {

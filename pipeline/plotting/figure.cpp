@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/plotting/figure.h"
 
+#include <cctype>
+
 #include <fmt/core.h>
 
 #include "geometry/foundation/printable.h"
@@ -15,6 +17,29 @@ std::string gnuplot_text(const std::string& text) {
   std::string quoted = "'";
   for (const char c : printable(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
   return quoted + "' noenhanced";
+}
+
+std::string gnuplot_tic(const std::string& text) {
+  std::string quoted = gnuplot_text(text);
+  quoted.resize(quoted.rfind('\'') + 1);
+  return quoted;
+}
+
+std::string file_part_of(const std::string& name) {
+  std::string part = name;
+  for (char& letter : part)
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '.' && letter != '_')
+      letter = '-';
+  return part;
+}
+
+std::string picture_head(const std::string& stem, int width, int height) {
+  return fmt::format(
+      "reset\nset datafile separator comma\nset terminal svg size {},{} dynamic rounded font "
+      "'sans-serif,12' background '#ffffff'\nset xtics rotate by -35\nset output '{}.svg'\nset "
+      "border 3 lc rgb '#444444'\n"
+      "set tics nomirror\nset grid lc rgb '#dddddd' lt 1\n",
+      width, height, stem);
 }
 
 std::string script_head(const Figure& figure, int width, int height) {

@@ -24,6 +24,15 @@ std::string stem_of(const Figure& figure);
 /// quotes in it mean nothing, and a line break, which would begin a command, is spelt out.
 std::string gnuplot_text(const std::string& text);
 
+/// The same as the label of a tic, which has no options.
+std::string gnuplot_tic(const std::string& text);
+
+/// A name of a file: what an output or a curve is called, with '-' for what files have not.
+std::string file_part_of(const std::string& name);
+
+/// Beginning of a script for a picture <stem>.svg of a sweep or a fit, with axes and a grid.
+std::string picture_head(const std::string& stem, int width, int height);
+
 /// Beginning of every script: size, fonts and the name of the picture.
 std::string script_head(const Figure& figure, int width, int height);
 

@@ -12,7 +12,7 @@
 #include "pipeline/report/neck_scene.h"
 #include "pipeline/report/page_sections.h"
 #include "pipeline/report/paper_context.h"
-#include "pipeline/report/sweep_pictures_html.h"
+#include "pipeline/report/pictures_html.h"
 #include "pipeline/report/web_library.h"
 
 namespace flexneck::pipeline {
@@ -28,13 +28,14 @@ struct PageSection {
   const char* title;
   const char* content;  ///< name of its text
 };
-constexpr std::array<PageSection, 12> kSections = {
+constexpr std::array<PageSection, 13> kSections = {
     {{"certification", "Certification", "Certification tests", "certification"},
      {"verification", "Verification", "Verification", "verification"},
      {"view", "In motion", "Modes and motion", "scene"},
      {"curves", "Curves", "Curves", "plots"},
      {"results", "Results", "Results of the experiments", "tables"},
      {"sweep", "Parameters varied", "Parameters varied", "sweep"},
+     {"fit", "Fit", "Parameters fitted to targets", "fit"},
      {"figures", "Figures", "The paper's figures", "figures"},
      {"modes", "Modes", "Modes and their certificates", "modes"},
      {"sensitivities", "Sensitivities", "What each input does", "sensitivities"},
@@ -72,6 +73,7 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   texts["figures"] = figures_html(figures);
   texts["sensitivities"] = tornado_html(figures) + texts["sensitivities"];
   texts["sweep"] = sweep_pictures_html(path.parent_path());
+  texts["fit"] = fit_pictures_html(path.parent_path());
   texts["head"] = page_head(texts["study"]);
   texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");

@@ -13,6 +13,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/solver_steps.h"
+#include "pipeline/study/fit_section.h"
 #include "pipeline/study/sections.h"
 #include "pipeline/study/study_reader.h"
 #include "pipeline/study/sweep_section.h"
@@ -126,6 +127,8 @@ std::vector<Key> all_study_keys() {
       Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
       Key::table("sweep", "Many values of some keys, and what becomes of them: 'flexneck sweep'",
                  sweep_keys(), UsedBy::named_experiments),
+      Key::table("fit", "Free values of some keys that bring results to targets: 'flexneck fit'",
+                 fit_keys(), UsedBy::named_experiments),
   };
   keys.insert(keys.end(), experiments.begin(), experiments.end());
   return keys;
@@ -328,7 +331,9 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   read_experiments(root, known, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
-  if (root.has("sweep")) read_sweep(root.table("sweep"));  // for what is wrong with it
+  // For what is wrong with them.
+  if (root.has("sweep")) read_sweep(root.table("sweep"));
+  if (root.has("fit")) read_fit(root.table("fit"), study.tables);
   root.finish();
   check_sections(root, study);
   check_references(study);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/sweep/counter_random.h"
+#include "pipeline/sampling/counter_random.h"
 
 namespace flexneck::pipeline {
 

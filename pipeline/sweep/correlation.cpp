@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "geometry/foundation/error.h"
-#include "pipeline/sweep/distribution.h"
+#include "pipeline/sampling/distribution.h"
 
 namespace flexneck::pipeline {
 

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
-#include "pipeline/sweep/counter_random.h"
-#include "pipeline/sweep/distribution.h"
+#include "pipeline/sampling/counter_random.h"
+#include "pipeline/sampling/distribution.h"
 
 namespace flexneck::pipeline {
 

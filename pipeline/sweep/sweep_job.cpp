@@ -2,7 +2,6 @@
 #include "pipeline/sweep/sweep_job.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <new>
 #include <utility>
@@ -10,8 +9,8 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
-#include "pipeline/sweep/parameter_check.h"
-#include "pipeline/sweep/run_rows.h"
+#include "pipeline/sampling/countdown.h"
+#include "pipeline/sampling/run_rows.h"
 
 namespace flexneck::pipeline {
 
@@ -22,44 +21,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-/// "3 h 12 min", "45 s"
-std::string duration_text(double seconds) {
-  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
-  const double minutes = seconds / 60;
-  if (minutes < 100) return fmt::format("{:.0f} min", minutes);
-  return fmt::format("{:.0f} h {:.0f} min", std::floor(minutes / 60), std::fmod(minutes, 60));
-}
-
-/// Tells every few seconds how far the rows are.
-class Countdown {
- public:
-  Countdown(std::uint64_t due, const Progress& tell) : due_(due), tell_(tell) {}
-
-  void count(const RowResult& result) {
-    ++done_;
-    failed_ += result.has_failed() ? 1U : 0U;
-    const Clock::time_point now = Clock::now();
-    if (now - told_ < kPause || done_ == due_ || !tell_) return;
-    told_ = now;
-    const std::chrono::duration<double> spent = now - start_;
-    const auto left = static_cast<double>(due_ - done_);
-    tell_(fmt::format("{} of {} rows{}, about {} left", done_, due_,
-                      failed_ > 0 ? fmt::format(", {} failed", failed_) : "",
-                      duration_text(spent.count() / static_cast<double>(done_) * left)));
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kPause{3};
-
-  std::uint64_t due_;
-  const Progress& tell_;
-  std::uint64_t done_ = 0;
-  std::uint64_t failed_ = 0;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point told_ = start_;
-};
 
 /// After its last row, so that the writer goes on there.
 std::optional<std::uint64_t> read_to_end(RowReader& reader) {
@@ -83,7 +44,10 @@ SweepJob::SweepJob(Evaluator& evaluator, const SweepRows& sweep, fs::path result
       sweep_(sweep),
       results_(std::move(results)),
       wanted_(evaluator.wanted(sweep.section().outputs, sweep.section().curves)) {
-  check_parameters(evaluator_, sweep_, wanted_);
+  std::vector<TwoSettings> varied;
+  for (std::size_t k = 0; k < sweep_.section().parameters.size(); ++k)
+    varied.push_back(sweep_.two_settings(k));
+  check_varied(evaluator_, varied, wanted_, "sweep", "sweep.outputs and sweep.curves");
   evaluator_.require_produced(wanted_);
   for (const OutputName& each : wanted_.figures)
     figures_.push_back({each.text, unit_of(each, evaluator_.base())});
@@ -166,13 +130,13 @@ bool SweepJob::compute(const SweepShare& share, const Progress& tell) {
   if (tell) tell(fmt::format("{} rows to compute, {} there already", count, rows_done(shard)));
   if (count == 0) return true;
   evaluator_.start();
-  Countdown countdown(count, tell);
+  Countdown countdown(count, "rows", tell);
   RowRun run;
   run.next_due = due;
   run.compute = [&](std::uint64_t row) { return computed(row); };
   run.take = [&](const RowResult& result) {
     writer.append(result);
-    countdown.count(result);
+    countdown.count(result.has_failed());
   };
   run.threads = share.threads;
   run.is_stopped = share.is_stopped;

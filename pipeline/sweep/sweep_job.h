@@ -31,7 +31,7 @@ class SweepJob {
   /// Finds the outputs, and the times of curves by the base study's own.
   /// @param evaluator, sweep  outlive this
   /// @throws InputError as Evaluator::wanted(), Evaluator::require_produced() and
-  /// check_parameters() do.
+  /// check_varied() do.
   SweepJob(Evaluator& evaluator, const SweepRows& sweep, std::filesystem::path results);
 
   /// Computes the rows that are due. @param tell takes a line now and then about what is left

@@ -2,7 +2,6 @@
 #include "pipeline/sweep/sweep_pictures.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 
@@ -101,10 +100,7 @@ class Drawing {
       const Estimate& share = bars[k].share;
       csv += fmt::format("{:.9g},{:.9g},{:.9g},{}\n", share.value, share.interval.low,
                          share.interval.high, k);
-      // gnuplot_text() ends with an option that a tic has no place for.
-      std::string name = gnuplot_text(bars[k].parameter);
-      name.resize(name.rfind('\'') + 1);
-      names += fmt::format("{}{} {}", k > 0 ? ", " : "", name, k);
+      names += fmt::format("{}{} {}", k > 0 ? ", " : "", gnuplot_tic(bars[k].parameter), k);
     }
     begin(stem, csv, 640, 120 + 40 * static_cast<int>(bars.size()));
     script_ += fmt::format(
@@ -200,12 +196,7 @@ class Drawing {
   void begin(const std::string& stem, const std::string& csv, int width, int height) {
     write_text(files_.path() / (stem + ".csv"), csv, Durability::none);
     names_.push_back(stem + ".svg");
-    script_ += fmt::format(
-        "reset\nset datafile separator comma\nset terminal svg size {},{} dynamic rounded font "
-        "'sans-serif,12' background '#ffffff'\nset xtics rotate by -35\nset output '{}.svg'\nset "
-        "border 3 lc rgb '#444444'\n"
-        "set tics nomirror\nset grid lc rgb '#dddddd' lt 1\n",
-        width, height, stem);
+    script_ += picture_head(stem, width, height);
   }
 
   const SweepPictures& of_;
@@ -217,14 +208,6 @@ class Drawing {
 };
 
 }  // namespace
-
-std::string file_part_of(const std::string& name) {
-  std::string part = name;
-  for (char& letter : part)
-    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '.' && letter != '_')
-      letter = '-';
-  return part;
-}
 
 VectorXd rank_correlations(const MatrixXd& inputs, const VectorXd& output) {
   std::vector<Index> known;

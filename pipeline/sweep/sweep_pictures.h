@@ -34,7 +34,4 @@ struct SweepPictures {
 std::vector<std::string> draw_sweep(const SweepPictures& pictures,
                                     const std::filesystem::path& folder);
 
-/// A name of a file: what an output or a curve is called, with '-' for what files have not.
-std::string file_part_of(const std::string& name);
-
 }  // namespace flexneck::pipeline

@@ -1,66 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/sweep/sweep_rows.h"
 
-#include <set>
-#include <string_view>
 #include <utility>
 
 #include "geometry/foundation/error.h"
-#include "geometry/foundation/output_file.h"
-#include "geometry/foundation/units.h"
-#include "pipeline/study/study.h"
-#include "pipeline/sweep/distribution.h"
+#include "pipeline/sampling/distribution.h"
 
 namespace flexneck::pipeline {
 
 namespace {
 
-/// Of "m | kg" each.
-void add_units(std::string_view units, std::set<std::string>& found) {
-  while (!units.empty()) {
-    const std::size_t bar = units.find(" | ");
-    found.emplace(units.substr(0, bar));
-    units = bar == std::string_view::npos ? "" : units.substr(bar + 3);
-  }
-}
-
-void add_all_units(std::span<const Key> keys, std::set<std::string>& found) {
-  for (const Key& key : keys) {
-    add_units(key.unit, found);
-    add_all_units(key.keys, found);
-  }
-}
-
-/// The SI units that a key may have; of a variable, which is put in place of others, any.
-std::set<std::string> si_units_of(const std::string& key) {
-  std::set<std::string> units;
-  const Key* const row = find_dotted_key(study_keys(), key).key;
-  if (row == nullptr || key.starts_with("variables.")) {
-    add_all_units(study_keys(), units);
-  } else {
-    add_units(row->unit, units);
-  }
-  return units;
-}
-
-[[noreturn]] void refuse(const SweepParameter& parameter, const std::string& problem) {
-  throw InputError("sweep.parameter '" + parameter.name + "': " + problem);
-}
-
-std::pair<std::string, double> si_unit_of(const SweepParameter& parameter) {
-  if (parameter.unit.empty()) return {"1", 1};
-  const std::set<std::string> units = si_units_of(parameter.key);
-  std::string names;
-  for (const std::string& unit : units) {
-    try {
-      return {unit, 1 / factor_from_si(unit, parameter.unit)};
-    } catch (const InputError&) {
-      names += (names.empty() ? "" : ", ") + unit;
-    }
-  }
-  refuse(parameter, units.empty()
-                        ? "expected no unit: '" + parameter.key + "' is a pure number"
-                        : "expected a unit such as " + names + ", found '" + parameter.unit + "'");
+VariedKey varied_by(const SweepParameter& parameter) {
+  return {"sweep.parameter '" + parameter.name + "'", parameter.key, parameter.unit};
 }
 
 std::uint64_t grid_size(const SweepSection& section) {
@@ -98,9 +49,9 @@ SweepRows::SweepRows(SweepSection section)
   if (count_ > kMaxRows)
     throw InputError("sweep: expected at most 10^9 rows, found more; take fewer values or samples");
   for (const SweepParameter& each : section_.parameters) {
-    auto [unit, factor] = si_unit_of(each);
-    units_.push_back(std::move(unit));
-    factors_.push_back(factor);
+    SiUnit unit = si_unit_of(varied_by(each));
+    units_.push_back(std::move(unit.name));
+    factors_.push_back(unit.factor);
   }
 }
 
@@ -149,8 +100,7 @@ std::vector<double> SweepRows::values(std::uint64_t row) const {
 std::string SweepRows::setting(const SweepParameter& parameter, double value) {
   if (!parameter.texts.empty())
     return parameter.key + "=" + parameter.texts[static_cast<std::size_t>(value)];
-  if (parameter.unit.empty()) return parameter.key + "=" + exact_text(value);
-  return parameter.key + "=\"" + exact_text(value) + " " + parameter.unit + "\"";
+  return setting_of(varied_by(parameter), value);
 }
 
 std::vector<std::string> SweepRows::settings(std::uint64_t row) const {
@@ -170,10 +120,11 @@ Eigen::VectorXd SweepRows::numbers(std::uint64_t row) const {
   return numbers;
 }
 
-std::pair<std::string, std::string> SweepRows::two_settings(std::size_t which) const {
+TwoSettings SweepRows::two_settings(std::size_t which) const {
   const SweepParameter& parameter = section_.parameters[which];
+  const VariedKey varied = varied_by(parameter);
   if (parameter.is_continuous())
-    return {setting(parameter, value_at(parameter, 0.25)),
+    return {varied, setting(parameter, value_at(parameter, 0.25)),
             setting(parameter, value_at(parameter, 0.75))};
   const auto at = [&](std::size_t level) {
     return parameter.texts.empty() ? parameter.values[level] : static_cast<double>(level);
@@ -182,7 +133,7 @@ std::pair<std::string, std::string> SweepRows::two_settings(std::size_t which) c
   double other = first;
   for (std::size_t level = 1; level < parameter.level_count() && other == first; ++level)
     other = at(level);
-  return {setting(parameter, first), setting(parameter, other)};
+  return {varied, setting(parameter, first), setting(parameter, other)};
 }
 
 }  // namespace flexneck::pipeline

@@ -3,15 +3,15 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "pipeline/sampling/unit_points.h"
+#include "pipeline/sampling/varied_key.h"
 #include "pipeline/study/sweep_section.h"
 #include "pipeline/sweep/correlation.h"
 #include "pipeline/sweep/shapley.h"
-#include "pipeline/sweep/unit_points.h"
 
 namespace flexneck::pipeline {
 
@@ -39,7 +39,7 @@ class SweepRows {
   /// Values in SI units; of a text its position.
   Eigen::VectorXd numbers(std::uint64_t row) const;
   /// Two different settings of one parameter; of one with a single value that one twice.
-  std::pair<std::string, std::string> two_settings(std::size_t parameter) const;
+  TwoSettings two_settings(std::size_t parameter) const;
 
   /// @pre plan shapley
   const ShapleyPoints& shapley() const { return shapley_; }

@@ -9,6 +9,7 @@
 #include "geometry/foundation/units.h"
 #include "multibody/analysis/linearisation.h"
 #include "pipeline/console/text_table.h"
+#include "pipeline/verification/mode_rank.h"
 
 namespace flexneck::pipeline {
 
@@ -20,23 +21,6 @@ bool is_fitted(const Study& study, const std::string& what) {
   if (study.neck() == nullptr) return false;
   const auto& fitted = study.neck()->fitted_to;
   return std::find(fitted.begin(), fitted.end(), what) != fitted.end();
-}
-
-/// Kind of motion that a mode is named after: "bending", "torsion" or "axial".
-std::string kind_of(const fe_modal::ModeRecord& mode) {
-  for (const char* kind : {"bending", "torsion", "axial"}) {
-    if (mode.name.find(kind) != std::string::npos) return kind;
-  }
-  return "other";
-}
-
-/// Modes of a kind in ascending order of frequency, as positions in the body's list.
-std::vector<std::size_t> modes_of_kind(const fe_modal::ModalBody& body, const std::string& kind) {
-  std::vector<std::size_t> found;
-  for (std::size_t k = 0; k < body.modes.size(); ++k) {
-    if (kind_of(body.modes[k]) == kind) found.push_back(k);
-  }
-  return found;
 }
 
 double percent_off(double value, double reference) { return 100 * (value / reference - 1); }

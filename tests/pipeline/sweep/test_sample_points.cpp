@@ -9,10 +9,10 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "pipeline/sampling/counter_random.h"
+#include "pipeline/sampling/distribution.h"
+#include "pipeline/sampling/unit_points.h"
 #include "pipeline/sweep/correlation.h"
-#include "pipeline/sweep/counter_random.h"
-#include "pipeline/sweep/distribution.h"
-#include "pipeline/sweep/unit_points.h"
 
 using Eigen::Index;
 using Eigen::VectorXd;

@@ -6,11 +6,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "pipeline/sweep/distribution.h"
+#include "pipeline/sampling/distribution.h"
+#include "pipeline/sampling/unit_points.h"
 #include "pipeline/sweep/shapley.h"
 #include "pipeline/sweep/sobol_indices.h"
 #include "pipeline/sweep/sweep_pictures.h"
-#include "pipeline/sweep/unit_points.h"
 
 using Eigen::Index;
 using Eigen::MatrixXd;

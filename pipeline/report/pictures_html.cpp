@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/report/sweep_pictures_html.h"
+#include "pipeline/report/pictures_html.h"
 
 #include <algorithm>
 #include <array>
@@ -20,10 +20,15 @@ struct PictureKind {
   const char* prefix;
   const char* what;
 };
-constexpr std::array<PictureKind, 3> kKinds = {
+constexpr std::array<PictureKind, 3> kSweepKinds = {
     {{"sweep-tornado-", "Shares of the variance, or rank correlations, of "},
      {"sweep-scatter-", "Rows of the sweep: "},
      {"sweep-bands-", "Percentiles of all rows: "}}};
+constexpr std::array<PictureKind, 4> kFitKinds = {
+    {{"fit-targets", "Distances of the best fit from its targets"},
+     {"fit-curve-", "Target and fit: "},
+     {"fit-profiles", "Chi-squared over each parameter, the others fitted anew"},
+     {"fit-history", "Points of the prior, and those that meet all targets"}}};
 
 std::string picture(const fs::path& path, const std::string& caption) {
   const std::string svg = text_of_file(path);
@@ -32,16 +37,14 @@ std::string picture(const fs::path& path, const std::string& caption) {
          "</figcaption>\n</figure>\n";
 }
 
-}  // namespace
-
-std::string sweep_pictures_html(const fs::path& folder) {
+std::string pictures_html(const fs::path& folder, std::span<const PictureKind> kinds) {
   std::vector<fs::path> files;
   std::error_code none;
   for (const fs::directory_entry& each : fs::directory_iterator(folder, none))
     if (each.path().extension() == ".svg") files.push_back(each.path());
   std::sort(files.begin(), files.end());
   std::string html;
-  for (const PictureKind& kind : kKinds) {
+  for (const PictureKind& kind : kinds) {
     const std::string prefix = kind.prefix;
     for (const fs::path& file : files)
       if (const std::string stem = file.stem().string(); stem.starts_with(prefix))
@@ -49,5 +52,13 @@ std::string sweep_pictures_html(const fs::path& folder) {
   }
   return html;
 }
+
+}  // namespace
+
+std::string sweep_pictures_html(const fs::path& folder) {
+  return pictures_html(folder, kSweepKinds);
+}
+
+std::string fit_pictures_html(const fs::path& folder) { return pictures_html(folder, kFitKinds); }
 
 }  // namespace flexneck::pipeline

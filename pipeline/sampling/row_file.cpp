@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/sweep/row_file.h"
+#include "pipeline/sampling/row_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -25,9 +25,7 @@ constexpr std::size_t kHashDigits = 16;
 
 fs::path curves_beside(const fs::path& path) { return path.string() + ".curves"; }
 
-std::string heading(const RowFormat& format) {
-  return "flexneck sweep rows 1," + format.definition;
-}
+std::string heading(const RowFormat& format) { return "flexneck rows 1," + format.definition; }
 
 std::string bytes_of(const Eigen::VectorXd& curves) {
   std::string bytes(static_cast<std::size_t>(curves.size()) * sizeof(double), '\0');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/sweep/run_rows.h"
+#include "pipeline/sampling/run_rows.h"
 
 #include <condition_variable>
 #include <deque>

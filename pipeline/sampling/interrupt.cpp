@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/sweep/interrupt.h"
+#include "pipeline/sampling/interrupt.h"
 
 namespace flexneck::pipeline {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/sweep/distribution.h"
+#include "pipeline/sampling/distribution.h"
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/sweep/unit_points.h"
+#include "pipeline/sampling/unit_points.h"
 
 #include <boost/random/sobol.hpp>
 #include <stdexcept>
 
-#include "pipeline/sweep/counter_random.h"
+#include "pipeline/sampling/counter_random.h"
 
 namespace flexneck::pipeline {
 

@@ -8,5 +8,7 @@ namespace flexneck::pipeline {
 
 /// The pictures that `flexneck sweep` has left in a folder, for the page; empty if there are none.
 std::string sweep_pictures_html(const std::filesystem::path& folder);
+/// Those that `flexneck fit` has left.
+std::string fit_pictures_html(const std::filesystem::path& folder);
 
 }  // namespace flexneck::pipeline

@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "pipeline/sweep/row_file.h"
+#include "pipeline/sampling/row_file.h"
 
 namespace flexneck::pipeline {
 

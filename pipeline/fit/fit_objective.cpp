@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fit/fit_objective.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace flexneck::pipeline {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Calls work(0) … work(count - 1) by several threads. @throws what the first of them throws
+void in_parallel(Index count, unsigned threads, const std::function<void(Index)>& work) {
+  std::atomic<Index> next = 0;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto run = [&] {
+    for (Index k = next++; k < count; k = next++) {
+      try {
+        work(k);
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::jthread> others;
+  for (unsigned k = 1; k < threads && static_cast<Index>(k) < count; ++k) others.emplace_back(run);
+  run();
+  others.clear();  // joins them
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Where a parameter is moved to: one step to either side, or one and two to one side.
+std::pair<double, double> steps_of(const FitRange& range, double at, double step) {
+  if (at - step < range.from) return {step, 2 * step};
+  if (at + step > range.to) return {-step, -2 * step};
+  return {-step, step};
+}
+
+}  // namespace
+
+double FitTerm::residual(double observed) const {
+  if (!window) return (observed - value) / deviation;
+  if (observed > window->high) return (observed - window->high) / deviation;
+  if (observed < window->low) return (observed - window->low) / deviation;
+  return 0;
+}
+
+double FitTerm::slope(double observed) const {
+  const bool is_inside = window && observed >= window->low && observed <= window->high;
+  return is_inside ? 0 : 1 / deviation;
+}
+
+bool FitTerm::is_met(double observed, double deviations) const {
+  return window ? observed >= window->low && observed <= window->high
+                : std::abs(observed - value) <= deviations * deviation;
+}
+
+std::function<ModelSlopes(const VectorXd&)> central_differences(
+    std::function<VectorXd(const VectorXd&)> values, std::vector<FitRange> ranges,
+    unsigned threads) {
+  constexpr double kStep = 1e-3;  // of the range
+  return [values = std::move(values), ranges = std::move(ranges), threads](const VectorXd& at) {
+    const Index count = at.size();
+    std::vector<VectorXd> found(static_cast<std::size_t>(2 * count + 1));
+    const auto moved_steps = [&](Index k) {
+      const FitRange& range = ranges[static_cast<std::size_t>(k)];
+      return steps_of(range, at[k], kStep * range.width());
+    };
+    in_parallel(2 * count + 1, threads, [&](Index task) {
+      VectorXd place = at;
+      if (task > 0) {
+        const auto [one, other] = moved_steps((task - 1) / 2);
+        place[(task - 1) / 2] += task % 2 == 1 ? one : other;
+      }
+      found[static_cast<std::size_t>(task)] = values(place);
+    });
+    ModelSlopes slopes{found.front(), MatrixXd(found.front().size(), count)};
+    for (Index k = 0; k < count; ++k) {
+      const auto [one, other] = moved_steps(k);
+      const VectorXd by_one = found[static_cast<std::size_t>(2 * k + 1)] - found.front();
+      const VectorXd by_other = found[static_cast<std::size_t>(2 * k + 2)] - found.front();
+      // The slope of the parabola through the three.
+      slopes.derivatives.col(k) =
+          (by_one * (other / one) - by_other * (one / other)) / (other - one);
+    }
+    return slopes;
+  };
+}
+
+FitObjective::FitObjective(std::vector<FitRange> ranges, std::vector<FitTerm> terms, FitModel model)
+    : ranges_(std::move(ranges)), terms_(std::move(terms)), model_(std::move(model)) {
+  for (std::size_t k = 0; k < terms_.size(); ++k)
+    if (!terms_[k].is_held_out) fitted_.push_back(k);
+  const auto priors = std::count_if(ranges_.begin(), ranges_.end(),
+                                    [](const FitRange& each) { return each.prior.has_value(); });
+  told_count_ = static_cast<Index>(fitted_.size()) + priors;
+  residual_count_ = std::max(told_count_, parameter_count());
+}
+
+VectorXd FitObjective::parameters(const VectorXd& place) const {
+  VectorXd found(place.size());
+  for (Index k = 0; k < place.size(); ++k) {
+    const FitRange& range = ranges_[static_cast<std::size_t>(k)];
+    found[k] = std::clamp(range.from + place[k] * range.width(), range.from, range.to);
+  }
+  return found;
+}
+
+VectorXd FitObjective::place(const VectorXd& parameters) const {
+  VectorXd found(parameters.size());
+  for (Index k = 0; k < parameters.size(); ++k) {
+    const FitRange& range = ranges_[static_cast<std::size_t>(k)];
+    found[k] = (parameters[k] - range.from) / range.width();
+  }
+  return found;
+}
+
+VectorXd FitObjective::residuals(const VectorXd& place, const VectorXd& values) const {
+  VectorXd found = VectorXd::Zero(residual_count_);
+  Index row = 0;
+  for (const std::size_t term : fitted_)
+    found[row++] = terms_[term].residual(values[static_cast<Index>(term)]);
+  const VectorXd at = parameters(place);
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+    if (const auto& prior = ranges_[k].prior)
+      found[row++] = (at[static_cast<Index>(k)] - prior->mean) / prior->deviation;
+  return found;
+}
+
+MatrixXd FitObjective::jacobian(const ModelSlopes& slopes) const {
+  MatrixXd found = MatrixXd::Zero(residual_count_, parameter_count());
+  Index row = 0;
+  for (const std::size_t term : fitted_) {
+    const auto k = static_cast<Index>(term);
+    found.row(row++) = terms_[term].slope(slopes.values[k]) * slopes.derivatives.row(k);
+  }
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+    if (const auto& prior = ranges_[k].prior)
+      found(row++, static_cast<Index>(k)) = 1 / prior->deviation;
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+    found.col(static_cast<Index>(k)) *= ranges_[k].width();
+  return found;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/fit/fitted_study.h"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+#include "geometry/foundation/output_file.h"
+#include "pipeline/console/wrapped_text.h"
+#include "pipeline/fit/fit_tables.h"
+#include "pipeline/fit/uniqueness.h"
+#include "pipeline/folder/results_folder.h"
+
+namespace flexneck::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> parts_of(const std::string& dotted) {
+  std::vector<std::string> parts;
+  std::istringstream stream(dotted);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+/// The element of that name, which is made if there is none.
+toml::table& element_named(toml::array& array, const std::string& name) {
+  for (toml::node& node : array)
+    if ((*node.as_table())["name"].value_or(std::string()) == name) return *node.as_table();
+  array.push_back(toml::table{{"name", name}});
+  return *array.back().as_table();
+}
+
+/// Makes the tables that a dotted key stands in, an element of a list of tables by its name.
+/// @return the innermost, which has the last part of the key
+toml::table& table_for(toml::table& root, const std::vector<std::string>& parts) {
+  toml::table* table = &root;
+  std::span<const Key> keys = study_keys();
+  for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
+    const Key* const row = find_key(keys, parts[k]);
+    keys = row == nullptr ? std::span<const Key>() : row->keys;
+    if (row != nullptr && row->type == KeyType::tables) {
+      if (!table->contains(parts[k])) table->insert(parts[k], toml::array());
+      table = &element_named(*(*table)[parts[k]].as_array(), parts[k + 1]);
+      ++k;
+      continue;
+    }
+    if (!table->contains(parts[k])) table->insert(parts[k], toml::table());
+    table = (*table)[parts[k]].as_table();
+  }
+  return *table;
+}
+
+/// As --set takes it.
+void put_setting(toml::table& root, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const std::vector<std::string> parts = parts_of(setting.substr(0, equals));
+  toml::table& table = table_for(root, parts);
+  const std::string text = setting.substr(equals + 1);
+  try {
+    toml::table parsed = toml::parse("value = " + text);
+    parsed.get("value")->visit(
+        [&](auto& value) { table.insert_or_assign(parts.back(), std::move(value)); });
+  } catch (const toml::parse_error&) {
+    table.insert_or_assign(parts.back(), text);
+  }
+}
+
+void put_fitted(toml::table& root, const FitParameter& parameter, const FittedParameter& fitted) {
+  toml::table labelled;
+  if (parameter.unit.empty()) {
+    labelled.insert("value", fitted.value);
+  } else {
+    labelled.insert("value", exact_text(fitted.value) + " " + parameter.unit);
+  }
+  labelled.insert("origin", "calibrated");
+  const auto end = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.5g}", value) : std::string("open");
+  };
+  labelled.insert("note", "flexneck fit: 95 % confidence from " + end(fitted.low) + " to " +
+                              end(fitted.high) +
+                              (fitted.is_by_profile ? ", profile likelihood" : ""));
+  labelled.is_inline(true);
+  const std::vector<std::string> parts = parts_of(parameter.key);
+  table_for(root, parts).insert_or_assign(parts.back(), std::move(labelled));
+}
+
+std::string comments(const StudyFit& fit, const FitResult& result) {
+  const Study& study = fit.evaluator().base();
+  std::string text = wrapped(verdict_of_fit(fit.objective(), result), "# ");
+  text += wrapped(
+      "A fit, not a measurement: the tables beside it (fit.json) tell what it rests on.", "# ");
+  const Provenance made = provenance_of(study);
+  std::string inputs;
+  for (const InputFile& each : made.inputs)
+    inputs += (inputs.empty() ? "" : ", ") + each.name + " " + each.hash;
+  text +=
+      wrapped("Made by " + made.program + " (" + made.git_hash + ") from " + inputs + ".", "# ");
+  for (const std::string& each : fit.section().choices)
+    text += wrapped("Chosen with the targets in sight: " + each, "# ");
+  return text;
+}
+
+}  // namespace
+
+std::string fitted_study(const StudyFit& fit, const FitResult& result, const fs::path& folder) {
+  const Study& study = fit.evaluator().base();
+  toml::table root;
+  const fs::path base = fs::absolute(study.file).lexically_normal();
+  const fs::path from = fs::absolute(folder).lexically_normal();
+  root.insert("include", toml::array{base.lexically_proximate(from).string()});
+  for (const std::string& setting : study.settings) put_setting(root, setting);
+  const std::vector<FittedParameter> fitted = fitted_parameters(fit.objective(), result);
+  for (std::size_t k = 0; k < fitted.size(); ++k)
+    put_fitted(root, fit.section().parameters[k], fitted[k]);
+  std::ostringstream text;
+  text << comments(fit, result) << root << "\n";
+  return text.str();
+}
+
+}  // namespace flexneck::pipeline

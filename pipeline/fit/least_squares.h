@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "pipeline/fit/fit_objective.h"
+
+namespace flexneck::pipeline {
+
+/// Where a fit ended.
+struct Minimum {
+  Eigen::VectorXd place;   ///< (p) in the unit cube
+  Eigen::VectorXd values;  ///< observables there; empty of a fit that failed
+  double chi_squared = 0;  ///< sum of the squared residuals, priors included
+  int evaluations = 0;     ///< of the model
+  bool has_converged = false;
+  std::string problem;  ///< why a fit has no end; else empty
+
+  bool has_failed() const { return !problem.empty(); }
+};
+
+/// How a fit is made.
+struct FitSearch {
+  int steps = 40;                                 ///< at most
+  std::vector<bool> is_held = {};                 ///< parameters that stay; empty: none
+  const std::atomic<bool>* is_stopped = nullptr;  ///< by the user; null: never
+};
+
+/// Thrown when the user has stopped a fit.
+struct FitStopped : std::runtime_error {
+  FitStopped() : std::runtime_error("stopped") {}
+};
+
+/// Least squares from a place by Levenberg and Marquardt's method (MINPACK's lmder, Moré 1978, as
+/// Eigen has it). Bounds are kept by a change of variables, u = (1 + sin x) / 2 of each parameter
+/// (James and Roos 1975, MINUIT): a minimum at a bound is reached, with u at it to 1e-4 or so. A
+/// start at a bound is moved in by 1 %, since the sine is flat there. A place at which the model
+/// fails counts as infinitely bad, so that the step to it is shortened.
+/// @throws FitStopped
+Minimum least_squares(const FitObjective& objective, const Eigen::VectorXd& start,
+                      const FitSearch& search);
+
+/// How near to a bound a parameter counts as at it, of its range.
+inline constexpr double kAtBound = 1e-3;
+
+/// Whether a parameter of a place is at one of its bounds.
+bool is_at_bound(double place);
+
+}  // namespace flexneck::pipeline

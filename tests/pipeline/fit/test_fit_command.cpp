@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// 'flexneck fit' as users run it, on a study whose runs take milliseconds.
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/foundation/temporary_folder.h"
+#include "tests/support/beam_study.h"
+#include "tests/support/files.h"
+#include "tests/support/flexneck_command.h"
+
+using Catch::Matchers::Contains;
+using namespace flexneck;
+using namespace flexneck::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string fit(const fs::path& study, const fs::path& out, const std::string& more = "") {
+  return "fit " + study.string() + " -o " + out.string() + " " + more;
+}
+
+CommandOutcome require_done(const std::string& arguments) {
+  CommandOutcome outcome = run_flexneck(arguments);
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  return outcome;
+}
+
+nlohmann::json table_in(const fs::path& out, const std::string& name) {
+  const nlohmann::json file = nlohmann::json::parse(bytes_of(out / "fit.json"));
+  for (const nlohmann::json& table : file.at("tables"))
+    if (table.at("name") == name) return table;
+  FAIL("no table " + name);
+  return {};
+}
+
+double cell(const nlohmann::json& table, std::size_t row, std::size_t column) {
+  return std::stod(table.at("rows").at(row).at(column).get<std::string>());
+}
+
+/// The bar's material, which the deck has too, in the study.
+const std::string kRubber =
+    "[geometry.materials.Rubber]\nyoungs_modulus = \"70 MPa\"\npoissons_ratio = 0.3\n"
+    "density = \"3000 kg/m^3\"\nparts = [\"BAR\"]\n";
+const std::string kModulus =
+    "[[fit.parameter]]\nname = \"E\"\nkey = \"geometry.materials.Rubber.youngs_modulus\"\n"
+    "unit = \"MPa\"\nfrom = 30\nto = 150\n";
+const std::string kMass =
+    "[[fit.parameter]]\nname = \"head\"\nkey = \"body.head.mass\"\nunit = \"kg\"\nfrom = 3\n"
+    "to = 6\nstart = 5.5\n";
+
+/// A frequency of the bar as it is, 70 MPa, and the first with the head.
+std::string target(const std::string& output, const std::string& value,
+                   const std::string& more = "relative_deviation = 0.001\n") {
+  return "[[fit.target]]\nname = \"" + output + "\"\noutput = \"" + output + "\"\nvalue = \"" +
+         value + "\"\n" + more;
+}
+
+CommandOutcome outcome_of(const std::string& section) {
+  const TemporaryFolder folder;
+  return run_flexneck(fit(write_beam_study(folder.path(), section), folder / "out"));
+}
+
+/// What a sweep says of the study at other values.
+double figure_of(const fs::path& folder, const std::string& output, const std::string& settings) {
+  const fs::path study = write_beam_study(
+      folder, kRubber + "[sweep]\noutputs = [\"" + output +
+                  "\"]\n[[sweep.parameter]]\nkey = \"output.interval\"\nunit = \"ms\"\n"
+                  "values = [2.5]\n");
+  const fs::path out = folder / "truth";
+  fs::remove_all(out);
+  require_done("sweep " + study.string() + " -o " + out.string() + " " + settings);
+  const std::string csv = bytes_of(out / "sweep.csv");
+  const std::string line = csv.substr(csv.find('\n') + 1);
+  const std::size_t first = line.find(',', line.find(',') + 1) + 1;
+  return std::stod(line.substr(first));
+}
+
+}  // namespace
+
+TEST_CASE("a fit finds a modulus by a frequency, and the fitted study has it") {
+  const TemporaryFolder folder;
+  const auto at = [&](const std::string& modulus) {
+    return figure_of(folder.path(), "pendulum.flexion.system_frequency",
+                     "--set geometry.materials.Rubber.youngs_modulus='" + modulus + "'");
+  };
+  const double wanted = at("95 MPa");
+  const fs::path study = write_beam_study(
+      folder.path(),
+      kRubber + "[fit]\nstarts = 3\n" + kModulus +
+          target("pendulum.flexion.system_frequency", std::to_string(wanted) + " Hz"));
+  const CommandOutcome outcome = require_done(fit(study, folder / "out"));
+  CHECK_THAT(outcome.text, Contains("Unique within the bounds, as far as 3 starts tell"));
+  const nlohmann::json parameters = table_in(folder / "out", "fit parameters");
+  CHECK(cell(parameters, 0, 2) == Approx(95).epsilon(1e-4));
+  // By the frequencies 1 MPa below and above.
+  const double slope = (at("96 MPa") - at("94 MPa")) / 2;
+  const double half = 0.5 * (cell(parameters, 0, 4) - cell(parameters, 0, 3));
+  CHECK(half == Approx(1.96 * 0.001 * wanted / slope).epsilon(0.01));
+  const std::string fitted = bytes_of(folder / "out/fitted.toml");
+  CHECK_THAT(fitted, Contains("calibrated") && Contains("study.toml"));
+  // The fitted study gives the target, and its value has its origin.
+  const CommandOutcome inputs = require_done("study " + (folder / "out/fitted.toml").string() +
+                                             " -o " + (folder / "again").string());
+  CHECK_THAT(inputs.text, Contains("calibrated"));
+}
+
+TEST_CASE("closed-form slopes and differences come to the same fit") {
+  const TemporaryFolder folder;
+  const double wanted = figure_of(folder.path(), "modes.system_frequency", "");
+  // The first is a figure of the modes alone: in closed form; a target of the pendulum beside it,
+  // held out, makes all slopes differences.
+  const std::string of_modes = kRubber + "[fit]\nstarts = 1\n" + kModulus +
+                               target("modes.system_frequency", std::to_string(wanted) + " Hz");
+  const fs::path study = write_beam_study(folder.path(), of_modes);
+  CHECK_THAT(require_done(fit(study, folder / "closed")).text, Contains("in closed form"));
+  const fs::path other = write_beam_study(
+      folder.path(), of_modes + target("pendulum.flexion.head_rotation", "20 deg",
+                                       "standard_deviation = \"1 deg\"\nheld_out = true\n"));
+  CHECK_THAT(require_done(fit(other, folder / "differences")).text, Contains("by differences"));
+  const nlohmann::json one = table_in(folder / "closed", "fit parameters");
+  const nlohmann::json two = table_in(folder / "differences", "fit parameters");
+  for (std::size_t column : {2U, 3U, 4U})
+    CHECK(cell(one, 0, column) == Approx(cell(two, 0, column)).epsilon(1e-4));
+  CHECK(table_in(folder / "differences", "fit targets").at("rows").at(1).at(7) == "held out");
+}
+
+TEST_CASE("what no target fixes makes a fit not unique in its first line") {
+  // Modulus and head's mass both move the one frequency.
+  const CommandOutcome outcome = outcome_of(kRubber + "[fit]\nstarts = 2\n" + kModulus + kMass +
+                                            target("pendulum.flexion.system_frequency", "5 Hz"));
+  INFO(outcome.text);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("Not unique: ") && Contains("no target fixes how"));
+}
+
+TEST_CASE("a fit is the same for any threads, and goes on with what is there") {
+  const TemporaryFolder folder;
+  const fs::path study = write_beam_study(
+      folder.path(),
+      "[fit]\nstarts = 3\nhistory_samples = 40\nchoices = [\"The case was picked.\"]\n" + kMass +
+          "[[fit.parameter]]\nname = \"damping\"\nkey = \"body.neck.damping_ratio\"\nfrom = 0.3\n"
+          "to = 1.5\n" +
+          target("pendulum.flexion.head_rotation", "17 deg", "standard_deviation = \"1 deg\"\n") +
+          "[[fit.target]]\nname = \"time\"\noutput = \"pendulum.flexion.head_rotation_time\"\n"
+          "low = \"20 ms\"\nhigh = \"200 ms\"\n");
+  require_done(fit(study, folder / "one", "--threads 1"));
+  const CommandOutcome two = require_done(fit(study, folder / "two", "--threads 2"));
+  CHECK(bytes_of(folder / "one/fit.json") == bytes_of(folder / "two/fit.json"));
+  CHECK_THAT(two.text, Contains("Share of the prior that meets the targets"));
+  CHECK(table_in(folder / "one", "fit choices").at("rows").at(0).at(0) == "The case was picked.");
+  for (const char* const name : {"fit-targets.svg", "fit-profiles.svg", "fit-history.svg"})
+    CHECK_THAT(bytes_of(folder / "one" / name), Contains("</svg>"));
+  // A row that is gone is computed again, and nothing changes.
+  const std::string whole = bytes_of(folder / "one/fit.json");
+  const fs::path rows = folder / "one/fit-rows/starts.txt";
+  const std::string text = bytes_of(rows);
+  std::ofstream(rows, std::ios::binary) << text.substr(0, text.size() - 30);
+  require_done(fit(study, folder / "one"));
+  CHECK(bytes_of(folder / "one/fit.json") == whole);
+}
+
+TEST_CASE("Ctrl-C keeps the fits that are done") {
+  const TemporaryFolder folder;
+  const fs::path study = write_beam_study(
+      folder.path(),
+      "[fit]\nstarts = 1\nprofiles = false\nhistory_samples = 1000000\n" + kMass +
+          target("pendulum.flexion.head_rotation", "17 deg", "standard_deviation = \"1 deg\"\n"));
+  const CommandOutcome outcome = run_shell("timeout --foreground -s INT 1.5 " + flexneck_program() +
+                                           " " + fit(study, folder / "out"));
+  INFO(outcome.text);
+  CHECK_THAT(outcome.text, Contains("stopped: what is done is kept"));
+  CHECK(bytes_of(folder / "out/fit-rows/history.txt").size() > 100);
+  CHECK_FALSE(fs::exists(folder / "out/fit.json"));
+}
+
+TEST_CASE("a curve is fitted at its points") {
+  const TemporaryFolder folder;
+  const std::string truth = "body.neck.damping_ratio=0.7";
+  const fs::path plain = write_beam_study(folder.path());
+  require_done("run " + plain.string() + " -o " + (folder / "truth").string() + " --set " + truth);
+  const auto section = [&](const std::string& times, const std::string& unit) {
+    return "[fit]\nstarts = 2\n[[fit.parameter]]\nname = \"damping\"\n"
+           "key = \"body.neck.damping_ratio\"\nfrom = 0.3\nto = 1.5\n[[fit.target]]\n"
+           "name = \"rotation\"\ncurve = \"pendulum.flexion.head rotation\"\n"
+           "table = \"truth/pendulum-flexion.csv\"\ncolumn = \"head rotation\"\n"
+           "standard_deviation = \"1 " +
+           unit + "\"\n" + times;
+  };
+  const fs::path study = write_beam_study(folder.path(), section("", "deg"));
+  require_done(fit(study, folder / "out"));
+  const nlohmann::json parameters = table_in(folder / "out", "fit parameters");
+  CHECK(cell(parameters, 0, 2) == Approx(0.7).epsilon(1e-4));
+  CHECK_THAT(bytes_of(folder / "out/fit-curve-rotation.svg"), Contains("</svg>"));
+  const auto refused = [&](const std::string& times, const std::string& unit,
+                           const std::string& why) {
+    check_refused(
+        run_flexneck(fit(write_beam_study(folder.path(), section(times, unit)), folder / "x")),
+        why);
+  };
+  refused("from = \"100 ms\"\nto = \"900 ms\"\n", "deg", "covers");
+  refused("from = \"100 ms\"\nto = \"50 ms\"\n", "deg", "expected a time after from");
+  refused("", "N", "rad");
+  std::ofstream(folder / "truth/pendulum-flexion.csv")
+      << "time [ms],head rotation [deg]\n0,1\n2,2\n1,3\n";
+  refused("", "deg", "increas");
+}
+
+TEST_CASE("what is wrong with a fit is told in one line") {
+  const std::string rotation =
+      target("pendulum.flexion.head_rotation", "17 deg", "standard_deviation = \"1 deg\"\n");
+  check_refused(outcome_of(""), "expected [fit]");
+  check_refused(outcome_of("[fit]\n" + rotation), "fit.parameter: expected at least one");
+  check_refused(outcome_of("[fit]\n" + kMass), "expected at least one that is not held out");
+  check_refused(
+      outcome_of("[fit]\n[[fit.parameter]]\nname = \"g\"\nkey = \"case.far.impact_velocity\"\n"
+                 "unit = \"m/s\"\nfrom = 1\nto = 5\n" +
+                 rotation),
+      "expected a key that an output depends on, found 'case.far.impact_velocity'");
+  check_refused(
+      outcome_of(kRubber + "[fit]\n" + kModulus + target("modes.frequency.torsion 9", "3 Hz")),
+      "torsion 9");
+  check_refused(outcome_of(kRubber + "[fit]\n" + kModulus +
+                           target("modes.frequency_by_rank.bending 9", "3 Hz")),
+                "raise modes.count");
+  check_refused(outcome_of("[fit]\n" + kMass + target("modes.frequency_by_rank.bending", "3 Hz")),
+                "kind of mode and its rank");
+  check_refused(outcome_of("[fit]\n[[fit.parameter]]\nname = \"m\"\nkey = \"body.head.mass\"\n"
+                           "unit = \"kg\"\nfrom = 5\nto = 6\n" +
+                           rotation),
+                "expected bounds that hold the start");
+  check_refused(outcome_of("[fit]\n[[fit.parameter]]\nname = \"m\"\nkey = \"body.head.mass\"\n"
+                           "unit = \"kg\"\nfrom = 5\nto = 6\nstart = 7\n" +
+                           rotation),
+                "the bounds exclude it");
+  check_refused(outcome_of("[fit]\n" + kMass +
+                           "[[fit.target]]\noutput = \"pendulum.flexion.head_rotation\"\n"
+                           "low = \"20 deg\"\nhigh = \"10 deg\"\n"),
+                "the window crosses itself");
+  check_refused(outcome_of("[fit]\n" + kMass + target("pendulum.flexion.head_rotation", "17 Hz")),
+                "rad");
+  check_refused(
+      outcome_of("[fit]\n" + kMass + target("pendulum.flexion.head_rotation", "17 deg", "")),
+      "expected one of standard_deviation and relative_deviation");
+}
+
+TEST_CASE("a disk that fills up ends a fit with one line; then it goes on") {
+  const TemporaryFolder folder;
+  const fs::path study = write_beam_study(
+      folder.path(),
+      "[fit]\nstarts = 1\nhistory_samples = 200\n" + kMass +
+          target("pendulum.flexion.head_rotation", "17 deg", "standard_deviation = \"1 deg\"\n"));
+  require_done(fit(study, folder / "whole"));
+  // A file may have 2 kB: that stands for the disk.
+  const CommandOutcome outcome = run_shell("sh -c 'ulimit -f 4; exec " + flexneck_program() +
+                                           " -q " + fit(study, folder / "full") + "'");
+  check_refused(outcome, "cannot be written", 3);
+  require_done(fit(study, folder / "full"));
+  CHECK(bytes_of(folder / "full/fit.json") == bytes_of(folder / "whole/fit.json"));
+}
