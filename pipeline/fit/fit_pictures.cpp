@@ -51,8 +51,8 @@ class Drawing {
         "set xlabel 'distance from the target in standard deviations'\nset yrange [-0.7:{}]\n"
         "set ytics ({}) noenhanced\nset yzeroaxis lt 1 lc rgb '#444444'\nset style fill solid 0.7\n"
         "set key below\n"
-        "plot 'fit-targets.csv' using (0):2:(0):($3==0?$1:NaN):($2-0.3):($2+0.3) with boxxyerror "
-        "lc rgb '#0072b2' title 'fitted', '' using (0):2:(0):($3==1?$1:NaN):($2-0.3):($2+0.3) with "
+        "plot 'fit-targets.csv' using ($3==0?0:NaN):2:(0):1:($2-0.3):($2+0.3) with boxxyerror "
+        "lc rgb '#0072b2' title 'fitted', '' using ($3==1?0:NaN):2:(0):1:($2-0.3):($2+0.3) with "
         "boxxyerror lc rgb '#d55e00' title 'held out'\n",
         static_cast<double>(count) - 0.3, names);
   }
