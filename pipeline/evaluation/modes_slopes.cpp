@@ -130,6 +130,7 @@ FigureSlopes modes_slopes(const Study& study, const mesher::Mesh& mesh, BodyUse 
   static_cast<void>(rounding_remark(solved, options, body));  // refuses what is wrong
   fields.responses.clear();                                   // whose derivatives nobody asks for
   std::vector<mesher::Mesh> others;
+  others.reserve(moved.size());
   for (const MovedStudy& each : moved) others.push_back(make_mesh(each.study, console));
   const fe_modal::Sensitivities found = fe_modal::sensitivities(
       solved, options, body, fields, design_parameters(solved, others, moved));
