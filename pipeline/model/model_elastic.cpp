@@ -171,7 +171,7 @@ SectionStiffness relaxing_part(const StudyTable& table, const LengthAndStiffness
 }
 
 std::vector<double> relaxation_shares(const StudyTable& table, std::size_t branches) {
-  const std::vector<double> shares =
+  std::vector<double> shares =
       table.has("relaxation_shares") ? table.numbers("relaxation_shares") : std::vector<double>{};
   if (shares.size() != branches)
     table.refuse("relaxation_shares", "expected one for each of relaxation_times, " +
