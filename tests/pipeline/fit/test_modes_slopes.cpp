@@ -16,7 +16,7 @@ namespace {
 
 /// The neck by a coarse mesh, with the rubber's modulus and density on one variable.
 std::filesystem::path write_neck(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "neck.toml";
+  std::filesystem::path path = folder / "neck.toml";
   std::ofstream(path) << "include = [\"" FLEXNECK_SOURCE_DIR
                          "/pipeline/studies/hybrid3_a.toml\"]\n"
                          "[variables]\nstiff = 1\n"
