@@ -7,6 +7,7 @@
 
 #include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
+#include "fe_modal/analysis/slit_basis.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
@@ -109,14 +110,22 @@ std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const DofMap& 
   return loads;
 }
 
-/// The basis asked for and its certificate.
-std::pair<Reduction, std::string> reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map,
-                                                const ModalSystem& system,
-                                                const ShiftInverse& inverse,
-                                                const ModalOptions& options,
-                                                const std::vector<InterfaceLoads>& loads,
-                                                const Progress& progress, const Progress& warn) {
+/// The basis asked for, its certificate, and the ways in which slits part that joined it.
+struct Basis {
+  Reduction reduction;
+  std::string certificate;
+  std::vector<SlitField> slit_fields = {};
+};
+
+Basis reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
+                    const ShiftInverse& inverse, const ModalOptions& options,
+                    const std::vector<InterfaceLoads>& loads, const Progress& progress,
+                    const Progress& warn) {
   const BodyOperators operators = operators_of(system, inverse);
+  if (options.slit_motions != SlitMotions::none) {
+    SlitBasis basis = slit_basis(mesh, dof_map, operators, options, loads, progress);
+    return {std::move(basis.reduction), kNotCertified, std::move(basis.fields)};
+  }
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
       EigenPairs pairs = lowest_eigenpairs(system.stiffness(), mass, inverse, count);
@@ -200,7 +209,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
   }
   const std::vector<InterfaceLoads> loads = loads_of(options, dof_map, averages);
-  auto [basis, certificate] =
+  auto [basis, certificate, slit_fields] =
       reduced_basis(mesh, dof_map, system, *inverse, options, loads, progress, warn);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
@@ -231,6 +240,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     }
     times.start("post-process");
   }
+  body.slits = slit_motions(mesh, slit_fields, body.shapes);
   body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
   body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;

@@ -9,6 +9,11 @@ const std::vector<std::string>& basis_names() {
   return names;
 }
 
+const std::vector<std::string>& slit_motion_names() {
+  static const std::vector<std::string> names = {"cracks", "openings", "openings-and-sliding"};
+  return names;
+}
+
 bool is_correction(std::string_view kind) {
   return kind == kResidualMode || kind == kReliefMode || kind == kConstraintMode;
 }

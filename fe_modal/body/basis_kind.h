@@ -19,6 +19,16 @@ enum class BasisKind {
 /// "normal", "residual", "craig-bampton", "inertia-relief": in the order of the enumeration.
 const std::vector<std::string>& basis_names();
 
+/// What open slits are in a basis of static shapes (Craig-Bampton).
+enum class SlitMotions {
+  none,                 ///< cracks without contact
+  openings,             ///< two coordinates a slit, not below zero; shut sides stick
+  openings_and_sliding  ///< the sides slide without friction, open or shut
+};
+
+/// "cracks", "openings", "openings-and-sliding": in the order of the enumeration.
+const std::vector<std::string>& slit_motion_names();
+
 /// Kinds of vectors in a basis, as they stand in the file.
 inline constexpr std::string_view kNormalMode = "normal";          ///< an eigenvector
 inline constexpr std::string_view kRigidMode = "rigid";            ///< one of frequency zero

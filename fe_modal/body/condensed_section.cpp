@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/body/condensed_section.h"
 
+#include <algorithm>
 #include <numbers>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "fe_modal/body/skew.h"
@@ -12,7 +14,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Matrix12d = Eigen::Matrix<double, 12, 12>;
+using Eigen::MatrixXd;
 
 constexpr double kDependent = 1e-9;
 
@@ -25,40 +27,64 @@ Matrix6d carried(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
 
 /// Mass matrix of the undeformed body in [xdot; w; adot] of the body frame (equations.md,
 /// section 2, at a = 0).
-Matrix12d mass_in_body_frame(const InertiaInvariants& invariants) {
-  Matrix12d mass = Matrix12d::Zero();
+MatrixXd mass_in_body_frame(const InertiaInvariants& invariants) {
+  const Eigen::Index m = invariants.Maa.rows();
+  MatrixXd mass = MatrixXd::Zero(6 + m, 6 + m);
   mass.topLeftCorner<3, 3>() = invariants.mass * Eigen::Matrix3d::Identity();
   mass.block<3, 3>(0, 3) = -skew(invariants.S1);
-  mass.block<3, 6>(0, 6) = invariants.S2;
+  mass.block(0, 6, 3, m) = invariants.S2;
   mass.block<3, 3>(3, 3) = invariants.J0;
-  mass.block<3, 6>(3, 6) = invariants.N0;
-  mass.block<6, 6>(6, 6) = invariants.Maa;
+  mass.block(3, 6, 3, m) = invariants.N0;
+  mass.bottomRightCorner(m, m) = invariants.Maa;
   return mass.selfadjointView<Eigen::Upper>();
 }
 
-/// What six modes are at the top: invertible, whatever the units of its rows.
-Matrix6d modes_at_top(const ModalBody& body, const Interface& top, double length_m) {
-  Matrix6d motion;
-  motion << top.translation, top.rotation;
-  Matrix6d scaled = motion;
-  scaled.bottomRows<3>() *= length_m;
-  for (Eigen::Index k = 0; k < 6; ++k) scaled.col(k) /= scaled.col(k).norm();
-  const Eigen::FullPivLU<Matrix6d> pivots(scaled);
-  if (!(pivots.rcond() > kDependent)) {
-    throw InputError("the modes of a body with '" + body.boundary + "' do not move interface '" +
-                     top.name +
-                     "' in six independent ways; a section needs its static shapes alone");
-  }
-  return motion;
+/// What the modes are at the top and in the slits, openings first.
+MatrixXd motions_of_modes(const ModalBody& body, const Interface& top) {
+  const Eigen::Index m = body.mode_count();
+  MatrixXd motions(m, m);
+  motions.topRows<3>() = top.translation;
+  motions.middleRows<3>(3) = top.rotation;
+  Eigen::Index row = 6;
+  for (const bool opens : {true, false})
+    for (const SlitMotion& slit : body.slits)
+      if (slit.opens == opens) motions.row(row++) = slit.amplitude;
+  return motions;
+}
+
+/// @param length_m  makes lengths of rotations
+void check_independent(const ModalBody& body, const Interface& top, MatrixXd motions,
+                       double length_m) {
+  motions.middleRows<3>(3) *= length_m;
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) motions.col(k).normalize();
+  const Eigen::FullPivLU<MatrixXd> pivots(motions);
+  if (pivots.rcond() > kDependent) return;
+  throw InputError("the modes of a body with '" + body.boundary + "' do not move interface '" +
+                   top.name +
+                   "' in six independent ways, and its slits in theirs; a section needs its "
+                   "static shapes alone");
+}
+
+/// The last coordinates, which no load acts on, as multiples of the others.
+MatrixXd without_load(const MatrixXd& stiffness, Eigen::Index count) {
+  const Eigen::Index kept = stiffness.rows() - count;
+  MatrixXd all = MatrixXd::Identity(stiffness.rows(), kept);
+  if (count > 0)
+    all.bottomRows(count) = -stiffness.bottomRightCorner(count, count)
+                                 .llt()
+                                 .solve(stiffness.bottomLeftCorner(count, kept));
+  return all;
 }
 
 }  // namespace
 
 CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top) {
-  if (body.mode_count() != 6) {
-    throw InputError(
-        "a section between two faces has 6 modes, the static shapes of its top; found " +
-        std::to_string(body.mode_count()));
+  const Eigen::Index m = body.mode_count();
+  const auto slits = static_cast<Eigen::Index>(body.slits.size());
+  if (m != 6 + slits) {
+    throw InputError("a section between two faces has " + std::to_string(6 + slits) +
+                     " modes, the static shapes of its top and of what its slits do; found " +
+                     std::to_string(m));
   }
   const Interface& fixed = body.interface(base);
   const Interface& free = body.interface(top);
@@ -66,20 +92,73 @@ CondensedSection condense(const ModalBody& body, const std::string& base, const 
   section.base_m = fixed.position_m;
   section.top_m = free.position_m;
 
-  // [frame; modes] from [base; top]: the frame rides on the base, and the modes are what the top
-  // does beyond it.
-  const double length = (section.top_m - section.base_m).norm();
-  const Matrix6d from_top = modes_at_top(body, free, length).inverse();
-  Matrix12d to_body = Matrix12d::Zero();
+  // [frame; modes] from [base; top; slits]: the frame rides on the base, and the modes are what the
+  // top and the slits do beyond it.
+  const MatrixXd motions = motions_of_modes(body, free);
+  check_independent(body, free, motions, (section.top_m - section.base_m).norm());
+  const MatrixXd modes_from = motions.inverse();
+  MatrixXd to_body = MatrixXd::Zero(6 + m, 6 + m);
   to_body.topLeftCorner<6, 6>() = carried(section.base_m, Eigen::Vector3d::Zero());
-  to_body.bottomLeftCorner<6, 6>() = -from_top * carried(section.base_m, section.top_m);
-  to_body.bottomRightCorner<6, 6>() = from_top;
+  to_body.bottomLeftCorner(m, 6) =
+      -modes_from.leftCols<6>() * carried(section.base_m, section.top_m);
+  to_body.bottomRightCorner(m, m) = modes_from;
 
-  const Eigen::Matrix<double, 6, 1> omega = 2 * std::numbers::pi * body.frequencies_Hz;
-  const auto modes = to_body.bottomRows<6>();
-  section.stiffness = modes.transpose() * omega.cwiseAbs2().asDiagonal() * modes;
-  section.mass = to_body.transpose() * mass_in_body_frame(body.invariants) * to_body;
+  const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
+  const auto modes = to_body.bottomRows(m);
+  const MatrixXd stiffness = modes.transpose() * omega.cwiseAbs2().asDiagonal() * modes;
+  const auto sliding = std::count_if(body.slits.begin(), body.slits.end(),
+                                     [](const SlitMotion& slit) { return !slit.opens; });
+  const MatrixXd condensed = without_load(stiffness, sliding);
+  section.stiffness = condensed.transpose() * stiffness * condensed;
+  const MatrixXd shut = to_body * condensed.leftCols<12>();
+  section.mass = shut.transpose() * mass_in_body_frame(body.invariants) * shut;
   return section;
+}
+
+namespace {
+
+/// As far as a 6 x 6 mass matrix about a point is that of a rigid body.
+LumpedMass rigid_part(const Matrix6d& mass) {
+  const Eigen::Matrix3d moment = (mass.bottomLeftCorner<3, 3>() - mass.topRightCorner<3, 3>()) / 2;
+  return {mass.topLeftCorner<3, 3>().trace() / 3,
+          Eigen::Vector3d(moment(2, 1) - moment(1, 2), moment(0, 2) - moment(2, 0),
+                          moment(1, 0) - moment(0, 1)) /
+              2,
+          mass.bottomRightCorner<3, 3>()};
+}
+
+/// About a point at -p from its own.
+LumpedMass moved(const LumpedMass& mass, const Eigen::Vector3d& p) {
+  const Eigen::Matrix3d cross = skew(p) * skew(mass.first_moment_kg_m);
+  return {mass.mass_kg, mass.first_moment_kg_m + mass.mass_kg * p,
+          mass.inertia_kg_m2 - cross - cross.transpose() - mass.mass_kg * skew(p) * skew(p)};
+}
+
+}  // namespace
+
+std::array<LumpedMass, 2> lumped_masses(const CondensedSection& section) {
+  const Eigen::Vector3d to_top = section.top_m - section.base_m;
+  const Matrix6d there = carried(section.base_m, section.top_m);
+  const Matrix6d back = carried(section.top_m, section.base_m);
+  const Matrix6d base_and_top = section.mass.topRightCorner<6, 6>() * there;
+  const Matrix6d shared = (base_and_top + base_and_top.transpose()) / 2;
+  const Matrix6d at_base = section.mass.topLeftCorner<6, 6>() + shared;
+  const Matrix6d of_top =
+      there.transpose() * section.mass.bottomRightCorner<6, 6>() * there + shared;
+  LumpedMass base = rigid_part(at_base);
+  LumpedMass top = rigid_part(back.transpose() * of_top * back);
+  // The ends weigh differently along and across, which no rigid body does: what that loses of the
+  // whole's moments, each end has half of.
+  const LumpedMass whole = rigid_part(at_base + of_top);
+  const Eigen::Vector3d moment =
+      whole.first_moment_kg_m - base.first_moment_kg_m - moved(top, to_top).first_moment_kg_m;
+  base.first_moment_kg_m += moment / 2;
+  top.first_moment_kg_m += moment / 2;
+  const Eigen::Matrix3d inertia =
+      whole.inertia_kg_m2 - base.inertia_kg_m2 - moved(top, to_top).inertia_kg_m2;
+  base.inertia_kg_m2 += inertia / 2;
+  top.inertia_kg_m2 += inertia / 2;
+  return {base, top};
 }
 
 }  // namespace flexneck::fe_modal

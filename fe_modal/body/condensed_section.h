@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <string>
 
 #include <Eigen/Core>
@@ -14,17 +15,30 @@ namespace flexneck::fe_modal {
 struct CondensedSection {
   Eigen::Vector3d base_m = Eigen::Vector3d::Zero();  ///< where the base's motion is measured
   Eigen::Vector3d top_m = Eigen::Vector3d::Zero();
-  Eigen::Matrix<double, 12, 12> stiffness = Eigen::Matrix<double, 12, 12>::Zero();
-  Eigen::Matrix<double, 12, 12> mass = Eigen::Matrix<double, 12, 12>::Zero();
+  /// (12 + g, 12 + g): after the motions the openings of slits, m, which are not below zero.
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(12, 12);
+  Eigen::Matrix<double, 12, 12> mass = Eigen::Matrix<double, 12, 12>::Zero();  ///< slits shut
 };
 
 /// Static condensation (Guyan, AIAA J. 3 (1965) 380) of a body whose base is fixed and whose modes
-/// are the static shapes of one interface: the base's rigid motion and the six modes become the
-/// motions of base and top. Small motions about the undeformed shape.
+/// are the static shapes of one interface, and of the ways in which its slits part: the base's
+/// rigid motion and the modes become the motions of base and top and the openings. Ways in which
+/// slits slide follow without load. Small motions about the undeformed shape.
 /// @param base  the interface on the fixed nodes
 /// @param top   the other
-/// @throws InputError unless there are six modes, and unless they move the top in six independent
-/// ways.
+/// @throws InputError unless there are six modes and one for each way in which a slit parts, and
+/// unless they move the top and the slits independently.
 CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top);
+
+/// Mass that moves with one end of a section.
+struct LumpedMass {
+  double mass_kg = 0;
+  Eigen::Vector3d first_moment_kg_m = Eigen::Vector3d::Zero();  ///< about the end's point
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();      ///< about that point
+};
+
+/// The mass at base and top: of what moves with both, each end has half. Together they have the
+/// mass, the centre and the inertia of the whole.
+std::array<LumpedMass, 2> lumped_masses(const CondensedSection& section);
 
 }  // namespace flexneck::fe_modal

@@ -95,6 +95,8 @@ ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& wa
     part.interfaces.push_back({whole.name, whole.position_m, whole.translation(Eigen::all, kept),
                                whole.rotation(Eigen::all, kept), whole.response});
   }
+  for (const SlitMotion& motion : body.slits)
+    part.slits.push_back({motion.name, motion.opens, motion.amplitude(kept)});
   part.invariants = select(body.invariants, kept);
   if (body.geometric_stiffness) part.geometric_stiffness = select(*body.geometric_stiffness, kept);
   return part;

@@ -44,6 +44,15 @@ struct Interface {
   std::optional<StaticResponse> response = std::nullopt;  ///< none where nodes are fixed
 };
 
+/// One way in which the two sides of a slit part. The jump between them, in any motion of the body,
+/// is the sum over its ways of a fixed field times an amplitude; the field is 1 where it is
+/// largest.
+struct SlitMotion {
+  std::string name;
+  bool opens = true;                  ///< so that it is not below zero; else it slides, freely
+  Eigen::RowVectorXd amplitude = {};  ///< of each mode, (m), kg^(-1/2)
+};
+
 /// Geometric stiffness of the modes, int grad(psi_i)^T sigma grad(psi_j), (m, m) each, for the
 /// stresses sigma of static unit loads. Their sum with the loads' present values stands beside the
 /// modes' own stiffness: a tensile stress stiffens. Body axes.
@@ -106,6 +115,7 @@ struct ModalBody {
   InertiaInvariants invariants;
   std::vector<AttachedFrequencies> attached;                             ///< may be empty
   std::optional<GeometricStiffness> geometric_stiffness = std::nullopt;  ///< if asked for
+  std::vector<SlitMotion> slits = {};  ///< of open slits, if their motions join the basis
 
   Eigen::Index mode_count() const { return frequencies_Hz.size(); }
   /// @throws InputError if there is none of that name; the message lists those there are.

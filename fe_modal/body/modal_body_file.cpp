@@ -21,6 +21,10 @@ constexpr std::string_view kComplianceUnit = "m/N, 1/N; 1/N, 1/(N m)";
 constexpr std::string_view kResponseMassUnit = "kg m^2/N^2, kg m/N^2; kg m/N^2, kg/N^2";
 constexpr std::string_view kRigidMassUnit = "kg, kg m; kg m, kg m^2";
 
+/// What becomes of the sides of a slit.
+constexpr std::string_view kOpens = "not below zero";
+constexpr std::string_view kSlides = "free";
+
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 std::size_t extent(Eigen::Index n) { return static_cast<std::size_t>(n); }
@@ -153,6 +157,26 @@ void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   body.solver = solver[0];
 }
 
+void write_slits(Hdf5Writer& file, const ModalBody& body) {
+  for (const SlitMotion& motion : body.slits) {
+    const std::string dataset = "/slits/" + motion.name;
+    write_vector(file, dataset, motion.amplitude.transpose(), kShapeUnit);
+    file.write_attribute(dataset, "contact", std::string_view(motion.opens ? kOpens : kSlides));
+  }
+}
+
+void read_slits(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
+  for (const std::string& name : file.members("/slits")) {
+    const std::string dataset = "/slits/" + name;
+    const std::string contact = file.string_attribute(dataset, "contact");
+    if (contact != kOpens && contact != kSlides)
+      file.refuse(dataset, "attribute 'contact' is '" + contact + "', expected '" +
+                               std::string(kOpens) + "' or '" + std::string(kSlides) + "'");
+    body.slits.push_back(
+        {name, contact == kOpens, read_vector(file, dataset, m, kShapeUnit).transpose()});
+  }
+}
+
 void write_interfaces(Hdf5Writer& file, const ModalBody& body) {
   for (const Interface& interface : body.interfaces) {
     const std::string group = "/interfaces/" + interface.name;
@@ -280,6 +304,7 @@ void write_modal_body(const std::filesystem::path& path, const ModalBodyFile& co
   write_basis_table(file, body);
   write_shapes(file, body);
   write_interfaces(file, body);
+  write_slits(file, body);
   write_invariants(file, body.invariants);
   write_attached(file, body);
   if (body.geometric_stiffness) write_geometric_stiffness(file, *body.geometric_stiffness);
@@ -300,6 +325,7 @@ ModalBodyFile read_modal_body(const std::filesystem::path& path) {
   read_basis(file, m, body);
   read_shapes(file, m, body);
   read_interfaces(file, m, body);
+  read_slits(file, m, body);
   body.invariants = read_invariants(file, m);
   read_attached(file, body);
   body.geometric_stiffness = read_geometric_stiffness(file, m);

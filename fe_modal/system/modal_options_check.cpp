@@ -111,6 +111,17 @@ void check_basis(const ModalOptions& options, Eigen::Index dofs) {
   }
 }
 
+void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
+  if (options.slit_motions == SlitMotions::none) return;
+  if (options.basis != BasisKind::craig_bampton || options.mode_count > 0)
+    throw InputError(
+        "slits that open and close join static shapes alone: take the basis 'craig-bampton' and no "
+        "modes");
+  if (std::all_of(mesh.slits.begin(), mesh.slits.end(),
+                  [](const mesher::Slit& slit) { return slit.tied; }))
+    throw InputError("slits that open and close: the mesh has no open slit");
+}
+
 }  // namespace
 
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
@@ -131,6 +142,7 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
   check_interfaces(mesh, options);
   check_basis(options, dofs);
+  check_slit_motions(mesh, options);
   if (options.geometric_stiffness && !options.is_fixed()) {
     throw InputError(
         "the geometric stiffness under unit loads is that of a fixed body: name a set "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,10 @@ struct SystemMode {
   double damped_frequency_Hz = 0;
   double damping_ratio = 0;
   double growth_rate_1_s = 0;  ///< of an unstable one: its largest Re lambda; of others zero
+
+  /// Of a model that was linearised where a load has a kink, so that its stiffness is the mean of
+  /// both sides: which; else empty.
+  std::string kink = {};
 
   bool is_unstable() const { return growth_rate_1_s > 0; }
 };

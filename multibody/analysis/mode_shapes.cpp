@@ -2,6 +2,7 @@
 // Models linearised about a state: eigenmodes of their coordinates, told as motions of markers.
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "geometry/foundation/error.h"
@@ -12,6 +13,7 @@
 #include "multibody/descriptor/initial_state.h"
 #include "multibody/descriptor/massless_rotation.h"
 #include "multibody/descriptor/reduced_dynamics.h"
+#include "multibody/equations/kink.h"
 #include "multibody/numerics/rotation.h"
 #include "multibody/tree/tree_dynamics.h"
 #include "multibody/tree/tree_start.h"
@@ -48,8 +50,9 @@ std::complex<double> largest_of(const Matrix3Xcd& amplitudes) {
   return amplitudes(row, column);
 }
 
-std::vector<ModeShape> shapes_of(const std::vector<Eigenmode>& modes,
-                                 const MarkerMotions& per_unit) {
+/// @param kink  at which the model was linearised; empty if none
+std::vector<ModeShape> shapes_of(const std::vector<Eigenmode>& modes, const MarkerMotions& per_unit,
+                                 const std::string& kink) {
   std::vector<ModeShape> shapes;
   const Index markers = per_unit.translation.rows() / 3;
   for (const Eigenmode& each : modes) {
@@ -65,6 +68,7 @@ std::vector<ModeShape> shapes_of(const std::vector<Eigenmode>& modes,
         shape.rotation /= unit;
       }
     }
+    shape.mode.kink = kink;
     shapes.push_back(std::move(shape));
   }
   return shapes;
@@ -93,7 +97,7 @@ std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& equations, const Vec
     motions.translation.middleRows<3>(3 * k) = node.P * basis;
     motions.rotation.middleRows<3>(3 * k) = node.W * basis;
   }
-  return shapes_of(modes, motions);
+  return shapes_of(modes, motions, reduced.kink());
 }
 
 /// Trees in motion, by differences of their state's rate.
@@ -108,12 +112,21 @@ class TreeLinearisation {
   std::vector<ModeShape> modes() {
     const Index n = tree_.position_count + tree_.velocity_count + tree_.internal_count;
     MatrixXd A(n, n);
+    std::string kink;
+    const VectorXd there = rate_at(0, 0).head(n);
     for (Index i = 0; i < n; ++i) {
       const double step = kDifference * std::max(1.0, std::abs(state_[i]));
-      A.col(i) = (rate_at(i, step) - rate_at(i, -step)).head(n) / (2 * step);
+      const auto side = [&](double distance) -> RatesAndPieces {
+        VectorXd rates = rate_at(i, distance).head(n);
+        return {std::move(rates), dynamics_.forces().pieces()};
+      };
+      const RatesAndPieces ahead = side(step);
+      const RatesAndPieces behind = side(-step);
+      A.col(i) = (ahead.rates - behind.rates) / (2 * step);
+      if (kink.empty()) kink = kink_between(dynamics_.forces(), ahead, there, behind);
     }
-    return shapes_of(eigenmodes_of(A, tree_.position_count, tree_.internal_count),
-                     marker_motions());
+    return shapes_of(eigenmodes_of(A, tree_.position_count, tree_.internal_count), marker_motions(),
+                     kink);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "multibody/equations/kink.h"
 #include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody {
@@ -215,11 +216,20 @@ MatrixXd ReducedDynamics::state_matrix() {
   MatrixXd A = MatrixXd::Zero(2 * k + internal, 2 * k + internal);
   A.block(0, k, k, k).setIdentity();
   A.block(k, k, k, k) = -damping();
+  kink_.clear();
+  const VectorXd there = rates_at(at_rest);
+  const auto side = [&](const VectorXd& xi) -> RatesAndPieces {
+    VectorXd rates = rates_at(xi);
+    return {std::move(rates), equations_.forces().pieces()};
+  };
   for (Index i = 0; i < k; ++i) {
     VectorXd xi = VectorXd::Unit(k, i);
     const double step = kDifference / extent(xi);
     xi *= step;
-    A.block(k, 0, k + internal, k).col(i) = (rates_at(xi) - rates_at(-xi)) / (2 * step);
+    const RatesAndPieces ahead = side(xi);
+    const RatesAndPieces behind = side(-xi);
+    A.block(k, 0, k + internal, k).col(i) = (ahead.rates - behind.rates) / (2 * step);
+    if (kink_.empty()) kink_ = kink_between(equations_.forces(), ahead, there, behind);
   }
   // Loads are linear in the internal variables.
   for (Index i = 0; i < internal; ++i) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 
 #include "multibody/descriptor/equations_of_motion.h"
@@ -53,6 +55,8 @@ class ReducedDynamics {
   /// A of y' = A y, y = [xi; xi'; z], z the internal variables of force elements about those they
   /// have at rest, (2k + internal); in a frame at rest.
   Eigen::MatrixXd state_matrix();
+  /// What had a kink there when state_matrix() was made, see kink_between(); else empty.
+  const std::string& kink() const { return kink_; }
   /// Velocities that the positions set last have with the frame.
   Eigen::VectorXd carried_velocities() const;
 
@@ -70,6 +74,7 @@ class ReducedDynamics {
   TurningFrame frame_;
   Eigen::MatrixXd N_;
   Eigen::MatrixXd MN_;
+  std::string kink_;
 };
 
 }  // namespace flexneck::multibody

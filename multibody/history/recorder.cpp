@@ -48,6 +48,7 @@ Recorder::Recorder(const Model& model, const OutputOptions& output)
       block_(output.sink ? std::max<Index>(output.block, 1) : times_.count()),
       sink_(output.sink),
       deformation_(model),
+      turns_(model),
       modal_of_body_(model.bodies.size(), 0),
       last_rotations_(model.markers.size(), Eigen::Vector4d::Zero()),
       undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {
@@ -134,6 +135,8 @@ void Recorder::conserve_energy(Index column) {
   if (column == 0) first_energy_J_ = stored_J;
   energy.work_J[k] = stored_J - first_energy_J_;
 }
+
+void Recorder::check_turns(Index column) { turns_.check(times_[column], history_, place(column)); }
 
 void Recorder::residuals(Index column, const Violation& position, const Violation& velocity) {
   const auto keep = [](double& largest, double value) { largest = std::max(largest, value); };

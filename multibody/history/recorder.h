@@ -6,6 +6,7 @@
 #include "multibody/history/deformation_guard.h"
 #include "multibody/history/history.h"
 #include "multibody/history/output_options.h"
+#include "multibody/history/turn_guard.h"
 #include "multibody/model/joint_check.h"
 #include "multibody/model/model.h"
 #include "multibody/model/motion_state.h"
@@ -52,6 +53,8 @@ class Recorder {
   /// Where nothing is lost, behind energy(): the work is what the energies have gained since the
   /// first column.
   void conserve_energy(Eigen::Index column);
+  /// Behind all markers. @throws ComputationError for what has turned too far, see TurnGuard.
+  void check_turns(Eigen::Index column);
   /// Of one joint; the largest of all counts.
   void residuals(Eigen::Index column, const Violation& position, const Violation& velocity);
 
@@ -74,6 +77,7 @@ class Recorder {
   std::function<void(const History&)> sink_;
   History history_;
   DeformationGuard deformation_;
+  TurnGuard turns_;
   std::vector<std::size_t> modal_of_body_;
   std::vector<Eigen::Vector4d> last_rotations_;  ///< of the markers, in the block before
   double first_energy_J_ = 0;

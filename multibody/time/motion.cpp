@@ -133,6 +133,7 @@ class Run {
       integrator_->interpolate(at, output_state_);
       recorder_.begin(next_);
       equations_.record(at, output_state_, recorder_, next_);
+      recorder_.check_turns(next_);
       if (next_ == 0) recorder_.redundant(equations_.redundant_constraints());
       ++next_;
     }

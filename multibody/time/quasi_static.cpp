@@ -20,6 +20,7 @@ History settle_along(const Model& model, Equations& equations, const OutputOptio
       Eigen::VectorXd recorded = state;
       recorder.begin(column);
       equations.record(time_s, recorded, recorder, column);
+      recorder.check_turns(column);
       recorder.conserve_energy(column);
       if (column == 0) recorder.redundant(equations.redundant_constraints());
     }

@@ -27,8 +27,9 @@ PendulumResult result_from_file(const CommandInput& input, const CaseSection& ex
 
 /// The figures of a case's run, and those that take no run.
 PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
-                       const PendulumResults& known, const fe_modal::ModalBody& body) {
-  const Study& study = input.study;
+                       const PendulumResults& known, const NeckModes& modes) {
+  const Study& study = modes.study;
+  const fe_modal::ModalBody& body = modes.body;
   PendulumEntry entry;
   entry.experiment = experiment;
   entry.pulse = case_pulse(study, experiment);
@@ -62,20 +63,20 @@ bool pendulum_command(const CommandInput& input) {
 void write_pendulum_tables(const CommandInput& input, const PendulumResults& known) {
   const NeckModes modes = read_neck_modes(input);
   std::vector<PendulumEntry> entries;
-  for (const CaseSection* const experiment : pendulum_cases(input.study))
-    entries.push_back(entry_of(input, *experiment, known, modes.body));
-  const std::vector<ResultTable> variants = variant_tables(input.study, entries);
-  std::vector<ResultTable> tables = {peak_table(input.study, entries), oscillation_table(entries),
+  for (const CaseSection* const experiment : pendulum_cases(modes.study))
+    entries.push_back(entry_of(input, *experiment, known, modes));
+  const std::vector<ResultTable> variants = variant_tables(modes.study, entries);
+  std::vector<ResultTable> tables = {peak_table(modes.study, entries), oscillation_table(entries),
                                      velocity_table(entries),
-                                     spectrum_table(input.study, entries, modes.body)};
+                                     spectrum_table(modes.study, entries, modes.body)};
   tables.insert(tables.end(), variants.begin(), variants.end());
   std::vector<ResultTable> measured;
-  if (ResultTable necks = rigid_neck_table(input.study, modes.body); !necks.rows.empty()) {
+  if (ResultTable necks = rigid_neck_table(modes.study, modes.body); !necks.rows.empty()) {
     tables.push_back(std::move(necks));
     measured.push_back(processor_table(entries));
   }
   Provenance provenance = experiment_provenance(input.study, CaseSection::Kind::pendulum);
-  provenance.inputs.push_back(modes.file);
+  provenance.inputs.insert(provenance.inputs.end(), modes.files.begin(), modes.files.end());
   write_tables(input.folder.file("pendulum.json"), tables, provenance);
   // Apart from the others, which are the same bytes in every run.
   write_tables(input.folder.file("timing.json"), measured, provenance);

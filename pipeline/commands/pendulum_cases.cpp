@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "pipeline/commands/substructures.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/output/csv_output.h"
 #include "pipeline/output/customary_units.h"
@@ -25,16 +26,21 @@ NeckModes read_neck_modes(const CommandInput& input) {
   fe_modal::ModalBodyFile modes = read_modal_body(path);
   require_same_inputs(path, modes.provenance, input.study, modes_provenance(input.study).parameters,
                       "flexneck modes");
-  return {std::move(modes.body), {path.filename().string(), hash_of_file(path.string())}};
+  std::vector<InputFile> files = {{path.filename().string(), hash_of_file(path.string())}};
+  Study study = with_pieces(input, files);
+  return {std::move(modes.body), std::move(files), std::move(study)};
 }
 
 PendulumCases::PendulumCases(const CommandInput& input, std::vector<const CaseSection*> cases)
-    : input_(input), cases_(std::move(cases)), modes_(read_neck_modes(input)) {}
+    : input_(input), modes_(read_neck_modes(input)), cases_(std::move(cases)) {
+  for (const CaseSection*& each : cases_)
+    each = &modes_.study.cases[static_cast<std::size_t>(each - input.study.cases.data())];
+}
 
 void PendulumCases::compute_ahead() {
   const std::size_t ahead = std::max(1U, std::thread::hardware_concurrency());
   while (running_.size() < ahead && written_ + running_.size() < cases_.size())
-    running_.push_back(std::async(std::launch::async, run_pendulum, std::cref(input_.study),
+    running_.push_back(std::async(std::launch::async, run_pendulum, std::cref(modes_.study),
                                   std::cref(*cases_[written_ + running_.size()]),
                                   std::cref(modes_.body)));
 }
@@ -56,7 +62,8 @@ void PendulumCases::write(const CaseSection& experiment, PendulumRun&& run) {
   file.history = std::move(run.history);
   file.channels = std::move(run.channels);
   file.provenance = case_provenance(input_.study, experiment);
-  file.provenance.inputs.push_back(modes_.file);
+  file.provenance.inputs.insert(file.provenance.inputs.end(), modes_.files.begin(),
+                                modes_.files.end());
   multibody::write_history(folder.history(experiment), file, [&] {
     write_csv(folder.curves(experiment), file.history.time_s, in_customary_units(file.channels));
   });

@@ -19,7 +19,8 @@ std::vector<const CaseSection*> pendulum_cases(const Study& study);
 
 struct NeckModes {
   fe_modal::ModalBody body;
-  InputFile file;
+  std::vector<InputFile> files;
+  Study study;  ///< with its pieces in the cases that have them as sections
 };
 
 /// @throws InputError if they are missing or were made with other values than the study has now.
@@ -49,8 +50,8 @@ class PendulumCases {
   void write(const CaseSection& experiment, PendulumRun&& run);
 
   const CommandInput& input_;
-  std::vector<const CaseSection*> cases_;
   NeckModes modes_;
+  std::vector<const CaseSection*> cases_;  ///< of modes_.study
   std::size_t written_ = 0;
   PendulumResults results_;
   std::deque<std::future<PendulumRun>> running_;  ///< last: they end before what they read

@@ -5,6 +5,8 @@
 #include "multibody/history/incomplete_run.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/shown_tables.h"
+#include "pipeline/commands/substructures.h"
+#include "pipeline/evaluation/pieces_of_cases.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/static_chain.h"
 #include "pipeline/experiments/static_tables.h"
@@ -24,14 +26,9 @@ namespace fs = std::filesystem;
 std::vector<ChainLink> read_links(const CommandInput& input, Provenance& provenance) {
   std::vector<ChainLink> links;
   if (input.study.has_static_moduli()) return links;
-  for (const PieceSection& piece : input.study.substructures.pieces) {
-    const fs::path path = input.folder.substructure(piece.name);
-    const fe_modal::ModalBodyFile file = read_modal_body(path);
-    require_same_inputs(path, file.provenance, input.study,
-                        modes_provenance(input.study).parameters, "flexneck modes");
-    provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
-    links.push_back({piece.name, file.body});
-  }
+  Pieces pieces = read_pieces(input, provenance.inputs);
+  for (const PieceSection& piece : input.study.substructures.pieces)
+    links.push_back({piece.name, std::move(pieces.at(piece.name))});
   return links;
 }
 
@@ -100,9 +97,14 @@ bool static_command(const CommandInput& input) {
                       "flexneck modes");
   Provenance provenance = experiment_provenance(input.study, CaseSection::Kind::static_test);
   provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
+  if (has_own_moduli && has_cases_of_pieces(input.study, CaseSection::Kind::static_test))
+    throw InputError(input.study.file.string() +
+                     ": a static case has pieces as sections, which are not made with the "
+                     "static_modulus_ratio of [geometry.materials]; give one of them only");
   const std::vector<ChainLink> links = read_links(input, provenance);
+  const Study study = with_pieces(input, provenance.inputs);
   std::vector<StaticEntry> entries;
-  for (const CaseSection& experiment : input.study.cases)
+  for (const CaseSection& experiment : study.cases)
     if (experiment.kind == CaseSection::Kind::static_test)
       entries.push_back(run_case(input, experiment, modes.body, links, provenance));
   std::vector<ResultTable> tables = {static_table(entries, has_own_moduli), ramp_table(entries)};

@@ -1,144 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/substructures.h"
 
-#include <algorithm>
-#include <optional>
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/modal_body_file.h"
-#include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "mesher/mesh/positions.h"
 #include "pipeline/console/text_table.h"
+#include "pipeline/evaluation/pieces_of_cases.h"
+#include "pipeline/evaluation/substructures.h"
+#include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {
-namespace {
-
-mesher::PieceOfElement piece_of_element(const SubstructuresSection& section,
-                                        const mesher::Mesh& mesh) {
-  if (section.by_planes) {
-    std::vector<double> offsets_m;
-    for (const PieceSection& piece : section.pieces) {
-      if (piece.up_to_m) offsets_m.push_back(*piece.up_to_m);
-    }
-    return mesher::pieces_by_planes(mesh, section.normal, offsets_m);
-  }
-  std::vector<std::vector<std::string>> parts;
-  for (const PieceSection& piece : section.pieces) parts.push_back(piece.parts);
-  return mesher::pieces_by_parts(mesh, parts);
-}
-
-const mesher::FaceSet* face_set(const mesher::Mesh& mesh, const std::string& name) {
-  const auto found = std::find_if(mesh.face_sets.begin(), mesh.face_sets.end(),
-                                  [&](const mesher::FaceSet& set) { return set.name == name; });
-  return found == mesh.face_sets.end() ? nullptr : &*found;
-}
-
-Eigen::Vector3d middle_of(const mesher::Mesh& mesh, const mesher::FaceSet& faces) {
-  return mesher::positions_of(mesh, mesher::nodes_of(faces).nodes).rowwise().mean();
-}
-
-/// The whole's interfaces on the piece.
-std::vector<fe_modal::InterfaceDefinition> interfaces_on(const mesher::Mesh& piece,
-                                                         const mesher::Mesh& whole,
-                                                         const fe_modal::ModalOptions& options) {
-  std::vector<fe_modal::InterfaceDefinition> result;
-  for (const fe_modal::InterfaceDefinition& interface : options.interfaces) {
-    const mesher::FaceSet* const own = face_set(piece, interface.set);
-    if (own == nullptr) continue;
-    if (mesher::nodes_of(*own).nodes.size() !=
-        mesher::nodes_of(whole.face_set(interface.set)).nodes.size()) {
-      throw InputError("interface '" + interface.name +
-                       "' lies on several substructures; cut beside it");
-    }
-    result.push_back(interface);
-  }
-  return result;
-}
-
-/// Holds a piece at its cut with the first of the earlier pieces that it touches.
-void hold_at_earlier(const std::vector<std::string>& names, std::size_t piece,
-                     const mesher::Mesh& mesh, fe_modal::ModalOptions& options) {
-  for (std::size_t earlier = 0; earlier < piece; ++earlier) {
-    const std::string cut = mesher::cut_name(names[earlier]);
-    const mesher::FaceSet* const faces = face_set(mesh, cut);
-    if (faces == nullptr) continue;
-    options.fixed_set = options.fixed_interface = cut;
-    options.fixed_position_m = middle_of(mesh, *faces);
-    return;
-  }
-  throw InputError("substructure '" + names[piece] +
-                   "' meets none of those before it; list them from the fixed end on");
-}
-
-fe_modal::ModalOptions options_of(const SubstructuresSection& section,
-                                  const std::vector<std::string>& names, std::size_t piece,
-                                  const mesher::Mesh& mesh, const mesher::Mesh& whole,
-                                  const fe_modal::ModalOptions& whole_options) {
-  fe_modal::ModalOptions options = whole_options;
-  options.basis = fe_modal::BasisKind::craig_bampton;
-  options.basis_interfaces.clear();
-  options.mode_count = section.modes;
-  options.certify = false;
-  options.rigid_parts.clear();
-  options.interfaces.clear();
-  options.sign_interface.clear();
-  options.attachments.clear();
-  options.node_order.clear();
-  options.element_ranks.clear();
-  if (piece > 0) hold_at_earlier(names, piece, mesh, options);
-  for (const std::string& name : names) {
-    const std::string cut = mesher::cut_name(name);
-    const mesher::FaceSet* const faces = face_set(mesh, cut);
-    if (faces == nullptr || cut == options.fixed_set) continue;
-    options.interfaces.push_back({cut, cut, middle_of(mesh, *faces)});
-  }
-  for (auto& interface : interfaces_on(mesh, whole, whole_options)) {
-    options.interfaces.push_back(std::move(interface));
-  }
-  if (!options.interfaces.empty()) options.sign_interface = options.interfaces.front().name;
-  return options;
-}
-
-}  // namespace
-
-std::vector<Substructure> substructures(const SubstructuresSection& section,
-                                        const mesher::Mesh& mesh,
-                                        const fe_modal::ModalOptions& whole) {
-  const std::vector<std::string> names = names_of(section.pieces);
-  std::vector<mesher::MeshPiece> pieces =
-      mesher::cut_apart(mesh, piece_of_element(section, mesh), names);
-  std::vector<Substructure> result;
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    fe_modal::ModalOptions options = options_of(section, names, p, pieces[p].mesh, mesh, whole);
-    result.push_back({names[p], std::move(pieces[p].mesh), std::move(options)});
-  }
-  return result;
-}
-
-namespace {
-
-/// With the study in what is wrong.
-std::vector<Substructure> pieces_of(const Study& study, const mesher::Mesh& mesh,
-                                    const fe_modal::ModalOptions& whole) {
-  try {
-    return substructures(study.substructures, mesh, whole);
-  } catch (const InputError& error) {
-    throw InputError(study.file.string() + ": substructures: " + error.what());
-  }
-}
-
-}  // namespace
 
 void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
                          const fe_modal::ModalOptions& whole, const Provenance& provenance) {
   if (input.study.substructures.pieces.empty()) return;
   std::vector<std::vector<std::string>> rows = {
       {"substructure", "fixed", "interfaces", "modes", "kg", "Hz", "file"}};
-  for (const Substructure& piece : pieces_of(input.study, mesh, whole)) {
+  for (const Substructure& piece : substructures_of(input.study, mesh, whole)) {
     input.console.step("Reducing substructure " + piece.name);
     const std::filesystem::path path = input.folder.substructure(piece.name);
     fe_modal::ModalBodyFile file;
@@ -155,6 +35,24 @@ void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
                     path.filename().string()});
   }
   input.console.result("\n" + text_table(rows, {0, 1, 2, 6}));
+}
+
+Pieces read_pieces(const CommandInput& input, std::vector<InputFile>& files) {
+  Pieces pieces;
+  for (const PieceSection& piece : input.study.substructures.pieces) {
+    const std::filesystem::path path = input.folder.substructure(piece.name);
+    fe_modal::ModalBodyFile file = read_modal_body(path);
+    require_same_inputs(path, file.provenance, input.study,
+                        modes_provenance(input.study).parameters, "flexneck modes");
+    files.push_back({path.filename().string(), hash_of_file(path.string())});
+    pieces.emplace(piece.name, std::move(file.body));
+  }
+  return pieces;
+}
+
+Study with_pieces(const CommandInput& input, std::vector<InputFile>& files) {
+  if (!has_cases_of_pieces(input.study)) return input.study;
+  return with_pieces(input.study, read_pieces(input, files));
 }
 
 }  // namespace flexneck::pipeline

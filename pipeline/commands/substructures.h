@@ -1,38 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "fe_modal/system/modal_options.h"
-#include "mesher/mesh/pieces.h"
+#include "mesher/mesh/mesh.h"
 #include "pipeline/commands/commands.h"
-#include "pipeline/study/substructure_section.h"
+#include "pipeline/model/piece_sections.h"
 
 namespace flexneck::pipeline {
-
-/// A piece of the structure that becomes a body of its own.
-struct Substructure {
-  std::string name;
-  mesher::Mesh mesh;
-  fe_modal::ModalOptions options;
-};
-
-/// Cuts the structure and says how each piece is analysed: the first is fixed as the whole is, each
-/// other where it meets the earliest of those before it. All other cuts, and the whole's interfaces
-/// on the piece, are interfaces whose static shapes are kept. The interface on a cut has the cut's
-/// name (mesher::cut_name) and lies in the middle of its nodes, so that two pieces meet at a point.
-/// @param whole how the whole is analysed
-/// @throws InputError for pieces that cannot be cut, that hang together with no earlier one, or
-/// that divide an interface of the whole.
-std::vector<Substructure> substructures(const SubstructuresSection& section,
-                                        const mesher::Mesh& mesh,
-                                        const fe_modal::ModalOptions& whole);
 
 /// Analyses the study's substructures, if it has any, writes a file of modes for each into the
 /// results' folder and prints what they are.
 /// @param provenance of the whole
 void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
                          const fe_modal::ModalOptions& whole, const Provenance& provenance);
+
+/// The modes of the study's pieces from their files, which are appended to `files`.
+/// @throws InputError if one is missing or was made with other values than the study has now.
+Pieces read_pieces(const CommandInput& input, std::vector<InputFile>& files);
+
+/// The study with the stiffness of its pieces in those cases that have them as sections; unchanged
+/// if none has. @throws as read_pieces() and attach_pieces() do.
+Study with_pieces(const CommandInput& input, std::vector<InputFile>& files);
 
 }  // namespace flexneck::pipeline

@@ -2,6 +2,7 @@
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/shown_tables.h"
+#include "pipeline/commands/substructures.h"
 #include "pipeline/commands/verdicts.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/verification/verification.h"
@@ -11,21 +12,21 @@ namespace flexneck::pipeline {
 namespace {
 
 /// Linearised motions are computed here; a run is read if it is there.
-PendulumEvidence evidence_of(const CommandInput& input, const CaseSection& experiment,
-                             const fe_modal::ModalBody& body) {
+PendulumEvidence evidence_of(const CommandInput& input, const Study& study,
+                             const CaseSection& experiment, const fe_modal::ModalBody& body) {
   PendulumEvidence evidence;
   evidence.case_name = experiment.name;
   const bool lateral = experiment.direction == CaseSection::Direction::lateral;
   evidence.plane = lateral ? "lateral" : "fore-aft";
-  evidence.with_gravity = first_system_mode(input.study, experiment, body, true);
-  evidence.without_gravity = first_system_mode(input.study, experiment, body, false);
+  evidence.with_gravity = first_system_mode(study, experiment, body, true);
+  evidence.without_gravity = first_system_mode(study, experiment, body, false);
   const std::filesystem::path path = input.folder.history(experiment);
   if (!std::filesystem::exists(path)) return evidence;
   const multibody::HistoryFile file = read_history(path);
-  require_same_inputs(path, file.provenance, input.study,
-                      case_provenance(input.study, experiment).parameters, "flexneck pendulum");
+  require_same_inputs(path, file.provenance, study, case_provenance(study, experiment).parameters,
+                      "flexneck pendulum");
   require_whole_run(path, file.history);
-  evidence.run = pendulum_result(input.study, experiment, file.history.time_s, file.channels);
+  evidence.run = pendulum_result(study, experiment, file.history.time_s, file.channels);
   return evidence;
 }
 
@@ -35,14 +36,15 @@ bool compare_with_published(const CommandInput& input) {
   const fe_modal::ModalBodyFile modes = read_modal_body(input.folder.modes());
   require_same_inputs(input.folder.modes(), modes.provenance, input.study,
                       modes_provenance(input.study).parameters, "flexneck modes");
+  Provenance provenance = provenance_of(input.study);
+  const Study study = with_pieces(input, provenance.inputs);
   std::vector<PendulumEvidence> pendulum;
-  for (const CaseSection& experiment : input.study.cases) {
+  for (const CaseSection& experiment : study.cases) {
     if (experiment.kind != CaseSection::Kind::pendulum || !experiment.variant_of.empty()) continue;
-    pendulum.push_back(evidence_of(input, experiment, modes.body));
+    pendulum.push_back(evidence_of(input, study, experiment, modes.body));
   }
   const VerificationTable table = verify(input.study, modes.body, pendulum, reference);
 
-  Provenance provenance = provenance_of(input.study);
   for (const std::filesystem::path& path : {input.study.verification, input.folder.modes()}) {
     provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
   }

@@ -70,6 +70,21 @@ BodyCache::Body BodyCache::body(const Study& study, BodyUse use) {
   return found;
 }
 
+BodyCache::StructurePieces BodyCache::pieces(const Study& study) {
+  const std::string key = text_of(modes_values(study, false));
+  StructurePieces found;
+  start();
+  solvers_.run([&] {
+    if (const StructurePieces* const known = pieces_.find(key)) {
+      found = *known;
+      return;
+    }
+    found = std::make_shared<const Pieces>(modes_of_pieces(study, mesh_of(study)));
+    pieces_.keep(key, found);
+  });
+  return found;
+}
+
 std::size_t BodyCache::solved_count() const {
   const std::scoped_lock lock(mutex_);
   return solved_;

@@ -17,6 +17,7 @@
 #include "pipeline/evaluation/modes_slopes.h"
 #include "pipeline/evaluation/serial_thread.h"
 #include "pipeline/evaluation/structure_modes.h"
+#include "pipeline/model/piece_sections.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
@@ -39,6 +40,11 @@ class BodyCache {
 
   /// @throws as make_mesh() and modes_of_mesh() do; a failure is not kept.
   Body body(const Study& study, BodyUse use);
+
+  /// Modes of the study's substructures, without shapes.
+  using StructurePieces = std::shared_ptr<const Pieces>;
+  /// @throws as substructures_of() and fe_modal::analyse_modes() do.
+  StructurePieces pieces(const Study& study);
 
   /// Figures of the modes with their derivatives, on the thread of the solvers; nothing is kept but
   /// the mesh. @throws as flexneck::pipeline::modes_slopes() does.
@@ -76,6 +82,7 @@ class BodyCache {
   mutable std::mutex mutex_;  ///< of the bodies
   Last<Body> bodies_{kBodies};
   std::size_t solved_ = 0;
+  Last<StructurePieces> pieces_{kBodies};          ///< of the thread of the solvers
   Last<mesher::Mesh> meshes_{kMeshes};             ///< of the thread of the solvers
   std::optional<fe_modal::PetscSession> session_;  ///< likewise
   SerialThread solvers_;                           ///< last: it uses the others

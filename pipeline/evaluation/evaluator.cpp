@@ -9,6 +9,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/evaluation/figures.h"
+#include "pipeline/evaluation/pieces_of_cases.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum_signals.h"
 #include "pipeline/experiments/test_curves.h"
@@ -233,7 +234,8 @@ Study Evaluator::study(const std::vector<std::string>& settings) {
 
 Evaluation Evaluator::evaluate(const std::vector<std::string>& settings,
                                const WantedOutputs& wanted) {
-  const Study found = study(settings);
+  Study found = study(settings);
+  if (has_cases_of_pieces(found)) found = with_pieces(std::move(found), *bodies_.pieces(found));
   Experiments experiments(found, bodies_, wanted);
   Evaluation evaluation;
   evaluation.figures.resize(static_cast<Eigen::Index>(wanted.figures.size()));

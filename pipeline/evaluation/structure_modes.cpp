@@ -11,6 +11,7 @@
 #include "fe_modal/exchange/exported_matrices.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/evaluation/modes_options.h"
+#include "pipeline/evaluation/substructures.h"
 
 namespace flexneck::pipeline {
 
@@ -50,6 +51,16 @@ fe_modal::ModalBody modes_of_mesh(const Study& study, mesher::Mesh mesh, BodyUse
   fe_modal::ModalBody body = fe_modal::analyse_modes(mesh, options, {});
   static_cast<void>(rounding_remark(mesh, options, body));  // refuses what is wrong
   return body;
+}
+
+Pieces modes_of_pieces(const Study& study, mesher::Mesh mesh) {
+  fe_modal::ModalOptions options = modes_options(study, mesh);
+  options.solver = study.modes.solver;
+  Pieces pieces;
+  for (const Substructure& piece : substructures_of(study, mesh, options))
+    pieces.emplace(piece.name,
+                   without_shapes(fe_modal::analyse_modes(piece.mesh, piece.options, {})));
+  return pieces;
 }
 
 fe_modal::ModalBody solved_matrices(const Study& study) {

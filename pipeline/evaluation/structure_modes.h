@@ -6,6 +6,7 @@
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/system/modal_options.h"
 #include "mesher/mesh/mesh.h"
+#include "pipeline/model/piece_sections.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
@@ -31,6 +32,11 @@ std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptio
 /// @pre a fe_modal::PetscSession
 /// @throws as fe_modal::analyse_modes(), modes_options() and rounding_remark() do.
 fe_modal::ModalBody modes_of_mesh(const Study& study, mesher::Mesh mesh, BodyUse use);
+
+/// The modes of the study's substructures, without shapes.
+/// @pre a fe_modal::PetscSession
+/// @throws as substructures_of() and fe_modal::analyse_modes() do.
+Pieces modes_of_pieces(const Study& study, mesher::Mesh mesh);
 
 /// The modes of the study's [matrices].
 /// @pre study.matrices, a fe_modal::PetscSession

@@ -2,6 +2,7 @@
 #include "pipeline/experiments/case_model.h"
 
 #include <optional>
+#include <stdexcept>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/experiments/rigid_neck.h"
@@ -41,6 +42,8 @@ Model case_model(const CaseSection& experiment, const fe_modal::ModalBody& struc
   try {
     Assembly assembly = experiment.model;
     attach(structure, assembly);
+    if (!assembly.of_pieces.empty())
+      throw std::logic_error("case." + experiment.name + ": its sections have no stiffness yet");
     if (experiment.equivalent_rigid_neck) replace_neck(experiment.direction, assembly.model);
     check_connections(assembly);
     place_bodies(assembly.model, assembly.starts, assembly.posed);

@@ -55,6 +55,26 @@ ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& ent
   return table;
 }
 
+namespace {
+
+/// Which figures are linearised at a kink; empty if none.
+std::string kink_note(const std::vector<PendulumEntry>& entries) {
+  std::string cases;
+  std::string first;
+  for (const PendulumEntry& entry : entries) {
+    for (const auto& [mode, what] : {std::pair{&entry.hanging, " (eigenvalue)"},
+                                     std::pair{&entry.weightless, " (without gravity)"}}) {
+      if (mode->kink.empty()) continue;
+      if (first.empty()) first = mode->kink;
+      cases += (cases.empty() ? "" : ", ") + entry.experiment.name + what;
+    }
+  }
+  if (cases.empty()) return {};
+  return "Of the mean stiffness of both sides of a kink (" + first + "): " + cases + ".";
+}
+
+}  // namespace
+
 ResultTable oscillation_table(const std::vector<PendulumEntry>& entries) {
   ResultTable table;
   table.name = "oscillations";
@@ -76,6 +96,7 @@ ResultTable oscillation_table(const std::vector<PendulumEntry>& entries) {
       "a frequency seven times higher makes about 0.13.",
       "Eigenvalue: small motions in the plane of the case about the hanging equilibrium. Run: "
       "between crossings and peaks of the head's rotation after the pulse."};
+  if (std::string note = kink_note(entries); !note.empty()) table.notes.push_back(std::move(note));
   return table;
 }
 

@@ -3,12 +3,14 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "geometry/foundation/provenance.h"
 #include "multibody/model/model.h"
 #include "pipeline/model/modes_use.h"
+#include "pipeline/model/piece_sections.h"
 #include "pipeline/model/placement.h"
 
 namespace flexneck::pipeline {
@@ -37,6 +39,8 @@ struct Assembly {
   /// of modes, as those of a study do; none where every body has a file.
   std::optional<std::vector<std::string>> structure;
   std::map<std::size_t, ModesUse> of_structure;  ///< such bodies: interfaces only until attach()
+  std::vector<PieceUse> of_pieces;  ///< sections without stiffness until attach_pieces()
+  std::set<std::size_t> lumped;     ///< rigid bodies whose mass is that of the sections at them
 };
 
 /// Gives the bodies of the structure its modes.

@@ -38,6 +38,9 @@ constexpr auto kOwnKeys = joined(
         Key::quantities("inertia_rotation", "rad", kNone,
                         "Of a rigid body: how the axes of its inertia are turned against its frame",
                         {.size = 3}),
+        Key::flag("lumped", "false",
+                  "Of a rigid body in place of mass, center and inertia: its mass is that of the "
+                  "pieces whose sections are at it, each lumped at its two ends"),
         Key::file("modes_file", kNone,
                   "Of a deformable body: its file of modes; in a study the modes of its structure "
                   "if the key is not there"),
@@ -45,7 +48,13 @@ constexpr auto kOwnKeys = joined(
     kRigidBodyKeys);
 
 /// The inertia's axes may be turned against the body's.
-RigidBody rigid_body(const StudyTable& table) {
+RigidBody rigid_body(const StudyTable& table, Assembly& assembly) {
+  if (table.flag("lumped")) {
+    for (const char* key : {"mass", "center", "inertia", "inertia_rotation"})
+      if (table.has(key)) table.refuse(key, "the body's mass is that of the sections at it");
+    assembly.lumped.insert(assembly.model.bodies.size());
+    return {0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+  }
   RigidBody body = read_rigid(table);
   const Eigen::Matrix3d R = rotation_or_none(table, "inertia_rotation").toRotationMatrix();
   body.inertia_kg_m2 = R * body.inertia_kg_m2 * R.transpose();
@@ -119,7 +128,7 @@ void read_body(const StudyTable& table, Assembly& assembly) {
       assembly.prescribed.push_back(assembly.model.bodies.size());
       break;
     case 2:
-      body.kind = rigid_body(table);
+      body.kind = rigid_body(table, assembly);
       break;
     default:
       body.kind = deformable_body(table, assembly);

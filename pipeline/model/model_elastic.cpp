@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Force elements that resist every motion between two markers.
 #include <cmath>
-#include <numeric>
 
 #include "fe_modal/body/condensed_section.h"
 #include "geometry/foundation/error.h"
@@ -49,9 +48,12 @@ constexpr auto kSectionKeys = std::to_array<Key>({
                     "Force of each gap over the top's three rotations, likewise"),
     Key::file("modes_file", kNone,
               "In place of length and stiffness: modes of a body with its base fixed that are the "
-              "static shapes of its top"),
-    Key::text("base", kNone, "Of modes_file: the interface on the fixed nodes"),
-    Key::text("top", kNone, "Of modes_file: the interface of the static shapes"),
+              "static shapes of its top, and of slits that open"),
+    Key::text(
+        "piece", kNone,
+        "In a study in place of modes_file: the piece of [substructures] that the section is"),
+    Key::text("base", kNone, "Of the piece or modes_file: the interface on the fixed nodes"),
+    Key::text("top", kNone, "Of the piece or modes_file: the interface of the static shapes"),
     Key::file("slow_modes_file", kNone,
               "As modes_file, with the moduli of slow motions; without it the whole stiffness "
               "relaxes by the shares"),
@@ -130,58 +132,83 @@ SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
   return stiffness;
 }
 
-/// Length and stiffness of a section, as a file of modes or the table gives them.
-struct LengthAndStiffness {
-  Vector3d length_m;
-  SectionStiffness stiffness;
-};
-
-LengthAndStiffness condensed(const StudyTable& table, const std::string& key, Assembly& assembly) {
-  const std::filesystem::path path = table.file(key);
-  const fe_modal::CondensedSection section = at_key(table, key, [&] {
-    return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"));
-  });
-  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
-  return {section.top_m - section.base_m,
-          SectionStiffness(section.stiffness.bottomRightCorner<6, 6>())};
+/// Refuses keys that say what another one gives already.
+void refuse_all(const StudyTable& table, const std::vector<const char*>& keys,
+                const std::string& why) {
+  for (const char* key : keys)
+    if (table.has(key)) table.refuse(key, why);
 }
 
-LengthAndStiffness length_and_stiffness(const StudyTable& table, Assembly& assembly) {
-  if (table.has("modes_file")) {
-    for (const char* key :
-         {"length", "translation_stiffness", "rotation_stiffness", "coupling_stiffness",
-          "gap_stiffness", "gap_translation_coupling", "gap_rotation_coupling"})
-      if (table.has(key)) table.refuse(key, "modes_file gives it already");
-    return condensed(table, "modes_file", assembly);
-  }
-  for (const char* key : {"base", "top", "slow_modes_file"})
-    if (table.has(key)) table.refuse(key, "it belongs to modes_file, which is not there");
-  if (!table.has("length")) table.refuse("length", "expected length and stiffness, or modes_file");
-  return {quantity_vector(table, "length"), with_gaps(table, matrix_of(table, "stiffness", ""))};
+fe_modal::CondensedSection condensed(const StudyTable& table, const std::string& key,
+                                     Assembly& assembly) {
+  const std::filesystem::path path = table.file(key);
+  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
+  return at_key(table, key, [&] {
+    return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"));
+  });
 }
 
 /// What of the stiffness relaxes, and leaves the rest.
-SectionStiffness relaxing_part(const StudyTable& table, const LengthAndStiffness& quick,
+SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section& quick,
                                double shares, Assembly& assembly) {
   if (!table.has("slow_modes_file")) return shares * quick.stiffness;
-  const LengthAndStiffness slow = condensed(table, "slow_modes_file", assembly);
-  if ((slow.length_m - quick.length_m).norm() > 1e-9 * quick.length_m.norm())
-    table.refuse("slow_modes_file", "the section is not as long as that of modes_file");
-  return quick.stiffness - slow.stiffness;
+  const fe_modal::CondensedSection slow = condensed(table, "slow_modes_file", assembly);
+  const Eigen::Index size = slow.stiffness.rows() - 6;
+  if ((slow.top_m - slow.base_m - quick.rest_m).norm() > 1e-9 * quick.rest_m.norm() ||
+      size != quick.stiffness.rows())
+    table.refuse("slow_modes_file",
+                 "the section is not as long, or its slits do not open in as many ways, as that of "
+                 "modes_file");
+  return quick.stiffness - slow.stiffness.bottomRightCorner(size, size);
 }
 
-std::vector<double> relaxation_shares(const StudyTable& table, std::size_t branches) {
-  std::vector<double> shares =
-      table.has("relaxation_shares") ? table.numbers("relaxation_shares") : std::vector<double>{};
-  if (shares.size() != branches)
+Relaxation read_relaxation(const StudyTable& table) {
+  Relaxation relaxation;
+  if (table.has("relaxation_times"))
+    relaxation.times_s = table.quantities("relaxation_times", 0, "s");
+  if (table.has("relaxation_shares")) relaxation.shares = table.numbers("relaxation_shares");
+  if (relaxation.shares.size() != relaxation.times_s.size())
     table.refuse("relaxation_shares", "expected one for each of relaxation_times, " +
-                                          std::to_string(branches) + ", found " +
-                                          std::to_string(shares.size()));
-  for (const double share : shares)
+                                          std::to_string(relaxation.times_s.size()) + ", found " +
+                                          std::to_string(relaxation.shares.size()));
+  for (const double share : relaxation.shares)
     if (!(share > 0)) table.refuse("relaxation_shares", "expected positive shares");
-  if (std::accumulate(shares.begin(), shares.end(), 0.0) > 1 + 1e-12)
+  if (relaxation.sum_of_shares() > 1 + 1e-12)
     table.refuse("relaxation_shares", "their sum is above one: more than the stiffness relaxes");
-  return shares;
+  return relaxation;
+}
+
+/// The section's stiffness from the source that its table names; of a piece later.
+void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assembly) {
+  const std::vector<const char*> own = {
+      "length",        "translation_stiffness",    "rotation_stiffness",   "coupling_stiffness",
+      "gap_stiffness", "gap_translation_coupling", "gap_rotation_coupling"};
+  const Relaxation relaxation = read_relaxation(table);
+  if (table.has("slow_modes_file") && relaxation.times_s.empty())
+    table.refuse("slow_modes_file", "nothing relaxes: there are no relaxation_times");
+  if (table.has("piece")) {
+    refuse_all(table, own, "the piece gives it already");
+    refuse_all(table, {"modes_file", "slow_modes_file"}, "expected a piece or files, found both");
+    if (!assembly.structure)
+      table.refuse("piece", "expected modes_file; pieces are those of a study's structure");
+    assembly.of_pieces.push_back(
+        {index, table.text("piece"), table.text("base"), table.text("top"), relaxation, table});
+    return;
+  }
+  if (table.has("modes_file")) {
+    refuse_all(table, own, "modes_file gives it already");
+    use_condensed(condensed(table, "modes_file", assembly), table, "modes_file", index, assembly);
+  } else {
+    refuse_all(table, {"base", "top", "slow_modes_file"},
+               "it belongs to modes_file, which is not there");
+    if (!table.has("length"))
+      table.refuse("length", "expected length and stiffness, or modes_file");
+    multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];
+    section.rest_m = quantity_vector(table, "length");
+    section.stiffness = with_gaps(table, matrix_of(table, "stiffness", ""));
+  }
+  multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];
+  relaxation.apply(relaxing_part(table, section, relaxation.sum_of_shares(), assembly), section);
 }
 
 void read_section(const StudyTable& table, Assembly& assembly) {
@@ -189,23 +216,8 @@ void read_section(const StudyTable& table, Assembly& assembly) {
   section.name = table.text("name");
   section.marker_i = marker_named(table, "lower", assembly);
   section.marker_j = marker_named(table, "upper", assembly);
-  const LengthAndStiffness quick = length_and_stiffness(table, assembly);
-  section.rest_m = quick.length_m;
-  section.stiffness = quick.stiffness;
-  const std::vector<double> times = table.has("relaxation_times")
-                                        ? table.quantities("relaxation_times", 0, "s")
-                                        : std::vector<double>{};
-  const std::vector<double> shares = relaxation_shares(table, times.size());
-  if (times.empty() && table.has("slow_modes_file"))
-    table.refuse("slow_modes_file", "nothing relaxes: there are no relaxation_times");
-  if (!times.empty()) {
-    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-    const SectionStiffness relaxing = relaxing_part(table, quick, sum, assembly);
-    section.stiffness -= relaxing;
-    for (std::size_t k = 0; k < times.size(); ++k)
-      section.branches.push_back({shares[k] / sum * relaxing, times[k]});
-  }
   assembly.model.forces.add(std::move(section));
+  read_stiffness(table, assembly.model.forces.of<multibody::Section>().size() - 1, assembly);
   table.finish();
 }
 

@@ -15,8 +15,6 @@ namespace flexneck::pipeline {
 
 namespace {
 
-std::vector<std::string> formulations() { return {"descriptor", "recursive", "automatic"}; }
-std::vector<std::string> integrators() { return {"dormand_prince", "generalised_alpha"}; }
 std::vector<std::string> analyses() { return {"motion", "quasi_static"}; }
 std::vector<std::string> starts() { return {"given", "equilibrium"}; }
 std::vector<std::string> linearised_about() { return {"equilibrium", "given"}; }
@@ -31,18 +29,6 @@ constexpr auto kSolverKeys = joined(
                   {.choices = starts}),
         Key::quantities("gravity", "m/s^2", kNone,
                         "Gravity in the world; none if the key is not there", {.size = 3}),
-        Key::text("formulation", "automatic",
-                  "Equations of motion: of all bodies with constraints, of joint coordinates, or "
-                  "whichever "
-                  "fits",
-                  {.choices = formulations}),
-        Key::text("integrator", "dormand_prince", "How a run steps through time",
-                  {.choices = integrators}),
-        Key::number(
-            "spectral_radius", "0.8",
-            "Of generalised_alpha: by what a step multiplies vibrations that it does not resolve"),
-        Key::count("max_steps", "10000000", "Steps after which a run is given up",
-                   {.range = at_least(1), .formerly = "most_steps"}),
     }),
     kStepKeys);
 
@@ -62,10 +48,6 @@ constexpr Key kOutputKeys[] = {
 
 void read_solver(const StudyTable& table, ModelFile& file) {
   read_steps(table, file.solver);
-  file.solver.max_steps = table.count("max_steps");
-  file.solver.formulation = static_cast<multibody::Formulation>(table.choice("formulation"));
-  file.solver.integrator = static_cast<multibody::Integrator>(table.choice("integrator"));
-  file.solver.spectral_radius = table.number("spectral_radius");
   file.analysis = static_cast<ModelFile::Analysis>(table.choice("analysis"));
   if (table.has("start") && file.analysis == ModelFile::Analysis::quasi_static)
     table.refuse("start", "a quasi-static analysis is at rest all the time; leave this key out");

@@ -20,6 +20,12 @@ constexpr Key kKeys[] = {
     Key::tables("piece", "A body that the structure is cut into", kPieceKeys),
     Key::count("modes", "2", "Modes of each piece with its ends fixed, besides static shapes",
                {.range = at_least(0)}),
+    Key::text(
+        "slits", "cracks",
+        "What open slits are: cracks without contact; or openings, for sections whose slits open "
+        "and close and stick while they are shut; or openings whose sides slide without "
+        "friction, open or shut",
+        {.choices = [] { return fe_modal::slit_motion_names(); }}),
     Key::numbers("normal", kNone, "Direction across the planes; z if it is not there", {.size = 3}),
 };
 
@@ -64,6 +70,7 @@ SubstructuresSection read_substructures(const StudyTable& table) {
   }
   check_names(names_of(section.pieces), "piece");
   section.modes = table.count("modes");
+  section.slit_motions = static_cast<fe_modal::SlitMotions>(table.choice("slits"));
   if (table.has("normal")) section.normal = unit_vector(table, "normal");
   if (section.pieces.size() == 1) {
     table.refuse("piece", "expected two pieces at least, found one");

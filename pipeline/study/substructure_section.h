@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/body/basis_kind.h"
 #include "pipeline/document/study_document.h"
 
 namespace flexneck::pipeline {
@@ -24,6 +25,7 @@ struct SubstructuresSection {
   std::vector<PieceSection> pieces;  ///< none: the structure stays one body
   bool by_planes = false;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  fe_modal::SlitMotions slit_motions = fe_modal::SlitMotions::none;  ///< where pieces have slits
   int modes = 0;  ///< of each piece with its ends fixed, besides the static shapes of the ends
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/condensed_section.h"
+#include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/pieces.h"
 #include "tests/support/block_mesh.h"
@@ -19,6 +21,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 
 /// Static shapes of "top" alone, with "bottom" fixed.
@@ -104,8 +107,10 @@ TEST_CASE("a section of a slender bar is a beam element between two faces") {
   }
 }
 
-TEST_CASE("a chain of condensed sections has the modes of the whole neck within one per cent") {
-  const mesher::Mesh neck = testing::neck_mesh("C");
+namespace {
+
+/// The neck's pieces, each a rubber section with the plate above it.
+std::vector<CondensedSection> sections_of(const mesher::Mesh& neck) {
   const std::vector<std::string> names = {"one", "two", "three", "four"};
   const auto pieces =
       mesher::cut_apart(neck,
@@ -127,16 +132,75 @@ TEST_CASE("a chain of condensed sections has the modes of the whole neck within 
         "top"));
     base_z = top_z;
   }
-  const Eigen::VectorXd found = chain_frequencies_Hz(chain);
+  return chain;
+}
 
+Eigen::VectorXd six_frequencies_Hz(const mesher::Mesh& neck) {
   ModalOptions options;
   options.mode_count = 6;
   options.fixed_set = "bolts";
-  const Eigen::VectorXd expected = analyse_modes(neck, options, {}).frequencies_Hz;
-  for (Eigen::Index k = 0; k < expected.size(); ++k) {
-    CAPTURE(k, expected[k], found[k]);
-    CHECK(std::abs(found[k] / expected[k] - 1) < 0.01);
+  return analyse_modes(neck, options, {}).frequencies_Hz;
+}
+
+/// Rigid mass matrix about a point, 6 x 6.
+Matrix6d mass_about_point(const LumpedMass& mass) {
+  Matrix6d matrix;
+  matrix << mass.mass_kg * Eigen::Matrix3d::Identity(), -skew(mass.first_moment_kg_m),
+      skew(mass.first_moment_kg_m), mass.inertia_kg_m2;
+  return matrix;
+}
+
+/// The sections with their mass lumped in rigid plates between them.
+std::vector<CondensedSection> with_lumped_masses(std::vector<CondensedSection> chain) {
+  for (CondensedSection& section : chain) {
+    const auto ends = lumped_masses(section);
+    section.mass.setZero();
+    section.mass.topLeftCorner<6, 6>() = mass_about_point(ends[0]);
+    section.mass.bottomRightCorner<6, 6>() = mass_about_point(ends[1]);
   }
+  return chain;
+}
+
+}  // namespace
+
+TEST_CASE("a chain of condensed sections has the modes of the whole neck within one per cent") {
+  const mesher::Mesh neck = testing::neck_mesh("C");
+  const std::vector<CondensedSection> chain = sections_of(neck);
+  const Eigen::VectorXd expected = six_frequencies_Hz(neck);
+  const Eigen::VectorXd found = chain_frequencies_Hz(chain);
+  const Eigen::VectorXd lumped = chain_frequencies_Hz(with_lumped_masses(chain));
+  for (Eigen::Index k = 0; k < expected.size(); ++k) {
+    CAPTURE(k, expected[k], found[k], lumped[k]);
+    CHECK(std::abs(found[k] / expected[k] - 1) < 0.01);
+    CHECK(std::abs(lumped[k] / expected[k] - 1) < (k < 5 ? 0.01 : 0.015));  // the second torsion
+  }
+}
+
+TEST_CASE("the lumped masses of a section have the mass, centre and inertia of the whole") {
+  testing::BlockMesh block;
+  block.slices = {{"foot", 2, {"steel", 2e11, 0.3, 7800}}, {"bar", 2, {"rubber", 1e7, 0.4, 1000}}};
+  block.position = testing::distorted;
+  const mesher::Mesh mesh = block.make();
+  const ModalBody body =
+      analyse_modes(mesh, section_options("bottom", {0.2, 0, 0}, "top", {0, 0.1, 1}), {});
+  const CondensedSection section = condense(body, "base", "top");
+  const auto ends = lumped_masses(section);
+  const InertiaInvariants& whole = body.invariants;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  const std::array points = {section.base_m, section.top_m};
+  for (std::size_t k = 0; k < 2; ++k) {
+    // About the point p from about the origin: J + 2 (p . s) - (p s^T + s p^T) + m (p . p - p p^T).
+    const Eigen::Vector3d& p = points[k];
+    const Eigen::Vector3d& s = ends[k].first_moment_kg_m;
+    CHECK(ends[k].mass_kg > 0);
+    moment += s + ends[k].mass_kg * p;
+    inertia += ends[k].inertia_kg_m2 - skew(p) * skew(s) - skew(s) * skew(p) -
+               ends[k].mass_kg * skew(p) * skew(p);
+  }
+  CHECK(ends[0].mass_kg + ends[1].mass_kg == Approx(whole.mass).epsilon(1e-9));
+  CHECK((moment - whole.S1).norm() < 1e-9 * whole.S1.norm());
+  CHECK((inertia - whole.J0).norm() < 1e-9 * whole.J0.norm());
 }
 
 TEST_CASE("a body with other modes is no section") {

@@ -10,6 +10,7 @@
 #include "fe_modal/system/assembly.h"
 #include "mesher/slits/slits.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/crack_faces.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -32,23 +33,12 @@ Eigen::Vector3d place(const Eigen::Vector3d& p) {
   return {(p[0] - 0.5) * kDepth, p[1] * kWidth, z};
 }
 
-/// The lower sides of the elements above the crack, from the front to `depth`.
-mesher::FaceSet crack_faces(const mesher::Mesh& mesh, double depth) {
+/// From the front to `depth`.
+mesher::FaceSet crack(const mesher::Mesh& mesh, double depth) {
   constexpr double kNear = 1e-9;
-  mesher::FaceBlock faces;
-  const mesher::ElementBlock& block = mesh.blocks[0];
-  const mesher::ReferenceFacet& below = mesher::facets_of(block.kind)[0];
-  for (std::size_t first = 0; first < block.nodes.size(); first += 27) {
-    std::vector<std::int32_t> side;
-    bool in_crack = true;
-    for (const std::size_t local : below.nodes) {
-      side.push_back(block.nodes[first + local]);
-      const auto& x = mesh.nodes[static_cast<std::size_t>(side.back())];
-      in_crack = in_crack && std::abs(x[2] - kCrackAt) < kNear && x[0] > kDepth / 2 - depth - kNear;
-    }
-    if (in_crack) faces.nodes.insert(faces.nodes.end(), side.begin(), side.end());
-  }
-  return {"crack", {faces}};
+  return testing::crack_faces(mesh, "crack", [&](const Eigen::Vector3d& x) {
+    return std::abs(x.z() - kCrackAt) < kNear && x.x() > kDepth / 2 - depth - kNear;
+  });
 }
 
 double first_frequency(const mesher::Mesh& mesh) {
@@ -133,7 +123,7 @@ TEST_CASE(
   const double uncracked = first_frequency(whole);
   for (const double share : {0.2, 0.5}) {
     mesher::Mesh open = whole;
-    open.face_sets.push_back(crack_faces(whole, share * kDepth));
+    open.face_sets.push_back(crack(whole, share * kDepth));
     mesher::Mesh closed = open;
     mesher::open_slits(open, {"crack"}, false);
     mesher::open_slits(closed, {"crack"}, true);

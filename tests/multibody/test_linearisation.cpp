@@ -265,3 +265,29 @@ TEST_CASE("an unstable motion has its eigenvalues and a growth rate") {
   // Without stiffness the growing eigenvalue is alone.
   CHECK(modes_with(0, -0.7, 100, 0)[0].growth_rate_1_s == Approx(0.7).epsilon(1e-12));
 }
+
+TEST_CASE("about a kink a model swings on the mean stiffness of both sides, and says so") {
+  // A weight on a rail, with a spring that is stiffer against being lifted.
+  Model model;
+  model.bodies = {{"ground", PrescribedBody{}, {}},
+                  {"weight", RigidBody{2, Vector3d::Zero(), Eigen::Matrix3d::Identity()}, {}}};
+  model.markers = {{"ground.at", 0, ""}, {"weight.at", 1, ""}};
+  model.joints = {{"rail", &kPrismaticJoint, 0, 1}};
+  model.joints[0].axis = Vector3d::UnitZ();
+  JointResistance spring;
+  spring.name = "spring";
+  spring.coordinate = JointCoordinate::distance;
+  spring.resistance.positive.curve = LoadCurve::cubic(400);
+  spring.resistance.negative.curve = LoadCurve::cubic(100);
+  model.forces.add(std::move(spring));
+  const auto at = GENERATE(LinearisedAt::equilibrium, LinearisedAt::given);
+  model.gravity_m_s2.setZero();
+  const SystemMode at_kink = linearise(model, at).front().mode;
+  CHECK(at_kink.frequency_Hz == Approx(hertz(std::sqrt(250.0 / 2))));
+  CHECK_THAT(at_kink.kink, Catch::Matchers::Contains("resistance 'spring'"));
+  model.gravity_m_s2 = {0, 0, -kGravity};
+  if (at == LinearisedAt::given) model.bodies[1].initial_pose.position_m.z() = -0.1;
+  const SystemMode below = linearise(model, at).front().mode;
+  CHECK(below.frequency_Hz == Approx(hertz(std::sqrt(100.0 / 2))).epsilon(kTolerance));
+  CHECK(below.kink.empty());
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "fe_modal/reduction/reduction.h"
+#include "fe_modal/reduction/slit_fields.h"
+#include "fe_modal/system/modal_options.h"
+
+namespace flexneck::fe_modal {
+
+/// Static shapes of a body with open slits, for slits that open and close.
+struct SlitBasis {
+  Reduction reduction;
+  std::vector<SlitField> fields;
+};
+
+/// The static shapes of the interfaces with all slits shut, and for each way in which a slit parts
+/// (slit_fields()) the shape of least energy whose jumps are that way's, the interfaces free. With
+/// all amplitudes zero the body is the one without slits, exactly; with openings that loads pull
+/// apart it is the open one as far as its jumps are sums of the fields.
+/// @param mesh     with slits, none of them tied
+/// @param dof_map, open  of that mesh
+/// @param loads    of the interfaces
+/// @throws InputError as slit_fields() does, and for rigid interfaces and directions fixed alone
+SlitBasis slit_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const BodyOperators& open,
+                     const ModalOptions& options, const std::vector<InterfaceLoads>& loads,
+                     const Progress& progress);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "pipeline/model/piece_sections.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// Whether a case has pieces of the structure as sections.
+bool has_cases_of_pieces(const Study& study);
+bool has_cases_of_pieces(const Study& study, CaseSection::Kind kind);
+
+/// The study with their stiffness. @throws InputError as attach_pieces() does, with the case.
+Study with_pieces(Study study, const Pieces& pieces);
+
+}  // namespace flexneck::pipeline
