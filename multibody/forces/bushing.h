@@ -22,6 +22,7 @@ struct Bushing {
   std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
     return {marker_i, marker_j};
   }
+  bool resists_turning() const { return !stiffness.rightCols<3>().isZero(0); }
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
 };
 

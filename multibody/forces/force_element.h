@@ -104,6 +104,13 @@ concept HoldingForce = requires {
   requires Kind::kHolds;
 };
 
+/// Its loads follow from the rotation vector from marker_i to marker_j, which jumps at half a turn,
+/// if it resists turning at all.
+template <class Kind>
+concept TurnedForce = requires(const Kind& element) {
+  { element.resists_turning() } -> std::same_as<bool>;
+};
+
 /// Its kinks are all of one sort, kKink.
 template <class Kind>
 concept NamedKink = requires {

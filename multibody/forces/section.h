@@ -44,6 +44,7 @@ struct Section {
   std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
     return {marker_i, marker_j};
   }
+  static bool resists_turning() { return true; }
   std::size_t branch_count() const { return branches.size(); }
   Eigen::Index branch_size() const { return stiffness.rows(); }
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;

@@ -16,9 +16,10 @@ constexpr double kLeastRealPart = 0.0707;
 
 TurnGuard::TurnGuard(const Model& model) {
   model.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
-    if constexpr (HoldingForce<Kind>)
+    if constexpr (TurnedForce<Kind>)
       for (const Kind& element : elements)
-        elements_.push_back({title(element), element.marker_i, element.marker_j});
+        if (element.resists_turning())
+          elements_.push_back({title(element), element.marker_i, element.marker_j});
   });
 }
 

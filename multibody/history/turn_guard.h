@@ -11,9 +11,8 @@
 
 namespace flexneck::multibody {
 
-/// Watches force elements that resist every motion between two bodies (HoldingForce): the rotation
-/// vector from the one to the other, from which their loads follow, jumps at half a turn. Ends the
-/// run above 3 rad.
+/// Watches force elements whose loads follow from the rotation vector from one body to another
+/// (TurnedForce), which jumps at half a turn: ends the run above 3 rad.
 class TurnGuard {
  public:
   explicit TurnGuard(const Model& model);

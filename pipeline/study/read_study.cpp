@@ -66,7 +66,8 @@ constexpr auto kSolverKeys = joined(
 
 constexpr Key kOutputKeys[] = {
     Key::quantity("interval", "s", "0.001", "Time between outputs", {.range = kPositive}),
-    Key::file("verification", kNone, "Table of published figures that results are compared with"),
+    Key::file("verification", kNone,
+              "Table of published figures that results are compared with; \"\" for none"),
 };
 
 }  // namespace
@@ -221,7 +222,8 @@ std::vector<Section> read_all(const StudyTable& root, const std::string& key,
 
 void read_output(const StudyTable& table, Study& study) {
   study.output_interval_s = table.quantity("interval");
-  if (table.has("verification")) study.verification = table.file("verification");
+  if (table.has("verification") && table.file("verification").has_filename())
+    study.verification = table.file("verification");
   table.finish();
 }
 
