@@ -71,6 +71,13 @@ class Experiments {
     return body_;
   }
 
+  /// Of a case whose bodies are all rigid nothing is computed.
+  const fe_modal::ModalBody& body_of(const CaseSection& experiment) {
+    static const fe_modal::ModalBody kNone;
+    const bool is_rigid = experiment.model.of_structure.empty();
+    return is_rigid && !experiment.equivalent_rigid_neck ? kNone : *body();
+  }
+
   BodyCache::Body body_for(const OutputName& output) {
     return is_of_attached(output) ? bodies_.body(study_, BodyUse::attached) : body();
   }
@@ -79,8 +86,8 @@ class Experiments {
     const auto known = runs_.find(experiment.name);
     if (known != runs_.end()) return known->second;
     PendulumRun found = is_filtered_[experiment.name]
-                            ? run_pendulum(study_, experiment, *body())
-                            : run_pendulum_unfiltered(study_, experiment, *body());
+                            ? run_pendulum(study_, experiment, body_of(experiment))
+                            : run_pendulum_unfiltered(study_, experiment, body_of(experiment));
     if (!found.history.incomplete.empty())
       throw ComputationError(experiment.name + ": " + found.history.incomplete);
     return runs_.emplace(experiment.name, std::move(found)).first->second;
@@ -91,9 +98,10 @@ class Experiments {
     if (source_of_pendulum_figure(output.figure) == PendulumSource::system_mode) {
       auto known = modes_.find(experiment.name);
       if (known == modes_.end())
-        known =
-            modes_.emplace(experiment.name, first_system_mode(study_, experiment, *body(), true))
-                .first;
+        known = modes_
+                    .emplace(experiment.name,
+                             first_system_mode(study_, experiment, body_of(experiment), true))
+                    .first;
       return {system_figure(known->second, output.figure), {}};
     }
     auto known = results_.find(experiment.name);
