@@ -39,6 +39,9 @@ StudyChoice choose_study(const CommandLine& line, const Console& console) {
   StudyChoice choice;
   if (!line.files.empty()) choice.study = line.files.front();
   choice.settings = line.settings;
+  // The folder remembers which one; an empty name stands for that of most commands.
+  if (line.files.empty() && line.command->built_in != built_in_study)
+    choice.study = line.command->built_in();
   if (line.command->begins || !line.files.empty()) return choice;
   const std::optional<StudyChoice> kept = remembered_study(line.folder);
   if (!kept) return choice;

@@ -20,6 +20,17 @@ LoadCurve LoadCurve::cubic(double c1, double c2, double c3) {
   return curve;
 }
 
+LoadCurve LoadCurve::locking(double c, double L) {
+  if (!(c >= 0 && L > 0 && std::isfinite(c) && std::isfinite(L)))
+    throw InputError(
+        "load curve: one that locks needs a stiffness that is not negative and a positive "
+        "deflection at which it locks");
+  LoadCurve curve;
+  curve.c1_ = c;
+  curve.L_ = L;
+  return curve;
+}
+
 LoadCurve LoadCurve::table(std::vector<double> x, std::vector<double> load) {
   if (x.size() != load.size() || x.size() < 2)
     throw InputError("load curve: expected a load for each of at least two deflections, found " +
@@ -53,19 +64,29 @@ std::size_t row_before(const std::vector<double>& rows, double x) {
   return static_cast<std::size_t>(after - rows.begin()) - 1;
 }
 
+/// Of the deflection at which a curve locks, the share up to which it follows its law.
+constexpr double kLocked = 0.9;
+
 }  // namespace
 
 int LoadCurve::piece(double x) const {
+  if (locks()) return x < kLocked * L_ ? 0 : 1;
   return x_.empty() ? 0 : static_cast<int>(row_before(x_, x));
 }
 
 bool LoadCurve::continues(const LoadCurve& other) const {
+  if (locks() || other.locks()) return c1_ == other.c1_ && L_ == other.L_;
   if (x_.empty() != other.x_.empty()) return false;
   if (x_.empty()) return c1_ == other.c1_ && c2_ == 0 && other.c2_ == 0 && c3_ == other.c3_;
   return load_[1] * other.x_[1] == other.load_[1] * x_[1];
 }
 
 double LoadCurve::value(double x) const {
+  if (locks()) {
+    const double of_law = std::min(x, kLocked * L_);
+    const double left = 1 - of_law / L_;
+    return c1_ * of_law / left + c1_ / (left * left) * (x - of_law);
+  }
   if (x_.empty()) return x * (c1_ + x * (c2_ + x * c3_));
   const std::size_t k = row_before(x_, x);
   const double slope = (load_[k + 1] - load_[k]) / (x_[k + 1] - x_[k]);
@@ -73,6 +94,11 @@ double LoadCurve::value(double x) const {
 }
 
 double LoadCurve::energy(double x) const {
+  if (locks()) {
+    const double share = std::min(x / L_, kLocked);
+    const double of_law = -c1_ * L_ * L_ * (share + std::log1p(-share));
+    return of_law + (x - share * L_) * (value(share * L_) + value(x)) / 2;
+  }
   if (x_.empty()) return x * x * (c1_ / 2 + x * (c2_ / 3 + x * c3_ / 4));
   const std::size_t k = row_before(x_, x);
   return energy_[k] + (x - x_[k]) * (load_[k] + value(x)) / 2;

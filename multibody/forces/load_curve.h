@@ -5,8 +5,9 @@
 
 namespace flexneck::multibody {
 
-/// A load over a deflection x >= 0 from (0, 0) on, N or N m over m or rad: a cubic, or a table that
-/// is linear between its rows and goes on beyond the last with the last slope. By default none.
+/// A load over a deflection x >= 0 from (0, 0) on, N or N m over m or rad: a cubic; a table that is
+/// linear between its rows and goes on beyond the last with the last slope; or one that locks. By
+/// default none.
 class LoadCurve {
  public:
   LoadCurve() = default;
@@ -16,16 +17,23 @@ class LoadCurve {
   /// @param load  the first is 0
   /// @throws InputError otherwise, or for values that are not finite.
   static LoadCurve table(std::vector<double> x, std::vector<double> load);
+  /// Soft at first, hard as x nears L: c x / (1 - x / L) up to 0.9 L, then on with that slope, 100
+  /// c.
+  /// @throws InputError unless c >= 0 and L > 0, both finite
+  static LoadCurve locking(double c, double L);
 
   double value(double x) const;
   double energy(double x) const;  ///< integral of the load from 0 to x, J
-  /// Between which of its rows x lies; 0 for a cubic.
+  /// Between which of its rows x lies, or whether it has locked; 0 for a cubic.
   int piece(double x) const;
   /// Whether it and `other`, one for each direction, make one smooth curve through zero.
   bool continues(const LoadCurve& other) const;
 
  private:
+  bool locks() const { return L_ > 0; }
+
   double c1_ = 0, c2_ = 0, c3_ = 0;
+  double L_ = 0;  ///< where it would lock; zero of one that does not
   std::vector<double> x_, load_, energy_;
 };
 

@@ -68,6 +68,8 @@ struct Command {
   bool (*run)(const CommandInput&);  ///< null if it works on files
   /// Null if it works on a study; with both it is of the files of runs, which end in .h5.
   bool (*run_on_files)(const FileInput&) = nullptr;
+  /// The study where none is named.
+  std::filesystem::path (*built_in)() = built_in_study;
   bool writes_results = true;  ///< into the folder of results
   bool begins = false;         ///< makes a folder from a study that is named
   bool locks = true;           ///< the folder, all the time; otherwise it does so itself
@@ -83,6 +85,9 @@ void warn_of_replaced(const CommandInput& input, const std::filesystem::path& fi
                       const FileFormat& format, const Provenance& now);
 
 bool run_command(const CommandInput& input);
+/// run_command() of a study with tests of regulations, and each of their figures.
+/// @throws InputError for a study without one.
+bool qualify_command(const CommandInput& input);
 bool mesh_command(const CommandInput& input);
 /// Of `mesh --dry-run`: the neck's dimensions, what follows from them, and a drawing; meshes
 /// nothing.

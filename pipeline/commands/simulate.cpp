@@ -83,8 +83,8 @@ void tell(const FileInput& input, const ResultPaths& paths, const multibody::His
     input.console.warning(paths.name + ": " + warning);
   if (!result.linearisation || result.linearisation->modes.empty()) return;
   if (const std::string& kink = result.linearisation->modes.front().mode.kink; !kink.empty())
-    input.console.warning(paths.name + ": modes are of the mean stiffness of both sides of a kink: " +
-                          kink);
+    input.console.warning(paths.name +
+                          ": modes are of the mean stiffness of both sides of a kink: " + kink);
 }
 
 void write(const FileInput& input, const multibody::CampbellDiagram& diagram) {

@@ -100,7 +100,7 @@ ResultTable verdict_table(const std::vector<JudgedTest>& tests, const Study& stu
 
 ResultTable verdict_figure_table(const std::vector<JudgedTest>& tests) {
   ResultTable table;
-  table.name = "verdict figures";
+  table.name = kVerdictFigures;
   table.title = "Figures and conditions of the certification tests";
   table.columns = {{"test", ""}, {"figure", ""},  {"value", ""},     {"limits", ""},
                    {"unit", ""}, {"verdict", ""}, {"off centre", ""}};

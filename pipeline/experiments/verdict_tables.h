@@ -11,6 +11,9 @@
 
 namespace flexneck::pipeline {
 
+/// Name of the table of all figures.
+inline constexpr const char* kVerdictFigures = "verdict figures";
+
 /// A test of the study with what it says of its case.
 struct JudgedTest {
   enum class Status {

@@ -26,6 +26,9 @@ inline constexpr auto kResistanceSideKeys = std::to_array<Key>({
     Key::quantity("stiffness", "N/m | N*m/rad", "0", "Load over deflection"),
     Key::quantity("quadratic", "N/m^2 | N*m/rad^2", "0", "Load over the square of the deflection"),
     Key::quantity("cubic", "N/m^3 | N*m/rad^3", "0", "Load over the cube of the deflection"),
+    Key::quantity("locks_at", "m | rad", kNone,
+                  "In place of quadratic and cubic: the deflection L at which it locks, the load "
+                  "being stiffness x / (1 - x / L)"),
     Key::quantities("deflections", "m | rad", kNone,
                     "In place of stiffness, quadratic and cubic: rows of a table, the first 0"),
     Key::quantities("loads", "N | N*m", kNone, "Load of each deflection, the first 0"),
@@ -52,8 +55,8 @@ inline constexpr auto kResistanceKeys = joined(
     }),
     kResistanceSideKeys);
 
-/// One direction: stiffness, quadratic and cubic, or deflections with loads or a table; stop,
-/// unloading_ratio. A table that is read is appended to `files`.
+/// One direction: stiffness with quadratic and cubic or locks_at, or deflections with loads or a
+/// table; stop, unloading_ratio. A table that is read is appended to `files`.
 multibody::ResistanceSide read_resistance_side(const StudyTable& table,
                                                const ResistanceUnits& units,
                                                std::vector<InputFile>& files);

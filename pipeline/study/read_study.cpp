@@ -391,4 +391,8 @@ std::filesystem::path built_in_study() {
   return std::filesystem::path(FLEXNECK_DATA_DIR) / "pipeline/studies/hybrid3.toml";
 }
 
+std::filesystem::path built_in_qualification() {
+  return built_in_study().replace_filename("hybrid3_qualification.toml");
+}
+
 }  // namespace flexneck::pipeline

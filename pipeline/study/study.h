@@ -140,5 +140,7 @@ Study read_study(const std::filesystem::path& path, const std::vector<std::strin
 
 /// The Hybrid III study that runs when none is named.
 std::filesystem::path built_in_study();
+/// Its certification test.
+std::filesystem::path built_in_qualification();
 
 }  // namespace flexneck::pipeline

@@ -26,6 +26,24 @@ TEST_CASE("a load curve is its table or its cubic, and its energy the integral")
   CHECK_THROWS_WITH(LoadCurve::table({0.1, 0.2}, {0, 1}), Contains("first row"));
 }
 
+TEST_CASE("a curve that locks follows its law to nine tenths, then goes on straight") {
+  const LoadCurve curve = LoadCurve::locking(10, 0.5);
+  CHECK(curve.value(0.2) == Approx(10 * 0.2 / 0.6));
+  CHECK(curve.value(0.45) == Approx(45));
+  CHECK(curve.value(0.5) == Approx(45 + 1000 * 0.05));
+  CHECK(curve.energy(0.2) == Approx(-2.5 * (0.4 + std::log(0.6))));
+  for (const double x : {0.01, 0.3, 0.44, 0.46, 0.7}) {
+    CAPTURE(x);
+    CHECK(first_derivative([&](double t) { return curve.energy(x + t); }, 1e-4) ==
+          Approx(curve.value(x)).epsilon(1e-9));
+  }
+  CHECK(curve.piece(0.44) != curve.piece(0.46));
+  CHECK(curve.continues(LoadCurve::locking(10, 0.5)));
+  CHECK_FALSE(curve.continues(LoadCurve::locking(10, 0.6)));
+  CHECK_THROWS_WITH(LoadCurve::locking(-1, 1), Contains("not negative"));
+  CHECK_THROWS_WITH(LoadCurve::locking(1, 0), Contains("positive deflection"));
+}
+
 TEST_CASE("a resistance loads and unloads each of its sides by that side's own law") {
   Resistance resistance;
   resistance.positive.curve = LoadCurve::cubic(100);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The certification test's neck, rigid plates with sections of rubber that are pieces of the
+// structure, on the coarsest neck that can be slit.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "fe_modal/body/modal_body_file.h"
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "geometry/foundation/temporary_folder.h"
+#include "multibody/analysis/linearisation.h"
+#include "multibody/joints/joint_kinds.h"
+#include "pipeline/evaluation/pieces_of_cases.h"
+#include "pipeline/experiments/case_model.h"
+#include "pipeline/experiments/pendulum.h"
+#include "pipeline/experiments/test_curves.h"
+#include "pipeline/verdict/verdict.h"
+#include "tests/support/flexneck_command.h"
+
+using namespace flexneck;
+using namespace flexneck::pipeline;
+using Settings = std::vector<std::string>;
+
+namespace {
+
+const Settings kCoarse = {"mesh.quadrant=2", "mesh.inner_ring=2", "mesh.rubber_layers=2",
+                          "geometry.bolt_patch_radius=0.4 in"};
+
+/// The neck and its pieces, made by the command.
+class Made {
+ public:
+  explicit Made(Settings settings) : settings_(std::move(settings)) {
+    settings_.insert(settings_.end(), kCoarse.begin(), kCoarse.end());
+    std::string line =
+        " " + built_in_qualification().string() + " -q -o " + folder_.path().string();
+    for (const std::string& each : settings_) line += " --set '" + each + "'";
+    for (const char* const stage : {"mesh", "modes"}) {
+      const testing::CommandOutcome outcome = testing::run_flexneck(stage + line);
+      INFO(outcome.text);
+      REQUIRE(outcome.exit_code == 0);
+    }
+  }
+
+  fe_modal::ModalBody whole() const { return body("modes"); }
+  /// The study with its pieces.
+  Study study(const Settings& more = {}) const {
+    Settings all = settings_;
+    all.insert(all.end(), more.begin(), more.end());
+    Pieces pieces;
+    for (const char* const disc : {"disc_1", "disc_2", "disc_3", "disc_4"})
+      pieces.emplace(disc, body("substructure_" + std::string(disc)));
+    return with_pieces(read_study(built_in_qualification(), all), pieces);
+  }
+
+ private:
+  fe_modal::ModalBody body(const std::string& name) const {
+    return fe_modal::read_modal_body(folder_ / (name + ".h5")).body;
+  }
+
+  TemporaryFolder folder_;
+  Settings settings_;
+};
+
+const CaseSection& flexion(const Study& study) {
+  return study.cases[find_name(names_of(study.cases), "certification-flexion", "case")];
+}
+
+/// Frequencies of head and neck on an arm at rest, the nodding joint locked, without gravity.
+std::vector<multibody::SystemMode> modes_of_chain(const Study& study) {
+  multibody::Model model = case_model(flexion(study), {});
+  model.gravity_m_s2.setZero();
+  for (multibody::Joint& joint : model.joints) joint.kind = &multibody::kFixedJoint;
+  model.forces.of<multibody::JointResistance>().clear();
+  return multibody::system_modes(model);
+}
+
+}  // namespace
+
+TEST_CASE("rigid plates and sections swing under the head as the finite element neck does") {
+  const std::string slits = GENERATE("closed", "open");
+  const Made made({"geometry.slits=" + slits, "substructures.slits=cracks"});
+  // Hardly anything relaxes.
+  const Study study = made.study({"variables.relaxing_share=1e-6"});
+  const std::vector<multibody::SystemMode> found = modes_of_chain(study);
+  const fe_modal::ModalBody whole = made.whole();
+  const Eigen::VectorXd& expected = whole.attached.front().frequencies_Hz;
+  for (std::size_t k = 0; k < 3; ++k) {
+    CAPTURE(slits, k);
+    CHECK(found.at(k).frequency_Hz == Approx(expected[static_cast<Eigen::Index>(k)]).epsilon(0.01));
+  }
+  double mass_kg = 0;
+  for (const multibody::Body& body : flexion(study).model.model.bodies)
+    if (const auto* rigid = std::get_if<multibody::RigidBody>(&body.kind);
+        rigid && body.name != "head")
+      mass_kg += rigid->mass_kg;
+  CHECK(mass_kg == Approx(whole.invariants.mass).epsilon(1e-9));
+}
+
+TEST_CASE("the certification test keeps its books, and finer steps change no figure") {
+  const Made made({});
+  const auto figures = [&](const std::string& tolerance) {
+    const Study study = made.study({"solver.relative_tolerance=" + tolerance});
+    const PendulumRun run = run_pendulum(study, flexion(study), {});
+    REQUIRE(run.history.incomplete.empty());
+    const multibody::EnergyHistory& energy = run.history.energy;
+    const Eigen::VectorXd balance = energy.kinetic_J + energy.strain_J + energy.gravitational_J +
+                                    energy.dissipated_J - energy.work_J;
+    CHECK((balance.array() - balance[0]).abs().maxCoeff() <
+          1e-3 * (energy.kinetic_J.maxCoeff() - energy.kinetic_J.minCoeff()));
+    const TestSection& test = study.tests.front();
+    return judged(test.rules,
+                  test_curves(study, test, flexion(study), run.history.time_s, run.channels))
+        .figures;
+  };
+  const std::vector<JudgedFigure> coarse = figures("1e-6");
+  const std::vector<JudgedFigure> fine = figures("1e-7");
+  REQUIRE(coarse.size() == 6);
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    CAPTURE(coarse[k].name);
+    CHECK(std::abs(coarse[k].half_corridors().value() - fine[k].half_corridors().value()) < 0.01);
+  }
+}
