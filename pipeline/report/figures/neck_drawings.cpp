@@ -276,12 +276,12 @@ Figure pendulum(const Results& results, const Study& study) {
     return figure;
   }
   const multibody::History& history = run->file.history;
-  const Eigen::Index time = farthest(history);
-  const auto bent = bent_neck(history, *results.modes, time);
-  if (!bent) {
-    figure.missing = "a run of the pendulum with these modes";
+  if (!bent_neck(history, *results.modes, 0)) {
+    figure.missing = "a run of the pendulum with these modes in one body";
     return figure;
   }
+  const Eigen::Index time = farthest(history);
+  const auto bent = bent_neck(history, *results.modes, time);
   figure.remark += fmt::format(" Drawn: {} at {:.0f} ms.", run->name, 1e3 * history.time_s[time]);
   draw(pendulum_drawing(*results.modes, study.neck()->dimensions, *bent, *head), figure);
   return figure;
