@@ -7,6 +7,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/relaxation.h"
 
 namespace flexneck::pipeline {
 namespace {
@@ -27,41 +28,41 @@ constexpr auto kBushingKeys = std::to_array<Key>({
     Key::quantities("coupling_damping", "N*s/rad", kNone, "Forces over angular velocities"),
 });
 
-constexpr auto kSectionKeys = std::to_array<Key>({
-    Key::text("name", kRequired, "Name of the section"),
-    Key::text("lower", kRequired, "Marker at its base, in whose axes length and stiffness are"),
-    Key::text("upper", kRequired, "Marker at its top, turned like the lower one without load"),
-    Key::quantities("length", "m", kNone, "From the lower marker to the upper one without load",
-                    {.size = 3}),
-    Key::quantities("translation_stiffness", "N/m", kNone,
-                    "Forces at the top over its translations, the base held: three on the "
-                    "diagonal, or nine row by row"),
-    Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
-    Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
-    Key::quantities("gap_stiffness", "N/m", kNone,
-                    "Of slits: forces of their gaps over openings, a square matrix row by row; the "
-                    "stiffness is that with all gaps closed"),
-    Key::quantities("gap_translation_coupling", "N/m", kNone,
-                    "Force of each gap over the top's three translations, gap by gap; negative "
-                    "where a motion opens the gap"),
-    Key::quantities("gap_rotation_coupling", "N/rad", kNone,
-                    "Force of each gap over the top's three rotations, likewise"),
-    Key::file("modes_file", kNone,
-              "In place of length and stiffness: modes of a body with its base fixed that are the "
-              "static shapes of its top, and of slits that open"),
-    Key::text(
-        "piece", kNone,
-        "In a study in place of modes_file: the piece of [substructures] that the section is"),
-    Key::text("base", kNone, "Of the piece or modes_file: the interface on the fixed nodes"),
-    Key::text("top", kNone, "Of the piece or modes_file: the interface of the static shapes"),
-    Key::file("slow_modes_file", kNone,
-              "As modes_file, with the moduli of slow motions; without it the whole stiffness "
-              "relaxes by the shares"),
-    Key::quantities("relaxation_times", "s", kNone, "Relaxation times of Maxwell branches"),
-    Key::numbers("relaxation_shares", kNone,
-                 "Of each branch, the share of the stiffness that it takes with it; their sum is "
-                 "at most one, and with slow_modes_file they share what that lacks"),
-});
+constexpr auto kSectionKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the section"),
+        Key::text("lower", kRequired, "Marker at its base, in whose axes length and stiffness are"),
+        Key::text("upper", kRequired, "Marker at its top, turned like the lower one without load"),
+        Key::quantities("length", "m", kNone, "From the lower marker to the upper one without load",
+                        {.size = 3}),
+        Key::quantities("translation_stiffness", "N/m", kNone,
+                        "Forces at the top over its translations, the base held: three on the "
+                        "diagonal, or nine row by row"),
+        Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
+        Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
+        Key::quantities(
+            "gap_stiffness", "N/m", kNone,
+            "Of slits: forces of their gaps over openings, a square matrix row by row; the "
+            "stiffness is that with all gaps closed"),
+        Key::quantities("gap_translation_coupling", "N/m", kNone,
+                        "Force of each gap over the top's three translations, gap by gap; negative "
+                        "where a motion opens the gap"),
+        Key::quantities("gap_rotation_coupling", "N/rad", kNone,
+                        "Force of each gap over the top's three rotations, likewise"),
+        Key::file(
+            "modes_file", kNone,
+            "In place of length and stiffness: modes of a body with its base fixed that are the "
+            "static shapes of its top, and of slits that open"),
+        Key::text(
+            "piece", kNone,
+            "In a study in place of modes_file: the piece of [substructures] that the section is"),
+        Key::text("base", kNone, "Of the piece or modes_file: the interface on the fixed nodes"),
+        Key::text("top", kNone, "Of the piece or modes_file: the interface of the static shapes"),
+        Key::file("slow_modes_file", kNone,
+                  "As modes_file, with the moduli of slow motions; without it the whole stiffness "
+                  "relaxes by the shares"),
+    }),
+    kRelaxationKeys);
 
 /// Nine numbers row by row, or three on the diagonal.
 Eigen::Matrix3d block(const StudyTable& table, const std::string& key, const std::string& unit) {
@@ -160,22 +161,6 @@ SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section
                  "the section is not as long, or its slits do not open in as many ways, as that of "
                  "modes_file");
   return quick.stiffness - slow.stiffness.bottomRightCorner(size, size);
-}
-
-Relaxation read_relaxation(const StudyTable& table) {
-  Relaxation relaxation;
-  if (table.has("relaxation_times"))
-    relaxation.times_s = table.quantities("relaxation_times", 0, "s");
-  if (table.has("relaxation_shares")) relaxation.shares = table.numbers("relaxation_shares");
-  if (relaxation.shares.size() != relaxation.times_s.size())
-    table.refuse("relaxation_shares", "expected one for each of relaxation_times, " +
-                                          std::to_string(relaxation.times_s.size()) + ", found " +
-                                          std::to_string(relaxation.shares.size()));
-  for (const double share : relaxation.shares)
-    if (!(share > 0)) table.refuse("relaxation_shares", "expected positive shares");
-  if (relaxation.sum_of_shares() > 1 + 1e-12)
-    table.refuse("relaxation_shares", "their sum is above one: more than the stiffness relaxes");
-  return relaxation;
 }
 
 /// The section's stiffness from the source that its table names; of a piece later.

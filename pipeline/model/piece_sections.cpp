@@ -2,7 +2,6 @@
 #include "pipeline/model/piece_sections.h"
 
 #include <algorithm>
-#include <numeric>
 #include <variant>
 
 #include "geometry/foundation/error.h"
@@ -12,17 +11,6 @@
 namespace flexneck::pipeline {
 
 using multibody::Section;
-
-double Relaxation::sum_of_shares() const {
-  return std::accumulate(shares.begin(), shares.end(), 0.0);
-}
-
-void Relaxation::apply(const Section::Stiffness& relaxing, Section& section) const {
-  if (times_s.empty()) return;
-  section.stiffness -= relaxing;
-  for (std::size_t k = 0; k < times_s.size(); ++k)
-    section.branches.push_back({shares[k] / sum_of_shares() * relaxing, times_s[k]});
-}
 
 namespace {
 

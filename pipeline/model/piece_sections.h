@@ -4,27 +4,15 @@
 #include <cstddef>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "fe_modal/body/condensed_section.h"
 #include "fe_modal/body/modal_body.h"
-#include "multibody/forces/section.h"
 #include "pipeline/document/study_document.h"
+#include "pipeline/model/relaxation.h"
 
 namespace flexneck::pipeline {
 
 struct Assembly;
-
-/// Maxwell branches of a [[section]]: of each, its relaxation time and the share of the stiffness
-/// that it takes with it.
-struct Relaxation {
-  std::vector<double> times_s, shares;
-
-  double sum_of_shares() const;
-  /// Splits the section's stiffness, that of quick motions, into that of slow ones and branches.
-  /// @param relaxing  what of it relaxes
-  void apply(const multibody::Section::Stiffness& relaxing, multibody::Section& section) const;
-};
 
 /// How a [[section]] uses a piece of the structure whose modes are known later.
 struct PieceUse {

@@ -72,6 +72,24 @@ relaxation_times)"));
   CHECK(Eigen::MatrixXd(section.branches[0].stiffness).isApprox(0.5 * whole));
 }
 
+TEST_CASE(
+    "temperature shifts the relaxation times of a section as Williams, Landel and Ferry have it") {
+  const auto first_time_s = [](const std::string& temperature) {
+    return read(section_text() + "shift = { temperature = \"" + temperature +
+                "\", reference = \"298 K\", c1 = 8.86, c2 = \"101.6 K\", from = \"260 K\", to = "
+                "\"330 K\" }\n")
+        .model.forces.of<multibody::Section>()
+        .front()
+        .branches[0]
+        .relaxation_time_s;
+  };
+  CHECK(first_time_s("298 K") == Approx(0.03));
+  // log10: -8.86 * 10 / 111.6 and 8.86 * 20 / 81.6.
+  CHECK(first_time_s("308 K") == Approx(0.03 * 0.1607286104).epsilon(1e-5));
+  CHECK(first_time_s("278 K") == Approx(0.03 * 148.4460437).epsilon(1e-5));
+  CHECK_THROWS_WITH(first_time_s("331 K"), Contains("shift.temperature") && Contains("330"));
+}
+
 TEST_CASE("what a section cannot mean is refused by its key") {
   const auto refused = [](const std::string& part, const std::string& by, const char* message) {
     CHECK_THROWS_WITH(read(with(section_text(), part, by)), Contains(message));

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "multibody/forces/section.h"
+#include "pipeline/document/study_document.h"
+
+namespace flexneck::pipeline {
+
+/// Maxwell branches of a [[section]]: of each, its relaxation time and the share of the stiffness
+/// that it takes with it.
+struct Relaxation {
+  std::vector<double> times_s, shares;
+
+  double sum_of_shares() const;
+  /// Splits the section's stiffness, that of quick motions, into that of slow ones and branches.
+  /// @param relaxing  what of it relaxes
+  void apply(const multibody::Section::Stiffness& relaxing, multibody::Section& section) const;
+};
+
+/// Of the temperature: Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955) 3701.
+inline constexpr Key kShiftKeys[] = {
+    Key::quantity("temperature", "K", kRequired, "Temperature of the rubber"),
+    Key::quantity("reference", "K", kRequired, "Temperature at which the relaxation times hold"),
+    Key::number("c1", kRequired,
+                "Relaxation times are multiplied by 10^(-c1 d / (c2 + d)), d being "
+                "what the temperature is above the reference"),
+    Key::quantity("c2", "K", kRequired, "See c1", {.range = kPositive}),
+    Key::quantity("from", "K", kRequired, "Lowest temperature at which c1 and c2 were measured"),
+    Key::quantity("to", "K", kRequired, "Highest temperature, likewise"),
+};
+
+inline constexpr auto kRelaxationKeys = std::to_array<Key>({
+    Key::quantities("relaxation_times", "s", kNone, "Relaxation times of Maxwell branches"),
+    Key::numbers("relaxation_shares", kNone,
+                 "Of each branch, the share of the stiffness that it takes with it; their sum is "
+                 "at most one, and with slow_modes_file they share what that lacks"),
+    Key::table("shift", "How temperature shifts the relaxation times", kShiftKeys),
+});
+
+/// The keys kRelaxationKeys. @throws InputError at the key that makes no sense, and for a
+/// temperature outside of the shift's range
+Relaxation read_relaxation(const StudyTable& section);
+
+}  // namespace flexneck::pipeline
