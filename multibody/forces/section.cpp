@@ -57,6 +57,7 @@ class Gaps {
       least = violation;
       openings_m = g.cwiseMax(0.0);
       which_open = open;
+      if (violation == 0) return;  // there is but one least energy
     }
   }
 

@@ -15,6 +15,7 @@
 #include "mesher/drawing/outer_surface.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/head_shape.h"
+#include "pipeline/report/plate_motion.h"
 
 namespace flexneck::pipeline {
 
@@ -117,6 +118,43 @@ std::optional<std::vector<Eigen::Index>> places_of(const multibody::ModalHistory
   return places;
 }
 
+/// What all motions have.
+Json shared_json(const Experiment& experiment, const multibody::MarkerHistory& base,
+                 Eigen::Index stride) {
+  const multibody::History& history = experiment.file.history;
+  const bool is_pendulum = experiment.kind == Experiment::Kind::pendulum;
+  Json motion = {{"name", experiment.name},
+                 {"kind", is_pendulum ? "pendulum" : "static"},
+                 {"times", base64_floats(every(history.time_s.transpose(), stride))},
+                 {"base", poses_of(base, stride)}};
+  const multibody::MarkerHistory* const head = marker_of(history, "head.condyles");
+  if (head != nullptr) motion["head"] = poses_of(*head, stride);
+  return motion;
+}
+
+Eigen::Index stride_of(const multibody::History& history) {
+  return (history.time_s.size() + kMaxFrames - 1) / kMaxFrames;
+}
+
+/// A run of the neck as plates and sections; null for any other.
+Json plates_json(const Experiment& experiment, const Study& study, const mesher::Mesh& mesh,
+                 const mesher::Surface& surface) {
+  const multibody::History& history = experiment.file.history;
+  const auto section = std::find_if(study.cases.begin(), study.cases.end(),
+                                    [&](const auto& each) { return each.name == experiment.name; });
+  if (section == study.cases.end() || history.time_s.size() < 2) return nullptr;
+  const std::optional<Plates> plates = plates_of(study, *section, mesh, surface);
+  if (!plates || !std::all_of(plates->markers.begin(), plates->markers.end(),
+                              [&](const std::string& name) { return marker_of(history, name); }))
+    return nullptr;
+  const Eigen::Index stride = stride_of(history);
+  Json motion = shared_json(experiment, *marker_of(history, plates->markers.front()), stride);
+  motion["plates"] = base64_floats(every(plate_motion(*plates, history), stride));
+  motion["sections"] = base64_of(plates->section);
+  motion["shares"] = base64_floats(plates->share.cast<double>().transpose());
+  return motion;
+}
+
 /// A run of the neck as one body; null for one whose motion these modes do not tell.
 Json motion_json(const Experiment& experiment, const fe_modal::ModalBody& body) {
   const multibody::History& history = experiment.file.history;
@@ -129,16 +167,10 @@ Json motion_json(const Experiment& experiment, const fe_modal::ModalBody& body) 
   const auto places = places_of(*modal, body);
   if (!places) return nullptr;
 
-  const Eigen::Index stride = (history.time_s.size() + kMaxFrames - 1) / kMaxFrames;
-  const bool is_pendulum = experiment.kind == Experiment::Kind::pendulum;
-  Json motion = {{"name", experiment.name},
-                 {"kind", is_pendulum ? "pendulum" : "static"},
-                 {"times", base64_floats(every(history.time_s.transpose(), stride))},
-                 {"modes", *places},
-                 {"coordinates", base64_floats(every(modal->coordinates, stride))},
-                 {"base", poses_of(*base, stride)}};
-  const multibody::MarkerHistory* const head = marker_of(history, "head.condyles");
-  if (head != nullptr) motion["head"] = poses_of(*head, stride);
+  const Eigen::Index stride = stride_of(history);
+  Json motion = shared_json(experiment, *base, stride);
+  motion["modes"] = *places;
+  motion["coordinates"] = base64_floats(every(modal->coordinates, stride));
   return motion;
 }
 
@@ -164,6 +196,7 @@ Json scene_of(const Results& results, const Study& study) {
   Json motions = Json::array();
   for (const Experiment& experiment : results.experiments) {
     Json motion = motion_json(experiment, body);
+    if (motion.is_null()) motion = plates_json(experiment, study, *results.mesh, surface);
     if (!motion.is_null()) motions.push_back(std::move(motion));
   }
   return {{"surface", surface_json(*results.mesh, surface, body.nodes_m)},

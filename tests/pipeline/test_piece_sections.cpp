@@ -11,12 +11,14 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "mesher/mesh/mesh_file.h"
 #include "multibody/analysis/linearisation.h"
 #include "multibody/joints/joint_kinds.h"
 #include "pipeline/evaluation/pieces_of_cases.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/test_curves.h"
+#include "pipeline/report/plate_motion.h"
 #include "pipeline/verdict/verdict.h"
 #include "tests/support/flexneck_command.h"
 
@@ -44,6 +46,7 @@ class Made {
     }
   }
 
+  mesher::Mesh mesh() const { return mesher::read_mesh(folder_ / "mesh.h5").mesh; }
   fe_modal::ModalBody whole() const { return body("modes"); }
   /// The study with its pieces.
   Study study(const Settings& more = {}) const {
@@ -148,4 +151,41 @@ TEST_CASE("the certification test keeps its books, and finer steps change no fig
     CAPTURE(coarse[k].name);
     CHECK(std::abs(coarse[k].half_corridors().value() - fine[k].half_corridors().value()) < 0.01);
   }
+}
+
+TEST_CASE("the report moves the mesh of a neck of plates as its markers move") {
+  const Made made({});
+  const Study study =
+      read_study(built_in_qualification(), {});  // without pieces, as reports have it
+  const mesher::Mesh mesh = made.mesh();
+  const mesher::Surface surface = mesher::surface_of(mesh, 2000);
+  const std::optional<Plates> plates = plates_of(study, flexion(study), mesh, surface);
+  REQUIRE(plates);
+  REQUIRE(plates->markers.size() == 5);
+  CHECK(plates->share.minCoeff() == 0);
+  CHECK(plates->share.maxCoeff() == 1);
+  for (std::size_t v = 0; v < plates->section.size(); ++v) {
+    const std::string& part = mesh.blocks[surface.block_of_vertex[v]].part;
+    const float share = plates->share[static_cast<Eigen::Index>(v)];
+    if (part == "base_plate") CHECK((plates->section[v] == 0 && share == 0));
+    if (part == "top_plate") CHECK((plates->section[v] == 3 && share == 1));
+  }
+  const Study complete = made.study();
+  const multibody::History history = run_pendulum(complete, flexion(complete), {}).history;
+  const Eigen::MatrixXd motion = plate_motion(*plates, history);
+  REQUIRE(motion.rows() == 60);
+  const Eigen::Matrix<double, 12, 1> rest =
+      (Eigen::Matrix<double, 12, 1>() << 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0).finished();
+  const Eigen::Index late = 120;  // 60 ms
+  for (Eigen::Index plate = 0; plate < 5; ++plate)
+    CHECK((motion.col(0).segment<12>(12 * plate) - rest).norm() < 1e-12);
+  CHECK((motion.col(late).head<12>() - rest).norm() < 1e-12);
+  // The distance from the base to the top.
+  const auto& base = history.marker("base_plate.bottom").position_m;
+  const auto& top = history.marker("top_plate.condyles").position_m;
+  const Eigen::Matrix3d R = Eigen::Map<const Eigen::Matrix3d>(&motion(48, late)).transpose();
+  const Eigen::Vector3d length(0, 0, (top.col(0) - base.col(0)).norm());
+  const Eigen::Vector3d moved = R * length + motion.col(late).tail<3>();
+  CHECK(moved.norm() == Approx((top.col(late) - base.col(late)).norm()).epsilon(1e-3));
+  CHECK((R - Eigen::Matrix3d::Identity()).norm() > 0.5);
 }

@@ -34,6 +34,26 @@ flexneck.startScene = (data, canvas) => {
     return sum;
   };
 
+  /** Displacements of all vertices where rigid plates carry them, in the rubber evenly from one to
+   * the next. */
+  const carried = (sections, shares, plates) => {
+    const sum = new Float32Array(positions.length);
+    const of = (plate, i, axis) => {
+      const row = 12 * plate + 3 * axis;
+      return plates[row] * positions[i] + plates[row + 1] * positions[i + 1] +
+          plates[row + 2] * positions[i + 2] + plates[12 * plate + 9 + axis];
+    };
+    for (let vertex = 0; vertex < sections.length; ++vertex) {
+      const i = 3 * vertex;
+      const share = shares[vertex];
+      for (let axis = 0; axis < 3; ++axis) {
+        sum[i + axis] = (1 - share) * of(sections[vertex], i, axis) +
+            share * of(sections[vertex] + 1, i, axis) - positions[i + axis];
+      }
+    }
+    return sum;
+  };
+
   const largest = (vectors) => {
     let most = 0;
     for (let i = 0; i < vectors.length; i += 3) {
@@ -117,15 +137,19 @@ flexneck.startScene = (data, canvas) => {
   /** A run plays ten times slower than it was, a static test in real time. */
   const motionSource = (motion) => {
     const times = unpack(motion.times, Float32Array);
-    const coordinates = unpack(motion.coordinates, Float32Array);
     const base = unpack(motion.base, Float32Array);
     const headPoses = motion.head && unpack(motion.head, Float32Array);
-    const count = motion.modes.length;
-    const at = (frame) => coordinates.subarray(count * frame, count * frame + count);
+    const rows = unpack(motion.plates || motion.coordinates, Float32Array);
+    const count = rows.length / times.length;
+    const at = (frame) => rows.subarray(count * frame, count * frame + count);
+    const sections = motion.plates && unpack(motion.sections, Uint8Array);
+    const shares = motion.plates && unpack(motion.shares, Float32Array);
+    const displacements = (frame) => motion.plates
+        ? carried(sections, shares, at(frame)) : displaced(motion.modes, at(frame));
     let most = null;
     const findMost = () => {
       for (let frame = 0; frame < times.length; ++frame) {
-        most = Math.max(most, largest(displaced(motion.modes, at(frame))));
+        most = Math.max(most, largest(displacements(frame)));
       }
       return most;
     };
@@ -142,16 +166,16 @@ flexneck.startScene = (data, canvas) => {
       duration, seconds: isPendulum ? 10 * duration : 2 * duration,
       start,
       home: {target, distance: 6.2 * length, elevation: 0.12,
-             azimuth: isLateral(displaced(motion.modes, at(startFrame))) ? 0 : -Math.PI / 2},
-      note: isPendulum
+             azimuth: isLateral(displacements(startFrame)) ? 0 : -Math.PI / 2},
+      note: (motion.plates ? 'Rigid plates; slits are not drawn. ' : '') + (isPendulum
           ? 'The pendulum plays at a tenth of its speed. Of the arm only the end is drawn; the head is the ellipsoid of its mass and inertia, its centre a dot.'
-          : '',
+          : ''),
       /** Looked for when it is first shown: it takes a while. */
       get most() { return `${(1000 * (most || findMost())).toFixed(0)} mm`; },
       draw(clock) {
         let frame = times.findIndex((time) => time >= clock);
         if (frame < 0) frame = times.length - 1;
-        show(displaced(motion.modes, at(frame)), most);
+        show(displacements(frame), most);
         place(neck, base, frame);
         place(arm, base, frame);
         if (headPoses) place(head, headPoses, frame);
