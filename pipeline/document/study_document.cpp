@@ -224,6 +224,12 @@ void StudyTable::refuse(const std::string& key, const std::string& problem) cons
   node_->refuse(key, problem);
 }
 
+void StudyTable::refuse_given(const std::vector<std::string>& keys,
+                              const std::string& problem) const {
+  for (const std::string& key : keys)
+    if (has(key)) refuse(key, problem);
+}
+
 std::span<const Key> StudyTable::key_rows() const { return node_->keys; }
 
 StudyDocument::StudyDocument(const std::filesystem::path& path,

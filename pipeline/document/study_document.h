@@ -69,6 +69,8 @@ class StudyTable {
   void finish() const;
   /// "<file>:<line>:<column>: <dotted key>: <problem>"
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const;
+  /// Refuses the first of these keys that is there, as one that does not go with the others.
+  void refuse_given(const std::vector<std::string>& keys, const std::string& problem) const;
   /// What the keys of this table may be.
   std::span<const Key> key_rows() const;
 

@@ -111,8 +111,8 @@ Eigen::MatrixXd gap_rows(const StudyTable& table, const std::string& key, const 
 /// The stiffness of the motions with rows and columns of the gaps.
 SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
   if (!table.has("gap_stiffness")) {
-    for (const char* key : {"gap_translation_coupling", "gap_rotation_coupling"})
-      if (table.has(key)) table.refuse(key, "it belongs to gap_stiffness, which is not there");
+    table.refuse_given({"gap_translation_coupling", "gap_rotation_coupling"},
+                       "it belongs to gap_stiffness, which is not there");
     return motions;
   }
   const std::vector<double> values = table.quantities("gap_stiffness", 0, "N/m");
@@ -131,13 +131,6 @@ SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
       gap_rows(table, "gap_rotation_coupling", "N/rad", gaps);
   stiffness.topRightCorner(6, gaps) = stiffness.bottomLeftCorner(gaps, 6).transpose();
   return stiffness;
-}
-
-/// Refuses keys that say what another one gives already.
-void refuse_all(const StudyTable& table, const std::vector<const char*>& keys,
-                const std::string& why) {
-  for (const char* key : keys)
-    if (table.has(key)) table.refuse(key, why);
 }
 
 fe_modal::CondensedSection condensed(const StudyTable& table, const std::string& key,
@@ -165,15 +158,15 @@ SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section
 
 /// The section's stiffness from the source that its table names; of a piece later.
 void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assembly) {
-  const std::vector<const char*> own = {
+  const std::vector<std::string> own = {
       "length",        "translation_stiffness",    "rotation_stiffness",   "coupling_stiffness",
       "gap_stiffness", "gap_translation_coupling", "gap_rotation_coupling"};
   const Relaxation relaxation = read_relaxation(table);
   if (table.has("slow_modes_file") && relaxation.times_s.empty())
     table.refuse("slow_modes_file", "nothing relaxes: there are no relaxation_times");
   if (table.has("piece")) {
-    refuse_all(table, own, "the piece gives it already");
-    refuse_all(table, {"modes_file", "slow_modes_file"}, "expected a piece or files, found both");
+    table.refuse_given(own, "the piece gives it already");
+    table.refuse_given({"modes_file", "slow_modes_file"}, "expected a piece or files, found both");
     if (!assembly.structure)
       table.refuse("piece", "expected modes_file; pieces are those of a study's structure");
     assembly.of_pieces.push_back(
@@ -181,11 +174,11 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
     return;
   }
   if (table.has("modes_file")) {
-    refuse_all(table, own, "modes_file gives it already");
+    table.refuse_given(own, "modes_file gives it already");
     use_condensed(condensed(table, "modes_file", assembly), table, "modes_file", index, assembly);
   } else {
-    refuse_all(table, {"base", "top", "slow_modes_file"},
-               "it belongs to modes_file, which is not there");
+    table.refuse_given({"base", "top", "slow_modes_file"},
+                       "it belongs to modes_file, which is not there");
     if (!table.has("length"))
       table.refuse("length", "expected length and stiffness, or modes_file");
     multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];

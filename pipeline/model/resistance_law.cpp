@@ -23,16 +23,15 @@ LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units,
                      std::vector<InputFile>& files) {
   const bool is_table = table.has("deflections") || table.has("table");
   if (!is_table && table.has("locks_at")) {
-    for (const char* const key : {"quadratic", "cubic"})
-      if (table.has(key)) table.refuse(key, "the curve is given already by locks_at");
+    table.refuse_given({"quadratic", "cubic"}, "the curve is given already by locks_at");
     return at_key(table, "locks_at", [&] {
       return LoadCurve::locking(table.quantity("stiffness", units.over("")),
                                 table.quantity("locks_at", units.deflection));
     });
   }
   if (!is_table) return polynomial(table, "", units);
-  for (const char* const key : {"stiffness", "quadratic", "cubic", "locks_at"})
-    if (table.has(key)) table.refuse(key, "the curve is given already by a table");
+  table.refuse_given({"stiffness", "quadratic", "cubic", "locks_at"},
+                     "the curve is given already by a table");
   TableColumns columns =
       read_columns(table, {"deflections", units.deflection, "loads", units.load}, files);
   try {

@@ -72,12 +72,6 @@ constexpr Key kFitKeys[] = {
     Key::tables("target", "What should come out", kTargetKeys),
 };
 
-void refuse_all(const StudyTable& table, const std::vector<std::string>& keys,
-                const std::string& why) {
-  for (const std::string& key : keys)
-    if (table.has(key)) table.refuse(key, why);
-}
-
 FitParameter read_parameter(const StudyTable& table) {
   FitParameter parameter;
   parameter.key = table.text("key");
@@ -147,16 +141,16 @@ void read_wanted(const StudyTable& table, FitTarget& target) {
     target.relative_deviation = table.number("relative_deviation");
   const bool is_curve = target.curve && !target.curve->rating;
   if (is_curve) {
-    refuse_all(table, {"value", "relative_deviation", "low", "high", "smoothing"},
-               "expected none of a curve, which has its values in its table and a "
-               "standard_deviation");
+    table.refuse_given({"value", "relative_deviation", "low", "high", "smoothing"},
+                       "expected none of a curve, which has its values in its table and a "
+                       "standard_deviation");
     if (target.standard_deviation.empty())
       table.refuse("standard_deviation", "expected that of each point of the curve");
     return;
   }
   if (target.is_window()) {
-    refuse_all(table, {"value", "standard_deviation", "relative_deviation"},
-               "expected a value with its deviation or a window, found both");
+    table.refuse_given({"value", "standard_deviation", "relative_deviation"},
+                       "expected a value with its deviation or a window, found both");
     if ((target.low.empty() || target.high.empty()) && target.smoothing.empty())
       table.refuse("smoothing", "expected this key of a window that is open on one side");
     return;
@@ -164,7 +158,7 @@ void read_wanted(const StudyTable& table, FitTarget& target) {
   if (target.value.empty()) table.refuse("value", "expected a value, or low or high of a window");
   if (target.standard_deviation.empty() != target.relative_deviation.has_value())
     table.refuse("standard_deviation", "expected one of standard_deviation and relative_deviation");
-  refuse_all(table, {"smoothing"}, "expected of a window only");
+  table.refuse_given({"smoothing"}, "expected of a window only");
 }
 
 FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
@@ -184,8 +178,8 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
   if (table.has("curve")) {
     target.curve = read_fit_curve(table, files);
   } else {
-    refuse_all(table, {"table", "column", "unit", "time_zero", "from", "to", "points", "rating"},
-               "expected of a curve only");
+    table.refuse_given({"table", "column", "unit", "time_zero", "from", "to", "points", "rating"},
+                       "expected of a curve only");
   }
   if (target.name.empty()) target.name = target.curve ? target.curve->output : target.output;
   read_wanted(table, target);

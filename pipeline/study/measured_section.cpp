@@ -132,8 +132,7 @@ MeasuredCorridor listed_corridor(const StudyTable& table) {
 MeasuredCorridor read_corridor(const StudyTable& table, std::vector<InputFile>& files) {
   MeasuredCorridor corridor;
   if (table.has("table")) {
-    for (const char* const key : {"times", "lower", "upper"})
-      if (table.has(key)) table.refuse(key, "is given twice, here and by the key 'table'");
+    table.refuse_given({"times", "lower", "upper"}, "is given twice, here and by the key 'table'");
     corridor = {"", read_file(table, "lower", files), read_file(table, "upper", files)};
     files.pop_back();
     corridor.upper = in_unit(std::move(corridor.upper), corridor.lower.unit);

@@ -59,13 +59,6 @@ constexpr Key kSweepKeys[] = {
     Key::tables("correlation", "Which parameters are correlated", kCorrelationKeys),
 };
 
-/// Refuses what a kind of parameter has no use for.
-void refuse_all(const StudyTable& table, const std::vector<std::string>& keys,
-                const std::string& why) {
-  for (const std::string& key : keys)
-    if (table.has(key)) table.refuse(key, why);
-}
-
 std::vector<double> equal_steps(double from, double to, int steps) {
   std::vector<double> values;
   for (int k = 0; k < steps; ++k) {
@@ -77,12 +70,12 @@ std::vector<double> equal_steps(double from, double to, int steps) {
 
 void read_levels(const StudyTable& table, SweepParameter& parameter) {
   if (table.has("values")) {
-    refuse_all(table, {"texts", "steps"}, "expected one of values, texts and steps, found two");
+    table.refuse_given({"texts", "steps"}, "expected one of values, texts and steps, found two");
     parameter.values = table.numbers("values");
     if (parameter.values.empty()) table.refuse("values", "expected at least one number");
   } else if (table.has("texts")) {
-    refuse_all(table, {"steps"}, "expected one of values, texts and steps, found two");
-    refuse_all(table, {"unit"}, "expected none beside texts, which have units of their own");
+    table.refuse_given({"steps"}, "expected one of values, texts and steps, found two");
+    table.refuse_given({"unit"}, "expected none beside texts, which have units of their own");
     parameter.texts = table.texts("texts");
     if (parameter.texts.empty()) table.refuse("texts", "expected at least one text");
   } else if (table.has("steps")) {
@@ -110,7 +103,7 @@ void check_normal(const StudyTable& table, const SweepDistribution& found) {
     table.refuse(table.has("from") ? "from" : "to",
                  "expected within 8 standard deviations of the mean");
   if (found.kind == Kind::lognormal)
-    refuse_all(table, {"from", "to"}, "expected none of a lognormal distribution");
+    table.refuse_given({"from", "to"}, "expected none of a lognormal distribution");
 }
 
 SweepDistribution read_distribution(const StudyTable& table) {
@@ -121,8 +114,8 @@ SweepDistribution read_distribution(const StudyTable& table) {
     found.mean = table.number("mean");
     found.standard_deviation = table.number("standard_deviation");
   } else {
-    refuse_all(table, {"mean", "standard_deviation"},
-               "expected with a normal or lognormal distribution only");
+    table.refuse_given({"mean", "standard_deviation"},
+                       "expected with a normal or lognormal distribution only");
   }
   if (!is_normal || table.has("from")) found.low = table.number("from");
   if (!is_normal || table.has("to")) found.high = table.number("to");
@@ -135,7 +128,7 @@ SweepDistribution read_distribution(const StudyTable& table) {
     if (!(found.low <= found.mode && found.mode <= found.high))
       table.refuse("mode", "expected a value between from and to");
   } else {
-    refuse_all(table, {"mode"}, "expected with a triangular distribution only");
+    table.refuse_given({"mode"}, "expected with a triangular distribution only");
   }
   return found;
 }
@@ -143,16 +136,16 @@ SweepDistribution read_distribution(const StudyTable& table) {
 void read_sampled(const StudyTable& table, SweepParameter& parameter) {
   const bool is_discrete = !table.has("distribution") || table.text("distribution") == "discrete";
   if (is_discrete) {
-    refuse_all(table, {"mode", "mean", "standard_deviation"},
-               "expected with a continuous distribution only");
+    table.refuse_given({"mode", "mean", "standard_deviation"},
+                       "expected with a continuous distribution only");
     if (parameter.level_count() == 0)
       table.refuse("distribution", "expected a distribution, or values to choose from");
     parameter.distribution.emplace().kind = Kind::discrete;
     parameter.distribution->weights = read_weights(table, parameter.level_count());
     return;
   }
-  refuse_all(table, {"values", "texts", "steps", "weights"},
-             "expected with a discrete distribution only");
+  table.refuse_given({"values", "texts", "steps", "weights"},
+                     "expected with a discrete distribution only");
   parameter.distribution = read_distribution(table);
 }
 
@@ -166,13 +159,13 @@ SweepParameter read_parameter(const StudyTable& table, bool is_sampled) {
   if (is_sampled) {
     read_sampled(table, parameter);
   } else {
-    refuse_all(table, {"distribution", "mode", "mean", "standard_deviation", "weights"},
-               "expected with a plan that samples only, not in a grid or a list");
+    table.refuse_given({"distribution", "mode", "mean", "standard_deviation", "weights"},
+                       "expected with a plan that samples only, not in a grid or a list");
     if (parameter.level_count() == 0)
       table.refuse("values", "expected values, texts, or from, to and steps");
   }
   if (parameter.level_count() > 0 && !table.has("steps"))
-    refuse_all(table, {"from", "to"}, "expected with steps or a continuous distribution only");
+    table.refuse_given({"from", "to"}, "expected with steps or a continuous distribution only");
   table.finish();
   return parameter;
 }
@@ -229,7 +222,7 @@ SweepSection read_sweep(const StudyTable& table) {
   if (is_sampled) {
     sweep.samples = table.count("samples");
   } else {
-    refuse_all(table, {"samples"}, "expected none: the values of a grid and a list are its rows");
+    table.refuse_given({"samples"}, "expected none: the values of a grid and a list are its rows");
   }
   sweep.seed = table.count("seed");
   sweep.outputs = table.texts("outputs");
@@ -242,7 +235,7 @@ SweepSection read_sweep(const StudyTable& table) {
   check_names(names_of(sweep.parameters), "sweep.parameter");
   for (const StudyTable& each : table.tables("correlation"))
     sweep.correlations.push_back(read_correlation(each, sweep.parameters));
-  if (!is_sampled) refuse_all(table, {"correlation"}, "expected with a plan that samples only");
+  if (!is_sampled) table.refuse_given({"correlation"}, "expected with a plan that samples only");
   check_plan(table, sweep);
   table.finish();
   return sweep;
