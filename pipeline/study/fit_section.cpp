@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/study/curve_table.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
@@ -29,31 +29,33 @@ constexpr Key kParameterKeys[] = {
     Key::number("standard_deviation", kNone, "Of a normal prior", {.range = kPositive}),
 };
 
-constexpr Key kTargetKeys[] = {
-    Key::text("name", kNone, "What tables call it; the output if it is not there"),
-    Key::text("output", kNone, "A figure, such as modes.mass; or a curve:"),
-    Key::text("curve", kNone, "A curve, such as pendulum.flexion-60.head rotation"),
-    Key::text("value", kNone, "What the figure should be, with its unit, such as \"36.1 Hz\""),
-    Key::text("standard_deviation", kNone, "Of the value or of each point of the curve, with unit"),
-    Key::number("relative_deviation", kNone, "In its place: a share of the value",
-                {.range = kPositive}),
-    Key::text("low", kNone, "Of a window: the least value, all within it being equally good"),
-    Key::text("high", kNone, "Of a window: the largest value"),
-    Key::text("smoothing", kNone,
-              "How far outside a window counts as one standard deviation while fitting; a tenth of "
-              "the window if not there"),
-    Key::file("table", kNone, "CSV file of the curve: its first line \"time [ms],angle [deg]\""),
-    Key::text("column", kNone, "Column of that file, where it has more than two"),
-    Key::text("unit", kNone, "Unit of the curve's values, where the file names none"),
-    Key::quantity("time_zero", "s", "0", "Time in the file that is the case's zero"),
-    Key::quantity("from", "s", kNone, "Time from which the curve counts; its first if not there"),
-    Key::quantity("to", "s", kNone, "Time up to which it counts; its last if not there"),
-    Key::count("points", "50", "Equally spaced points as which the curve counts, independent",
-               {.range = {.low = 2, .high = 10000}}),
-    Key::text("rating", kNone, "The curve's rating is the target, its value 1 as a rule",
-              {.choices = ratings}),
-    Key::flag("held_out", "false", "Whether the target is predicted only, not fitted"),
-};
+constexpr auto kTargetKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kNone, "What tables call it; the output if it is not there"),
+        Key::text("output", kNone, "A figure, such as modes.mass; or a curve:"),
+        Key::text("curve", kNone, "A curve, such as pendulum.flexion-60.head rotation"),
+        Key::text("value", kNone, "What the figure should be, with its unit, such as \"36.1 Hz\""),
+        Key::text("standard_deviation", kNone,
+                  "Of the value or of each point of the curve, with unit"),
+        Key::number("relative_deviation", kNone, "In its place: a share of the value",
+                    {.range = kPositive}),
+        Key::text("low", kNone, "Of a window: the least value, all within it being equally good"),
+        Key::text("high", kNone, "Of a window: the largest value"),
+        Key::text(
+            "smoothing", kNone,
+            "How far outside a window counts as one standard deviation while fitting; a tenth of "
+            "the window if not there"),
+        curve_file_key(kNone),
+        Key::quantity("from", "s", kNone,
+                      "Time from which the curve counts; its first if not there"),
+        Key::quantity("to", "s", kNone, "Time up to which it counts; its last if not there"),
+        Key::count("points", "50", "Equally spaced points as which the curve counts, independent",
+                   {.range = {.low = 2, .high = 10000}}),
+        Key::text("rating", kNone, "The curve's rating is the target, its value 1 as a rule",
+                  {.choices = ratings}),
+        Key::flag("held_out", "false", "Whether the target is predicted only, not fitted"),
+    }),
+    kCurveTableKeys);
 
 constexpr Key kFitKeys[] = {
     Key::count("starts", "8", "Fits from different places: the study's own, then Sobol' points",
@@ -103,18 +105,8 @@ FitCurve read_fit_curve(const StudyTable& table, std::vector<InputFile>& files) 
   FitCurve curve;
   curve.output = table.text("curve");
   if (!table.has("table")) table.refuse("table", "expected the file of the curve");
-  const std::filesystem::path path = table.file("table");
-  curve.target = read_curve(path, table.text("column"));
-  files.push_back({path.filename().string(), hash_of_file(path.string())});
-  const std::string unit = table.text("unit");
-  if (unit.empty() == curve.target.unit.empty())
-    table.refuse("unit", unit.empty()
-                             ? "expected this key, since " + curve.target.label() + " names no unit"
-                             : "the file names the unit '" + curve.target.unit +
-                                   "' already; leave this key out");
-  if (!unit.empty()) curve.target.unit = unit;
-  Eigen::VectorXd& time_s = curve.target.time_s;
-  time_s.array() -= table.quantity("time_zero");
+  curve.target = read_curve_table(table, files);
+  const Eigen::VectorXd& time_s = curve.target.time_s;
   const double first_s = time_s[0];
   const double last_s = time_s[time_s.size() - 1];
   curve.from_s = table.has("from") ? table.quantity("from") : first_s;
@@ -178,8 +170,9 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
   if (table.has("curve")) {
     target.curve = read_fit_curve(table, files);
   } else {
-    table.refuse_given({"table", "column", "unit", "time_zero", "from", "to", "points", "rating"},
-                       "expected of a curve only");
+    table.refuse_given(
+        {"table", "column", "unit", "filter", "time_zero", "from", "to", "points", "rating"},
+        "expected of a curve only");
   }
   if (target.name.empty()) target.name = target.curve ? target.curve->output : target.output;
   read_wanted(table, target);

@@ -10,6 +10,7 @@
 
 #include "pipeline/document/curve_file.h"
 #include "pipeline/document/study_document.h"
+#include "pipeline/study/corridor_table.h"
 
 namespace flexneck::pipeline {
 
@@ -22,9 +23,8 @@ struct MeasuredCurve {
 };
 
 /// [[test.corridor]]: where a channel should run.
-struct MeasuredCorridor {
-  std::string channel;
-  Curve lower, upper;  ///< at the same times, linear between them
+struct MeasuredCorridor : Corridor {
+  std::string channel;  ///< of the case's run
 };
 
 /// [[test.limit]]: where a figure of a channel should lie.
