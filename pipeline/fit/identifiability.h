@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,7 +29,7 @@ struct Identifiability {
 /// A direction of the unit cube whose singular value is below this is fixed by no target: one
 /// standard deviation along it is more than that of the uniform prior itself, 1 / sqrt(12) of the
 /// range.
-inline constexpr double kLeastSingularValue = 3.4641016151377544;
+inline constexpr double kLeastSingularValue = 2 * std::numbers::sqrt3;
 
 /// @param jacobian  of the objective's residuals by the place, as it has them
 Identifiability identifiability(const FitObjective& objective, const Eigen::MatrixXd& jacobian);

@@ -48,7 +48,6 @@ class Functor : public Eigen::DenseFunctor<double> {
     return found;
   }
 
-  // NOLINTNEXTLINE(readability-identifier-naming): Eigen's names
   int operator()(const VectorXd& x, VectorXd& residuals) {
     if (search_.is_stopped != nullptr && search_.is_stopped->load()) throw FitStopped();
     const VectorXd at = place(x);

@@ -92,13 +92,13 @@ bool RowReader::next(RowResult& result) {
   const std::string text = line.substr(0, line.size() - kHashDigits - 1);
   if (!parse(text, format_.figures, result)) return stop();
   result.curves.resize(format_.curve_values);
-  const auto bytes = static_cast<std::streamsize>(sizeof(double)) * format_.curve_values;
-  // NOLINTNEXTLINE(*-reinterpret-cast): doubles as they are in memory
-  if (bytes > 0 && !curves_.read(reinterpret_cast<char*>(result.curves.data()), bytes))
+  std::string bytes = bytes_of(result.curves);  // as many
+  if (!bytes.empty() && !curves_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
     return stop();
-  if (line.substr(text.size()) != "|" + hash_of(text, bytes_of(result.curves))) return stop();
+  if (line.substr(text.size()) != "|" + hash_of(text, bytes)) return stop();
+  if (!bytes.empty()) std::memcpy(result.curves.data(), bytes.data(), bytes.size());
   end_ += line.size() + 1;
-  end_of_curves_ += static_cast<std::uint64_t>(bytes);
+  end_of_curves_ += bytes.size();
   return true;
 }
 
