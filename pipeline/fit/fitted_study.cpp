@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fit/fitted_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "geometry/foundation/output_file.h"
 #include "pipeline/console/wrapped_text.h"
+#include "pipeline/evaluation/figures.h"
 #include "pipeline/fit/fit_tables.h"
 #include "pipeline/fit/uniqueness.h"
 #include "pipeline/folder/results_folder.h"
@@ -90,6 +92,35 @@ void put_fitted(toml::table& root, const FitParameter& parameter, const FittedPa
   table_for(root, parts).insert_or_assign(parts.back(), std::move(labelled));
 }
 
+/// What verification calls the figure that a target is; empty if it has none.
+std::string verified_name(const StudyFit& fit, const FitTarget& target) {
+  if (target.curve) return {};
+  const OutputName output = output_name(target.output, fit.evaluator().base());
+  if (output.figure == kSystemFrequency) return "system frequency";
+  if (output.of != OutputName::Of::modes) return {};
+  if (output.figure == kMass) return "weight";
+  return output.figure.substr(output.figure.find('.') + 1);  // "bending 1", or a mode's name
+}
+
+/// States what the neck is fitted to now, if the fit has changed it: this and what it was before.
+void put_fitted_to(toml::table& root, const StudyFit& fit, const Study& fitted) {
+  const Study& base = fit.evaluator().base();
+  if (fitted.neck() == nullptr ||
+      neck_values_hash(fitted.parameters) == neck_values_hash(base.parameters))
+    return;
+  std::vector<std::string> names = base.neck()->fitted_to;
+  for (const FitTarget& each : fit.section().targets) {
+    const std::string name = each.is_held_out ? "" : verified_name(fit, each);
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  }
+  toml::array list;
+  for (const std::string& each : names) list.push_back(each);
+  toml::table& geometry = table_for(root, {"geometry", "fitted_to"});
+  geometry.insert_or_assign("fitted_to", std::move(list));
+  geometry.insert_or_assign("fitted_values", neck_values_hash(fitted.parameters));
+}
+
 std::string comments(const StudyFit& fit, const FitResult& result) {
   const Study& study = fit.evaluator().base();
   std::string text = wrapped(verdict_of_fit(fit.objective(), result), "# ");
@@ -108,7 +139,7 @@ std::string comments(const StudyFit& fit, const FitResult& result) {
 
 }  // namespace
 
-std::string fitted_study(const StudyFit& fit, const FitResult& result, const fs::path& folder) {
+std::string fitted_study(StudyFit& fit, const FitResult& result, const fs::path& folder) {
   const Study& study = fit.evaluator().base();
   toml::table root;
   const fs::path base = fs::absolute(study.file).lexically_normal();
@@ -118,6 +149,8 @@ std::string fitted_study(const StudyFit& fit, const FitResult& result, const fs:
   const std::vector<FittedParameter> fitted = fitted_parameters(fit.objective(), result);
   for (std::size_t k = 0; k < fitted.size(); ++k)
     put_fitted(root, fit.section().parameters[k], fitted[k]);
+  const Eigen::VectorXd best = fit.objective().parameters(result.best().place);
+  put_fitted_to(root, fit, fit.study(best));
   std::ostringstream text;
   text << comments(fit, result) << root << "\n";
   return text.str();

@@ -209,7 +209,7 @@ VectorXd StudyFit::observables_of(const Evaluation& evaluation) const {
 
 bool StudyFit::is_accepted(const VectorXd& parameters) {
   try {
-    static_cast<void>(evaluator_.study(settings(parameters)));
+    static_cast<void>(study(parameters));
     return true;
   } catch (const InputError&) {
     return false;

@@ -51,6 +51,8 @@ class StudyFit {
 
   /// "key=value" for each parameter.
   std::vector<std::string> settings(const Eigen::VectorXd& parameters) const;
+  /// The study with these values. @throws InputError as read_study() does.
+  Study study(const Eigen::VectorXd& parameters) { return evaluator_.study(settings(parameters)); }
   /// Whether the study with these values is one that can be read, such as of a neck whose parts
   /// fit.
   bool is_accepted(const Eigen::VectorXd& parameters);

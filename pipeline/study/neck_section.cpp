@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
+#include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/study/sections.h"
 #include "pipeline/study/study.h"
@@ -26,6 +28,10 @@ constexpr auto kGeometryKeys = std::to_array<Key>({
     Key::quantities("joint_point", "m", kNone,
                     "Of earlier versions: the position of the interface \"top\"", {.size = 3}),
     Key::texts("fitted_to", kNone, "Published figures that the neck's dimensions were fitted to"),
+    Key::text(
+        "fitted_values", kNone,
+        "Hash of the values that this fit was made with, as flexneck fit writes it: with other "
+        "ones fitted_to no longer holds"),
 });
 
 constexpr Key kMeshKeys[] = {
@@ -110,14 +116,26 @@ bool has_values_from_elsewhere(const StudyTable& root) {
   return false;
 }
 
+/// Whether a fit of the neck is made with a value.
+bool is_of_fit(const Parameter& parameter) {
+  const std::string& key = parameter.key;
+  return key == std::string("interface.") + kHeadJoint + ".position" ||
+         (key.starts_with("geometry.") && !key.ends_with(".script") &&
+          !key.starts_with("geometry.fitted_") && !key.ends_with(".parts") &&
+          !key.starts_with("geometry.slit"));
+}
+
 /// Whether a value of the user's own is one that the fit was made with.
 bool is_changed(const Parameter& parameter) {
-  const std::string& key = parameter.key;
-  const bool is_fitted_to =
-      key == std::string("interface.") + kHeadJoint + ".position" ||
-      (key.starts_with("geometry.") && !key.ends_with(".script") && !key.ends_with(".fitted_to") &&
-       !key.ends_with(".parts") && !key.starts_with("geometry.slit"));
-  return is_fitted_to && parameter.origin == Origin::synthetic;
+  return is_of_fit(parameter) && parameter.origin == Origin::synthetic;
+}
+
+bool is_another_neck(const StudyTable& root, const std::vector<Parameter>& parameters,
+                     const NeckSection& neck) {
+  if (neck.slits.state == geometry::SlitState::open) return true;  // others change nothing
+  if (!neck.fitted_values.empty()) return neck.fitted_values != neck_values_hash(parameters);
+  return has_values_from_elsewhere(root) ||
+         std::any_of(parameters.begin(), parameters.end(), is_changed);
 }
 
 }  // namespace
@@ -158,6 +176,7 @@ NeckSection read_neck(const StudyTable& geometry, const StudyTable& mesh) {
   neck.slits = read_slits(geometry);
   neck.divisions = read_divisions(mesh);
   neck.fitted_to = geometry.texts("fitted_to");
+  neck.fitted_values = geometry.text("fitted_values");
   return neck;
 }
 
@@ -183,14 +202,18 @@ void check_neck(const StudyTable& root, const NeckSection& neck) {
       "for a free neck, found none");
 }
 
+std::string neck_values_hash(const std::vector<Parameter>& parameters) {
+  std::map<std::string, std::string> values;  // in an order of their own
+  for (const Parameter& each : parameters)
+    if (is_of_fit(each)) values[each.key] = each.value;
+  std::string text;
+  for (const auto& [key, value] : values) text += key + '\n' + value + '\n';
+  return hash_of_text(text);
+}
+
 void forget_fit_of_changed_neck(const StudyTable& root, const std::vector<Parameter>& parameters,
                                 NeckSection& neck) {
-  if (neck.fitted_to.empty()) return;
-  // Slits change the neck only when they are open.
-  if (neck.slits.state == geometry::SlitState::open || has_values_from_elsewhere(root) ||
-      std::any_of(parameters.begin(), parameters.end(), is_changed)) {
-    neck.fitted_to.clear();
-  }
+  if (!neck.fitted_to.empty() && is_another_neck(root, parameters, neck)) neck.fitted_to.clear();
 }
 
 }  // namespace flexneck::pipeline

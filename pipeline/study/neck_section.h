@@ -19,6 +19,7 @@ struct NeckSection {
   geometry::NeckDivisions divisions;
   geometry::NeckSlits slits;
   std::vector<std::string> fitted_to;  ///< published figures that the dimensions were fitted to
+  std::string fitted_values;  ///< neck_values_hash() of that fit; empty of one made by hand
 };
 
 // Keys of [geometry] and of [mesh] that such a script has besides those of every script.
@@ -37,7 +38,13 @@ void add_neck(const NeckSection& neck, mesher::ScriptMeshOptions& options);
 /// @throws InputError with the condition that fails.
 void check_neck(const StudyTable& root, const NeckSection& neck);
 
-/// Clears `fitted_to` where the neck is no longer the one that was fitted.
+/// Hash of the values that a fit of the neck is made with: all of [geometry], materials too, but
+/// for the script, slits and what names the fit; and where the head's joint is.
+/// @param parameters  of the whole study
+std::string neck_values_hash(const std::vector<Parameter>& parameters);
+
+/// Clears `fitted_to` where the neck is no longer the one that was fitted: by the hash where the
+/// fit gives one; otherwise where a value comes from another folder or is the user's own.
 /// @param parameters  of the whole study
 void forget_fit_of_changed_neck(const StudyTable& root, const std::vector<Parameter>& parameters,
                                 NeckSection& neck);
