@@ -106,8 +106,7 @@ void add_stiffness(const ResponseForms& forms, const ModalOptions& options,
       by_parameter[static_cast<Eigen::Index>(p)] = -stiffness * stiffness * compliance;
     }
     add_row({QuantityKind::static_stiffness,
-             std::string(kLoads.at(static_cast<std::size_t>(i))) + " at " +
-                 options.interfaces[forms.interface].name,
+             stiffness_name(static_cast<std::size_t>(i), options.interfaces[forms.interface].name),
              i < 3 ? "N/m" : "N m/rad", stiffness},
             by_parameter, result);
   }
@@ -167,6 +166,10 @@ void note_cut_group(const SensitivityRequest& request, const AnalysisFields& sol
 }
 
 }  // namespace
+
+std::string stiffness_name(std::size_t load, const std::string& interface) {
+  return std::string(kLoads.at(load)) + " at " + interface;
+}
 
 std::string_view name_of(QuantityKind kind) {
   return kKindNames.at(static_cast<std::size_t>(kind));

@@ -47,6 +47,9 @@ enum class QuantityKind {
 /// "frequency", "mean", "directional", "symmetry class", "mass", "static stiffness".
 std::string_view name_of(QuantityKind kind);
 
+/// "Fx/ux at top": static stiffness under one of the loads on an interface, force (3), moment (3).
+std::string stiffness_name(std::size_t load, const std::string& interface);
+
 struct Quantity {
   QuantityKind kind = QuantityKind::frequency;
   std::string name;          ///< "torsion 1", "head on top 1", "Fx/ux at top", all of a group

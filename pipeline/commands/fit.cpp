@@ -98,7 +98,7 @@ bool fit_command(const CommandInput& input) {
   input.console.step(
       fmt::format("Fit of {}: parameters: {}, targets: {}, starts: {}; slopes {}; threads: {}",
                   input.study.file.string(), fit.section().parameters.size(), fit.targets().size(),
-                  starts, fit.has_closed_slopes() ? "in closed form" : "by differences", threads));
+                  starts, fit.slopes_text(), threads));
   FitJob job(fit, results, threads, &Interrupt::is_asked());
   FitResult result;
   try {

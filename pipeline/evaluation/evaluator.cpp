@@ -262,7 +262,7 @@ bool Evaluator::has_slopes(const std::vector<std::string>& settings,
                            const std::vector<std::vector<std::string>>& moved,
                            const WantedOutputs& wanted) {
   const auto is_of_modes = [](const OutputName& each) { return each.of == Of::modes; };
-  if (!wanted.curves.empty() || !has_modes_slopes(base_) ||
+  if (wanted.figures.empty() || !wanted.curves.empty() || !has_modes_slopes(base_) ||
       !std::all_of(wanted.figures.begin(), wanted.figures.end(), is_of_modes))
     return false;
   const Study at = study(settings);

@@ -54,8 +54,8 @@ class Evaluator {
   /// @throws InputError or ComputationError for a study that is refused or cannot be computed.
   Evaluation evaluate(const std::vector<std::string>& settings, const WantedOutputs& wanted);
 
-  /// Whether wanted outputs have derivatives in closed form: figures of the modes alone, by what
-  /// changes nothing but the mesh.
+  /// Whether wanted outputs have derivatives in closed form: one figure or more, all of the modes,
+  /// by what changes nothing but the mesh.
   /// @param moved  settings in the place of the others
   /// @throws InputError for a study that is refused.
   bool has_slopes(const std::vector<std::string>& settings,

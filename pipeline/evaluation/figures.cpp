@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "fe_modal/analysis/sensitivity.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/verdict/response_rules.h"
@@ -18,6 +19,27 @@ namespace {
 
 constexpr std::string_view kFrequencyOf = "frequency.";
 constexpr std::string_view kFrequencyByRank = "frequency_by_rank.";
+constexpr std::string_view kStiffnessOf = "static_stiffness.";
+
+/// The load and the motion of a stiffness "Fx/ux at top", force (3) and moment (3).
+std::size_t load_of(const std::string& stiffness) {
+  const std::string here = stiffness.substr(std::min(stiffness.find(" at "), stiffness.size()));
+  std::vector<std::string> names;
+  const std::string interface = here.empty() ? "<interface>" : here.substr(4);
+  for (std::size_t load = 0; load < 6; ++load)
+    names.push_back(fe_modal::stiffness_name(load, interface));
+  return find_name(names, stiffness, "static stiffness");
+}
+
+double static_stiffness(const fe_modal::ModalBody& body, const std::string& name) {
+  const auto load = static_cast<Eigen::Index>(load_of(name));
+  const fe_modal::Interface& at = body.interface(name.substr(name.find(" at ") + 4));
+  if (!at.response)
+    throw InputError("interface '" + at.name +
+                     "' has no static stiffness: its nodes are fixed, "
+                     "or the body is free");
+  return 1 / at.response->compliance(load, load);
+}
 
 /// "bending 2"
 struct ModeRank {
@@ -155,8 +177,10 @@ std::string unit_of_modes_figure(const std::string& name) {
     mode_rank(name.substr(kFrequencyByRank.size()));
     return "Hz";
   }
+  if (is_stiffness_figure(name)) return load_of(stiffness_of_figure(name)) < 3 ? "N/m" : "N*m/rad";
   const std::vector<std::string> names = {kMass, kSystemFrequency, "frequency.<mode>",
-                                          "frequency_by_rank.<kind> <rank>"};
+                                          "frequency_by_rank.<kind> <rank>",
+                                          "static_stiffness.<load>/<motion> at <interface>"};
   return find_name(names, name, "figure") == 0 ? "kg" : "Hz";
 }
 
@@ -171,8 +195,14 @@ std::size_t mode_of_figure(const fe_modal::ModalBody& body, const std::string& n
   return modes[asked.rank - 1];
 }
 
+bool is_stiffness_figure(const std::string& name) { return name.starts_with(kStiffnessOf); }
+std::string stiffness_of_figure(const std::string& name) {
+  return name.substr(kStiffnessOf.size());
+}
+
 double modes_figure(const fe_modal::ModalBody& body, const std::string& name) {
   if (name == kMass) return body.invariants.mass;
+  if (is_stiffness_figure(name)) return static_stiffness(body, stiffness_of_figure(name));
   if (name != kSystemFrequency)
     return body.frequencies_Hz[static_cast<Eigen::Index>(mode_of_figure(body, name))];
   if (body.attached.empty())

@@ -32,10 +32,16 @@ inline constexpr const char* kSystemFrequency = "system_frequency";
 /// Of the structure.
 inline constexpr const char* kMass = "mass";
 
-/// "mass", "system_frequency" of the body attached, "frequency.<mode>", and by kind and rank
-/// "frequency_by_rank.bending 2", of the second lowest.
-/// @throws InputError for a mode that is not among those computed, or without a body attached.
+/// "mass", "system_frequency" of the body attached, "frequency.<mode>", by kind and rank
+/// "frequency_by_rank.bending 2", of the second lowest, and "static_stiffness.My/ry at top", load
+/// by motion of an interface under this load alone (fe_modal::stiffness_name()).
+/// @throws InputError for a mode that is not among those computed, without a body attached, and for
+/// an interface that is none or has no stiffness.
 double modes_figure(const fe_modal::ModalBody& body, const std::string& name);
+/// Whether it is the last of these.
+bool is_stiffness_figure(const std::string& name);
+/// "My/ry at top" of such a figure.
+std::string stiffness_of_figure(const std::string& name);
 /// The mode whose frequency such a figure is.
 std::size_t mode_of_figure(const fe_modal::ModalBody& body, const std::string& name);
 

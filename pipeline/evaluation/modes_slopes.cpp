@@ -102,6 +102,14 @@ Index row_of(const fe_modal::Sensitivities& found, const fe_modal::ModalBody& bo
     const fe_modal::AttachedFrequencies& attached = body.attached.at(0);
     return row_of_frequency(found, attached.body + " on " + attached.interface + " 1", true);
   }
+  if (is_stiffness_figure(figure)) {
+    const auto row = std::find_if(found.quantities.begin(), found.quantities.end(),
+                                  [&](const fe_modal::Quantity& each) {
+                                    return each.kind == fe_modal::QuantityKind::static_stiffness &&
+                                           each.name == stiffness_of_figure(figure);
+                                  });
+    return row - found.quantities.begin();
+  }
   return row_of_frequency(found, body.modes[mode_of_figure(body, figure)].name, false);
 }
 
@@ -128,7 +136,8 @@ FigureSlopes modes_slopes(const Study& study, const mesher::Mesh& mesh, BodyUse 
   const fe_modal::ModalBody body =
       fe_modal::analyse_modes(solved, options, {}, nullptr, {}, &fields);
   static_cast<void>(rounding_remark(solved, options, body));  // refuses what is wrong
-  fields.responses.clear();                                   // whose derivatives nobody asks for
+  if (std::none_of(figures.begin(), figures.end(), is_stiffness_figure))
+    fields.responses.clear();  // whose derivatives nobody asks for
   std::vector<mesher::Mesh> others;
   others.reserve(moved.size());
   for (const MovedStudy& each : moved) others.push_back(make_mesh(each.study, console));

@@ -9,6 +9,7 @@
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
+#include "pipeline/fit/curve_terms.h"
 #include "pipeline/plotting/figure.h"
 #include "pipeline/plotting/gnuplot.h"
 
@@ -129,21 +130,26 @@ class Drawing {
     const FitCurve& curve = *fit_.section().targets[target].curve;
     const ShownTarget& shown = fit_.targets()[target];
     std::string csv;
+    const Eigen::VectorXd times_s = times_of_points(curve);
     for (std::size_t k = first; k < end; ++k) {
-      const double share = static_cast<double>(k - first) / (curve.points - 1);
       const FitTerm& term = fit_.objective().terms()[k];
-      csv += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n",
-                         1e3 * (curve.from_s + share * (curve.to_s - curve.from_s)),
-                         term.value * shown.factor, term.deviation * shown.factor,
-                         result_.best().values[static_cast<Index>(k)] * shown.factor);
+      const double low = term.window ? term.window->low : term.value - term.deviation;
+      const double high = term.window ? term.window->high : term.value + term.deviation;
+      csv +=
+          fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", 1e3 * times_s[static_cast<Index>(k - first)],
+                      low * shown.factor, high * shown.factor,
+                      result_.best().values[static_cast<Index>(k)] * shown.factor);
     }
     const std::string stem = "fit-curve-" + file_part_of(shown.name);
     begin(stem, csv, 760, 460);
     script_ += fmt::format(
         "set xlabel 'time [ms]'\nset ylabel {}\nset key below\n"
-        "plot '{}.csv' using 1:2:3 with yerrorbars pt 7 ps 0.3 lc rgb '#888888' title 'target', '' "
+        "plot '{}.csv' using 1:{} title '{}', '' "
         "using 1:4 with lines lw 2 lc rgb '#0072b2' title 'fit'\n",
-        gnuplot_text(shown.name + " [" + shown.unit + "]"), stem);
+        gnuplot_text(shown.name + " [" + shown.unit + "]"), stem,
+        curve.corridor ? "2:3 with filledcurves lc rgb '#dddddd'"
+                       : "(0.5*($2+$3)):2:3 with yerrorbars pt 7 ps 0.3 lc rgb '#888888'",
+        curve.corridor ? "corridor" : "target");
   }
 
   std::string label_of(std::size_t parameter) const {

@@ -63,8 +63,11 @@ std::vector<std::string> target_row(const ShownTarget& shown, const FitObjective
                                     const VectorXd& values, std::size_t first, std::size_t count) {
   const FitTerm& term = objective.terms()[first];
   double squares = 0;
-  for (std::size_t k = first; k < first + count; ++k)
+  bool are_inside = true;
+  for (std::size_t k = first; k < first + count; ++k) {
     squares += std::pow(objective.terms()[k].residual(values[static_cast<Index>(k)]), 2);
+    are_inside = are_inside && objective.terms()[k].is_met(values[static_cast<Index>(k)], 0);
+  }
   const double value = values[static_cast<Index>(first)];
   const bool is_one = count == 1;
   const double residual =
@@ -75,7 +78,7 @@ std::vector<std::string> target_row(const ShownTarget& shown, const FitObjective
           unit_text(shown.unit),
           is_one && !term.window ? error_text(value, term.value) : "-",
           number(residual, 3),
-          term.window ? (term.is_met(value, 0) ? "inside" : "OUTSIDE") : "",
+          term.window ? (are_inside ? "inside" : "OUTSIDE") : "",
           term.is_held_out ? "held out" : "fitted",
           std::string(name_of(shown.origin)),
           shown.output};
@@ -199,10 +202,9 @@ ResultTable history_table(const StudyFit& fit, const HistoryMatch& history) {
   for (std::size_t k = 0; k < targets.size(); ++k)
     add(targets[k].first + (targets[k].second ? " (held out)" : ""), history.by_target[k]);
   table.notes = {fmt::format(
-      "Random points of the prior, {} of which failed. Met is a window by its edges, a value "
-      "within "
-      "{:g} standard deviations, a curve if the root of their mean square is. Confidence after "
-      "Clopper and Pearson.",
+      "Random points of the prior, {} of which failed. Met is a window by its edges, a corridor by "
+      "those at all points, a value within {:g} standard deviations, a curve if the root of their "
+      "mean square is. Confidence after Clopper and Pearson.",
       history.failed, fit.section().history_deviations)};
   return table;
 }

@@ -65,12 +65,15 @@ std::vector<bool> met_targets(const FitObjective& objective, const VectorXd& val
   for (std::size_t first = 0; first < terms.size();) {
     std::size_t end = first;
     double squares = 0;
-    for (; end < terms.size() && terms[end].target == terms[first].target; ++end)
-      squares += std::pow(terms[end].residual(values[static_cast<Index>(end)]), 2);
-    const auto count = static_cast<double>(end - first);
-    met.push_back(end == first + 1
-                      ? terms[first].is_met(values[static_cast<Index>(first)], deviations)
-                      : std::sqrt(squares / count) <= deviations);
+    bool are_met = true;
+    for (; end < terms.size() && terms[end].target == terms[first].target; ++end) {
+      const double value = values[static_cast<Index>(end)];
+      squares += std::pow(terms[end].residual(value), 2);
+      are_met = are_met && terms[end].is_met(value, deviations);
+    }
+    const bool is_curve = end > first + 1 && !terms[first].window;
+    met.push_back(is_curve ? std::sqrt(squares / static_cast<double>(end - first)) <= deviations
+                           : are_met);
     first = end;
   }
   return met;

@@ -31,8 +31,8 @@ Eigen::VectorXd prior_point(const FitObjective& objective, std::uint64_t seed,
                             std::uint64_t number);
 
 /// For each target, in the order of the terms, whether observables meet it: of a curve the root of
-/// the mean square of its residuals is within the deviations. Of all targets, those that are held
-/// out, too.
+/// the mean square of its residuals is within the deviations, of a corridor all points are inside.
+/// Of all targets, those that are held out, too.
 std::vector<bool> met_targets(const FitObjective& objective, const Eigen::VectorXd& values,
                               double deviations);
 

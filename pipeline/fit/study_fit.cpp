@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fit/study_fit.h"
 
-#include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include <fmt/core.h>
@@ -9,36 +9,26 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/document/product_text.h"
+#include "pipeline/fit/curve_terms.h"
 #include "pipeline/fit/target_terms.h"
+#include "pipeline/model/model_sections.h"
 
 namespace flexneck::pipeline {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
-
-/// Linear between the samples. @pre the samples cover the time
-double interpolated(const VectorXd& times_s, const VectorXd& values, double time_s) {
-  const auto after = std::lower_bound(times_s.begin() + 1, times_s.end() - 1, time_s);
-  const Index k = after - times_s.begin();
-  const double share =
-      std::clamp((time_s - times_s[k - 1]) / (times_s[k] - times_s[k - 1]), 0.0, 1.0);
-  return (1 - share) * values[k - 1] + share * values[k];
-}
-
-double time_of_point(const FitCurve& curve, int point) {
-  return curve.from_s + (curve.to_s - curve.from_s) * point / (curve.points - 1);
-}
-
-}  // namespace
 
 StudyFit::StudyFit(Evaluator& evaluator, FitSection section, unsigned threads)
     : evaluator_(evaluator), section_(std::move(section)) {
   std::vector<FitTerm> all = terms();
   check_parameters();
   const auto plain = [this](const VectorXd& at) { return observables(at); };
+  const auto of_others = [this](const VectorXd& at) {
+    return others_.observables(evaluator_, settings(at));
+  };
   differences_ = central_differences(plain, ranges(), threads);
+  differences_of_others_ = central_differences(of_others, ranges(), threads);
   FitModel model{[this](const VectorXd& at) { return values(at); },
                  [this](const VectorXd& at) { return slopes(at); }};
   objective_.emplace(ranges(), std::move(all), std::move(model));
@@ -71,7 +61,7 @@ void StudyFit::check_parameters() const {
     };
     all.push_back({varied(k), at(0.25), at(0.75)});
   }
-  check_varied(evaluator_, all, wanted_, "fit", "the targets");
+  check_varied(evaluator_, all, all_.wanted(), "fit", "the targets");
 }
 
 void StudyFit::find_start() {
@@ -109,61 +99,50 @@ void StudyFit::find_start() {
   start_ = objective_->place(at);
 }
 
+void StudyFit::add_observed(const FitTarget& target, const OutputName& output, std::size_t first,
+                            std::size_t count) {
+  const auto row = static_cast<Index>(first);
+  const auto rows = static_cast<Index>(count);
+  all_.add(target, output, row, rows);
+  if (!target.curve && output.of == OutputName::Of::modes)
+    of_modes_.add(target, output, row, rows);
+  else if (!target.is_held_out)
+    others_.add(target, output, row, rows);
+}
+
 void StudyFit::add_figure_terms(const FitTarget& target, std::vector<FitTerm>& terms) {
-  WantedOutputs found;
-  try {
-    found = evaluator_.wanted({target.output}, {});
-  } catch (const InputError& error) {
-    target.table.refuse("output", error.what());
-  }
-  wanted_.figures.push_back(found.figures.front());
-  const std::string si_unit = unit_of(found.figures.front(), evaluator_.base());
+  const OutputName output = at_key(target.table, "output", [&] {
+    return evaluator_.wanted({target.output}, {}).figures.front();
+  });
+  add_observed(target, output, terms.size(), 1);
+  const std::string si_unit = unit_of(output, evaluator_.base());
   terms.push_back(target.is_window() ? window_term(target, si_unit) : value_term(target, si_unit));
-  const auto [unit, factor] = unit_of_text(
-      !target.value.empty() ? target.value : (target.low.empty() ? target.high : target.low),
-      si_unit);
+  const auto [unit, factor] = unit_of_text(text_with_unit(target), si_unit);
   targets_.push_back({target.name, target.output, unit, factor, wanted_text(target), {}});
 }
 
 void StudyFit::add_curve_terms(const FitTarget& target, std::vector<FitTerm>& terms) {
   const FitCurve& curve = *target.curve;
-  WantedOutputs found;
-  Curve wanted;
-  try {
-    found = evaluator_.wanted({}, {curve.output});
-    wanted = in_unit(curve.target, unit_of_curve(found.curves.front()));
-  } catch (const InputError& error) {
-    target.table.refuse("curve", error.what());
-  }
-  const double end_s = case_of(found.curves.front(), evaluator_.base()).duration_s;
+  const OutputName output = at_key(
+      target.table, "curve", [&] { return evaluator_.wanted({}, {curve.output}).curves.front(); });
+  const double end_s = case_of(output, evaluator_.base()).duration_s;
   if (curve.from_s < 0 || curve.to_s > end_s)
     target.table.refuse("to", fmt::format("expected times within the case, 0 s to {:g} s, found "
                                           "{:g} s to {:g} s",
                                           end_s, curve.from_s, curve.to_s));
-  wanted_.curves.push_back(found.curves.front());
-  const std::string si_unit = unit_of_curve(found.curves.front());
-  if (curve.rating) {
-    terms.push_back(target.is_window() ? window_term(target, "1") : value_term(target, "1"));
-    targets_.push_back({target.name, curve.output, "1", 1, wanted_text(target), {}});
-    return;
+  const std::string si_unit = unit_of_curve(output);
+  const std::vector<FitTerm> of_curve = curve_terms(target, si_unit);
+  add_observed(target, output, terms.size(), of_curve.size());
+  terms.insert(terms.end(), of_curve.begin(), of_curve.end());
+  std::string unit = "1";
+  double factor = 1;
+  if (curve.corridor) {
+    unit = curve.corridor->lower.unit;
+    factor = factor_from_si(si_unit, unit);
+  } else if (!curve.rating) {
+    std::tie(unit, factor) = unit_of_text(text_with_unit(target), si_unit);
   }
-  const double deviation =
-      number_of(target, "standard_deviation", target.standard_deviation, si_unit);
-  if (!(deviation > 0)) target.table.refuse("standard_deviation", "expected a positive value");
-  for (int k = 0; k < curve.points; ++k)
-    terms.push_back({target.name,
-                     interpolated(wanted.time_s, wanted.values, time_of_point(curve, k)),
-                     deviation,
-                     {},
-                     target.is_held_out});
-  const auto [unit, factor] = unit_of_text(target.standard_deviation, si_unit);
-  targets_.push_back({target.name,
-                      curve.output,
-                      unit,
-                      factor,
-                      std::filesystem::path(curve.target.file).filename().string() + " +- " +
-                          target.standard_deviation,
-                      {}});
+  targets_.push_back({target.name, curve.output, unit, factor, wanted_text(target), {}});
 }
 
 std::vector<FitTerm> StudyFit::terms() {
@@ -182,31 +161,6 @@ std::vector<std::string> StudyFit::settings(const VectorXd& parameters) const {
   return all;
 }
 
-VectorXd StudyFit::observables_of(const Evaluation& evaluation) const {
-  std::vector<double> values;
-  Index figure = 0;
-  std::size_t place = 0;  // of a curve
-  for (const FitTarget& target : section_.targets) {
-    if (!target.curve) {
-      values.push_back(evaluation.figures[figure++]);
-      continue;
-    }
-    const FitCurve& wanted = *target.curve;
-    const VectorXd& times_s = evaluation.times_s[place];
-    const VectorXd& curve = evaluation.curves[place];
-    if (wanted.rating) {
-      const std::string unit = unit_of_curve(wanted_.curves[place]);
-      values.push_back(rating_of(
-          wanted, in_unit({wanted.output, "", unit, times_s, curve}, wanted.target.unit)));
-    } else {
-      for (int k = 0; k < wanted.points; ++k)
-        values.push_back(interpolated(times_s, curve, time_of_point(wanted, k)));
-    }
-    ++place;
-  }
-  return VectorXd::Map(values.data(), static_cast<Index>(values.size()));
-}
-
 bool StudyFit::is_accepted(const VectorXd& parameters) {
   try {
     static_cast<void>(study(parameters));
@@ -217,9 +171,7 @@ bool StudyFit::is_accepted(const VectorXd& parameters) {
 }
 
 VectorXd StudyFit::observables(const VectorXd& parameters) {
-  const Evaluation evaluation = evaluator_.evaluate(settings(parameters), wanted_);
-  if (!evaluation.problem.empty()) throw ComputationError(evaluation.problem);
-  return observables_of(evaluation);
+  return all_.observables(evaluator_, settings(parameters));
 }
 
 StudyFit::Moved StudyFit::moved(const VectorXd& parameters, double direction) const {
@@ -242,16 +194,22 @@ void StudyFit::look_for_closed_slopes() {
   std::vector<std::vector<std::string>> others;
   for (const auto& [other, width] : moved(at, 1)) others.push_back(other);
   try {
-    has_closed_slopes_ = evaluator_.has_slopes(settings(at), others, wanted_);
+    has_closed_slopes_ = evaluator_.has_slopes(settings(at), others, of_modes_.wanted());
   } catch (const InputError&) {
     has_closed_slopes_ = false;  // the first fit tells what is wrong
   }
 }
 
+std::string StudyFit::slopes_text() const {
+  if (!has_closed_slopes_) return "by differences";
+  return others_.is_empty() ? "in closed form"
+                            : "of the modes in closed form, others by differences";
+}
+
 void StudyFit::check_produced() {
   // The solution at the start is that of the first fit, too.
   if (has_closed_slopes_ && closed_slopes(objective_->parameters(start_))) return;
-  evaluator_.require_produced(wanted_);
+  evaluator_.require_produced(all_.wanted());
 }
 
 std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {
@@ -265,7 +223,7 @@ std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {
   for (const double direction : {1.0, -1.0}) {
     try {
       FigureSlopes slopes =
-          evaluator_.slopes(settings(parameters), moved(parameters, direction), wanted_);
+          evaluator_.slopes(settings(parameters), moved(parameters, direction), of_modes_.wanted());
       found = ModelSlopes{std::move(slopes.values), std::move(slopes.derivatives)};
       break;
     } catch (const InputError&) {
@@ -281,13 +239,24 @@ std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {
 }
 
 ModelSlopes StudyFit::slopes(const VectorXd& parameters) {
-  if (has_closed_slopes_)
-    if (std::optional<ModelSlopes> found = closed_slopes(parameters)) return *found;
-  return differences_(parameters);
+  const std::optional<ModelSlopes> closed =
+      has_closed_slopes_ ? closed_slopes(parameters) : std::nullopt;
+  if (!closed) return differences_(parameters);
+  const auto terms = static_cast<Index>(objective_->terms().size());
+  // What is held out takes no part, and needs no slopes.
+  ModelSlopes all{VectorXd::Zero(terms), MatrixXd::Zero(terms, parameters.size())};
+  const auto put = [&](const ModelSlopes& some, const ObservedTargets& of) {
+    all.values(of.rows()) = some.values;
+    all.derivatives(of.rows(), Eigen::all) = some.derivatives;
+  };
+  put(*closed, of_modes_);
+  if (!others_.is_empty()) put(differences_of_others_(parameters), others_);
+  return all;
 }
 
 VectorXd StudyFit::values(const VectorXd& parameters) {
-  if (has_closed_slopes_)
+  // Of the modes alone: a fit asks for slopes at the same place next.
+  if (has_closed_slopes_ && of_modes_.rows().size() == objective_->terms().size())
     if (const std::optional<ModelSlopes> found = closed_slopes(parameters)) return found->values;
   return observables(parameters);
 }

@@ -12,6 +12,7 @@
 
 #include "pipeline/evaluation/evaluator.h"
 #include "pipeline/fit/fit_objective.h"
+#include "pipeline/fit/observed_targets.h"
 #include "pipeline/sampling/varied_key.h"
 #include "pipeline/study/fit_section.h"
 
@@ -58,8 +59,9 @@ class StudyFit {
   bool is_accepted(const Eigen::VectorXd& parameters);
   /// Observables without slopes. @throws InputError or ComputationError where there are none.
   Eigen::VectorXd observables(const Eigen::VectorXd& parameters);
-  /// Whether slopes are known in closed form; otherwise they are taken by differences.
-  bool has_closed_slopes() const { return has_closed_slopes_; }
+  /// How slopes are found: "in closed form", those of targets of the modes alone; "by differences",
+  /// or some so and some so.
+  std::string slopes_text() const;
   void start_solvers() { evaluator_.start(); }
 
  private:
@@ -71,7 +73,9 @@ class StudyFit {
   std::vector<FitTerm> terms();
   void add_figure_terms(const FitTarget& target, std::vector<FitTerm>& terms);
   void add_curve_terms(const FitTarget& target, std::vector<FitTerm>& terms);
-  Eigen::VectorXd observables_of(const Evaluation& evaluation) const;
+  /// @param first  row of its observables, that of its first term
+  void add_observed(const FitTarget& target, const OutputName& output, std::size_t first,
+                    std::size_t count);
 
   using Moved = std::vector<std::pair<std::vector<std::string>, double>>;
   /// Settings with each parameter moved a little, and by how much.
@@ -85,17 +89,19 @@ class StudyFit {
 
   Evaluator& evaluator_;
   FitSection section_;
-  WantedOutputs wanted_;
+  ObservedTargets all_;
+  ObservedTargets of_modes_;  ///< figures of the modes, which may have closed slopes
+  ObservedTargets others_;    ///< that are fitted
   std::vector<ShownTarget> targets_;
-  std::vector<std::string> curve_units_;  ///< SI, of the wanted curves
   std::optional<FitObjective> objective_;
   std::function<ModelSlopes(const Eigen::VectorXd&)> differences_;
+  std::function<ModelSlopes(const Eigen::VectorXd&)> differences_of_others_;
   Eigen::VectorXd start_;
-  bool has_closed_slopes_ = false;
+  bool has_closed_slopes_ = false;  ///< of the modes
 
   std::mutex mutex_;
-  /// Closed slopes of the last few places: a fit asks for a place's values first, for which all of
-  /// the solution is needed already.
+  /// Closed slopes of the modes at the last few places: a fit asks for a place's values first, for
+  /// which all of the solution is needed already.
   std::vector<std::pair<Eigen::VectorXd, ModelSlopes>> known_;
 };
 

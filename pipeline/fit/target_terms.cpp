@@ -8,9 +8,6 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/document/product_text.h"
-#include "pipeline/rating/cora.h"
-#include "pipeline/rating/iso18571.h"
-#include "pipeline/rating/resampling.h"
 
 namespace flexneck::pipeline {
 
@@ -35,18 +32,27 @@ std::pair<std::string, double> unit_of_text(const std::string& text, const std::
   return {unit, factor_from_si(si_unit, unit)};
 }
 
+FitTerm window_term(const FitTarget& target, const FitTerm::Window& window,
+                    const std::string& si_unit) {
+  constexpr double kShare = 0.1;
+  const double smoothing = target.smoothing.empty()
+                               ? kShare * (window.high - window.low)
+                               : number_of(target, "smoothing", target.smoothing, si_unit);
+  if (!(smoothing > 0))
+    target.table.refuse("smoothing", target.smoothing.empty()
+                                         ? "expected this key of a corridor that has no width "
+                                           "somewhere"
+                                         : "expected a positive value");
+  return {target.name, 0, smoothing, window, target.is_held_out};
+}
+
 FitTerm window_term(const FitTarget& target, const std::string& si_unit) {
   FitTerm::Window window;
   if (!target.low.empty()) window.low = number_of(target, "low", target.low, si_unit);
   if (!target.high.empty()) window.high = number_of(target, "high", target.high, si_unit);
   if (!(window.low < window.high))
     target.table.refuse("high", "expected more than low, the window crosses itself");
-  constexpr double kShare = 0.1;
-  const double smoothing = target.smoothing.empty()
-                               ? kShare * (window.high - window.low)
-                               : number_of(target, "smoothing", target.smoothing, si_unit);
-  if (!(smoothing > 0)) target.table.refuse("smoothing", "expected a positive value");
-  return {target.name, 0, smoothing, window, target.is_held_out};
+  return window_term(target, window, si_unit);
 }
 
 FitTerm value_term(const FitTarget& target, const std::string& si_unit) {
@@ -61,7 +67,20 @@ FitTerm value_term(const FitTarget& target, const std::string& si_unit) {
   return {target.name, value, deviation, {}, target.is_held_out};
 }
 
+const std::string& text_with_unit(const FitTarget& target) {
+  for (const std::string* const text : {&target.value, &target.low, &target.high})
+    if (!text->empty()) return *text;
+  return target.standard_deviation;
+}
+
 std::string wanted_text(const FitTarget& target) {
+  if (target.curve && target.curve->corridor) {
+    const std::string& file = target.curve->corridor->lower.file;
+    return file.empty() ? "a corridor" : std::filesystem::path(file).filename().string();
+  }
+  if (target.curve && !target.curve->rating)
+    return std::filesystem::path(target.curve->target.file).filename().string() + " +- " +
+           target.standard_deviation;
   if (target.is_window())
     return (target.low.empty()    ? "below " + target.high
             : target.high.empty() ? "above " + target.low
@@ -71,17 +90,11 @@ std::string wanted_text(const FitTarget& target) {
                              : " +- " + target.standard_deviation);
 }
 
-double rating_of(const FitCurve& wanted, const Curve& computed) {
-  const ResampledPair pair = resampled(wanted.target, computed, {wanted.from_s, wanted.to_s});
-  return *wanted.rating == 0 ? rate_iso18571(pair.reference, pair.computed).overall
-                             : rate_cora(pair.reference, pair.computed).overall;
-}
-
 Origin origin_of(const Study& study, const FitTarget& target) {
   const std::string path = "fit.target." + target.table.text("name") + ".";
   for (const Parameter& each : study.parameters)
     if (each.key == path + "value" || each.key == path + "low" || each.key == path + "high" ||
-        each.key == path + "table")
+        each.key == path + "table" || each.key.starts_with(path + "corridor."))
       return each.origin;
   return Origin::synthetic;
 }

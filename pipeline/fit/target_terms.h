@@ -15,20 +15,22 @@ namespace flexneck::pipeline {
 double number_of(const FitTarget& target, const char* key, const std::string& text,
                  const std::string& si_unit);
 
+/// The text that has the target's unit; empty of a corridor.
+const std::string& text_with_unit(const FitTarget& target);
+
 /// The unit of such a text, and the factor to it from SI.
 std::pair<std::string, double> unit_of_text(const std::string& text, const std::string& si_unit);
 
-/// A target that is a window, and one that is a value. @throws InputError as number_of() does, for
-/// a window that crosses itself and for deviations that are not positive.
+/// A target that is a window, of its own keys or of a corridor, and one that is a value. @throws
+/// InputError as number_of() does, for a window that crosses itself and for deviations that are not
+/// positive.
 FitTerm window_term(const FitTarget& target, const std::string& si_unit);
+FitTerm window_term(const FitTarget& target, const FitTerm::Window& window,
+                    const std::string& si_unit);
 FitTerm value_term(const FitTarget& target, const std::string& si_unit);
 
-/// "36.1 Hz +- 0.3 %", "50 ms to 60 ms"
+/// "36.1 Hz +- 0.3 %", "50 ms to 60 ms", "curve.csv +- 1 deg", "corridor.csv"
 std::string wanted_text(const FitTarget& target);
-
-/// The rating of a computed curve, of the target's unit, against it. @pre wanted.rating
-/// @throws InputError as resampled() and the ratings do.
-double rating_of(const FitCurve& wanted, const Curve& computed);
 
 /// Where a target's value comes from, as the study says.
 Origin origin_of(const Study& study, const FitTarget& target);

@@ -92,7 +92,7 @@ bool RowReader::next(RowResult& result) {
   const std::string text = line.substr(0, line.size() - kHashDigits - 1);
   if (!parse(text, format_.figures, result)) return stop();
   result.curves.resize(format_.curve_values);
-  std::string bytes = bytes_of(result.curves);  // as many
+  std::string bytes(static_cast<std::size_t>(format_.curve_values) * sizeof(double), '\0');
   if (!bytes.empty() && !curves_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
     return stop();
   if (line.substr(text.size()) != "|" + hash_of(text, bytes)) return stop();

@@ -46,6 +46,7 @@ constexpr auto kTargetKeys = joined(
             "How far outside a window counts as one standard deviation while fitting; a tenth of "
             "the window if not there"),
         curve_file_key(kNone),
+        Key::table("corridor", "In place of the table: where the curve should run", kCorridorKeys),
         Key::quantity("from", "s", kNone,
                       "Time from which the curve counts; its first if not there"),
         Key::quantity("to", "s", kNone, "Time up to which it counts; its last if not there"),
@@ -101,21 +102,36 @@ FitParameter read_parameter(const StudyTable& table) {
   return parameter;
 }
 
+/// What the curve should be. @return the times that it covers
+const Eigen::VectorXd& read_wanted_curve(const StudyTable& table, FitCurve& curve,
+                                         std::vector<InputFile>& files) {
+  if (table.has("corridor")) {
+    table.refuse_given({"table", "column", "unit", "filter", "time_zero", "rating"},
+                       "expected none beside a corridor");
+    const StudyTable corridor = table.table("corridor");
+    curve.corridor = read_corridor(corridor, files);
+    corridor.finish();
+    return curve.corridor->lower.time_s;
+  }
+  if (!table.has("table")) table.refuse("table", "expected the file of the curve, or a corridor");
+  curve.target = read_curve_table(table, files);
+  return curve.target.time_s;
+}
+
 FitCurve read_fit_curve(const StudyTable& table, std::vector<InputFile>& files) {
   FitCurve curve;
   curve.output = table.text("curve");
-  if (!table.has("table")) table.refuse("table", "expected the file of the curve");
-  curve.target = read_curve_table(table, files);
-  const Eigen::VectorXd& time_s = curve.target.time_s;
+  const Eigen::VectorXd& time_s = read_wanted_curve(table, curve, files);
   const double first_s = time_s[0];
   const double last_s = time_s[time_s.size() - 1];
   curve.from_s = table.has("from") ? table.quantity("from") : first_s;
   curve.to_s = table.has("to") ? table.quantity("to") : last_s;
   if (!(curve.from_s < curve.to_s)) table.refuse("to", "expected a time after from");
+  const std::string what = curve.corridor ? "the corridor" : curve.target.label();
   for (const auto& [key, is_missing] :
        {std::pair{"from", curve.from_s < first_s}, std::pair{"to", curve.to_s > last_s}})
     if (is_missing)
-      table.refuse(key, "expected a time that " + curve.target.label() + " covers, which has " +
+      table.refuse(key, "expected a time that " + what + " covers, which has " +
                             std::to_string(first_s) + " s to " + std::to_string(last_s) + " s");
   curve.points = table.count("points");
   if (table.has("rating")) curve.rating = table.choice("rating");
@@ -131,8 +147,12 @@ void read_wanted(const StudyTable& table, FitTarget& target) {
   target.smoothing = table.text("smoothing");
   if (table.has("relative_deviation"))
     target.relative_deviation = table.number("relative_deviation");
-  const bool is_curve = target.curve && !target.curve->rating;
-  if (is_curve) {
+  if (target.curve && target.curve->corridor) {
+    table.refuse_given({"value", "standard_deviation", "relative_deviation", "low", "high"},
+                       "expected none of a corridor, which is a window at each of its points");
+    return;
+  }
+  if (target.curve && !target.curve->rating) {
     table.refuse_given({"value", "relative_deviation", "low", "high", "smoothing"},
                        "expected none of a curve, which has its values in its table and a "
                        "standard_deviation");
@@ -170,9 +190,9 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
   if (table.has("curve")) {
     target.curve = read_fit_curve(table, files);
   } else {
-    table.refuse_given(
-        {"table", "column", "unit", "filter", "time_zero", "from", "to", "points", "rating"},
-        "expected of a curve only");
+    table.refuse_given({"table", "corridor", "column", "unit", "filter", "time_zero", "from", "to",
+                        "points", "rating"},
+                       "expected of a curve only");
   }
   if (target.name.empty()) target.name = target.curve ? target.curve->output : target.output;
   read_wanted(table, target);

@@ -9,6 +9,7 @@
 
 #include "pipeline/document/curve_file.h"
 #include "pipeline/document/study_document.h"
+#include "pipeline/study/corridor_table.h"
 
 namespace flexneck::pipeline {
 
@@ -28,7 +29,8 @@ struct FitParameter {
 /// What a target has of a curve.
 struct FitCurve {
   std::string output;  ///< the curve of the study
-  Curve target;        ///< over the time of the case, in the file's unit
+  Curve target;        ///< over the time of the case, in the file's unit; none of a corridor
+  std::optional<Corridor> corridor;  ///< in its place: a window at each point
   double from_s = 0;
   double to_s = 0;
   int points = 0;  ///< at equal distances, as which it counts
