@@ -11,6 +11,8 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "pipeline/fit/global_search.h"
+#include "pipeline/fit/limited_fit.h"
 #include "pipeline/sampling/countdown.h"
 #include "pipeline/sampling/run_rows.h"
 #include "pipeline/sampling/unit_points.h"
@@ -154,6 +156,15 @@ std::vector<VectorXd> FitJob::starts() const {
   return places;
 }
 
+VectorXd FitJob::first_place(const VectorXd& start, std::uint64_t number) {
+  const FitSection& section = fit_.section();
+  if (section.method == FitSection::Method::local) return start;
+  return best_of_search(
+      with_limits_as_windows(fit_.objective()),
+      [this](const VectorXd& at) { return fit_.observables(at); }, start,
+      {section.evaluations, static_cast<std::uint64_t>(section.seed) + number, stopped_});
+}
+
 std::vector<Minimum> FitJob::fit_all(const Progress& tell) {
   const FitObjective& objective = fit_.objective();
   const Index parameters = objective.parameter_count();
@@ -161,7 +172,7 @@ std::vector<Minimum> FitJob::fit_all(const Progress& tell) {
   const std::vector<VectorXd> places = starts();
   Step step{"starts", "fits", places.size(), 3 + parameters + observables, {}};
   step.compute = [&](std::uint64_t number) {
-    const Minimum found = least_squares(objective, places[number], search());
+    const Minimum found = least_squares(objective, first_place(places[number], number), search());
     return RowResult{number, row_of(found, observables), found.problem, {}};
   };
   std::vector<Minimum> minima;

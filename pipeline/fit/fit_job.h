@@ -72,6 +72,8 @@ class FitJob {
   std::vector<RowResult> rows_of(const Step& step, const Progress& tell) const;
   /// The study's own, then Sobol' points that the study does not refuse.
   std::vector<Eigen::VectorXd> starts() const;
+  /// Where least squares begin: at the start, or where a global search from it has ended.
+  Eigen::VectorXd first_place(const Eigen::VectorXd& start, std::uint64_t number);
   std::vector<Minimum> fit_all(const Progress& tell);
   std::vector<Profile> all_profiles(const FitResult& result, const Progress& tell);
   HistoryMatch history(const Progress& tell);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -101,11 +102,16 @@ std::function<ModelSlopes(const VectorXd&)> central_differences(
 FitObjective::FitObjective(std::vector<FitRange> ranges, std::vector<FitTerm> terms, FitModel model)
     : ranges_(std::move(ranges)), terms_(std::move(terms)), model_(std::move(model)) {
   for (std::size_t k = 0; k < terms_.size(); ++k)
-    if (!terms_[k].is_held_out) fitted_.push_back(k);
+    if (!terms_[k].is_held_out && !terms_[k].must_hold) fitted_.push_back(k);
   const auto priors = std::count_if(ranges_.begin(), ranges_.end(),
                                     [](const FitRange& each) { return each.prior.has_value(); });
   told_count_ = static_cast<Index>(fitted_.size()) + priors;
   residual_count_ = std::max(told_count_, parameter_count());
+}
+
+bool FitObjective::has_limits() const {
+  return std::any_of(terms_.begin(), terms_.end(),
+                     [](const FitTerm& each) { return each.must_hold; });
 }
 
 VectorXd FitObjective::parameters(const VectorXd& place) const {
@@ -136,6 +142,22 @@ VectorXd FitObjective::residuals(const VectorXd& place, const VectorXd& values) 
     if (const auto& prior = ranges_[k].prior)
       found[row++] = (at[static_cast<Index>(k)] - prior->mean) / prior->deviation;
   return found;
+}
+
+VectorXd FitObjective::residuals_or_bad(const VectorXd& place,
+                                        const std::function<VectorXd(const VectorXd&)>& values,
+                                        std::string& problem) const {
+  try {
+    VectorXd found = residuals(place, values(parameters(place)));
+    if (found.allFinite()) return found;
+    problem = "a figure is not finite";
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  constexpr double kBad = 1e12;
+  return VectorXd::Constant(residual_count(), kBad);
 }
 
 MatrixXd FitObjective::jacobian(const ModelSlopes& slopes) const {

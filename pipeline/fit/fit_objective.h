@@ -40,6 +40,7 @@ struct FitTerm {
   double deviation = 1;          ///< > 0; of a window the smoothing
   std::optional<Window> window;  ///< in place of the value
   bool is_held_out = false;      ///< predicted only
+  bool must_hold = false;        ///< a window that a fit keeps to instead of counting it
 
   /// In standard deviations; 0 in a window.
   double residual(double observed) const;
@@ -68,8 +69,8 @@ std::function<ModelSlopes(const Eigen::VectorXd&)> central_differences(
     unsigned threads = 1);
 
 /// Weighted residuals of a model. Places are in the unit cube: 0 is the lower bound of a parameter,
-/// 1 the upper one. Terms that are held out take no part. Residuals are those of the terms, then
-/// those of normal priors, then zeros if there are fewer than parameters.
+/// 1 the upper one. Terms that are held out or must hold take no part. Residuals are those of the
+/// terms, then those of normal priors, then zeros if there are fewer than parameters.
 class FitObjective {
  public:
   FitObjective(std::vector<FitRange> ranges, std::vector<FitTerm> terms, FitModel model);
@@ -81,6 +82,8 @@ class FitObjective {
   const std::vector<FitRange>& ranges() const { return ranges_; }
   const std::vector<FitTerm>& terms() const { return terms_; }
   const FitModel& model() const { return model_; }
+  /// Whether there are windows that must hold.
+  bool has_limits() const;
   /// Positions in terms() of those that are fitted: residual k is of term fitted()[k].
   const std::vector<std::size_t>& fitted() const { return fitted_; }
 
@@ -88,6 +91,13 @@ class FitObjective {
   Eigen::VectorXd place(const Eigen::VectorXd& parameters) const;
   /// @param values  observables there
   Eigen::VectorXd residuals(const Eigen::VectorXd& place, const Eigen::VectorXd& values) const;
+  /// Where the model may fail: then all of them are very bad, and the problem says why.
+  /// @param values  of the model
+  /// @throws std::bad_alloc
+  Eigen::VectorXd residuals_or_bad(
+      const Eigen::VectorXd& place,
+      const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& values,
+      std::string& problem) const;
   /// By the place, (residuals, p).
   Eigen::MatrixXd jacobian(const ModelSlopes& slopes) const;
 

@@ -79,7 +79,9 @@ std::vector<std::string> target_row(const ShownTarget& shown, const FitObjective
           is_one && !term.window ? error_text(value, term.value) : "-",
           number(residual, 3),
           term.window ? (are_inside ? "inside" : "OUTSIDE") : "",
-          term.is_held_out ? "held out" : "fitted",
+          term.is_held_out ? "held out"
+          : term.must_hold ? "must hold"
+                           : "fitted",
           std::string(name_of(shown.origin)),
           shown.output};
 }

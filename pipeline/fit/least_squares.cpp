@@ -8,6 +8,8 @@
 #include <optional>
 #include <unsupported/Eigen/LevenbergMarquardt>
 
+#include "pipeline/fit/limited_fit.h"
+
 namespace flexneck::pipeline {
 
 using Eigen::Index;
@@ -52,19 +54,7 @@ class Functor : public Eigen::DenseFunctor<double> {
     if (search_.is_stopped != nullptr && search_.is_stopped->load()) throw FitStopped();
     const VectorXd at = place(x);
     ++evaluations_;
-    try {
-      residuals = objective_.residuals(at, objective_.model().values(objective_.parameters(at)));
-      if (residuals.allFinite()) return 0;
-      problem_ = "a figure is not finite";
-    } catch (const FitStopped&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      problem_ = error.what();
-    }
-    constexpr double kInfinitelyBad = 1e12;
-    residuals = VectorXd::Constant(values(), kInfinitelyBad);
+    residuals = objective_.residuals_or_bad(at, objective_.model().values, problem_);
     return 0;
   }
 
@@ -136,6 +126,7 @@ bool is_at_bound(double place) { return place < kAtBound || place > 1 - kAtBound
 
 Minimum least_squares(const FitObjective& objective, const VectorXd& start,
                       const FitSearch& search) {
+  if (objective.has_limits()) return least_squares_within_limits(objective, start, search);
   Functor functor(objective, start, search);
   VectorXd x = functor.variables();
   Minimum found;

@@ -40,7 +40,8 @@ struct FitStopped : std::runtime_error {
 /// Eigen has it). Bounds are kept by a change of variables, u = (1 + sin x) / 2 of each parameter
 /// (James and Roos 1975, MINUIT): a minimum at a bound is reached, with u at it to 1e-4 or so. A
 /// start at a bound is moved in by 1 %, since the sine is flat there. A place at which the model
-/// fails counts as infinitely bad, so that the step to it is shortened.
+/// fails counts as infinitely bad, so that the step to it is shortened. Windows that must hold are
+/// kept to by least_squares_within_limits().
 /// @throws FitStopped
 Minimum least_squares(const FitObjective& objective, const Eigen::VectorXd& start,
                       const FitSearch& search);

@@ -43,7 +43,7 @@ FitTerm window_term(const FitTarget& target, const FitTerm::Window& window,
                                          ? "expected this key of a corridor that has no width "
                                            "somewhere"
                                          : "expected a positive value");
-  return {target.name, 0, smoothing, window, target.is_held_out};
+  return {target.name, 0, smoothing, window, target.is_held_out, target.must_hold};
 }
 
 FitTerm window_term(const FitTarget& target, const std::string& si_unit) {

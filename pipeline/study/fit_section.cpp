@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kFitSection = "fit";
 
+std::vector<std::string> methods() { return {"local", "global"}; }
 std::vector<std::string> ratings() { return {"iso18571", "cora"}; }
 
 constexpr Key kParameterKeys[] = {
@@ -54,6 +55,8 @@ constexpr auto kTargetKeys = joined(
                    {.range = {.low = 2, .high = 10000}}),
         Key::text("rating", kNone, "The curve's rating is the target, its value 1 as a rule",
                   {.choices = ratings}),
+        Key::flag("must_hold", "false",
+                  "Whether fits keep to a window; it then adds nothing to chi-squared"),
         Key::flag("held_out", "false", "Whether the target is predicted only, not fitted"),
     }),
     kCurveTableKeys);
@@ -62,6 +65,11 @@ constexpr Key kFitKeys[] = {
     Key::count("starts", "8", "Fits from different places: the study's own, then Sobol' points",
                {.range = {.low = 1, .high = 10000}}),
     Key::count("seed", "1", "Of the random numbers", {.range = at_least(0)}),
+    Key::text("method", "local",
+              "Whether least squares begin at the starts, or where a global search from each ends",
+              {.choices = methods}),
+    Key::count("evaluations", "1000", "Of the model in each global search, at most",
+               {.range = at_least(1)}),
     Key::count("iterations", "40", "Steps of each fit, at most", {.range = at_least(1)}),
     Key::flag("profiles", "true", "Whether confidence is found by profile likelihood, too"),
     Key::count("history_samples", "0",
@@ -184,6 +192,7 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
                    .high = {},
                    .smoothing = {},
                    .is_held_out = table.flag("held_out"),
+                   .must_hold = table.flag("must_hold"),
                    .table = table};
   if (table.has("output") == table.has("curve"))
     table.refuse("output", "expected one of output and curve");
@@ -196,6 +205,9 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
   }
   if (target.name.empty()) target.name = target.curve ? target.curve->output : target.output;
   read_wanted(table, target);
+  const bool is_window = target.is_window() || (target.curve && target.curve->corridor);
+  if (target.must_hold && (!is_window || target.is_held_out))
+    table.refuse("must_hold", "expected of a window or a corridor that is not held out");
   table.finish();
   return target;
 }
@@ -208,6 +220,10 @@ FitSection read_fit(const StudyTable& table, std::vector<InputFile>& files) {
   FitSection fit;
   fit.starts = table.count("starts");
   fit.seed = table.count("seed");
+  fit.method = static_cast<FitSection::Method>(table.choice("method"));
+  if (fit.method == FitSection::Method::local)
+    table.refuse_given({"evaluations"}, "expected with method = \"global\" only");
+  fit.evaluations = table.count("evaluations");
   fit.iterations = table.count("iterations");
   fit.has_profiles = table.flag("profiles");
   fit.history_samples = table.count("history_samples");
@@ -220,8 +236,8 @@ FitSection read_fit(const StudyTable& table, std::vector<InputFile>& files) {
   for (const StudyTable& each : table.tables("target"))
     fit.targets.push_back(read_target(each, files));
   if (std::all_of(fit.targets.begin(), fit.targets.end(),
-                  [](const FitTarget& each) { return each.is_held_out; }))
-    table.refuse("target", "expected at least one that is not held out");
+                  [](const FitTarget& each) { return each.is_held_out || each.must_hold; }))
+    table.refuse("target", "expected at least one that is not held out and counts");
   check_names(names_of(fit.targets), "fit.target");
   table.finish();
   return fit;

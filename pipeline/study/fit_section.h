@@ -50,6 +50,7 @@ struct FitTarget {
   std::string low, high;                     ///< of a window; empty: open on that side
   std::string smoothing;                     ///< of a window; empty: a tenth of its width
   bool is_held_out = false;                  ///< predicted only
+  bool must_hold = false;                    ///< a window that a fit keeps to
   StudyTable table;                          ///< that says so; for messages
 
   bool is_window() const { return !low.empty() || !high.empty(); }
@@ -57,6 +58,9 @@ struct FitTarget {
 
 /// [fit]
 struct FitSection {
+  enum class Method { local, global };
+  Method method = Method::local;
+  int evaluations = 1000;  ///< of a global search, at most
   int starts = 8;
   int seed = 1;
   int iterations = 40;            ///< of each start, at most
