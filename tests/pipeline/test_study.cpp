@@ -75,6 +75,42 @@ TEST_CASE("a neck with a dimension of the user's own no longer counts as fitted"
   }
 }
 
+TEST_CASE("a fit that names its values by their hash holds for these alone, wherever they stand") {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return folder / name;
+  };
+  // A dimension of the user's own, one of them by a variable, with that file's hash.
+  const std::string mine = "include = [\"" + built_in_study().string() +
+                           "\"]\n[variables]\nthick = \"0.4 in\"\n[geometry]\n"
+                           "plate_thickness = \"$thick\"\nfitted_to = [\"bending 1\"]\n";
+  const Study unnamed = read_study(write("unnamed.toml", mine), {});
+  CHECK(unnamed.neck()->fitted_to.empty());
+  const std::filesystem::path fitted = write(
+      "fitted.toml", mine + "fitted_values = \"" + neck_values_hash(unnamed.parameters) + "\"\n");
+  const auto holds = [&](const std::filesystem::path& study,
+                         const std::vector<std::string>& settings = {}) {
+    return !read_study(study, settings).neck()->fitted_to.empty();
+  };
+  CHECK(holds(fitted));
+  CHECK(holds(fitted, {"mesh.quadrant=6", "body.neck.damping_ratio=0.5"}));
+  CHECK_FALSE(holds(fitted, {"geometry.top_plate_thickness=0.3 in"}));
+  CHECK_FALSE(holds(fitted, {"variables.thick=0.41 in"}));
+  // By a file beside it, whatever origin it gives.
+  const std::string include = "include = [\"fitted.toml\"]\n";
+  CHECK(holds(write("same.toml", include)));
+  for (const char* const change :
+       {"[geometry]\ntop_plate_thickness = { value = \"0.3 in\", origin = \"published\" }\n",
+        "[variables]\nthick = { value = \"0.41 in\", origin = \"published\" }\n",
+        "[geometry.materials.butyl]\ndensity = { value = \"1100 kg/m^3\", origin = \"inferred\" "
+        "}\n",
+        "[[interface]]\nname = \"top\"\nposition = [\"0 in\", \"0 in\", \"6 in\"]\n"}) {
+    INFO(change);
+    CHECK_FALSE(holds(write("changed.toml", include + change)));
+  }
+}
+
 TEST_CASE("a preset gives the divisions that are not given otherwise") {
   const auto divisions = [](const std::vector<std::string>& settings) {
     return built_in(settings).neck()->divisions;

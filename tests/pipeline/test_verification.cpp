@@ -95,4 +95,19 @@ TEST_CASE("fitted is said beside what the geometry was fitted to, and only there
   CHECK(row(table, "torsion 1").fitted);
   CHECK_FALSE(row(table, "weight").fitted);
   CHECK_FALSE(row(table, "mode order").fitted);
+  // As flexneck fit names them: one by its rank, one by its mode.
+  study.structure->neck->fitted_to = {"bending 2", "torsion 1", "weight"};
+  const VerificationTable some = verify(
+      study, body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}, {"torsion 1", 20}}),
+      {}, example());
+  CHECK_FALSE(row(some, "bending 1").fitted);
+  CHECK(row(some, "bending 2").fitted);
+  CHECK(row(some, "torsion 1").fitted);
+  CHECK(row(some, "weight").fitted);
+  study.structure->neck->fitted_to = {"lateral bending 1"};
+  const VerificationTable one = verify(
+      study, body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}, {"torsion 1", 20}}),
+      {}, example());
+  CHECK(row(one, "bending 1").fitted);
+  CHECK_FALSE(row(one, "bending 2").fitted);
 }

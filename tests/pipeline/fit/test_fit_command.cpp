@@ -3,12 +3,9 @@
 #include <fstream>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
-#include "tests/support/beam_study.h"
-#include "tests/support/files.h"
-#include "tests/support/flexneck_command.h"
+#include "tests/pipeline/fit/fit_runs.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
@@ -16,52 +13,6 @@ using namespace flexneck::testing;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string fit(const fs::path& study, const fs::path& out, const std::string& more = "") {
-  return "fit " + study.string() + " -o " + out.string() + " " + more;
-}
-
-CommandOutcome require_done(const std::string& arguments) {
-  CommandOutcome outcome = run_flexneck(arguments);
-  INFO(outcome.text);
-  REQUIRE(outcome.exit_code == 0);
-  return outcome;
-}
-
-nlohmann::json table_in(const fs::path& out, const std::string& name) {
-  const nlohmann::json file = nlohmann::json::parse(bytes_of(out / "fit.json"));
-  for (const nlohmann::json& table : file.at("tables"))
-    if (table.at("name") == name) return table;
-  FAIL("no table " + name);
-  return {};
-}
-
-double cell(const nlohmann::json& table, std::size_t row, std::size_t column) {
-  return std::stod(table.at("rows").at(row).at(column).get<std::string>());
-}
-
-/// The bar's material, which the deck has too, in the study.
-const std::string kRubber =
-    "[geometry.materials.Rubber]\nyoungs_modulus = \"70 MPa\"\npoissons_ratio = 0.3\n"
-    "density = \"3000 kg/m^3\"\nparts = [\"BAR\"]\n";
-const std::string kModulus =
-    "[[fit.parameter]]\nname = \"E\"\nkey = \"geometry.materials.Rubber.youngs_modulus\"\n"
-    "unit = \"MPa\"\nfrom = 30\nto = 150\n";
-const std::string kMass =
-    "[[fit.parameter]]\nname = \"head\"\nkey = \"body.head.mass\"\nunit = \"kg\"\nfrom = 3\n"
-    "to = 6\nstart = 5.5\n";
-
-/// A frequency of the bar as it is, 70 MPa, and the first with the head.
-std::string target(const std::string& output, const std::string& value,
-                   const std::string& more = "relative_deviation = 0.001\n") {
-  return "[[fit.target]]\nname = \"" + output + "\"\noutput = \"" + output + "\"\nvalue = \"" +
-         value + "\"\n" + more;
-}
-
-CommandOutcome outcome_of(const std::string& section) {
-  const TemporaryFolder folder;
-  return run_flexneck(fit(write_beam_study(folder.path(), section), folder / "out"));
-}
 
 /// What a sweep says of the study at other values.
 double figure_of(const fs::path& folder, const std::string& output, const std::string& settings) {
@@ -110,21 +61,32 @@ TEST_CASE("a fit finds a modulus by a frequency, and the fitted study has it") {
 TEST_CASE("closed-form slopes and differences come to the same fit") {
   const TemporaryFolder folder;
   const double wanted = figure_of(folder.path(), "modes.system_frequency", "");
-  // The first is a figure of the modes alone: in closed form; a target of the pendulum beside it,
-  // held out, makes all slopes differences.
+  // Figures of the modes: in closed form; not by an iterative solver, and not those of a pendulum
+  // beside them unless it is held out.
   const std::string of_modes = kRubber + "[fit]\nstarts = 1\n" + kModulus +
                                target("modes.system_frequency", std::to_string(wanted) + " Hz");
   const fs::path study = write_beam_study(folder.path(), of_modes);
   CHECK_THAT(require_done(fit(study, folder / "closed")).text, Contains("in closed form"));
-  const fs::path other = write_beam_study(
-      folder.path(), of_modes + target("pendulum.flexion.head_rotation", "20 deg",
-                                       "standard_deviation = \"1 deg\"\nheld_out = true\n"));
-  CHECK_THAT(require_done(fit(other, folder / "differences")).text, Contains("by differences"));
+  CHECK_THAT(require_done(fit(study, folder / "differences", "--set modes.solver=iterative")).text,
+             Contains("slopes by differences"));
+  const std::string rotation =
+      target("pendulum.flexion.head_rotation", "20 deg", "standard_deviation = \"1000 deg\"\n");
+  CHECK_THAT(
+      require_done(fit(write_beam_study(folder.path(), of_modes + rotation), folder / "mixed"))
+          .text,
+      Contains("of the modes in closed form, others by differences"));
+  CHECK_THAT(
+      require_done(fit(write_beam_study(folder.path(), of_modes + rotation + "held_out = true\n"),
+                       folder / "held-out"))
+          .text,
+      Contains("slopes in closed form"));
   const nlohmann::json one = table_in(folder / "closed", "fit parameters");
-  const nlohmann::json two = table_in(folder / "differences", "fit parameters");
-  for (std::size_t column : {2U, 3U, 4U})
-    CHECK(cell(one, 0, column) == Approx(cell(two, 0, column)).epsilon(1e-4));
-  CHECK(table_in(folder / "differences", "fit targets").at("rows").at(1).at(7) == "held out");
+  for (const char* const way : {"differences", "mixed", "held-out"}) {
+    const nlohmann::json other = table_in(folder / way, "fit parameters");
+    for (std::size_t column : {2U, 3U, 4U})
+      CHECK(cell(one, 0, column) == Approx(cell(other, 0, column)).epsilon(1e-4));
+  }
+  CHECK(table_in(folder / "held-out", "fit targets").at("rows").at(1).at(7) == "held out");
 }
 
 TEST_CASE("what no target fixes makes a fit not unique in its first line") {
@@ -176,44 +138,16 @@ TEST_CASE("Ctrl-C keeps the fits that are done") {
   CHECK_FALSE(fs::exists(folder / "out/fit.json"));
 }
 
-TEST_CASE("a curve is fitted at its points") {
-  const TemporaryFolder folder;
-  const std::string truth = "body.neck.damping_ratio=0.7";
-  const fs::path plain = write_beam_study(folder.path());
-  require_done("run " + plain.string() + " -o " + (folder / "truth").string() + " --set " + truth);
-  const auto section = [&](const std::string& times, const std::string& unit) {
-    return "[fit]\nstarts = 2\n[[fit.parameter]]\nname = \"damping\"\n"
-           "key = \"body.neck.damping_ratio\"\nfrom = 0.3\nto = 1.5\n[[fit.target]]\n"
-           "name = \"rotation\"\ncurve = \"pendulum.flexion.head rotation\"\n"
-           "table = \"truth/pendulum-flexion.csv\"\ncolumn = \"head rotation\"\n"
-           "standard_deviation = \"1 " +
-           unit + "\"\n" + times;
-  };
-  const fs::path study = write_beam_study(folder.path(), section("", "deg"));
-  require_done(fit(study, folder / "out"));
-  const nlohmann::json parameters = table_in(folder / "out", "fit parameters");
-  CHECK(cell(parameters, 0, 2) == Approx(0.7).epsilon(1e-4));
-  CHECK_THAT(bytes_of(folder / "out/fit-curve-rotation.svg"), Contains("</svg>"));
-  const auto refused = [&](const std::string& times, const std::string& unit,
-                           const std::string& why) {
-    check_refused(
-        run_flexneck(fit(write_beam_study(folder.path(), section(times, unit)), folder / "x")),
-        why);
-  };
-  refused("from = \"100 ms\"\nto = \"900 ms\"\n", "deg", "covers");
-  refused("from = \"100 ms\"\nto = \"50 ms\"\n", "deg", "expected a time after from");
-  refused("", "N", "rad");
-  std::ofstream(folder / "truth/pendulum-flexion.csv")
-      << "time [ms],head rotation [deg]\n0,1\n2,2\n1,3\n";
-  refused("", "deg", "increas");
-}
-
 TEST_CASE("what is wrong with a fit is told in one line") {
   const std::string rotation =
       target("pendulum.flexion.head_rotation", "17 deg", "standard_deviation = \"1 deg\"\n");
   check_refused(outcome_of(""), "expected [fit]");
   check_refused(outcome_of("[fit]\n" + rotation), "fit.parameter: expected at least one");
   check_refused(outcome_of("[fit]\n" + kMass), "expected at least one that is not held out");
+  check_refused(outcome_of("[fit]\nevaluations = 9\n" + kMass + rotation),
+                "expected with method = \"global\" only");
+  check_refused(outcome_of("[fit]\n" + kMass + rotation + "must_hold = true\n"),
+                "expected of a window or a corridor");
   check_refused(
       outcome_of("[fit]\n[[fit.parameter]]\nname = \"g\"\nkey = \"case.far.impact_velocity\"\n"
                  "unit = \"m/s\"\nfrom = 1\nto = 5\n" +

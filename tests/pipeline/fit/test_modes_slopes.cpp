@@ -8,6 +8,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/evaluation/evaluator.h"
+#include "tests/support/beam_study.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
@@ -35,7 +36,8 @@ TEST_CASE("slopes of modes' figures in closed form are those of solutions apart"
   const WantedOutputs wanted = evaluator.wanted(
       {"modes.mass", "modes.frequency_by_rank.bending 1", "modes.frequency_by_rank.bending 2",
        "modes.frequency_by_rank.bending 4", "modes.frequency_by_rank.torsion 1",
-       "modes.frequency.axial 1", "modes.system_frequency"},
+       "modes.frequency.axial 1", "modes.system_frequency", "modes.static_stiffness.My/ry at top",
+       "modes.static_stiffness.Fz/uz at top"},
       {});
   const auto at = [](double thickness_in, double stiff) -> std::vector<std::string> {
     return {"geometry.top_plate_thickness=\"" + std::to_string(thickness_in) + " in\"",
@@ -64,4 +66,26 @@ TEST_CASE("slopes of modes' figures in closed form are those of solutions apart"
   }
   // Another number of elements is another topology.
   CHECK_THROWS_AS(evaluator.slopes(middle, {{{"mesh.plate_layers=2"}, 1}}, wanted), InputError);
+}
+
+TEST_CASE("the static stiffness of a bar along its axis is E A / L") {
+  const TemporaryFolder folder;
+  const Console console(Verbosity::quiet);
+  Evaluator evaluator({testing::write_beam_study(folder.path()), {}}, console);
+  const auto stiffness = [&](const std::string& name) {
+    return evaluator.evaluate({}, evaluator.wanted({"modes.static_stiffness." + name}, {}))
+        .figures[0];
+  };
+  // 70 MPa, 32 mm by 30 mm, 144 mm; the clamp holds the width, too.
+  CHECK(stiffness("Fz/uz at top") == Approx(70e6 * 0.032 * 0.030 / 0.144).epsilon(0.03));
+  // The tip's rotation under a moment alone: E I / L.
+  CHECK(stiffness("My/ry at top") ==
+        Approx(70e6 * 0.030 * std::pow(0.032, 3) / 12 / 0.144).epsilon(0.05));
+  const auto refused = [&](const std::string& name, const std::string& why) {
+    CHECK_THROWS_WITH(stiffness(name), Catch::Matchers::Contains(why));
+  };
+  refused("My/rx at top", "did you mean 'My/ry at top'");
+  refused("My/ry", "at <interface>");
+  CHECK_THROWS_AS(stiffness("My/ry at middle"), InputError);
+  refused("My/ry at base", "has no static stiffness");
 }

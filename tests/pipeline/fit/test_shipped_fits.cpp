@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
+#include "pipeline/study/study.h"
 #include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"
 
@@ -43,6 +44,15 @@ TEST_CASE("from a neutral start the neck's dimensions come within 0.5 % of the s
   for (std::size_t row = 0; row < 6; ++row) CHECK(std::abs(cell(targets, row, 4)) < 0.5);
   CHECK(targets.at(6).at(7) == "held out");
   CHECK(rows_of(folder / "out", "fit choices").size() == 4);
+  // The fitted study states what it was fitted to, until a dimension changes; not what was held
+  // out.
+  const std::filesystem::path fitted = folder / "out/fitted.toml";
+  CHECK(pipeline::read_study(fitted, {}).neck()->fitted_to ==
+        std::vector<std::string>{"bending 1", "bending 2", "torsion 1", "bending 3", "bending 4",
+                                 "torsion 2"});
+  CHECK(pipeline::read_study(fitted, {"variables.end_rubber_offset=0.3 in"})
+            .neck()
+            ->fitted_to.empty());
 }
 
 TEST_CASE("the head spring is found again from its curves") {
