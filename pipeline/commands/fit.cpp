@@ -75,7 +75,7 @@ void remove_former(const std::filesystem::path& folder) {
 }
 
 /// A fit is one without pictures, too.
-void draw(const CommandInput& input, const StudyFit& fit, const FitResult& result) {
+void draw(const CommandInput& input, StudyFit& fit, const FitResult& result) {
   try {
     const std::vector<std::string> names = draw_fit(fit, result, input.folder.path());
     input.console.result(

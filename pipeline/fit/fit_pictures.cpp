@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/core.h>
 
+#include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/temporary_folder.h"
@@ -25,7 +28,9 @@ constexpr int kPanels = 3;  ///< side by side
 /// Pictures on their way: one script for all.
 class Drawing {
  public:
-  Drawing(const StudyFit& fit, const FitResult& result) : fit_(fit), result_(result) {}
+  /// @param start  observables where the first fit began
+  Drawing(const StudyFit& fit, const FitResult& result, Eigen::VectorXd start)
+      : fit_(fit), result_(result), start_(std::move(start)) {}
 
   void add_targets() {
     const std::vector<FitTerm>& terms = fit_.objective().terms();
@@ -135,16 +140,18 @@ class Drawing {
       const FitTerm& term = fit_.objective().terms()[k];
       const double low = term.window ? term.window->low : term.value - term.deviation;
       const double high = term.window ? term.window->high : term.value + term.deviation;
-      csv +=
-          fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", 1e3 * times_s[static_cast<Index>(k - first)],
-                      low * shown.factor, high * shown.factor,
-                      result_.best().values[static_cast<Index>(k)] * shown.factor);
+      const auto row = static_cast<Index>(k);
+      csv += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
+                         1e3 * times_s[row - static_cast<Index>(first)], low * shown.factor,
+                         high * shown.factor, result_.best().values[row] * shown.factor,
+                         start_[row] * shown.factor);
     }
     const std::string stem = "fit-curve-" + file_part_of(shown.name);
     begin(stem, csv, 760, 460);
     script_ += fmt::format(
         "set xlabel 'time [ms]'\nset ylabel {}\nset key below\n"
         "plot '{}.csv' using 1:{} title '{}', '' "
+        "using 1:5 with lines lw 2 dt 2 lc rgb '#d55e00' title 'before the fit', '' "
         "using 1:4 with lines lw 2 lc rgb '#0072b2' title 'fit'\n",
         gnuplot_text(shown.name + " [" + shown.unit + "]"), stem,
         curve.corridor ? "2:3 with filledcurves lc rgb '#dddddd'"
@@ -172,16 +179,31 @@ class Drawing {
 
   const StudyFit& fit_;
   const FitResult& result_;
+  Eigen::VectorXd start_;
   TemporaryFolder files_;
   std::string script_;
   std::vector<std::string> names_;
 };
 
+/// Not a number each at a start where the model fails.
+Eigen::VectorXd observables_at_start(StudyFit& fit) {
+  const auto none = [&] {
+    return Eigen::VectorXd::Constant(static_cast<Index>(fit.objective().terms().size()),
+                                     std::numeric_limits<double>::quiet_NaN());
+  };
+  try {
+    return fit.observables(fit.objective().parameters(fit.start()));
+  } catch (const InputError&) {
+    return none();
+  } catch (const ComputationError&) {
+    return none();
+  }
+}
+
 }  // namespace
 
-std::vector<std::string> draw_fit(const StudyFit& fit, const FitResult& result,
-                                  const fs::path& folder) {
-  Drawing drawing(fit, result);
+std::vector<std::string> draw_fit(StudyFit& fit, const FitResult& result, const fs::path& folder) {
+  Drawing drawing(fit, result, observables_at_start(fit));
   drawing.add_targets();
   drawing.add_profiles();
   drawing.add_history();
