@@ -17,7 +17,7 @@ Curve listed_curve(const StudyTable& table, const char* key, const std::vector<d
           Eigen::VectorXd::Map(values.data(), count)};
 }
 
-Corridor listed_corridor(const StudyTable& table) {
+CurveCorridor listed_corridor(const StudyTable& table) {
   const std::vector<double> times_s = table.quantities("times");
   if (times_s.size() < 2) table.refuse("times", "expected two times or more");
   for (std::size_t k = 1; k < times_s.size(); ++k)
@@ -28,8 +28,8 @@ Corridor listed_corridor(const StudyTable& table) {
 
 }  // namespace
 
-Corridor read_corridor(const StudyTable& table, std::vector<InputFile>& files) {
-  Corridor corridor;
+CurveCorridor read_corridor(const StudyTable& table, std::vector<InputFile>& files) {
+  CurveCorridor corridor;
   if (table.has("table")) {
     table.refuse_given({"times", "lower", "upper"}, "is given twice, here and by the key 'table'");
     corridor = {read_curve_column(table, "lower", files), read_curve_column(table, "upper", files)};

@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 /// Where a curve should run: a lower and an upper one at the same times and in the same unit,
 /// linear between these.
-struct Corridor {
+struct CurveCorridor {
   Curve lower, upper;
 };
 
@@ -27,6 +27,6 @@ inline constexpr auto kCorridorKeys = std::to_array<Key>({
 
 /// Its file, if there is one, is appended to `files`.
 /// @throws InputError with file, line and key, also for a corridor that crosses itself.
-Corridor read_corridor(const StudyTable& table, std::vector<InputFile>& files);
+CurveCorridor read_corridor(const StudyTable& table, std::vector<InputFile>& files);
 
 }  // namespace flexneck::pipeline

@@ -30,7 +30,7 @@ struct FitParameter {
 struct FitCurve {
   std::string output;  ///< the curve of the study
   Curve target;        ///< over the time of the case, in the file's unit; none of a corridor
-  std::optional<Corridor> corridor;  ///< in its place: a window at each point
+  std::optional<CurveCorridor> corridor;  ///< in its place: a window at each point
   double from_s = 0;
   double to_s = 0;
   int points = 0;  ///< at equal distances, as which it counts

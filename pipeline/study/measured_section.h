@@ -23,7 +23,7 @@ struct MeasuredCurve {
 };
 
 /// [[test.corridor]]: where a channel should run.
-struct MeasuredCorridor : Corridor {
+struct MeasuredCorridor : CurveCorridor {
   std::string channel;  ///< of the case's run
 };
 
