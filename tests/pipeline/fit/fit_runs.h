@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
+#include "pipeline/console/console.h"
 #include "tests/support/beam_study.h"
 #include "tests/support/files.h"
 #include "tests/support/flexneck_command.h"
@@ -55,6 +56,12 @@ inline std::string target(const std::string& output, const std::string& value,
                           const std::string& more = "relative_deviation = 0.001\n") {
   return "[[fit.target]]\nname = \"" + output + "\"\noutput = \"" + output + "\"\nvalue = \"" +
          value + "\"\n" + more;
+}
+
+/// A process has one console.
+inline const pipeline::Console& quiet_console() {
+  static const pipeline::Console console(pipeline::Verbosity::quiet);
+  return console;
 }
 
 inline CommandOutcome outcome_of(const std::string& section) {
