@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fit/fitted_study.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -102,22 +101,20 @@ std::string verified_name(const StudyFit& fit, const FitTarget& target) {
   return output.figure.substr(output.figure.find('.') + 1);  // "bending 1", or a mode's name
 }
 
-/// States what the neck is fitted to now, if the fit has changed it: this and what it was before.
+/// States what the neck is fitted to now, if the fit has changed it; what it was fitted to before
+/// no longer holds.
 void put_fitted_to(toml::table& root, const StudyFit& fit, const Study& fitted) {
   const Study& base = fit.evaluator().base();
   if (fitted.neck() == nullptr ||
       neck_values_hash(fitted.parameters) == neck_values_hash(base.parameters))
     return;
-  std::vector<std::string> names = base.neck()->fitted_to;
+  toml::array names;
   for (const FitTarget& each : fit.section().targets) {
     const std::string name = each.is_held_out ? "" : verified_name(fit, each);
-    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
+    if (!name.empty()) names.push_back(name);
   }
-  toml::array list;
-  for (const std::string& each : names) list.push_back(each);
   toml::table& geometry = table_for(root, {"geometry", "fitted_to"});
-  geometry.insert_or_assign("fitted_to", std::move(list));
+  geometry.insert_or_assign("fitted_to", std::move(names));
   geometry.insert_or_assign("fitted_values", neck_values_hash(fitted.parameters));
 }
 
