@@ -176,7 +176,7 @@ NeckSection read_neck(const StudyTable& geometry, const StudyTable& mesh) {
   neck.slits = read_slits(geometry);
   neck.divisions = read_divisions(mesh);
   neck.fitted_to = geometry.texts("fitted_to");
-  neck.fitted_values = geometry.text("fitted_values");
+  if (geometry.has("fitted_values")) neck.fitted_values = geometry.text("fitted_values");
   return neck;
 }
 
