@@ -50,8 +50,8 @@ constexpr auto kOwnKeys = joined(
 /// The inertia's axes may be turned against the body's.
 RigidBody rigid_body(const StudyTable& table, Assembly& assembly) {
   if (table.flag("lumped")) {
-    for (const char* key : {"mass", "center", "inertia", "inertia_rotation"})
-      if (table.has(key)) table.refuse(key, "the body's mass is that of the sections at it");
+    table.refuse_given({"mass", "center", "inertia", "inertia_rotation"},
+                       "the body's mass is that of the sections at it");
     assembly.lumped.insert(assembly.model.bodies.size());
     return {0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
   }
