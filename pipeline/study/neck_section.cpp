@@ -110,14 +110,21 @@ bool has_values_from_elsewhere(const StudyTable& root) {
   return false;
 }
 
+/// Whether it is a dimension or a material of the user's own. Slits change a structure only when
+/// they are open, which they are said to be by one key.
+bool is_own_geometry(const Parameter& parameter) {
+  const std::string& key = parameter.key;
+  if (parameter.origin != Origin::synthetic || !key.starts_with("geometry.")) return false;
+  if (key == "geometry.slits") return parameter.value.find("open") != std::string::npos;
+  return !key.ends_with(".script") && !key.ends_with(".fitted_to") && !key.ends_with(".parts") &&
+         !key.starts_with("geometry.slit");
+}
+
 /// Whether a value of the user's own is one that the fit was made with.
 bool is_changed(const Parameter& parameter) {
-  const std::string& key = parameter.key;
-  const bool is_fitted_to =
-      key == std::string("interface.") + kHeadJoint + ".position" ||
-      (key.starts_with("geometry.") && !key.ends_with(".script") && !key.ends_with(".fitted_to") &&
-       !key.ends_with(".parts") && !key.starts_with("geometry.slit"));
-  return is_fitted_to && parameter.origin == Origin::synthetic;
+  return is_own_geometry(parameter) ||
+         (parameter.key == std::string("interface.") + kHeadJoint + ".position" &&
+          parameter.origin == Origin::synthetic);
 }
 
 }  // namespace
@@ -181,6 +188,11 @@ void check_neck(const StudyTable& root, const NeckSection& neck) {
       "modes.fixed: expected the node sets that the neck stands on, [\"bolts\"] for its bolts or "
       "[] "
       "for a free neck, found none");
+}
+
+std::string own_value_of_geometry(const std::vector<Parameter>& parameters) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(), is_own_geometry);
+  return found == parameters.end() ? "" : found->key;
 }
 
 void forget_fit_of_changed_neck(const StudyTable& root, const std::vector<Parameter>& parameters,

@@ -37,6 +37,10 @@ void add_neck(const NeckSection& neck, mesher::ScriptMeshOptions& options);
 /// @throws InputError with the condition that fails.
 void check_neck(const StudyTable& root, const NeckSection& neck);
 
+/// The key of the first dimension or material that is the user's own (synthetic), of any structure;
+/// empty if all claim to be published, inferred from that, or calibrated.
+std::string own_value_of_geometry(const std::vector<Parameter>& parameters);
+
 /// Clears `fitted_to` where the neck is no longer the one that was fitted.
 /// @param parameters  of the whole study
 void forget_fit_of_changed_neck(const StudyTable& root, const std::vector<Parameter>& parameters,
