@@ -22,6 +22,7 @@ fuzz 1000000 python3 tests/reliability/fuzz/fuzz.py --seed $seed --runs $count -
 sanitize 1 run_under sanitize
 thread 20 run_under thread
 readme 1 python3 -B tests/readme/readme_test.py "$root/build" "$root" --whole
+manual 1 cmake --build "$root/build" --target manual
 package 1 sh tests/install/package.sh "$root/build" "$out"
 mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '
