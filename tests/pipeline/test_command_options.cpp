@@ -60,8 +60,10 @@ TEST_CASE("each command has a help of its own, and all of it fits the console") 
 
 TEST_CASE("an option is refused by commands in which it does nothing") {
   check_refused(run_flexneck("modes --show"), "--show belongs to the command mesh");
-  check_refused(run_flexneck("static --refine=1"), "--refine belongs to the command run, mesh");
-  check_refused(run_flexneck("info --set a=1 b"), "--set belongs to the command run, mesh");
+  check_refused(run_flexneck("static --refine=1"),
+                "--refine belongs to the command run, qualify, mesh");
+  check_refused(run_flexneck("info --set a=1 b"),
+                "--set belongs to the command run, qualify, mesh");
   check_refused(run_flexneck("mesh --to bar.inp"), "--to belongs to the command export");
   check_refused(run_flexneck("export --binary --to bar.inp"), "no meaning for a .inp");
   check_refused(run_flexneck("mesh --shw"), "'flexneck mesh --help' lists its options");
