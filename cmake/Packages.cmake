@@ -13,8 +13,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME flexneck)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
-    "from the geometry of a crash-test dummy's neck to its motion
-Meshes the Hybrid III neck from a parametric script, finds its modes by finite
+    "Meshes the Hybrid III neck from a parametric script, finds its modes by finite
 elements and moves it as a deformable body in a multibody model.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
@@ -24,8 +23,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS openmpi-bin)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libflexneck-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-    "libraries of flexneck: modes of meshes, multibody dynamics
-Static libraries and headers of its rooms, for CMake and pkg-config.")
+    "Static libraries and headers of its rooms, for CMake and pkg-config.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "pkg-config, libeigen3-dev, libhdf5-openmpi-dev, libudunits2-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS

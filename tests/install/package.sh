@@ -18,7 +18,8 @@ for deb in "$build"/*.deb; do
 done
 
 echo '== a bare root'
-mmdebstrap --variant=apt --include=ca-certificates bookworm "$root" ${MIRROR:-} 2>"$out/mmdebstrap.log"
+rm -rf "$root"
+mmdebstrap --variant=apt --mode=root --aptopt='APT::Sandbox::User "root"' --include=ca-certificates bookworm "$root" ${MIRROR:-} 2>"$out/mmdebstrap.log"
 cp "$build"/*.deb "$root/tmp"
 cp -r "$sources/tests/install/consumer" "$root/tmp/consumer"
 inside() { chroot "$root" env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/root LC_ALL=C.UTF-8 \
