@@ -48,8 +48,8 @@ std::string id_in(Bytes notes) {
 int look_into(dl_phdr_info* info, std::size_t /*size*/, void* found) {
   for (const ElfW(Phdr) & part : std::span(info->dlpi_phdr, info->dlpi_phnum)) {
     if (part.p_type != PT_NOTE) continue;
-    const auto* const begin =
-        reinterpret_cast<const unsigned char*>(info->dlpi_addr + part.p_vaddr);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
+    const auto* begin = reinterpret_cast<const unsigned char*>(info->dlpi_addr + part.p_vaddr);
     const std::string id = id_in({begin, part.p_memsz});
     if (!id.empty()) *static_cast<std::string*>(found) = id;
   }

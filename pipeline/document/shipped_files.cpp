@@ -66,7 +66,7 @@ std::vector<std::string> shipped_names() {
 }
 
 fs::path named_file(const fs::path& name, const fs::path& folder) {
-  const fs::path here = folder / name;
+  fs::path here = folder / name;
   if (is_file(here)) return here;
   if (name.extension() != kEnding && is_file(here.string() + kEnding))
     return here.string() + kEnding;
