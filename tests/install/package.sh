@@ -20,6 +20,8 @@ done
 echo '== a bare root'
 rm -rf "$root"
 mmdebstrap --variant=apt --mode=root --aptopt='APT::Sandbox::User "root"' --include=ca-certificates bookworm "$root" ${MIRROR:-} 2>"$out/mmdebstrap.log"
+mount -t proc proc "$root/proc"  # by which the program finds itself
+trap 'umount "$root/proc"' EXIT
 cp "$build"/*.deb "$root/tmp"
 cp -r "$sources/tests/install/consumer" "$root/tmp/consumer"
 inside() { chroot "$root" env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/root LC_ALL=C.UTF-8 \
@@ -43,4 +45,6 @@ inside sh -c 'apt-get install -y --no-install-recommends /tmp/libflexneck-dev_*.
 inside sh -c 'cd /tmp && cmake -S consumer -B built && cmake --build built && built/pendulum' \
   >"$out/consumer.log" 2>&1
 tail -2 "$out/consumer.log"
+umount "$root/proc"
+trap - EXIT
 rm -rf "$root"
