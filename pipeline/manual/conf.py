@@ -50,6 +50,7 @@ def put_into_one(app, error):
     text = (folder / "index.html").read_text()
     text = re.sub(r"<script[^>]*>.*?</script>\s*|<link [^>]*>\s*", "", text, flags=re.DOTALL)
     text = re.sub(r'(<img [^>]*?src=")(?!data:)([^"]+)"', lambda match: picture(match, folder), text)
+    text = text.replace('href="index.html#', 'href="#')
     text = text.replace("</head>", f"<style>{STYLE}</style>\n</head>")
     (folder / "flexneck.html").write_text(text)
 
