@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# flexneck::warnings: linked privately by every target of ours.
+# flexneck::warnings: linked privately by every target of ours; nothing of it is installed.
 add_library(flexneck_warnings INTERFACE)
 add_library(flexneck::warnings ALIAS flexneck_warnings)
 # GCC 12 sees overlapping copies in plain string concatenation (GCC bug 105651), and with precompiled
 # headers, where it inlines more of it, copies from and to beyond the end.
 target_compile_options(
-  flexneck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
-                              $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-                              "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${FLEXNECK_PRECOMPILED_HEADERS}>>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>"
-                              $<$<BOOL:${FLEXNECK_WARNINGS_AS_ERRORS}>:-Werror>)
+  flexneck_warnings
+  INTERFACE
+    "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>"
+    $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>
+    "$<BUILD_INTERFACE:$<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${FLEXNECK_PRECOMPILED_HEADERS}>>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>>"
+    $<BUILD_INTERFACE:$<$<BOOL:${FLEXNECK_WARNINGS_AS_ERRORS}>:-Werror>>)

@@ -20,13 +20,16 @@
 #include "geometry/foundation/signal_cleanup.h"
 #include "pipeline/commands/child_tasks.h"
 #include "pipeline/commands/command_line.h"
+#include "pipeline/document/shipped_files.h"
 #include "pipeline/folder/folder_lock.h"
 #include "pipeline/folder/remembered_study.h"
+#include "pipeline/study/file_kind.h"
 #include "pipeline/sweep/process_rank.h"
 
 namespace {
 
 using namespace flexneck::pipeline;
+using flexneck::InputError;
 using flexneck::fe_modal::Ranks;
 
 constexpr const char* kNoMemory = "the memory that is free does not suffice for this";
@@ -37,7 +40,7 @@ constexpr int kComputationFailed = 3;
 /// The study of a command that goes on in a folder without naming one is the folder's.
 StudyChoice choose_study(const CommandLine& line, const Console& console) {
   StudyChoice choice;
-  if (!line.files.empty()) choice.study = line.files.front();
+  if (!line.files.empty()) choice.study = named_file(line.files.front());
   choice.settings = line.settings;
   // The folder remembers which one; an empty name stands for that of most commands.
   if (line.files.empty() && line.command->built_in != built_in_study)
@@ -50,6 +53,18 @@ StudyChoice choose_study(const CommandLine& line, const Console& console) {
   if (!same(choice, given))
     console.step("Study of " + line.folder.string() + ": " + text_of(choice));
   return choice;
+}
+
+Study read_named(const StudyChoice& choice) {
+  if (choice.study.empty()) return read_study(built_in_study(), choice.settings);
+  try {
+    Study study = read_study(choice.study, choice.settings);
+    if (!study.structure && !study.matrices) refuse_other_kind(choice.study, FileKind::study);
+    return study;
+  } catch (const InputError&) {
+    refuse_other_kind(choice.study, FileKind::study);
+    throw;
+  }
 }
 
 bool works_on_files(const CommandLine& line) {
@@ -76,12 +91,10 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
                                  line.is_binary});
   }
   if (line.files.size() > 1) {
-    throw flexneck::InputError(command.name + ": expected one study, found '" + line.files[1] +
-                               "' too");
+    throw InputError(command.name + ": expected one study, found '" + line.files[1] + "' too");
   }
   const StudyChoice choice = choose_study(line, console);
-  const Study study =
-      read_study(choice.study.empty() ? built_in_study() : choice.study, choice.settings);
+  const Study study = read_named(choice);
   for (const std::string& warning : study.warnings) console.warning(warning);
   take_lock();
   if (ranks != nullptr && command.name != "modes" && command.name != "run") {
@@ -122,7 +135,7 @@ struct Failure {
 Failure failure() {
   try {
     throw;
-  } catch (const flexneck::InputError& error) {
+  } catch (const InputError& error) {
     return {kUnusableInput, error.what()};
   } catch (const std::bad_alloc&) {
     return {kComputationFailed, kNoMemory};
@@ -156,12 +169,11 @@ std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) 
     CommandLine line = parse_command_line(words);
     if (line.command == nullptr || !line.command->has_shards || !line.answer.empty()) return {};
     if (!line.shares.shard.empty())
-      throw flexneck::InputError(
-          "--shard: expected none under mpirun, whose processes are the parts");
+      throw InputError("--shard: expected none under mpirun, whose processes are the parts");
     line.shares.shard = fmt::format("{}/{}", shard->index, shard->count);
     line.shares.threads = std::max(1, line.shares.threads);
     return line;
-  } catch (const flexneck::InputError&) {
+  } catch (const InputError&) {
     if (shard->index == 1) throw;  // one line is enough
     std::_Exit(kUnusableInput);
   }

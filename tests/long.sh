@@ -21,6 +21,9 @@ fit-coverage 50 python3 -B tests/pipeline/fit/chain_coverage.py build/flexneck -
 fuzz 1000000 python3 tests/reliability/fuzz/fuzz.py --seed $seed --runs $count --out $out
 sanitize 1 run_under sanitize
 thread 20 run_under thread
+readme 1 python3 -B tests/readme/readme_test.py "$root/build" "$root" --whole
+manual 1 cmake --build "$root/build" --target manual
+package 1 sh tests/install/package.sh "$root/build" "$out"
 mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '
 

@@ -53,6 +53,7 @@ struct ElementTraits {
   std::span<const std::array<double, 3>> nodes;  ///< see reference_nodes()
   bool (*spans)(const Exponents&);               ///< the functions that shape functions are made of
   int gmsh_type;
+  int vtk_type;                                      ///< of VTK's files (vtkCellType.h)
   std::string_view xdmf_topology;                    ///< of the XDMF model, version 2 and 3
   std::span<const std::string_view> abaqus_types{};  ///< the first is written; the one in R is its
                                                      ///< reduced integration

@@ -8,6 +8,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kUnitLength = 1e-6;
 
 void check_material(const Material& material) {
   const std::string name = "material '" + material.name + "': ";
-  const auto found = [](double value) { return ", found " + std::to_string(value); };
+  const auto found = [](double value) { return ", found " + exact_text(value); };
   if (!(material.youngs_modulus_Pa > 0 && std::isfinite(material.youngs_modulus_Pa))) {
     refuse(name + "Young's modulus must be > 0" + found(material.youngs_modulus_Pa) + " Pa");
   }

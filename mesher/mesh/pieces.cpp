@@ -8,6 +8,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/boundary.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/positions.h"
@@ -149,7 +150,7 @@ PieceOfElement pieces_by_planes(const Mesh& mesh, const Eigen::Vector3d& normal,
           mesh, normal, std::span(block.nodes).subspan(e * width, corners_per_element(block.kind)));
       const auto piece = std::lower_bound(offsets_m.begin(), offsets_m.end(), low + tolerance);
       if (piece != offsets_m.end() && high > *piece + tolerance) {
-        throw InputError("the plane at " + std::to_string(*piece) +
+        throw InputError("the plane at " + exact_text(*piece) +
                          " m passes through elements of part '" + block.part +
                          "'; choose one between layers of elements");
       }

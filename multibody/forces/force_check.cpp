@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 
@@ -32,8 +33,8 @@ void check_pair(const std::string& who, std::size_t marker_i, std::size_t marker
 void check_direction(const std::string& who, const Eigen::Vector3d& direction) {
   constexpr double kSlack = 1e-9;
   if (std::abs(direction.norm() - 1) <= kSlack) return;
-  refuse_force(who, "direction must be a unit vector, but its length is " +
-                        std::to_string(direction.norm()));
+  refuse_force(
+      who, "direction must be a unit vector, but its length is " + exact_text(direction.norm()));
 }
 
 void check_stiffness(const std::string& who, const std::string& what,
@@ -46,12 +47,12 @@ void check_stiffness(const std::string& who, const std::string& what,
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
   if (eigen.eigenvalues()[0] < -kSlack * size)
     refuse_force(who, what + " must not have a negative eigenvalue, but has " +
-                          std::to_string(eigen.eigenvalues()[0]));
+                          exact_text(eigen.eigenvalues()[0]));
 }
 
 void check_not_negative(const std::string& who, const std::string& what, double value) {
   if (!(value >= 0 && std::isfinite(value)))
-    refuse_force(who, what + " must not be negative, but is " + std::to_string(value));
+    refuse_force(who, what + " must not be negative, but is " + exact_text(value));
 }
 
 }  // namespace flexneck::multibody

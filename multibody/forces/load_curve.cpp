@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 
@@ -41,12 +42,12 @@ LoadCurve LoadCurve::table(std::vector<double> x, std::vector<double> load) {
       throw InputError("load curve: row " + std::to_string(k + 1) + " is not finite");
     if (k > 0 && !(x[k] > x[k - 1]))
       throw InputError("load curve: deflections must increase strictly, but row " +
-                       std::to_string(k + 1) + " has " + std::to_string(x[k]) + " after " +
-                       std::to_string(x[k - 1]));
+                       std::to_string(k + 1) + " has " + exact_text(x[k]) + " after " +
+                       exact_text(x[k - 1]));
   }
   if (x[0] != 0 || load[0] != 0)
-    throw InputError("load curve: the first row must be 0, 0, but is " + std::to_string(x[0]) +
-                     ", " + std::to_string(load[0]));
+    throw InputError("load curve: the first row must be 0, 0, but is " + exact_text(x[0]) + ", " +
+                     exact_text(load[0]));
   LoadCurve curve;
   curve.energy_.assign(x.size(), 0);
   for (std::size_t k = 1; k < x.size(); ++k)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/foundation/output_file.h"
 #include "multibody/forces/force_check.h"
 
 namespace flexneck::multibody {
@@ -29,7 +30,7 @@ void check_resistance(const std::string& who, const Resistance& resistance) {
     if (!(side.stop >= 0)) refuse_force(who, "a stop must not be negative");
     if (!(side.unloading_ratio >= 0 && side.unloading_ratio <= 1))
       refuse_force(who, "the ratio of unloading to loading must be from 0 to 1, but is " +
-                            std::to_string(side.unloading_ratio));
+                            exact_text(side.unloading_ratio));
     needs_rate = needs_rate || side.unloading_ratio < 1;
   }
   if (needs_rate && !(resistance.full_rate > 0))

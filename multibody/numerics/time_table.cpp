@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -22,8 +23,8 @@ void check_table(const std::vector<double>& times_s, const std::vector<double>& 
     }
     if (k > 0 && !(times_s[k] > times_s[k - 1])) {
       throw InputError("time table: times must increase strictly, but row " +
-                       std::to_string(k + 1) + " has " + std::to_string(times_s[k]) + " s after " +
-                       std::to_string(times_s[k - 1]) + " s");
+                       std::to_string(k + 1) + " has " + exact_text(times_s[k]) + " s after " +
+                       exact_text(times_s[k - 1]) + " s");
     }
   }
 }

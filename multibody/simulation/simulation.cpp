@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "multibody/descriptor/massless_rotation.h"
 #include "multibody/equations/equations.h"
 #include "multibody/history/recorder.h"
@@ -19,7 +20,7 @@ namespace {
 
 void check_positive(double value, const std::string& what) {
   if (!(value > 0 && std::isfinite(value)))
-    throw InputError(what + " must be positive, not " + std::to_string(value));
+    throw InputError(what + " must be positive, not " + exact_text(value));
 }
 
 void check_options(const SolverOptions& solver, const OutputOptions& output) {

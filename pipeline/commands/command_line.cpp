@@ -10,6 +10,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "pipeline/commands/command_reference.h"
 #include "pipeline/version.h"
 
 namespace flexneck::pipeline {
@@ -163,15 +164,14 @@ void describe(CLI::App& app, const Command& command, CommandLine& line) {
 }
 
 std::string help() {
-  std::string text =
-      "From the geometry of a dummy's neck to its motion.\n"
-      "Usage: flexneck [COMMAND] [FILE ...] [OPTIONS]\n\nCommands:\n";
+  std::string text = fmt::format("flexneck: {}.\nUsage: {}\n\nCommands:\n", kPurpose, kUsage);
   for (const Command& command : commands())
     text += fmt::format("  {:<10}  {}\n", command.name, command.help);
   return text +
          "\n'flexneck COMMAND --help' lists the options of a command.\n"
-         "'flexneck --version' tells the version and the sources that it is built from.\n"
-         "Exit codes: 0 done, 1 a verification failed, 2 unusable input, 3 a computation failed.";
+         "'flexneck --version' tells the version and the sources that it is built from,\n"
+         "'flexneck --man' and 'flexneck --bash-completion' print what their names say.\n" +
+         kExitCodes;
 }
 
 /// Commands that have an option, such as "mesh, run".
@@ -187,6 +187,19 @@ std::string owners_of(const std::string& option) {
   return owners;
 }
 
+/// " (did you mean '--set'?)" of the first word that is no option of the command.
+std::string near_option(const Command& command, const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const OptionText& option : options_of(command))
+    names.insert(names.end(), option.names.begin(), option.names.end());
+  for (const std::string& word : words) {
+    const std::string option = word.substr(0, word.find('='));
+    if (!option.starts_with("--") || std::count(names.begin(), names.end(), option) > 0) continue;
+    return did_you_mean(names, option);
+  }
+  return {};
+}
+
 [[noreturn]] void refuse(const CLI::App& app, const Command& command,
                          const std::vector<std::string>& words, const std::string& problem) {
   for (const std::string& word : words) {
@@ -197,8 +210,8 @@ std::string owners_of(const std::string& option) {
     throw InputError(option + " belongs to the command " + owners + ", found with '" +
                      command.name + "'");
   }
-  throw InputError(command.name + ": " + problem + "; 'flexneck " + command.name +
-                   " --help' lists its options");
+  throw InputError(command.name + ": " + problem + near_option(command, words) + "; 'flexneck " +
+                   command.name + " --help' lists its options");
 }
 
 void parse_options(const std::vector<std::string>& words, CommandLine& line) {
@@ -233,6 +246,21 @@ void refuse_late_command(const CommandLine& line) {
 
 }  // namespace
 
+std::vector<OptionText> options_of(const Command& command) {
+  CommandLine unused;
+  CLI::App app;
+  describe(app, command, unused);
+  std::vector<OptionText> options;
+  for (const CLI::Option* const option : app.get_options()) {
+    if (!option->nonpositional()) continue;
+    std::vector<std::string> names;
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    options.push_back({names, option->get_option_text(), option->get_description()});
+  }
+  return options;
+}
+
 CommandLine parse_command_line(const std::vector<std::string>& words) {
   CommandLine line;
   for (const std::string& word : words) line.text += (line.text.empty() ? "" : " ") + word;
@@ -243,6 +271,10 @@ CommandLine parse_command_line(const std::vector<std::string>& words) {
     line.answer = help();
   } else if (first == "--version") {
     line.answer = std::string("flexneck ") + kVersion + " (" + kGitHash + ")";
+  } else if (first == "--man") {
+    line.answer = man_page();
+  } else if (first == "--bash-completion") {
+    line.answer = bash_completion();
   } else if (first.empty() || first.front() == '-') {
     line.command = &commands().front();
     parse_options(given, line);

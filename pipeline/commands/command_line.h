@@ -9,10 +9,25 @@
 
 namespace flexneck::pipeline {
 
+inline constexpr const char* kPurpose = "from the geometry of a dummy's neck to its motion";
+inline constexpr const char* kUsage = "flexneck [COMMAND] [FILE ...] [OPTIONS]";
+inline constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 a verification failed, 2 unusable input, 3 a computation failed.";
+
+/// An option as the help of its command shows it.
+struct OptionText {
+  std::vector<std::string> names;  ///< "-o", "--out"
+  std::string label;               ///< of its value; empty of a flag
+  std::string help;
+};
+
+/// All options of a command, in the order of its help.
+std::vector<OptionText> options_of(const Command& command);
+
 /// What the user asks for: a command, and the options that it has.
 struct CommandLine {
   std::string text;    ///< as given
-  std::string answer;  ///< to print, in place of a command: the help or the version
+  std::string answer;  ///< to print, in place of a command: the help, the version, …
   const Command* command = nullptr;
   std::vector<std::string> files;
   std::filesystem::path folder = "out";

@@ -43,7 +43,7 @@ struct FileInput {
 /// @throws ComputationError if the run ends early; what was computed is written, marked incomplete.
 bool simulate_command(const FileInput& input);
 
-/// Describes files of ours: what is in them and what they were made from.
+/// Describes files of ours, and what folders hold: what is in them and what they were made from.
 /// @throws InputError for a file of another kind.
 bool info_command(const FileInput& input);
 

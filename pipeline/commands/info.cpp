@@ -8,6 +8,7 @@
 #include "mesher/mesh/bounding_box.h"
 #include "pipeline/commands/basis_text.h"
 #include "pipeline/commands/file_commands.h"
+#include "pipeline/commands/info_folder.h"
 #include "pipeline/commands/mesh_result.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/console/text_table.h"
@@ -134,8 +135,13 @@ constexpr std::array<Kind, 4> kKinds = {{{kSweepFormat.name, describe_sweep},
 }  // namespace
 
 bool info_command(const FileInput& input) {
-  if (input.files.empty()) throw InputError("info: name a file, 'flexneck info out/modes.h5'");
+  if (input.files.empty())
+    throw InputError("info: name a file or a folder of results, 'flexneck info out'");
   for (const fs::path& path : input.files) {
+    if (fs::is_directory(path)) {
+      input.console.result(folder_text(path));
+      continue;
+    }
     if (!fs::is_regular_file(path)) throw InputError(path.string() + ": no such file");
     const bool is_json = path.extension() == ".json";
     std::string format;

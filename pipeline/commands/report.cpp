@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/report/report.h"
 
+#include "geometry/foundation/error.h"
 #include "pipeline/commands/commands.h"
 
 namespace flexneck::pipeline {
 
 bool report_command(const CommandInput& input) {
-  input.folder.make();
-  input.console.step("Writing the report");
   const std::filesystem::path page = input.folder.file("report.html");
   const Results results = read_results(page.parent_path(), input.study);
+  if (results.files.empty() && results.warnings.empty())
+    throw InputError(page.parent_path().string() +
+                     ": there are no results to report; 'flexneck run -o " +
+                     page.parent_path().string() + "' makes them");
+  input.console.step("Writing the report");
   for (const std::string& warning : results.warnings) input.console.warning(warning);
   write_report(page, results, input.study);
   input.console.result("\nReport: " + page.string());

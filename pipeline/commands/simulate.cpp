@@ -9,10 +9,12 @@
 #include "multibody/history/incomplete_run.h"
 #include "multibody/history/recorder.h"
 #include "pipeline/commands/file_commands.h"
+#include "pipeline/document/shipped_files.h"
 #include "pipeline/folder/results_folder.h"
 #include "pipeline/model/model_file.h"
 #include "pipeline/output/campbell_output.h"
 #include "pipeline/output/simulated_output.h"
+#include "pipeline/study/file_kind.h"
 
 namespace flexneck::pipeline {
 
@@ -21,6 +23,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Eigen::Index kBlockNumbers = 1 << 22;  ///< of outputs that memory holds at once
+
+ModelFile read(const fs::path& path, const std::vector<std::string>& settings) {
+  try {
+    return read_model_file(path, settings);
+  } catch (const InputError&) {
+    refuse_other_kind(path, FileKind::model);
+    throw;
+  }
+}
 
 /// What the model gets wrong that only its computation shows.
 template <class Compute>
@@ -68,8 +79,8 @@ struct ResultPaths {
   fs::path history, table;
 };
 
-ResultPaths paths_of(const FileInput& input) {
-  const std::string name = input.files.front().stem().string();
+ResultPaths paths_of(const FileInput& input, const fs::path& model) {
+  const std::string name = model.stem().string();
   return {name, input.folder.file(name + ".h5"), input.folder.file(name + ".csv")};
 }
 
@@ -87,9 +98,10 @@ void tell(const FileInput& input, const ResultPaths& paths, const multibody::His
                           ": modes are of the mean stiffness of both sides of a kink: " + kink);
 }
 
-void write(const FileInput& input, const multibody::CampbellDiagram& diagram) {
+void write(const FileInput& input, const std::string& model,
+           const multibody::CampbellDiagram& diagram) {
   input.folder.make();
-  const std::string name = input.files.front().stem().string() + "-campbell";
+  const std::string name = model + "-campbell";
   const fs::path table = input.folder.file(name + ".csv");
   const fs::path picture = input.folder.file(name + ".svg");
   write_campbell_table(table, diagram);
@@ -102,21 +114,21 @@ void write(const FileInput& input, const multibody::CampbellDiagram& diagram) {
 bool simulate_command(const FileInput& input) {
   if (input.files.size() != 1)
     throw InputError("simulate: name one model, 'flexneck simulate MODEL.toml'");
-  const std::filesystem::path& model = input.files.front();
-  const ModelFile file = read_model_file(model, input.settings);
+  const fs::path model = named_file(input.files.front());
+  const ModelFile file = read(model, input.settings);
   for (const std::string& warning : file.warnings) input.console.warning(warning);
   input.console.step("Simulating " + model.string());
   const auto linearisation = linearised(file);
   const auto diagram = campbell(file);
   input.folder.make();
-  const ResultPaths paths = paths_of(input);
+  const ResultPaths paths = paths_of(input, model);
   multibody::OutputOptions options{file.end_time_s, file.output.interval_s};
   SimulatedOutput output(file, paths.history, paths.table, multibody::OutputTimes(options).count());
   options.sink = [&](const multibody::History& block) { output.append(block); };
   options.block = std::max<Eigen::Index>(1, kBlockNumbers / numbers_per_output(file.model));
   const auto finish = [&](const multibody::History& last) {
     tell(input, paths, output.finish(last, linearisation), output.peaks());
-    if (diagram) write(input, *diagram);
+    if (diagram) write(input, paths.name, *diagram);
   };
   try {
     finish(run(file, options));

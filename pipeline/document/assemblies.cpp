@@ -5,9 +5,11 @@
 #include <iterator>
 #include <utility>
 
+#include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/document/assembly_names.h"
 #include "pipeline/document/former_names.h"
+#include "pipeline/document/shipped_files.h"
 #include "pipeline/document/toml_nodes.h"
 #include "pipeline/document/toml_source.h"
 #include "pipeline/document/variables.h"
@@ -157,11 +159,16 @@ class Reading {
     }
   }
 
-  /// From the folder of the file that names it.
+  /// From the folder of the file that names it, or a shipped one.
   static fs::path path_of(toml::table& assembly, const std::string& key) {
     const std::string name = text(assembly, "file", key);
     const toml::source_path_ptr& from = text_node(assembly, "file")->source().path;
-    return from ? fs::path(*from).parent_path() / name : fs::path(name);
+    const fs::path folder = from ? fs::path(*from).parent_path() : fs::path();
+    try {
+      return named_file(name, folder);
+    } catch (const InputError&) {
+      return folder / name;  // which is refused where it is opened
+    }
   }
 
   void check_depth(toml::table& assembly, const fs::path& path, const std::string& key) const {

@@ -7,6 +7,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/text_file.h"
+#include "pipeline/document/shipped_files.h"
 #include "pipeline/document/toml_limits.h"
 
 namespace flexneck::pipeline {
@@ -121,7 +122,7 @@ class Reading {
         throw InputError(location_of(*include) + "include: expected a list of file names");
       }
       for (const toml::node& name : *include->as_array()) {
-        merge(table, merged(path.parent_path() / name.value_or(std::string())));
+        merge(table, merged(named_file(name.value_or(std::string()), path.parent_path())));
       }
       own.erase("include");
     }

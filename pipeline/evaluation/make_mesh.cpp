@@ -18,6 +18,7 @@
 #include "mesher/exchange/mesh_import.h"
 #include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/mesh_file.h"
+#include "pipeline/document/shipped_files.h"
 
 namespace flexneck::pipeline {
 
@@ -53,7 +54,7 @@ mesher::Mesh mesh_here(const Study& study, const ChildLines& lines, const WhenRe
 
 bool is_shipped(const fs::path& script) {
   std::error_code none;
-  return fs::equivalent(script, fs::path(FLEXNECK_DATA_DIR) / "geometry/neck.geo", none);
+  return fs::equivalent(script, shipped_file("geometry/neck.geo"), none);
 }
 
 /// What a child meshes, and may take for it; none for what this process may mesh itself.

@@ -8,6 +8,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
+#include "pipeline/document/shipped_files.h"
 
 namespace flexneck::pipeline {
 
@@ -59,6 +60,7 @@ std::optional<StudyChoice> remembered_study(const fs::path& folder) {
     const auto study = json.at("study").get<std::string>();
     const auto settings = json.at("settings").get<std::vector<std::string>>();
     if (study.empty()) return StudyChoice{{}, settings};
+    if (json.value("shipped", false)) return StudyChoice{shipped_file(study), settings};
     const fs::path whole = (fs::weakly_canonical(folder) / study).lexically_normal();
     return StudyChoice{whole.lexically_proximate(fs::current_path()), settings};
   } catch (const nlohmann::json::exception& error) {
@@ -67,13 +69,17 @@ std::optional<StudyChoice> remembered_study(const fs::path& folder) {
 }
 
 void remember_study(const fs::path& folder, const StudyChoice& choice) {
-  const std::string study = choice.study.empty()
-                                ? ""
-                                : fs::weakly_canonical(choice.study)
-                                      .lexically_proximate(fs::weakly_canonical(folder))
-                                      .generic_string();
-  const nlohmann::ordered_json json = {
-      {"format", kFormat}, {"study", study}, {"settings", choice.settings}};
+  nlohmann::ordered_json json = {{"format", kFormat}, {"study", ""}};
+  if (!choice.study.empty()) {
+    const fs::path study = fs::weakly_canonical(choice.study);
+    const fs::path shipped = study.lexically_relative(shipped_folder());
+    const bool is_shipped = !shipped.empty() && *shipped.begin() != "..";
+    json["study"] = is_shipped
+                        ? shipped.generic_string()
+                        : study.lexically_proximate(fs::weakly_canonical(folder)).generic_string();
+    if (is_shipped) json["shipped"] = true;
+  }
+  json["settings"] = choice.settings;
   write_text(folder / kFile, json.dump(1) + "\n", Durability::none);
 }
 

@@ -10,7 +10,7 @@ namespace flexneck::pipeline {
 
 /// A study and the values that the command line set in it.
 struct StudyChoice {
-  std::filesystem::path study;        ///< empty: the built-in one
+  std::filesystem::path study;        ///< the file; empty: the built-in one
   std::vector<std::string> settings;  ///< "key=value"
 };
 
@@ -28,7 +28,8 @@ StudyChoice with_settings(StudyChoice choice, const std::vector<std::string>& mo
 /// @throws InputError if the file is none of ours.
 std::optional<StudyChoice> remembered_study(const std::filesystem::path& folder);
 
-/// Writes that file, with the path of the study from the folder.
+/// Writes that file, with the path of the study from the folder, or from the shipped files if it is
+/// one of them: those may stand elsewhere later.
 void remember_study(const std::filesystem::path& folder, const StudyChoice& choice);
 
 }  // namespace flexneck::pipeline

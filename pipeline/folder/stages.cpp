@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/foundation/build_id.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 
@@ -45,8 +46,7 @@ std::map<std::string, std::string> hashes_of_written(const fs::path& folder,
 
 }  // namespace
 
-Stages::Stages(fs::path folder, bool redo)
-    : folder_(std::move(folder)), program_(hash_of_file("/proc/self/exe")) {
+Stages::Stages(fs::path folder, bool redo) : folder_(std::move(folder)), program_(build_id()) {
   if (!redo) read();
 }
 

@@ -44,7 +44,7 @@ class Stages {
   void write() const;
 
   std::filesystem::path folder_;
-  std::string program_;  ///< hash of the running program
+  std::string program_;  ///< build id of the running one
   std::map<std::string, Record> records_;
 };
 

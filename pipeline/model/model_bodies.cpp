@@ -4,6 +4,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/modes_path.h"
 #include "pipeline/model/rigid_body.h"
 
 namespace flexneck::pipeline {
@@ -44,6 +45,7 @@ constexpr auto kOwnKeys = joined(
         Key::file("modes_file", kNone,
                   "Of a deformable body: its file of modes; in a study the modes of its structure "
                   "if the key is not there"),
+        kMadeByKey,
     }),
     kRigidBodyKeys);
 
@@ -71,7 +73,7 @@ DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
     assembly.of_structure.insert_or_assign(assembly.model.bodies.size(), use);
     return body;
   }
-  const std::filesystem::path path = table.file("modes_file");
+  const std::filesystem::path path = modes_path(table, "modes_file");
   DeformableBody body = use_modes(use, read_modal_body(path).body, path.string());
   assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
   return body;

@@ -7,6 +7,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/modes_path.h"
 #include "pipeline/model/relaxation.h"
 
 namespace flexneck::pipeline {
@@ -53,6 +54,7 @@ constexpr auto kSectionKeys = joined(
             "modes_file", kNone,
             "In place of length and stiffness: modes of a body with its base fixed that are the "
             "static shapes of its top, and of slits that open"),
+        kMadeByKey,
         Key::text(
             "piece", kNone,
             "In a study in place of modes_file: the piece of [substructures] that the section is"),
@@ -135,7 +137,7 @@ SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
 
 fe_modal::CondensedSection condensed(const StudyTable& table, const std::string& key,
                                      Assembly& assembly) {
-  const std::filesystem::path path = table.file(key);
+  const std::filesystem::path path = modes_path(table, key);
   assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
   return at_key(table, key, [&] {
     return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"));
@@ -166,7 +168,8 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
     table.refuse("slow_modes_file", "nothing relaxes: there are no relaxation_times");
   if (table.has("piece")) {
     table.refuse_given(own, "the piece gives it already");
-    table.refuse_given({"modes_file", "slow_modes_file"}, "expected a piece or files, found both");
+    table.refuse_given({"modes_file", "slow_modes_file", "made_by"},
+                       "expected a piece or files, found both");
     if (!assembly.structure)
       table.refuse("piece", "expected modes_file; pieces are those of a study's structure");
     assembly.of_pieces.push_back(
@@ -177,7 +180,7 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
     table.refuse_given(own, "modes_file gives it already");
     use_condensed(condensed(table, "modes_file", assembly), table, "modes_file", index, assembly);
   } else {
-    table.refuse_given({"base", "top", "slow_modes_file"},
+    table.refuse_given({"base", "top", "slow_modes_file", "made_by"},
                        "it belongs to modes_file, which is not there");
     if (!table.has("length"))
       table.refuse("length", "expected length and stiffness, or modes_file");

@@ -52,6 +52,8 @@ std::string verification_summary(const VerificationTable& table) {
   const auto failed = count(Status::failed);
   const bool is_fitted = std::any_of(table.rows.begin(), table.rows.end(),
                                      [](const VerificationRow& row) { return row.fitted; });
+  if (passed + failed == 0)
+    return "Nothing is judged: dimensions or materials are the user's own (synthetic).";
   std::string text = failed == 0 ? fmt::format("All {} figures that are judged agree.", passed)
                                  : fmt::format("{} of the {} figures that are judged do not agree.",
                                                failed, passed + failed);

@@ -6,6 +6,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
+#include "pipeline/document/shipped_files.h"
 #include "pipeline/plotting/embedding.h"
 
 namespace flexneck::pipeline {
@@ -42,7 +43,7 @@ std::string source_of(WebLibrary library) {
 }
 
 std::string page_part(const std::string& name) {
-  return text_of_file(std::filesystem::path(FLEXNECK_DATA_DIR) / "pipeline/report/page" / name);
+  return text_of_file(shipped_file("pipeline/report/page/" + name));
 }
 
 std::string page_head(const std::string& title) {

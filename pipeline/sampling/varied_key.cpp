@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "geometry/foundation/build_id.h"
 #include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
@@ -114,7 +115,7 @@ void check_varied(Evaluator& evaluator, const std::vector<TwoSettings>& all,
 
 std::string definition_of(const Study& study) {
   // A line break ends each field: keys, values and names have none.
-  std::string text = hash_of_file("/proc/self/exe") + '\n';
+  std::string text = build_id() + '\n';
   for (const std::vector<Parameter>* const list : {&study.parameters, &study.defaults})
     for (const Parameter& each : *list) text += each.key + '\n' + each.value + '\n';
   for (const InputFile& each : study.tables) text += each.name + '\n' + each.hash + '\n';

@@ -5,6 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "pipeline/study/curve_table.h"
 #include "pipeline/study/study.h"
 
@@ -140,7 +141,7 @@ FitCurve read_fit_curve(const StudyTable& table, std::vector<InputFile>& files) 
        {std::pair{"from", curve.from_s < first_s}, std::pair{"to", curve.to_s > last_s}})
     if (is_missing)
       table.refuse(key, "expected a time that " + what + " covers, which has " +
-                            std::to_string(first_s) + " s to " + std::to_string(last_s) + " s");
+                            exact_text(first_s) + " s to " + exact_text(last_s) + " s");
   curve.points = table.count("points");
   if (table.has("rating")) curve.rating = table.choice("rating");
   return curve;

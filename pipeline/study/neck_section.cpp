@@ -116,13 +116,26 @@ bool has_values_from_elsewhere(const StudyTable& root) {
   return false;
 }
 
+/// Whether it is a dimension or a material.
+bool is_dimension_or_material(const Parameter& parameter) {
+  const std::string& key = parameter.key;
+  return key.starts_with("geometry.") && !key.ends_with(".script") &&
+         !key.starts_with("geometry.fitted_") && !key.ends_with(".parts") &&
+         !key.starts_with("geometry.slit");
+}
+
+/// Whether it is the user's own. Slits change a structure only when they are open, which they are
+/// said to be by one key.
+bool is_own_geometry(const Parameter& parameter) {
+  if (parameter.origin != Origin::synthetic) return false;
+  if (parameter.key == "geometry.slits") return parameter.value.find("open") != std::string::npos;
+  return is_dimension_or_material(parameter);
+}
+
 /// Whether a fit of the neck is made with a value.
 bool is_of_fit(const Parameter& parameter) {
-  const std::string& key = parameter.key;
-  return key == std::string("interface.") + kHeadJoint + ".position" ||
-         (key.starts_with("geometry.") && !key.ends_with(".script") &&
-          !key.starts_with("geometry.fitted_") && !key.ends_with(".parts") &&
-          !key.starts_with("geometry.slit"));
+  return parameter.key == std::string("interface.") + kHeadJoint + ".position" ||
+         is_dimension_or_material(parameter);
 }
 
 /// Whether a value of the user's own is one that the fit was made with.
@@ -209,6 +222,11 @@ std::string neck_values_hash(const std::vector<Parameter>& parameters) {
   std::string text;
   for (const auto& [key, value] : values) text += key + '\n' + value + '\n';
   return hash_of_text(text);
+}
+
+std::string own_value_of_geometry(const std::vector<Parameter>& parameters) {
+  const auto found = std::find_if(parameters.begin(), parameters.end(), is_own_geometry);
+  return found == parameters.end() ? "" : found->key;
 }
 
 void forget_fit_of_changed_neck(const StudyTable& root, const std::vector<Parameter>& parameters,

@@ -38,6 +38,10 @@ void add_neck(const NeckSection& neck, mesher::ScriptMeshOptions& options);
 /// @throws InputError with the condition that fails.
 void check_neck(const StudyTable& root, const NeckSection& neck);
 
+/// The key of the first dimension or material that is the user's own (synthetic), of any structure;
+/// empty if all claim to be published, inferred from that, or calibrated.
+std::string own_value_of_geometry(const std::vector<Parameter>& parameters);
+
 /// Hash of the values that a fit of the neck is made with: all of [geometry], materials too, but
 /// for the script, slits and what names the fit; and where the head's joint is.
 /// @param parameters  of the whole study

@@ -10,6 +10,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/document/assemblies.h"
+#include "pipeline/document/shipped_files.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/solver_steps.h"
@@ -387,9 +388,7 @@ Study StudyReader::read(const std::vector<std::string>& more) {
   return study;
 }
 
-std::filesystem::path built_in_study() {
-  return std::filesystem::path(FLEXNECK_DATA_DIR) / "pipeline/studies/hybrid3.toml";
-}
+std::filesystem::path built_in_study() { return shipped_file("pipeline/studies/hybrid3.toml"); }
 
 std::filesystem::path built_in_qualification() {
   return built_in_study().replace_filename("hybrid3_qualification.toml");

@@ -6,6 +6,7 @@
 
 #include "geometry/foundation/names.h"
 #include "pipeline/document/channel_class.h"
+#include "pipeline/document/shipped_files.h"
 #include "pipeline/document/study_document.h"
 #include "pipeline/model/model_sections.h"
 
@@ -166,8 +167,7 @@ CertificationTest read_test(const StudyTable& table, CertificationTest common) {
 /// The shipped files by name.
 std::vector<fs::path> shipped_files() {
   std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(FLEXNECK_DATA_DIR) / "pipeline/regulations"))
+  for (const auto& entry : fs::directory_iterator(shipped_file("pipeline/regulations")))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;

@@ -17,7 +17,8 @@ namespace flexneck::pipeline {
 
 /// One figure beside its reference, published as a rule.
 struct VerificationRow {
-  enum class Status { passed, failed, compared };
+  /// What is compared has no tolerance; what is unjudged has one, but the table is not judged.
+  enum class Status { passed, failed, compared, unjudged };
   std::string quantity;  ///< "bending 1", "weight", …
   std::string detail;    ///< which mode, which method
   std::string unit;      ///< of value and reference: "Hz", "lb", "1", or empty for texts
@@ -31,6 +32,7 @@ struct VerificationRow {
 struct VerificationTable {
   std::vector<VerificationRow> rows;
   std::string reference_origins = "published";
+  /// True unless a row has failed.
   bool passed() const;
 };
 
@@ -42,7 +44,9 @@ struct PendulumEvidence {
   std::optional<PendulumResult> run;
 };
 
-/// The six frequencies, paired by kind and rank, pass or fail; the rest is shown beside.
+/// The six frequencies, paired by kind and rank, pass or fail; the rest is shown beside. Against
+/// published figures a geometry with dimensions or materials of the user's own is shown, not
+/// judged.
 VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
                          const std::vector<PendulumEvidence>& pendulum, const Reference& reference);
 

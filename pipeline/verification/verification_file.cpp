@@ -15,7 +15,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr std::array<const char*, 3> kStatus = {"passed", "failed", "compared"};
+constexpr std::array<const char*, 4> kStatus = {"passed", "failed", "compared", "unjudged"};
 constexpr const char* kFormat = "flexneck verification";
 constexpr int kSchemaVersion = 1;
 

@@ -326,6 +326,7 @@ TEST_CASE("materials that cannot be, and ones that lock, are told") {
   const std::string butyl = " --set geometry.materials.butyl.";
   check_refused(run_flexneck("mesh" + out + butyl + "density='-1 kg/m^3'"),
                 "material 'butyl': density must be > 0");
+  check_refused(run_flexneck("mesh" + out + butyl + "density='-1e-9 kg/m^3'"), "-1e-09 kg/m^3");
   check_refused(run_flexneck("mesh" + out + butyl + "poissons_ratio=0.5"),
                 "material 'butyl': Poisson's ratio must lie between -1 and 0.5");
   check_refused(run_flexneck("mesh" + out + butyl + "static_modulus_ratio=0"),

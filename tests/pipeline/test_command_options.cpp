@@ -26,6 +26,12 @@ CommandOutcome printed_by(const TemporaryFolder& folder, const std::string& argu
                             " " + arguments + " 2>/dev/null)");
 }
 
+/// With what it says on standard error.
+CommandOutcome told_by(const TemporaryFolder& folder, const std::string& arguments) {
+  return testing::run_shell("(cd " + folder.path().string() + "; " + testing::flexneck_program() +
+                            " " + arguments + ")");
+}
+
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);
   std::size_t longest = 0;
@@ -54,11 +60,15 @@ TEST_CASE("each command has a help of its own, and all of it fits the console") 
 
 TEST_CASE("an option is refused by commands in which it does nothing") {
   check_refused(run_flexneck("modes --show"), "--show belongs to the command mesh");
-  check_refused(run_flexneck("static --refine=1"), "--refine belongs to the command run, mesh");
-  check_refused(run_flexneck("info --set a=1 b"), "--set belongs to the command run, mesh");
+  check_refused(run_flexneck("static --refine=1"),
+                "--refine belongs to the command run, qualify, mesh");
+  check_refused(run_flexneck("info --set a=1 b"),
+                "--set belongs to the command run, qualify, mesh");
   check_refused(run_flexneck("mesh --to bar.inp"), "--to belongs to the command export");
   check_refused(run_flexneck("export --binary --to bar.inp"), "no meaning for a .inp");
   check_refused(run_flexneck("mesh --shw"), "'flexneck mesh --help' lists its options");
+  check_refused(run_flexneck("mesh --shw"), "--shw (did you mean '--show'?)");
+  check_refused(run_flexneck("run --frce"), "(did you mean '--force'?)");
   check_refused(run_flexneck("-o out mesh"), "the command comes first: 'flexneck mesh'");
   check_refused(run_flexneck("msh"), "did you mean 'mesh'?");
 }
@@ -96,6 +106,54 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
                 "was made with");
   std::ofstream(folder / "out/study.json") << "{ half a";
   check_refused(run_flexneck("static" + out), "out/study.json: expected the study");
+}
+
+TEST_CASE("studies and models point at the command that takes them, and a model at what it needs") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  check_refused(run_flexneck("run four_bar" + out),
+                "four_bar.toml: expected a study, found a model; try 'flexneck simulate");
+  check_refused(run_flexneck("simulate cantilever" + out),
+                "cantilever.toml: expected a model, found a study; try 'flexneck run");
+  // What is wrong with a study of its own kind is told as ever.
+  check_refused(run_flexneck("run cantilever --set modes.cont=4" + out), "did you mean 'count'?");
+  check_refused(run_flexneck("simulate four_bar --set solver.end_tim='1 s'" + out),
+                "did you mean 'end_time'?");
+  check_refused(
+      told_by(folder, "simulate chain"),
+      "out/seat_back/modes.h5: no such file, nor one here; make out/seat_back/modes.h5 with "
+      "'flexneck run seat_back -o out/seat_back'");
+  CHECK_FALSE(fs::exists(folder / "out"));
+  // From the current folder, where commands write.
+  REQUIRE(printed_by(folder, "run -q cantilever -o out/bar").exit_code == 0);
+  std::ofstream(folder / "out/bar/swing.toml") << R"(
+[solver]
+end_time = "1 ms"
+[[body]]
+name = "bar"
+kind = "deformable"
+position = ["0 m", "0 m", "0 m"]
+damping_ratio = 0
+modes_file = "out/bar/modes.h5"
+made_by = "flexneck run cantilever -o out/bar"
+)";
+  const CommandOutcome swing = told_by(folder, "simulate out/bar/swing.toml -o out");
+  INFO(swing.text);
+  CHECK(swing.exit_code == 0);
+}
+
+TEST_CASE("a folder of results is described, and one without results has no report") {
+  const TemporaryFolder folder;
+  check_refused(told_by(folder, "report -o none"),
+                "none: there are no results to report; 'flexneck run -o none' makes them");
+  CHECK_FALSE(fs::exists(folder / "none"));
+  check_refused(told_by(folder, "info ."), "expected a folder of results");
+  REQUIRE(printed_by(folder, "run -q cantilever -o bar").exit_code == 0);
+  const CommandOutcome told = printed_by(folder, "info bar");
+  CHECK(told.exit_code == 0);
+  CHECK(longest_line(told.text) <= 100);
+  CHECK_THAT(told.text, Contains("geometry/examples/cantilever.toml") && Contains("modes.h5") &&
+                            Contains("flexneck modal body") && Contains("report.html"));
 }
 
 TEST_CASE("the study that a folder remembers is found from everywhere, through links too") {

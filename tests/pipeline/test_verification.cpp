@@ -85,6 +85,41 @@ TEST_CASE("a frequency beyond the tolerance, or missing, fails the verification"
   CHECK(row(missing, "torsion 1").status == Status::failed);
 }
 
+TEST_CASE("a geometry of the user's own is shown beside published figures, not judged by them") {
+  const fe_modal::ModalBody body =
+      body_with({{"lateral bending 1", 15}, {"fore-aft bending 1", 16}});
+  const auto verified = [&](const std::string& key, const std::string& value, Origin origin,
+                            const std::string& reference_origins) {
+    Study study;
+    study.parameters = {{key, value, origin, ""}};
+    Reference reference = example();
+    reference.origins = reference_origins;
+    return verify(study, body, {}, reference);
+  };
+  const auto is_judged = [&](const auto&... arguments) {
+    const VerificationTable table = verified(arguments...);
+    for (const char* const each : {"bending 1", "bending 2", "torsion 1"}) {
+      const Status expected = table.passed() ? Status::unjudged : Status::failed;
+      CHECK(row(table, each).status == expected);
+    }
+    return !table.passed();
+  };
+  const std::string plate = "geometry.plate_thickness";
+  CHECK(is_judged(plate, "0.3 in", Origin::published, "published"));
+  CHECK(is_judged(plate, "0.3 in", Origin::calibrated, "published"));
+  CHECK_FALSE(is_judged(plate, "0.3 in", Origin::synthetic, "published"));
+  CHECK_FALSE(is_judged("geometry.materials.butyl.density", "1 kg/m^3", Origin::synthetic,
+                        "published, inferred"));
+  CHECK_FALSE(is_judged("geometry.slits", "\"open\"", Origin::synthetic, "published"));
+  CHECK(is_judged("geometry.slits", "\"closed\"", Origin::synthetic, "published"));
+  CHECK(is_judged("mesh.refine", "1", Origin::synthetic, "published"));
+  // Against the user's own figures it is.
+  CHECK(is_judged(plate, "0.3 in", Origin::synthetic, "synthetic"));
+  CHECK(
+      *row(verified(plate, "0.3 in", Origin::synthetic, "published"), "bending 1").error_percent ==
+      Approx(50));
+}
+
 TEST_CASE("fitted is said beside what the geometry was fitted to, and only there") {
   Study study;
   study.structure.emplace().neck.emplace().fitted_to = {"frequencies"};

@@ -35,6 +35,18 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh);
 /// The modes of this mesh for the ATB.
 void export_atb_modes(const CommandInput& input, mesher::Mesh& mesh);
 
+/// Mesh and modes, each mode under its name, as an unstructured grid of VTK.
+void export_modes_vtu(const CommandInput& input, mesher::Mesh& mesh);
+
+/// How the nodes of a run's deformable body move in the world: NAME.pvd, and the folder NAME with a
+/// grid of VTK for each time, at most 200. Mesh and modes are those of the run's folder.
+/// @throws InputError for a run whose body's modes are not these.
+void export_motion_pvd(const FileInput& input);
+
+/// Markers, joints and modal coordinates of a run as one table in SI units, whose only line of
+/// names tells the units.
+void export_motion_csv(const FileInput& input);
+
 /// The channels of a run, the only one of input.files, as a test of ISO-MME
 /// (iso_mme/test_writer.h). A case's are those of the study that its folder remembers.
 void export_mme_test(const FileInput& input);

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# cmake --install: the command with its manual page, completion and shipped files; and, as component
+# `development`, the libraries of the rooms with their headers, for find_package(flexneck) and
+# pkg-config. Nothing holds the prefix: it may be moved.
+include(CMakePackageConfigHelpers)
+
+set(flexneck_data "${CMAKE_INSTALL_DATADIR}/flexneck")
+set(flexneck_headers "${CMAKE_INSTALL_INCLUDEDIR}/flexneck")
+set(flexneck_config "${CMAKE_INSTALL_LIBDIR}/cmake/flexneck")
+
+# The command.
+install(TARGETS flexneck RUNTIME COMPONENT runtime)
+set(made "${PROJECT_BINARY_DIR}/generated/reference")
+install(FILES "${made}/flexneck.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
+install(FILES "${made}/flexneck"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT runtime)
+install(FILES README.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+
+# What it ships, laid out as in the sources: files name one another by these paths.
+foreach(folder geometry geometry/examples pipeline/models pipeline/regulations pipeline/studies
+               pipeline/studies/fits pipeline/verification)
+  file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*")
+  list(FILTER files INCLUDE REGEX "\\.(toml|geo|csv|inp|msh|md)$")
+  install(FILES ${files} DESTINATION "${flexneck_data}/${folder}" COMPONENT runtime)
+endforeach()
+install(DIRECTORY pipeline/report/page DESTINATION "${flexneck_data}/pipeline/report"
+        COMPONENT runtime)
+
+# The rooms: target flexneck_multibody is flexneck::multibody for those who use it.
+set(flexneck_libraries
+    foundation geometry mesh partition drawing xdmf mesher exchange modal_body fe_modal multibody
+    isolation pipeline)
+foreach(library ${flexneck_libraries})
+  set_target_properties(flexneck_${library} PROPERTIES EXPORT_NAME ${library})
+  list(APPEND flexneck_targets flexneck_${library})
+endforeach()
+set_target_properties(flexneck_warnings PROPERTIES EXPORT_NAME warnings)
+install(TARGETS ${flexneck_targets} flexneck_warnings EXPORT flexneck
+        ARCHIVE COMPONENT development
+        LIBRARY COMPONENT development)
+install(EXPORT flexneck NAMESPACE flexneck:: FILE flexneck-targets.cmake
+        DESTINATION "${flexneck_config}" COMPONENT development)
+install(DIRECTORY geometry mesher fe_modal multibody pipeline DESTINATION "${flexneck_headers}"
+        COMPONENT development FILES_MATCHING PATTERN "*.h"
+        PATTERN "pipeline/models" EXCLUDE PATTERN "pipeline/studies" EXCLUDE
+        PATTERN "pipeline/regulations" EXCLUDE PATTERN "pipeline/pictures" EXCLUDE
+        PATTERN "pipeline/verification/*.toml" EXCLUDE PATTERN "geometry/examples" EXCLUDE
+        PATTERN "page" EXCLUDE)
+install(FILES "${PROJECT_BINARY_DIR}/generated/pipeline/version.h"
+        DESTINATION "${flexneck_headers}/pipeline" COMPONENT development)
+configure_package_config_file(
+  cmake/flexneck-config.cmake.in "${PROJECT_BINARY_DIR}/generated/flexneck-config.cmake"
+  INSTALL_DESTINATION "${flexneck_config}" NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/generated/flexneck-config-version.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+file(GLOB find_modules CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/Find*.cmake")
+install(FILES "${PROJECT_BINARY_DIR}/generated/flexneck-config.cmake"
+              "${PROJECT_BINARY_DIR}/generated/flexneck-config-version.cmake" ${find_modules}
+        DESTINATION "${flexneck_config}" COMPONENT development)
+
+# flexneck_pkgconfig(NAME ABOUT LIBRARIES … PACKAGES …): all are static, so nothing is private.
+function(flexneck_pkgconfig name about)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;PACKAGES;OTHERS" ${ARGN})
+  set(libs "")
+  foreach(library ${ARG_LIBRARIES})
+    string(APPEND libs " -lflexneck_${library}")
+  endforeach()
+  foreach(other ${ARG_OTHERS})
+    string(APPEND libs " -l${other}")
+  endforeach()
+  list(JOIN ARG_PACKAGES " " packages)
+  file(RELATIVE_PATH prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+  set(file "${PROJECT_BINARY_DIR}/generated/${name}.pc")
+  file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT [[
+prefix=${pcfiledir}/@prefix@
+Name: @name@
+Description: @about@
+Version: @PROJECT_VERSION@
+Requires: @packages@
+Cflags: -I${prefix}/@flexneck_headers@
+Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@@libs@
+]])
+  install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
+endfunction()
+flexneck_pkgconfig(
+  flexneck-multibody "Bodies, joints and forces in time, with bodies that deform by their modes"
+  LIBRARIES multibody modal_body foundation OTHERS udunits2
+  PACKAGES eigen3 hdf5-openmpi ompi-cxx)
+flexneck_pkgconfig(
+  flexneck-fe_modal "Vibration modes of a mesh by finite elements"
+  LIBRARIES fe_modal xdmf partition mesh OTHERS metis cholmod dmumps
+  PACKAGES flexneck-multibody slepc petsc blas)

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/build_id.h"
+
+#include <cstddef>
+#include <cstring>
+#include <elf.h>
+#include <link.h>
+#include <span>
+#include <string_view>
+
+#include "geometry/foundation/content_hash.h"
+
+namespace flexneck {
+
+namespace {
+
+using Bytes = std::span<const unsigned char>;
+
+std::string hexadecimal(Bytes bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 0xFU];
+  }
+  return text;
+}
+
+/// Notes follow each other: a head, a name and what it says, each padded to four bytes.
+std::string id_in(Bytes notes) {
+  constexpr auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
+  while (notes.size() > sizeof(ElfW(Nhdr))) {
+    ElfW(Nhdr) head;
+    std::memcpy(&head, notes.data(), sizeof head);
+    const std::size_t name = sizeof head;
+    const std::size_t content = name + padded(head.n_namesz);
+    const std::size_t end = content + padded(head.n_descsz);
+    if (end > notes.size()) break;
+    if (head.n_type == NT_GNU_BUILD_ID && head.n_namesz == sizeof ELF_NOTE_GNU &&
+        std::memcmp(notes.data() + name, ELF_NOTE_GNU, sizeof ELF_NOTE_GNU) == 0)
+      return hexadecimal(notes.subspan(content, head.n_descsz));
+    notes = notes.subspan(end);
+  }
+  return {};
+}
+
+/// Called for each loaded file; the first one is the program.
+int look_into(dl_phdr_info* info, std::size_t /*size*/, void* found) {
+  for (const ElfW(Phdr) & part : std::span(info->dlpi_phdr, info->dlpi_phnum)) {
+    if (part.p_type != PT_NOTE) continue;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
+    const auto* begin = reinterpret_cast<const unsigned char*>(info->dlpi_addr + part.p_vaddr);
+    const std::string id = id_in({begin, part.p_memsz});
+    if (!id.empty()) *static_cast<std::string*>(found) = id;
+  }
+  return 1;
+}
+
+std::string found_id() {
+  std::string id;
+  dl_iterate_phdr(look_into, &id);
+  return id.empty() ? hash_of_file("/proc/self/exe") : id;
+}
+
+}  // namespace
+
+std::string build_id() {
+  static const std::string id = found_id();
+  return id;
+}
+
+}  // namespace flexneck

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Of Sphinx: one page that holds its style and pictures, and nothing that runs."""
+
+import base64
+import mimetypes
+import re
+from pathlib import Path
+
+project = "flexneck"
+extensions = ["myst_parser"]
+myst_enable_extensions = ["colon_fence"]
+myst_heading_anchors = 2
+exclude_patterns = ["sources"]
+root_doc = "index"
+html_theme = "basic"
+html_title = "flexneck"
+html_copy_source = False
+html_show_sourcelink = False
+html_show_copyright = False
+html_permalinks = False
+# Links of the READMEs to files that are no part of the page.
+suppress_warnings = ["myst.xref_missing", "myst.header", "toc.excluded"]
+
+STYLE = """
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #1b1f24 }
+table { border-collapse: collapse; display: block; overflow-x: auto; margin: 1rem 0 }
+th, td { border: 1px solid #d0d7de; padding: .25rem .6rem; text-align: left; vertical-align: top }
+pre { background: #f6f8fa; padding: .8rem; overflow-x: auto; font-size: .85rem; line-height: 1.35 }
+code { font-size: .9em } img { max-width: 100% } a { color: #0550ae }
+h1 { border-bottom: 1px solid #d0d7de; margin-top: 3rem }
+.sphinxsidebar, .related, .footer { display: none }
+@media (prefers-color-scheme: dark) {
+  body { background: #0d1117; color: #e6edf3 } pre { background: #161b22 } a { color: #79c0ff }
+  th, td, h1 { border-color: #30363d } img { background: #fff } }
+@media print { body { max-width: none; font-size: 10pt } pre, table { overflow: visible; white-space: pre-wrap } }
+"""
+
+
+def picture(match, folder):
+    path = (folder / match[2]).resolve()
+    kind = mimetypes.guess_type(path.name)[0]
+    return f'{match[1]}data:{kind};base64,{base64.b64encode(path.read_bytes()).decode()}"'
+
+
+def put_into_one(app, error):
+    """Style and pictures into the page, under its final name."""
+    if error is not None or app.builder.name != "singlehtml":
+        return
+    folder = Path(app.outdir)
+    text = (folder / "index.html").read_text()
+    text = re.sub(r"<script[^>]*>.*?</script>\s*|<link [^>]*>\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r'(<img [^>]*?src=")(?!data:)([^"]+)"', lambda match: picture(match, folder), text)
+    text = text.replace('href="index.html#', 'href="#')
+    text = text.replace("</head>", f"<style>{STYLE}</style>\n</head>")
+    (folder / "flexneck.html").write_text(text)
+
+
+def setup(app):
+    app.connect("build-finished", put_into_one)

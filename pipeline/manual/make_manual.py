@@ -1,0 +1,134 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the manual: asks the program for what it knows, runs the built-in study for the validation, and has
+Sphinx put all of it into one page.
+
+Usage: make_manual.py FLEXNECK SOURCES SPHINX-BUILD OUT       (OUT/flexneck.html)
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+FLEXNECK, SOURCES, SPHINX, OUT = (Path(word) for word in sys.argv[1:5])
+HERE = Path(__file__).resolve().parent
+ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1"}
+
+# The text of the manual: files of the sources, in the order of reading.
+CHAPTERS = {
+    "tour": ("A tour", ["README.md"]),
+    "geometry": ("Geometry and mesh", ["geometry/README.md", "mesher/README.md"]),
+    "modes": ("Modes", ["fe_modal/README.md"]),
+    "multibody": ("Bodies in motion", ["multibody/README.md"]),
+    "theory": ("Theory", ["multibody/CONVENTIONS.md", "multibody/equations.md"]),
+    "models": ("Model files", ["pipeline/models/README.md"]),
+    "experiments": ("Experiments, tests, ratings", ["pipeline/experiments/README.md", "pipeline/verdict/README.md",
+                                                    "pipeline/rating/README.md"]),
+    "studies": ("Many values, free values", ["pipeline/evaluation/README.md", "pipeline/sampling/README.md",
+                                             "pipeline/sweep/README.md", "pipeline/fit/README.md"]),
+    "files": ("File formats", ["geometry/foundation/README.md", "mesher/mesh/README.md", "fe_modal/body/README.md",
+                               "pipeline/iso_mme/README.md"]),
+}
+
+
+def asked(*words):
+    return subprocess.run([FLEXNECK, *words], check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
+def literal(text):
+    return "```text\n" + text.rstrip() + "\n```\n"
+
+
+def label_of(path):
+    return "text-" + re.sub(r"\W+", "-", path).strip("-").lower()
+
+
+def included(path):
+    """A text of the sources as a section: headings one deeper, links to other texts kept, the rest as words."""
+    texts = {each for _, files in CHAPTERS.values() for each in files}
+
+    def link(match):
+        target = os.path.normpath(os.path.join(os.path.dirname(path), match[3].partition("#")[0]))
+        if match[3].startswith("http"):
+            return match[0]
+        if match[1]:
+            return f"![{match[2]}](sources/{target})"
+        if match[3].startswith("#"):
+            return f"[{match[2]}]({label_of(path)})"
+        return f"[{match[2]}]({label_of(target)})" if target in texts else match[2]
+
+    text = (SOURCES / path).read_text()
+    text = re.sub(r"^(#+ )", r"#\1", text, flags=re.MULTILINE)
+    text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", link, text)
+    return f"({label_of(path)})=\n{text}\n"
+
+
+def commands_chapter():
+    text = "# Commands\n\n" + literal(asked("--help"))
+    for name in re.findall(r"^  ([a-z]+)  ", asked("--help"), re.MULTILINE):
+        text += f"\n## flexneck {name}\n\n" + literal(asked(name, "--help"))
+    return text
+
+
+def keys_chapter():
+    """A section for each kind of file, one below it for each of its tables."""
+    text = "# Keys of all files\n\nUnits and defaults are those that hold where a file says nothing.\n"
+    for block in asked("keys").strip().split("\n\n"):
+        found = re.match(r"([a-z]+)  (\S.*)\n", block)
+        if not found:
+            continue
+        kind = found[1]
+        text += f"\n## {found[2]}\n"
+        for name in re.findall(r"^\[*([a-z_]+)\]*  ", block, re.MULTILINE)[1:]:
+            about = asked("keys", f"{kind}.{name}")
+            is_table = about.startswith("[")
+            head = re.sub(r'^(\[+[^\]]+\]+)', r'`\1`', about.splitlines()[0])
+            text += f"\n### {head}\n" if is_table else ""
+            text += "\n" + literal(about.partition("\n")[2] if is_table else about)
+    return text
+
+
+def validation_chapter(folder):
+    """What the built-in study comes to, beside what is published, and its figures."""
+    run = folder / "run"
+    subprocess.run([FLEXNECK, "run", "-q", "-o", run], check=True, env=ENVIRONMENT)
+    table = json.loads((run / "verification.json").read_text())
+    text = "# Validation\n\nThe built-in study beside the published figures, as this program computed it:\n\n"
+    text += "| quantity | how | computed | published | unit | error % | |\n|---|---|--:|--:|---|--:|---|\n"
+    for row in table["rows"]:
+        error = row.get("error_percent")
+        words = [row["quantity"], row["detail"], row["value"], row["reference"], row["unit"],
+                 "" if error is None else f"{error:+.2f}", " fitted" if row.get("fitted") else ""]
+        text += "| " + " | ".join(str(word) for word in words) + " |\n"
+    text += ("\n*fitted*: the neck's dimensions were fitted to this figure. Figures 1 to 16 are those of the paper by "
+             "the numbers of its captions.\n")
+    for picture in sorted((run / "figures").glob("*.svg")):
+        text += f"\n![{picture.stem}]({picture.relative_to(folder)})\n"
+    return text
+
+
+def main():
+    source = OUT / "source"
+    shutil.rmtree(source, ignore_errors=True)
+    source.mkdir(parents=True)
+    for name in ("conf.py", "index.md", "cite.md"):
+        shutil.copy(HERE / name, source)
+    for name, (title, files) in CHAPTERS.items():
+        (source / f"{name}.md").write_text(f"# {title}\n\n" + "\n".join(included(path) for path in files))
+    (source / "commands.md").write_text(commands_chapter())
+    (source / "keys.md").write_text(keys_chapter())
+    (source / "validation.md").write_text(validation_chapter(source))
+    # For their pictures.
+    (source / "sources").symlink_to(SOURCES)
+    version = re.match(r"flexneck (\S+)", asked("--version"))[1]
+    subprocess.run([SPHINX, "-q", "-b", "singlehtml", "-D", f"release={version}", source, OUT / "html"], check=True)
+    (OUT / "html" / "flexneck.html").replace(OUT / "flexneck.html")
+    print(OUT / "flexneck.html")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/study/file_kind.h"
+
+#include "geometry/foundation/error.h"
+#include "pipeline/document/toml_source.h"
+#include "pipeline/model/model_file.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+FileKind kind_of_file(const std::filesystem::path& path) {
+  std::vector<InputFile> files;
+  const toml::table root = parse_with_includes(path, files, [](toml::table& /*of a file*/) {});
+  for (const auto& [key, node] : root)
+    if (find_key(study_keys(), std::string(key.str())) != nullptr &&
+        find_key(model_keys(), std::string(key.str())) == nullptr)
+      return FileKind::study;
+  return root.contains("body") ? FileKind::model : FileKind::study;
+}
+
+void refuse_other_kind(const std::filesystem::path& path, FileKind expected) {
+  if (kind_of_file(path) == expected) return;
+  const bool is_model = expected == FileKind::study;
+  throw InputError(path.string() + ": expected a " + (is_model ? "study" : "model") + ", found a " +
+                   (is_model ? "model" : "study") + "; try 'flexneck " +
+                   (is_model ? "simulate " : "run ") + path.string() + "'");
+}
+
+}  // namespace flexneck::pipeline
