@@ -33,6 +33,7 @@ InertiaInvariants select(const InertiaInvariants& all, const std::vector<Eigen::
 GeometricStiffness select(const GeometricStiffness& all, const std::vector<Eigen::Index>& kept) {
   const auto part = [&](const std::vector<Eigen::MatrixXd>& whole) {
     std::vector<Eigen::MatrixXd> selected;
+    selected.reserve(whole.size());
     for (const Eigen::MatrixXd& matrix : whole) selected.emplace_back(matrix(kept, kept));
     return selected;
   };

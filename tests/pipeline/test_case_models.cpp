@@ -195,7 +195,7 @@ TEST_CASE("a study runs all of its cases, some or none") {
                     Contains("cases: there is no case 'flexion-61'") && Contains("did you mean"));
   testing::check_refused(testing::run_flexneck("run --case flexoin-20"), "did you mean");
   testing::check_refused(testing::run_flexneck("mesh --case flexion-20"),
-                         "--case belongs to the command run, static, pendulum");
+                         "--case belongs to the command run, qualify, static, pendulum");
 }
 
 }  // namespace flexneck::pipeline
