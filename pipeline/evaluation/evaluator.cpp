@@ -243,7 +243,10 @@ Study Evaluator::study(const std::vector<std::string>& settings) {
 Evaluation Evaluator::evaluate(const std::vector<std::string>& settings,
                                const WantedOutputs& wanted) {
   Study found = study(settings);
-  if (has_cases_of_pieces(found)) found = with_pieces(std::move(found), *bodies_.pieces(found));
+  if (has_cases_of_pieces(found)) {
+    const BodyCache::StructurePieces pieces = bodies_.pieces(found);
+    found = with_pieces(std::move(found), *pieces);
+  }
   Experiments experiments(found, bodies_, wanted);
   Evaluation evaluation;
   evaluation.figures.resize(static_cast<Eigen::Index>(wanted.figures.size()));
@@ -276,6 +279,7 @@ FigureSlopes Evaluator::slopes(
     const std::vector<std::pair<std::vector<std::string>, double>>& moved,
     const WantedOutputs& wanted) {
   std::vector<MovedStudy> others;
+  others.reserve(moved.size());
   for (const auto& [other, width] : moved) others.push_back({study(other), width});
   std::vector<std::string> figures;
   BodyUse use = BodyUse::experiments;
