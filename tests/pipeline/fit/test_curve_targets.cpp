@@ -163,9 +163,8 @@ TEST_CASE("a corridor is a window at each of its points") {
 }
 
 TEST_CASE("of a corridor one point outside is enough, however small the mean") {
-  std::vector<pipeline::FitTerm> terms;
-  for (int k = 0; k < 10; ++k)
-    terms.push_back({"band", 0, 0.1, pipeline::FitTerm::Window{-1, 1}, false});
+  const std::vector<pipeline::FitTerm> terms(
+      10, {"band", 0, 0.1, pipeline::FitTerm::Window{-1, 1}, false});
   const std::vector<pipeline::FitRange> ranges = {{"x", 0, 1, {}}};
   const pipeline::FitObjective objective(ranges, terms, {});
   Eigen::VectorXd values = Eigen::VectorXd::Zero(10);
