@@ -24,7 +24,7 @@ tidy() { # FOLDER OF THE BUILD, pathspecs
   changed=$(git diff --name-only --diff-filter=d HEAD~1 -- "$@" 2>/dev/null || true)
   [ -z "$changed" ] || echo "$changed" | xargs -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet
 }
-tidy build-tidy '*.cpp' ':!tests/reliability/fuzz'
+tidy build-tidy '*.cpp' ':!tests/reliability/fuzz' ':!tests/install/consumer'  # a project of its own
 tidy build-fuzz 'tests/reliability/fuzz/*.cpp'
 
 echo '== tests'
