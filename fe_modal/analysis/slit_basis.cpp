@@ -2,21 +2,14 @@
 #include "fe_modal/analysis/slit_basis.h"
 
 #include "fe_modal/analysis/attached_frequencies.h"
-#include "fe_modal/body/independent_loads.h"
 #include "fe_modal/reduction/ritz.h"
 #include "fe_modal/reduction/static_response.h"
+#include "fe_modal/reduction/static_shapes.h"
 #include "fe_modal/solve/make_system.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-Eigen::MatrixXd all_loads(const std::vector<InterfaceLoads>& loads) {
-  Eigen::MatrixXd all(loads.front().forces.rows(), static_cast<Eigen::Index>(6 * loads.size()));
-  for (std::size_t k = 0; k < loads.size(); ++k)
-    all.middleCols<6>(static_cast<Eigen::Index>(6 * k)) = loads[k].forces;
-  return all;
-}
 
 /// The body with its slits shut, whose nodes are those of the open one.
 class ShutBody {
@@ -62,33 +55,25 @@ SlitBasis slit_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const Body
   if (dof_map.is_constrained())
     throw InputError(
         "slits that open and close: expected no rigid interface and no direction fixed alone");
-  const Eigen::MatrixXd forces = all_loads(loads);
-  const Eigen::MatrixXd responses = static_response_beyond(open, {}, forces);
-  const Eigen::MatrixXd compliance = forces.transpose() * responses;
-  const Eigen::MatrixXd mass = responses.transpose() * open.mass(responses);
-  const IndependentLoads independent = independent_loads(compliance, compliance.diagonal());
+  const StaticShapes shapes = static_shapes(open, {}, loads);
+  const Eigen::MatrixXd combinations = correcting_loads(shapes, loads, progress);
 
   SlitBasis basis;
-  basis.fields = slit_fields(mesh, expanded(dof_map, responses * independent.combinations),
+  basis.fields = slit_fields(mesh, expanded(dof_map, shapes.beyond * combinations),
                              options.slit_motions == SlitMotions::openings_and_sliding);
   if (progress)
     progress(std::to_string(basis.fields.size()) + " ways in which slits part join the basis");
-  Eigen::MatrixXd jumps(forces.rows(), static_cast<Eigen::Index>(basis.fields.size()));
+  Eigen::MatrixXd jumps(shapes.loads.rows(), static_cast<Eigen::Index>(basis.fields.size()));
   for (std::size_t k = 0; k < basis.fields.size(); ++k)
     jumps.col(static_cast<Eigen::Index>(k)) = dof_map.restrict(on_nodes(mesh, basis.fields[k]));
 
   const ShutBody shut(mesh, dof_map, options);
-  Eigen::MatrixXd vectors(forces.rows(), independent.combinations.cols() + jumps.cols());
-  vectors << shut.shapes(forces * independent.combinations),
-      jumps - shut.shapes(open.stiffness(jumps));
+  Eigen::MatrixXd vectors(jumps.rows(), combinations.cols() + jumps.cols());
+  vectors << shut.shapes(shapes.loads * combinations), jumps - shut.shapes(open.stiffness(jumps));
   basis.reduction.pairs = ritz_pairs(open, Eigen::MatrixXd(), std::move(vectors));
   basis.reduction.kinds.assign(static_cast<std::size_t>(basis.reduction.pairs.values.size()),
                                std::string(kConstraintMode));
-  for (Eigen::Index first = 0; first < compliance.rows(); first += 6) {
-    const Matrix6d block = compliance.block<6, 6>(first, first);
-    basis.reduction.responses.push_back(
-        {(block + block.transpose()) / 2, mass.block<6, 6>(first, first)});
-  }
+  basis.reduction.responses = shapes.responses;
   return basis;
 }
 

@@ -298,6 +298,7 @@ void read_attached(const Hdf5Reader& file, ModalBody& body) {
 void write_modal_body(const std::filesystem::path& path, const ModalBodyFile& content) {
   const ModalBody& body = content.body;
   check_names(names_of(body.interfaces), "interface");
+  check_names(names_of(body.slits), "slit");
   Hdf5Writer file(path, kModalBodyFormat);
   write_vector(file, "/frequencies", body.frequencies_Hz, "Hz");
   write_basis(file, body);

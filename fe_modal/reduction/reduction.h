@@ -5,29 +5,14 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/operators.h"
+#include "fe_modal/reduction/static_shapes.h"
 #include "fe_modal/solve/eigensolver.h"
-#include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::fe_modal {
-
-/// Six unit loads of one interface, force (3) and moment (3), which are spread so that their work
-/// is that of the interface's average motion.
-struct InterfaceLoads {
-  std::string name;
-  Eigen::MatrixXd forces;      ///< C^T, (dofs, 6)
-  bool corrects_basis = true;  ///< whether static shapes of this interface join the basis
-};
-
-/// Loads of an interface on the free degrees of freedom.
-InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
-                               const DofMap& dof_map);
 
 struct Reduction {
   EigenPairs pairs;                ///< M-orthonormal, ascending

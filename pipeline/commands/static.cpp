@@ -21,13 +21,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The neck's pieces from their files; none if the study cuts it into none, or if the tests have
-/// moduli of their own, with which the pieces were not made.
+/// The neck's pieces from their files, to be compared with it; none if the study cuts it into none,
+/// if a test has them as sections already, or slits that only sections keep shut, or if the tests
+/// have moduli of their own, with which the pieces were not made.
 std::vector<ChainLink> read_links(const CommandInput& input, Provenance& provenance) {
   std::vector<ChainLink> links;
-  if (input.study.has_static_moduli()) return links;
+  const Study& study = input.study;
+  if (study.has_static_moduli() || has_cases_of_pieces(study, CaseSection::Kind::static_test) ||
+      study.substructures.slit_motions != fe_modal::SlitMotions::none)
+    return links;
   Pieces pieces = read_pieces(input, provenance.inputs);
-  for (const PieceSection& piece : input.study.substructures.pieces)
+  for (const PieceSection& piece : study.substructures.pieces)
     links.push_back({piece.name, std::move(pieces.at(piece.name))});
   return links;
 }

@@ -24,12 +24,14 @@ namespace flexneck::pipeline {
 
 /// Meshes and modes of studies that differ in some values, each computed once for all that have
 /// the values it is made from in common. One at a time is computed, on a thread of its own, since
-/// gmsh and PETSc serve one. The last kBodies bodies, without shapes, and kMeshes meshes are kept.
-/// For any number of threads. One at a time in a process, as fe_modal::PetscSession.
+/// gmsh and PETSc serve one. The last kBodies bodies and kPieces sets of pieces, without shapes,
+/// and kMeshes meshes are kept. For any number of threads. One at a time in a process, as
+/// fe_modal::PetscSession.
 class BodyCache {
  public:
   using Body = std::shared_ptr<const fe_modal::ModalBody>;
   static constexpr std::size_t kBodies = 2000;  ///< about 10 kB each
+  static constexpr std::size_t kPieces = 200;   ///< about 100 kB each
   static constexpr std::size_t kMeshes = 4;
 
   /// @param console  for what meshing tells; outlives this
@@ -82,7 +84,7 @@ class BodyCache {
   mutable std::mutex mutex_;  ///< of the bodies
   Last<Body> bodies_{kBodies};
   std::size_t solved_ = 0;
-  Last<StructurePieces> pieces_{kBodies};          ///< of the thread of the solvers
+  Last<StructurePieces> pieces_{kPieces};          ///< of the thread of the solvers
   Last<mesher::Mesh> meshes_{kMeshes};             ///< of the thread of the solvers
   std::optional<fe_modal::PetscSession> session_;  ///< likewise
   SerialThread solvers_;                           ///< last: it uses the others

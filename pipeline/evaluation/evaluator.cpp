@@ -102,7 +102,7 @@ class Experiments {
                     .emplace(experiment.name,
                              first_system_mode(study_, experiment, body_of(experiment), true))
                     .first;
-      return {system_figure(known->second, output.figure), {}};
+      return system_figure(known->second, output.figure);
     }
     auto known = results_.find(experiment.name);
     if (known == results_.end()) {

@@ -228,8 +228,9 @@ Figure pendulum_figure(const PendulumResult& result, const std::string& name) {
   return row_named(pendulum_rows(), name).read(result);
 }
 
-double system_figure(const multibody::SystemMode& mode, const std::string& name) {
-  return *row_named(system_rows(), name).read(mode).value;
+Figure system_figure(const multibody::SystemMode& mode, const std::string& name) {
+  if (!mode.kink.empty()) return {{}, "small motions meet a kink, " + mode.kink};
+  return row_named(system_rows(), name).read(mode);
 }
 
 std::string unit_of_static_figure(const std::string& name) {

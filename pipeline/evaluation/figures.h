@@ -53,7 +53,8 @@ enum class PendulumSource {
 };
 PendulumSource source_of_pendulum_figure(const std::string& name);
 Figure pendulum_figure(const PendulumResult& result, const std::string& name);
-double system_figure(const multibody::SystemMode& mode, const std::string& name);
+/// None about a kink, where small motions have no one stiffness.
+Figure system_figure(const multibody::SystemMode& mode, const std::string& name);
 
 double static_figure(const StaticTestResult& result, const std::string& name);
 

@@ -8,6 +8,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
+#include "geometry/foundation/xml_text.h"
 
 namespace flexneck::pipeline {
 
@@ -24,32 +25,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 
 }  // namespace
 
-std::string html_text(std::string_view text) {
-  std::string result;
-  result.reserve(text.size());
-  for (const char c : printable(text, "\n")) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
+std::string html_text(std::string_view text) { return xml_text(printable(text, "\n")); }
 
 std::string script_json(const nlohmann::ordered_json& json) {
   using Json = nlohmann::ordered_json;

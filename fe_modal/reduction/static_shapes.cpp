@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/reduction/static_shapes.h"
+
+#include "fe_modal/body/independent_loads.h"
+#include "fe_modal/reduction/static_response.h"
+
+namespace flexneck::fe_modal {
+
+InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
+                               const DofMap& dof_map) {
+  InterfaceLoads loads{name, Eigen::MatrixXd(dof_map.dof_count(), 6)};
+  const auto weights = average.weights(dof_map.node_count());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    loads.forces.col(static_cast<Eigen::Index>(i)) = dof_map.gather(weights[i]);
+  }
+  return loads;
+}
+
+StaticShapes static_shapes(const BodyOperators& body, const EigenPairs& kept,
+                           const std::vector<InterfaceLoads>& interfaces) {
+  StaticShapes shapes;
+  const auto count = static_cast<Eigen::Index>(6 * interfaces.size());
+  shapes.loads.resize(interfaces.front().forces.rows(), count);
+  for (std::size_t k = 0; k < interfaces.size(); ++k) {
+    shapes.loads.middleCols<6>(static_cast<Eigen::Index>(6 * k)) = interfaces[k].forces;
+  }
+  shapes.beyond = static_response_beyond(body, kept, shapes.loads);
+  shapes.rest = shapes.loads.transpose() * shapes.beyond;
+  const Eigen::MatrixXd rest_mass = shapes.beyond.transpose() * body.mass(shapes.beyond);
+  ModalResponse modal{Eigen::MatrixXd::Zero(count, count), Eigen::MatrixXd::Zero(count, count)};
+  if (kept.values.size() > 0) {
+    modal = modal_response(kept.values, kept.vectors.transpose() * shapes.loads);
+  }
+  const Eigen::MatrixXd compliance = modal.compliance + shapes.rest;
+  const Eigen::MatrixXd mass = modal.mass + rest_mass;
+  shapes.compliance = compliance.diagonal();
+  for (Eigen::Index first = 0; first < count; first += 6) {
+    const Matrix6d block = compliance.block<6, 6>(first, first);
+    shapes.responses.push_back({(block + block.transpose()) / 2, mass.block<6, 6>(first, first)});
+  }
+  return shapes;
+}
+
+Eigen::MatrixXd correcting_loads(const StaticShapes& shapes,
+                                 const std::vector<InterfaceLoads>& interfaces,
+                                 const Progress& progress) {
+  std::vector<Eigen::Index> chosen;
+  for (std::size_t k = 0; k < interfaces.size(); ++k) {
+    if (!interfaces[k].corrects_basis) continue;
+    for (std::size_t i = 0; i < 6; ++i) chosen.push_back(static_cast<Eigen::Index>(6 * k + i));
+  }
+  const IndependentLoads independent =
+      independent_loads(shapes.rest(chosen, chosen), shapes.compliance(chosen));
+  if (independent.dropped > 0 && progress) {
+    progress(std::to_string(independent.dropped) + " of " + std::to_string(chosen.size()) +
+             " correction modes are dropped: the other vectors of the basis hold them already");
+  }
+  const auto count = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd combinations =
+      Eigen::MatrixXd::Zero(shapes.rest.rows(), independent.combinations.cols());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    combinations.row(chosen[static_cast<std::size_t>(i)]) = independent.combinations.row(i);
+  }
+  return combinations;
+}
+
+}  // namespace flexneck::fe_modal

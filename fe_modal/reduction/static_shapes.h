@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/body/modal_body.h"
+#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/reduction/operators.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/rigid_average.h"
+#include "geometry/foundation/progress.h"
+
+namespace flexneck::fe_modal {
+
+/// Six unit loads of one interface, force (3) and moment (3), which are spread so that their work
+/// is that of the interface's average motion.
+struct InterfaceLoads {
+  std::string name;
+  Eigen::MatrixXd forces;      ///< C^T, (dofs, 6)
+  bool corrects_basis = true;  ///< whether static shapes of this interface join the basis
+};
+
+/// Loads of an interface on the free degrees of freedom.
+InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
+                               const DofMap& dof_map);
+
+/// Static shapes of all interfaces' loads, less what some modes have of them.
+struct StaticShapes {
+  Eigen::MatrixXd loads;       ///< F, (dofs, 6 p)
+  Eigen::MatrixXd beyond;      ///< X less the modes' part, (dofs, 6 p)
+  Eigen::MatrixXd rest;        ///< F^T times that
+  Eigen::VectorXd compliance;  ///< diagonal of F^T X
+  std::vector<StaticResponse> responses;
+};
+
+StaticShapes static_shapes(const BodyOperators& body, const EigenPairs& kept,
+                           const std::vector<InterfaceLoads>& interfaces);
+
+/// Combinations of the loads on interfaces that correct the basis, (6 p, k): their shapes are
+/// K-orthonormal. Tells how many are dropped.
+Eigen::MatrixXd correcting_loads(const StaticShapes& shapes,
+                                 const std::vector<InterfaceLoads>& interfaces,
+                                 const Progress& progress);
+
+}  // namespace flexneck::fe_modal
