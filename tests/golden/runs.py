@@ -50,14 +50,18 @@ class Runs:
             yield from self.structure(name)
         for stage in ("mesh", "modes", "static"):
             self.call(stage, "pipeline/studies/hybrid3_chain.toml", "hybrid3_chain")
+        for stage in ("mesh", "modes", "pendulum", "verify"):
+            self.call(stage, "pipeline/studies/hybrid3_qualification.toml", "hybrid3_qualification")
         yield from self.structure("hybrid3_chain", *(f"substructure_{disc}" for disc in DISCS))
         for name, experiment in (("hybrid3", "pendulum"), ("hybrid3", "static"),
-                                 ("hybrid3_chain", "static")):
+                                 ("hybrid3_chain", "static"),
+                                 ("hybrid3_qualification", "pendulum")):
             files = sorted((self.folder / name).glob(f"{experiment}-*.h5"))
             yield self.peaks(f"{name}_{experiment}", files)
         files = [self.folder / name / "verification.json" for name in SETS]
         files += [self.folder / "hybrid3" / f"{name}.json"
                   for name in ("static", "pendulum", "verdicts")]
+        files.append(self.folder / "hybrid3_qualification" / "verdicts.json")
         yield Table("printed", TEXTS, 0,
                     [row for path in files for row in prefixed(self.name(path), text_rows(path))])
         for name in STRUCTURES:

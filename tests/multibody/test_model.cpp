@@ -101,6 +101,10 @@ TEST_CASE("Deformable bodies with odd damping, frequencies or invariants are ref
              Contains("one damping ratio per mode, 4, but there are 3"));
   CHECK_THAT(complaint([](Model& m) { neck_of(m).modes.frequencies_Hz[0] = 0; }),
              Contains("frequencies must be positive"));
+  CHECK_THAT(complaint([](Model& m) {
+               neck_of(m).modes.slits.push_back({"cut opens 1", true, Eigen::RowVector4d::Ones()});
+             }),
+             Contains("body 'neck'") && Contains("which only a section keeps"));
   CHECK_THAT(complaint([](Model& m) { neck_of(m).modes.invariants.Maa *= 4; }),
              Contains("not mass-normalised"));
   CHECK_THAT(complaint([](Model& m) { neck_of(m).modes.invariants.S2 *= 10; }),

@@ -10,12 +10,14 @@
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "pipeline/model/model_file.h"
+#include "tests/support/model_reading.h"
 #include "tests/support/model_text.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using testing::double_pendulum_text;
+using testing::read_model;
 using testing::with;
 using testing::write_text;
 
@@ -30,10 +32,6 @@ std::string with_elbow(const std::string& keys, const std::string& more = "") {
   return with(double_pendulum_text(), kElbow,
               "lower = \"upper.end\"\nupper = \"lower.top\"\n" + keys) +
          more;
-}
-
-ModelFile read(const TemporaryFolder& folder, const std::string& text) {
-  return read_model_file(write_text(folder / "model.toml", text), {});
 }
 
 multibody::History run(const ModelFile& file) {
@@ -61,16 +59,17 @@ Elbow elbow_at(const multibody::History& history, Eigen::Index k) {
 TEST_CASE("a joint has the field's name or the paper's, and every kind is told in a refusal") {
   const TemporaryFolder folder;
   const auto kind_of = [&](const std::string& name) {
-    return read(folder, with(double_pendulum_text(), "kind = \"pin\"", "kind = \"" + name + "\""))
+    return read_model(folder,
+                      with(double_pendulum_text(), "kind = \"pin\"", "kind = \"" + name + "\""))
         .model.joints[0]
         .kind;
   };
   CHECK(kind_of("pin") == &multibody::kRevoluteJoint);
   CHECK(kind_of("revolute") == &multibody::kRevoluteJoint);
   const std::string bare = "axis = [1, 0, 0]\n";
-  CHECK(read(folder, with_elbow("kind = \"slider\"\n" + bare)).model.joints[1].kind ==
+  CHECK(read_model(folder, with_elbow("kind = \"slider\"\n" + bare)).model.joints[1].kind ==
         &multibody::kPrismaticJoint);
-  CHECK(read(folder, with_elbow("kind = \"ball\"\n")).model.joints[1].kind ==
+  CHECK(read_model(folder, with_elbow("kind = \"ball\"\n")).model.joints[1].kind ==
         &multibody::kSphericalJoint);
   CHECK_THROWS_WITH(kind_of(""), Contains("\"revolute\"") && Contains("\"screw\"") &&
                                      Contains("\"distance\"") && Contains("found \"\""));
@@ -80,7 +79,7 @@ TEST_CASE("a screw starts on its thread and stays on it") {
   const TemporaryFolder folder;
   const std::string screw = "kind = \"screw\"\naxis = [1, 0, 0]\nlead = \"40 mm\"\n";
   const ModelFile file =
-      read(folder, with_elbow(screw + "angle = \"-70 deg\"\nrate = \"8 rad/s\"\n"));
+      read_model(folder, with_elbow(screw + "angle = \"-70 deg\"\nrate = \"8 rad/s\"\n"));
   const multibody::History history = run(file);
   for (const Eigen::Index k : {0, 100, 200}) {
     const Elbow elbow = elbow_at(history, k);
@@ -88,11 +87,11 @@ TEST_CASE("a screw starts on its thread and stays on it") {
     CHECK(std::abs(off - std::round(off)) < 1e-9);
   }
   CHECK(elbow_at(history, 0).angle_rad == Approx(-70 * std::numbers::pi / 180));
-  CHECK_THROWS_WITH(read(folder, with_elbow("kind = \"screw\"\naxis = [1, 0, 0]\n")),
+  CHECK_THROWS_WITH(read_model(folder, with_elbow("kind = \"screw\"\naxis = [1, 0, 0]\n")),
                     Contains("lead"));
-  CHECK_THROWS_WITH(read(folder, with_elbow(with(screw, "40", "0"))),
+  CHECK_THROWS_WITH(read_model(folder, with_elbow(with(screw, "40", "0"))),
                     Contains("lead must be other than zero"));
-  CHECK_THROWS_WITH(read(folder, with_elbow(screw + "distance = \"1 mm\"\n")),
+  CHECK_THROWS_WITH(read_model(folder, with_elbow(screw + "distance = \"1 mm\"\n")),
                     Contains("distance"));
 }
 
@@ -106,7 +105,7 @@ TEST_CASE("a motor makes a joint follow an expression or a table from where the 
                "times = [\"0 s\", \"0.1 s\", \"0.2 s\", \"0.3 s\"]\n"
                "angle = [\"0 rad\", \"0.5 rad\", \"1.4 rad\", \"2.7 rad\"]\n");
   const bool is_table = expression.starts_with("times");
-  const multibody::History history = run(read(folder, with_elbow(pin, motor + expression)));
+  const multibody::History history = run(read_model(folder, with_elbow(pin, motor + expression)));
   const double start = -70 * std::numbers::pi / 180;
   // The rows of the table are on a parabola, which its spline repeats.
   const auto path = [&](double t) { return is_table ? 3 * t + 20 * t * t : 2 * std::sin(9 * t); };
@@ -120,7 +119,7 @@ TEST_CASE("a motor that says nothing, or what its joint says too, is refused") {
   const std::string motor = "\n[[motor]]\nname = \"drive\"\njoint = \"elbow\"\n";
   const auto refused = [&](const std::string& joint, const std::string& keys,
                            const std::string& reason) {
-    CHECK_THROWS_WITH(run(read(folder, with_elbow(joint, motor + keys))), Contains(reason));
+    CHECK_THROWS_WITH(run(read_model(folder, with_elbow(joint, motor + keys))), Contains(reason));
   };
   refused(pin, "coordinate = \"angle\"\n", "a motor needs a motion");
   refused(pin, "coordinate = \"twist\"\nangle = \"t\"\n", "expected one of");
@@ -135,7 +134,7 @@ TEST_CASE("a distance joint closes a loop between bodies that others put in thei
   const std::string rod =
       "\n[[joint]]\nname = \"rod\"\nkind = \"distance\"\nlower = \"ground.hook\"\n"
       "upper = \"lower.tip\"\nlength = ";
-  const ModelFile file = read(folder, double_pendulum_text() + rod + "\"1 m\"\n");
+  const ModelFile file = read_model(folder, double_pendulum_text() + rod + "\"1 m\"\n");
   const Eigen::Vector3d tip =
       file.model.bodies[2].initial_pose.position_m +
       file.model.bodies[2].initial_pose.rotation * Eigen::Vector3d(0, 0.03, -0.2);
@@ -145,7 +144,7 @@ TEST_CASE("a distance joint closes a loop between bodies that others put in thei
   std::string text = with(double_pendulum_text(), "rate = \"300 deg/s\"\n", "");
   text = with(text, "rate = \"8 rad/s\"\n", "") + rod + "\"" + fmt::format("{:.12f}", length) +
          " m\"\n";
-  const multibody::History history = run(read(folder, text));
+  const multibody::History history = run(read_model(folder, text));
   const multibody::MarkerHistory& end = history.marker("lower.tip");
   const Eigen::Index last = history.time_s.size() - 1;
   CHECK((end.position_m.col(last) - end.position_m.col(0)).norm() > 0.01);

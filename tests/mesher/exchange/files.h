@@ -79,4 +79,14 @@ $Elements
 $EndElements
 )";
 
+/// What is told of an Abaqus deck.
+/// @param is_reduced  whether the modes are to be of elements with reduced integration
+inline std::string warning_of_deck(const std::string& deck, bool is_reduced = false) {
+  const Files files;
+  mesher::ImportOptions options;
+  options.file = files.write("deck.inp", deck);
+  options.is_reduced = is_reduced;
+  return warnings_of(options);
+}
+
 }  // namespace flexneck::testing
