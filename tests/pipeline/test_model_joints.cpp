@@ -19,7 +19,6 @@ using namespace flexneck::pipeline;
 using testing::double_pendulum_text;
 using testing::read_model;
 using testing::with;
-using testing::write_text;
 
 namespace {
 
