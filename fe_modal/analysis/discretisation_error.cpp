@@ -78,7 +78,6 @@ Eigen::MatrixXd similarities(const SolvedMesh& coarse, const DofMap& fine_nodes,
 std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions& options,
                                    const Progress& progress) {
   const mesher::RefinedMesh fine = mesher::refine(solved.mesh);
-  const bool fixed = options.is_fixed();
   const DofMap dof_map = dof_map_of(fine.mesh, options);
   if (progress) {
     progress("refining for the error of the mesh, " + std::to_string(dof_map.dof_count()) +
@@ -90,7 +89,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   fine_options.node_order = mesher::nested_dissection(fine.mesh);
   const std::unique_ptr<const ModalSystem> system = make_system(fine.mesh, dof_map, fine_options);
   const std::unique_ptr<const ShiftInverse> inverse =
-      system->shift_inverse(fixed ? 0 : -eigenvalue_scale(solved.mesh));
+      system->shift_inverse(solved.is_fixed ? 0 : -eigenvalue_scale(solved.mesh));
 
   Eigen::MatrixXd start(dof_map.dof_count(), solved.pairs.vectors.cols());
   for (Eigen::Index k = 0; k < start.cols(); ++k) {

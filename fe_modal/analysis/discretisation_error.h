@@ -18,6 +18,7 @@ struct SolvedMesh {
   const DofMap& dof_map;
   Mat mass;  ///< of the free degrees of freedom
   const EigenPairs& pairs;
+  bool is_fixed;  ///< keeps no rigid motion
 };
 
 /// Discretisation error of each frequency, by the same modes with every element cut in eight

@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
 #include "fe_modal/analysis/slit_basis.h"
-#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/dofs/rigid_motions.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
 #include "fe_modal/reduction/mode_conventions.h"
 #include "fe_modal/reduction/mode_naming.h"
+#include "fe_modal/reduction/particles.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/reduction/static_response.h"
 #include "fe_modal/solve/eigensolver.h"
@@ -49,10 +51,15 @@ std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh
 
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
 void check_no_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
-                        const Eigen::VectorXd& values, bool fixed) {
-  const Eigen::Index rigid = fixed ? 0 : 6;
-  if (values.size() <= rigid || values[rigid] > kStrainless * eigenvalue_scale(mesh)) return;
-  if (const auto motions = describe_mechanism(mesh, dof_map, system, fixed)) {
+                        const Eigen::VectorXd& values, Eigen::Index rigid) {
+  const double strainless = mesh.connections.springs.empty() ? kStrainless : kStrainlessOnSprings;
+  if (const Eigen::Index last = std::min(rigid, values.size());
+      last > 0 && values[last - 1] > kStrainless * eigenvalue_scale(mesh)) {
+    throw ComputationError("the body has fewer motions without strain than the " +
+                           std::to_string(rigid) + " that its supports leave");
+  }
+  if (values.size() <= rigid || values[rigid] > strainless * eigenvalue_scale(mesh)) return;
+  if (const auto motions = describe_mechanism(mesh, dof_map, system, rigid == 0)) {
     refuse_mechanism(*motions);
   }
 }
@@ -110,6 +117,13 @@ std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const DofMap& 
   return loads;
 }
 
+void warn_of_rigid_cut(Eigen::Index count, Eigen::Index rigid_count, const Progress& warn) {
+  if (count >= rigid_count || !warn) return;
+  const std::string all = std::to_string(rigid_count);
+  warn("the number of modes, " + std::to_string(count) + ", cuts the " + all +
+       " rigid-body motions of the body, of which any combination is one: ask for at least " + all);
+}
+
 /// The basis asked for, its certificate, and the ways in which slits part that joined it.
 struct Basis {
   Reduction reduction;
@@ -119,8 +133,8 @@ struct Basis {
 
 Basis reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
                     const ShiftInverse& inverse, const ModalOptions& options,
-                    const std::vector<InterfaceLoads>& loads, const Progress& progress,
-                    const Progress& warn) {
+                    const std::vector<InterfaceLoads>& loads, Eigen::Index rigid_count,
+                    const Progress& progress, const Progress& warn) {
   const BodyOperators operators = operators_of(system, inverse);
   if (options.slit_motions != SlitMotions::none) {
     SlitBasis basis = slit_basis(mesh, dof_map, operators, options, loads, progress);
@@ -137,12 +151,12 @@ Basis reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const Modal
   }
   auto [pairs, certificate] =
       lowest_modes(system, inverse, options.mode_count, options.certify, warn);
-  check_no_mechanism(mesh, dof_map, system, pairs.values, options.is_fixed());
+  check_no_mechanism(mesh, dof_map, system, pairs.values, rigid_count);
   check_eigenvalues(pairs.values, inverse.shift());
-  for (double& value : pairs.values) {
-    if (value < kStrainless * -inverse.shift()) value = 0;
-  }
-  return {complete_modes(operators, pairs, loads, options.basis, progress), certificate};
+  warn_of_rigid_cut(pairs.values.size(), rigid_count, warn);
+  pairs.values.head(std::min(rigid_count, pairs.values.size())).setZero();
+  return {complete_modes(operators, pairs, loads, options.basis, rigid_count, progress),
+          certificate};
 }
 
 /// How many of the basis, its first, are the body's own eigenvectors, which are its lowest.
@@ -162,8 +176,10 @@ std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
   return responses;
 }
 
-/// "fixed: bolts, x of left", or "free".
-std::string boundary_of(const ModalOptions& options) {
+/// "fixed: bolts, x of left; slides along y", or "free".
+std::string boundary_of(const ModalOptions& options, const mesher::Mesh& mesh,
+                        const RigidMotions& rigid) {
+  constexpr Eigen::Index kFree = 6;
   std::string fixed = options.fixed_set;
   for (const auto& [set, directions] : options.fixed_directions) {
     if (!fixed.empty()) fixed += ", ";
@@ -172,7 +188,23 @@ std::string boundary_of(const ModalOptions& options) {
     }
     fixed += " of " + set;
   }
-  return fixed.empty() ? "free" : "fixed: " + fixed;
+  std::set<std::string> others;
+  const std::vector<std::int32_t> nodes = options.fixed_set.empty()
+                                              ? std::vector<std::int32_t>()
+                                              : mesh.node_set(options.fixed_set).nodes;
+  for (const mesher::Support& support : mesh.connections.supports) {
+    const std::vector<std::int32_t>& own = support.nodes;
+    if (!std::includes(nodes.begin(), nodes.end(), own.begin(), own.end())) {
+      others.insert(support.name);
+    }
+  }
+  for (const mesher::Equation& equation : mesh.connections.equations) {
+    if (equation.terms.size() == 1) others.insert(equation.name);
+  }
+  for (const std::string& name : others) fixed += (fixed.empty() ? "" : ", ") + name;
+  if (fixed.empty() && rigid.count() < kFree) fixed = "springs";
+  if (fixed.empty()) return "free";
+  return "fixed: " + fixed + (rigid.count() > 0 ? "; " + rigid.text() : "");
 }
 
 }  // namespace
@@ -187,8 +219,9 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   };
   check_options(mesh, options);
   check_memory(mesh, options);
-  const bool fixed = options.is_fixed();
   const DofMap dof_map = dof_map_of(mesh, options);
+  const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);
+  const bool fixed = rigid.count() == 0;
   report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
          " degrees of freedom");
   times.start("assemble");
@@ -197,7 +230,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
 
   times.start("order and factorise");
   report("factorising the stiffness");
-  // A fixed body has a definite stiffness; a free one is shifted below zero.
+  // A fixed body has a definite stiffness; one that keeps rigid motions is shifted below zero.
   const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
   const std::unique_ptr<const ShiftInverse> inverse =
       factorise_or_refuse(mesh, dof_map, system, shift);
@@ -210,7 +243,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   const std::vector<InterfaceLoads> loads = loads_of(options, dof_map, averages);
   auto [basis, certificate, slit_fields] =
-      reduced_basis(mesh, dof_map, system, *inverse, options, loads, progress, warn);
+      reduced_basis(mesh, dof_map, system, *inverse, options, loads, rigid.count(), progress, warn);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
     apply_conventions(pairs);
@@ -223,7 +256,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   report("reducing to modal coordinates");
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
-  body.boundary = boundary_of(options);
+  body.boundary = boundary_of(options, mesh, rigid);
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
   body.shapes = expanded(dof_map, pairs.vectors);
@@ -234,7 +267,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     times.start("refine and solve again");
     const EigenPairs normal = {pairs.values.head(eigenvectors),
                                pairs.vectors.leftCols(eigenvectors)};
-    const auto errors = mesh_errors({mesh, dof_map, system.mass(), normal}, options, progress);
+    const auto errors =
+        mesh_errors({mesh, dof_map, system.mass(), normal, fixed}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       body.modes[k].mesh_error = errors[k];
     }
@@ -242,7 +276,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   body.slits = slit_motions(mesh, slit_fields, body.shapes);
   body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
-  body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes);
+  const std::vector<Particle> particles = particles_of(mesh, dof_map, pairs.vectors);
+  body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes, particles);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
   body.orthogonality =
       (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
@@ -252,7 +287,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     report("integrating the geometric stiffness");
     body.geometric_stiffness =
         unit_load_stiffness(mesh, options.formulation, dof_map, system.nodal_mass(),
-                            operators_of(system, *inverse), loads, body.shapes);
+                            operators_of(system, *inverse), loads, body.shapes, particles);
   }
   if (!options.attachments.empty()) {
     times.start("iterate with bodies attached");

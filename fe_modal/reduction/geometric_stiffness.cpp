@@ -104,6 +104,21 @@ std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positio
   return fields;
 }
 
+/// Less the inertia forces of a particle in the same accelerations.
+void add_inertia_forces(const Particle& particle, const DofMap& dof_map, Eigen::MatrixXd& loads) {
+  std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(particle.position_m);
+  for (const auto& motion : particle.motions.colwise()) accelerations.emplace_back(motion);
+  for (std::size_t i = 0; i < accelerations.size(); ++i) {
+    const Eigen::Vector3d force = -particle.mass_kg * accelerations[i];
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(loads.rows());
+    dof_map.add_force(particle.site, force, values);
+    if (particle.site >= dof_map.node_count()) {
+      dof_map.add_force(particle.site + 1, particle.arm_m.cross(force), values);
+    }
+    loads.col(static_cast<Eigen::Index>(i)) += values;
+  }
+}
+
 }  // namespace
 
 std::vector<Eigen::MatrixXd> geometric_stiffness(
@@ -127,7 +142,8 @@ GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
                                        const FormulationChoice& formulation, const DofMap& dof_map,
                                        const NodalMass& nodal_mass, const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
-                                       const std::vector<Eigen::Matrix3Xd>& modes) {
+                                       const std::vector<Eigen::Matrix3Xd>& modes,
+                                       const std::vector<Particle>& particles) {
   std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(mesher::positions_of(mesh));
   accelerations.insert(accelerations.end(), modes.begin(), modes.end());
   const auto inertial = static_cast<Eigen::Index>(accelerations.size());
@@ -137,6 +153,7 @@ GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
     const Eigen::MatrixX3d field = accelerations[static_cast<std::size_t>(i)].transpose();
     loads.col(i) = -dof_map.gather(Eigen::MatrixX3d(nodal_mass * field).transpose());
   }
+  for (const Particle& particle : particles) add_inertia_forces(particle, dof_map, loads);
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
     loads.middleCols<6>(inertial + static_cast<Eigen::Index>(6 * k)) = interfaces[k].forces;
   }

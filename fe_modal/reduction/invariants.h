@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fe_modal/body/modal_body.h"
+#include "fe_modal/reduction/particles.h"
 #include "fe_modal/system/assembly.h"
 
 namespace flexneck::fe_modal {
@@ -14,8 +15,10 @@ namespace flexneck::fe_modal {
 /// elements that is the integral itself, by the quadrature of the mass matrix.
 /// @param nodes_m positions in the body frame
 /// @param shapes m fields on all nodes, (3, n) each
+/// @param particles that the body carries besides, with their motions in the m fields
 InertiaInvariants inertia_invariants(const NodalMass& mass,
                                      const std::vector<std::array<double, 3>>& nodes_m,
-                                     const std::vector<Eigen::Matrix3Xd>& shapes);
+                                     const std::vector<Eigen::Matrix3Xd>& shapes,
+                                     const std::vector<Particle>& particles = {});
 
 }  // namespace flexneck::fe_modal

@@ -27,11 +27,13 @@ constexpr double kNone = 1e-3;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
-Eigen::MatrixXd strainless_fields(const DofMap& dof_map, const ModalSystem& system, double scale) {
+Eigen::MatrixXd strainless_fields(const DofMap& dof_map, const ModalSystem& system, double scale,
+                                  double strainless) {
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
-  const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), system.mass(), *inverse,
-                                             std::min(kMaxMotions, dof_map.dof_count()));
-  const Eigen::Index count = (pairs.values.array() < kStrainless * scale).count();
+  const EigenPairs pairs =
+      lowest_eigenpairs(system.stiffness(), system.mass(), *inverse,
+                        std::min(kMaxMotions, dof_map.dof_count() - dof_map.dependent_count()));
+  const Eigen::Index count = (pairs.values.array() < strainless * scale).count();
   Eigen::MatrixXd fields(3 * dof_map.node_count(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::Matrix3Xd field = dof_map.expand(pairs.vectors.col(k));
@@ -159,7 +161,8 @@ std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const Do
                                               const ModalSystem& system, bool is_fixed) {
   const double length_m = mesher::bounding_box(mesh).extent_m().norm();
   const std::vector<Part> parts = rigid_parts_of(mesh);
-  Eigen::MatrixXd fields = strainless_fields(dof_map, system, eigenvalue_scale(mesh));
+  const double strainless = mesh.connections.springs.empty() ? kStrainless : kStrainlessOnSprings;
+  Eigen::MatrixXd fields = strainless_fields(dof_map, system, eigenvalue_scale(mesh), strainless);
   if (!is_fixed && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
   std::string text;
   for (const Part& part : parts) {

@@ -63,11 +63,14 @@ struct ModalOptions {
   const Ranks* ranks = nullptr;  ///< processes that share the work, see ranks.h; null: this alone
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
-
-  bool is_fixed() const { return !fixed_set.empty() || !fixed_directions.empty(); }
 };
 
-/// The nodes that the options leave free. @throws InputError for unknown sets, and as DofMap.
+/// Those of the mesh, behind them rigid interfaces and sets that are fixed in some directions.
+/// @throws InputError for unknown sets.
+mesher::Connections connections_of(const mesher::Mesh& mesh, const ModalOptions& options);
+
+/// What the options leave free. @throws InputError for unknown sets, as DofMap, and for a rigid
+/// interface that does not move.
 DofMap dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options);
 
 }  // namespace flexneck::fe_modal

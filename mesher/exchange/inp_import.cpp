@@ -302,6 +302,9 @@ Mesh mesh_of(const InpModel& model, const ImportOptions& options, LeftOut& left_
   add_blocks(model, all, options, index_of, mesh);
   add_node_sets(model, index_of, mesh);
   add_surfaces(model, index_of, mesh);
+  add_connections(model.connections,
+                  {model.nodes, index_of, options.length_unit_m, options.force_unit_N}, mesh,
+                  left_out);
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include "mesher/exchange/inp_writer.h"
 #include "pipeline/commands/exports/export_formats.h"
 #include "pipeline/evaluation/modes_options.h"
+#include "pipeline/evaluation/study_connections.h"
 
 namespace flexneck::pipeline {
 
@@ -29,6 +30,7 @@ std::string mixed_materials(const mesher::Mesh& mesh, const fe_modal::Formulatio
 void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
   const Study& study = input.study;
   const fe_modal::FormulationChoice choice = formulation_of(study);
+  add_study_connections(study, mesh);
   mesher::InpOptions options{.reduced = {},
                              .fixed = study.modes.fixed,
                              .fixed_directions = study.modes.fixed_directions,

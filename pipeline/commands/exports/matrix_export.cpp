@@ -17,6 +17,10 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
         "modes.rigid_interfaces");
   }
   const std::string fixed = modes_options(study, mesh).fixed_set;
+  if (const std::string text = mesh.connections.text(); !text.empty()) {
+    throw InputError("matrices are written with three directions a node, and not with " + text +
+                     ": leave them out");
+  }
   const fe_modal::DofMap dof_map(
       mesh, fixed.empty() ? std::vector<std::int32_t>{} : mesh.node_set(fixed).nodes);
   std::optional<fe_modal::PetscSession> session;
