@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/dofs/rigid_motions.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -16,7 +17,8 @@ namespace {
 using Six = Eigen::Matrix<double, 6, 6>;
 using Motion = Eigen::Matrix<double, 3, 6>;
 
-/// A residual below this share of the largest, squared, is rounding of positions in text files.
+/// A residual below this share of the largest, or of a unit motion, squared, is rounding of
+/// positions in text files.
 constexpr double kKept = 1e-12;
 
 /// The six motions of a site, rotations times `length_m`.
@@ -106,7 +108,8 @@ RigidMotions::RigidMotions(const mesher::Mesh& mesh, const mesher::Connections& 
   }
   const Eigen::SelfAdjointEigenSolver<Six> spectrum(residuals);
   const double largest = spectrum.eigenvalues()[5];
-  const Eigen::Index count = (spectrum.eigenvalues().array() <= kKept * largest).count();
+  const Eigen::Index count =
+      (spectrum.eigenvalues().array() <= kKept * std::max(largest, 1.0)).count();
   motions_ = spectrum.eigenvectors().leftCols(count);
 }
 

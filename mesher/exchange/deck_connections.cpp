@@ -21,6 +21,16 @@ class Builder {
     for (auto& [node, axes] : axes_) axes.origin_m *= nodes.length_unit_m;
   }
 
+  std::set<std::int64_t> loose_nodes() const {
+    std::set<std::int64_t> loose;
+    for (const auto* const nodes : {&points_, &rotation_nodes_}) {
+      for (const auto& [node, point] : *nodes) {
+        if (!is_of_solid(node)) loose.insert(node);
+      }
+    }
+    return loose;
+  }
+
   void build() {
     // Points first: sites of rotations are known then.
     for (const DeckCoupling& coupling : deck_.couplings) add(coupling);
@@ -296,9 +306,11 @@ class Builder {
 
 }  // namespace
 
-void add_connections(const DeckConnections& deck, const DeckNodes& nodes, Mesh& mesh,
-                     LeftOut& left_out) {
-  Builder(deck, nodes, mesh, left_out).build();
+std::set<std::int64_t> add_connections(const DeckConnections& deck, const DeckNodes& nodes,
+                                       Mesh& mesh, LeftOut& left_out) {
+  Builder builder(deck, nodes, mesh, left_out);
+  builder.build();
+  return builder.loose_nodes();
 }
 
 }  // namespace flexneck::mesher

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -83,9 +84,10 @@ struct DeckNodes {
 /// mass, a spring or an equation has them.
 /// @param left_out gets what cannot be: rotations and inertias of nodes of solids, which do not
 /// rotate
+/// @return the nodes that no element uses and the mesh has all the same
 /// @throws InputError for nodes that the deck does not give, couplings without nodes, equations
 /// with rotations of nodes of solids, springs between translations and rotations.
-void add_connections(const DeckConnections& deck, const DeckNodes& nodes, Mesh& mesh,
-                     LeftOut& left_out);
+std::set<std::int64_t> add_connections(const DeckConnections& deck, const DeckNodes& nodes,
+                                       Mesh& mesh, LeftOut& left_out);
 
 }  // namespace flexneck::mesher

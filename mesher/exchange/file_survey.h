@@ -34,8 +34,7 @@ FileSurvey survey_nastran(std::string_view text, LeftOut& left_out);
 /// @param length_unit_m as the study has it
 FileSurvey survey_unv(std::string_view text, double length_unit_m, LeftOut& left_out);
 
-/// Adds the nodes that no solid element uses to what is left out.
 /// @throws InputError if the mesh has not all solid elements of the file.
-void compare_with(const Mesh& mesh, const FileSurvey& survey, LeftOut& left_out);
+void compare_with(const Mesh& mesh, const FileSurvey& survey);
 
 }  // namespace flexneck::mesher

@@ -43,7 +43,9 @@ void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
 }
 
 /// gmsh keeps the numbers of nodes, and the mesh their order.
-void connect(std::string_view text, const ImportOptions& options, Mesh& mesh, LeftOut& left_out) {
+/// @return how many nodes that no element uses became reference points
+std::size_t connect(std::string_view text, const ImportOptions& options, Mesh& mesh,
+                    LeftOut& left_out) {
   NastranConnections read = read_nastran_connections(text, left_out);
   DeckNodes nodes{std::move(read.positions), {}, options.length_unit_m, options.force_unit_N};
   constexpr double kSame = 1e-6;
@@ -62,7 +64,7 @@ void connect(std::string_view text, const ImportOptions& options, Mesh& mesh, Le
         "its couplings, supports, springs and masses cannot be placed: gmsh reads "
         "other nodes than its cards give");
   }
-  add_connections(read.deck, nodes, mesh, left_out);
+  return add_connections(read.deck, nodes, mesh, left_out).size();
 }
 
 /// gmsh reads the copy; a .bdf or .unv is read by us as well, for what gmsh passes over.
@@ -75,8 +77,12 @@ Mesh read_with_gmsh(const ImportOptions& options, LeftOut& left_out) {
     survey = survey_unv(checked_contents(copy.path()), options.length_unit_m, left_out);
   }
   Mesh mesh = import_with_gmsh(copy, options, left_out);
-  compare_with(mesh, survey, left_out);
-  if (survey.has_connections) connect(checked_contents(copy.path()), options, mesh, left_out);
+  compare_with(mesh, survey);
+  std::size_t used = mesh.nodes.size();
+  if (survey.has_connections) {
+    used += connect(checked_contents(copy.path()), options, mesh, left_out);
+  }
+  if (survey.nodes > used) left_out.add("nodes of no solid element", survey.nodes - used);
   return mesh;
 }
 

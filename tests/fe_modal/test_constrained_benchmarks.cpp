@@ -170,7 +170,9 @@ TEST_CASE("half of a neck on its bolts, between planes of symmetry, has modes of
   coarse.quadrant = 2;
   coarse.inner_ring = 2;
   coarse.rubber_layers = 1;
-  const mesher::Mesh whole_mesh = testing::neck_mesh("A", coarse);
+  auto options = testing::neck_mesh_options(testing::neck_parameters("A"), coarse);
+  options.element = mesher::ElementKind::hex8;
+  const mesher::Mesh whole_mesh = mesher::mesh_script(options, {});
   mesher::PieceOfElement sides;
   for (const mesher::ElementBlock& block : whole_mesh.blocks) {
     const std::size_t width = mesher::nodes_per_element(block.kind);
