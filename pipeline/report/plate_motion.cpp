@@ -46,6 +46,7 @@ Plates plates_at(std::vector<std::string> markers, const std::vector<PieceSectio
                  const mesher::Mesh& mesh, const mesher::Surface& surface) {
   Plates plates{std::move(markers), {}, {}};
   std::vector<Rubber> rubbers;
+  rubbers.reserve(pieces.size());
   for (const PieceSection& piece : pieces) rubbers.push_back(rubber_of(piece, mesh));
   const auto count = static_cast<Index>(surface.block_of_vertex.size());
   Eigen::VectorXd z(static_cast<Index>(mesh.nodes.size()));
