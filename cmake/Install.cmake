@@ -28,7 +28,7 @@ install(DIRECTORY pipeline/report/page DESTINATION "${flexneck_data}/pipeline/re
 
 # The rooms: target flexneck_multibody is flexneck::multibody for those who use it.
 set(flexneck_libraries
-    foundation geometry mesh partition drawing xdmf mesher exchange modal_body fe_modal multibody
+    foundation geometry mesh partition drawing xdmf mesher exchange modal_body body_exchange fe_modal multibody
     isolation pipeline)
 foreach(library ${flexneck_libraries})
   set_target_properties(flexneck_${library} PROPERTIES EXPORT_NAME ${library})

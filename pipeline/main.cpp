@@ -20,6 +20,7 @@
 #include "geometry/foundation/signal_cleanup.h"
 #include "pipeline/commands/child_tasks.h"
 #include "pipeline/commands/command_line.h"
+#include "pipeline/commands/exports/export_formats.h"
 #include "pipeline/document/shipped_files.h"
 #include "pipeline/folder/folder_lock.h"
 #include "pipeline/folder/remembered_study.h"
@@ -69,9 +70,7 @@ Study read_named(const StudyChoice& choice) {
 
 bool works_on_files(const CommandLine& line) {
   if (line.command->run_on_files == nullptr) return false;
-  return line.command->run == nullptr ||
-         std::any_of(line.files.begin(), line.files.end(),
-                     [](const std::string& file) { return file.ends_with(".h5"); });
+  return line.command->run == nullptr || exports_file(line.files, line.target);
 }
 
 /// Does the command. @param take_lock is called once its arguments are known to be right

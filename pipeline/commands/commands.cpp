@@ -61,12 +61,15 @@ const std::vector<Command>& commands() {
        .options = {folder, settings},
        .run = verify_command},
       {.name = "export",
-       .help = "for other programs: .msh .inp .mtx .petsc .dat .vtu; of a run .mme .pvd .csv",
-       .files = {"STUDY.toml or RUN.h5",
-                 "Default: the study of the folder; a run for .mme, .pvd and .csv"},
+       .help =
+           "for other programs: mesh, matrices, modes, bodies, runs; --to FILE tells the format",
+       .files =
+           {"STUDY.toml or FILE",
+            "Default: the study of the folder; a run for .mme, .pvd and .csv, a modal body for "
+            ".fem, .SID_FEM and .hdf5, one of these but the last for .h5"},
        .options = {folder, settings, target},
        .run = export_command,
-       .run_on_files = export_run_command,
+       .run_on_files = export_file_command,
        .writes_results = false},
       {.name = "report",
        .help = "all results on one page: report.html",

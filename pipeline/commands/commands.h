@@ -66,7 +66,7 @@ struct Command {
   FileArguments files;
   std::vector<CommandOption> options;
   bool (*run)(const CommandInput&);  ///< null if it works on files
-  /// Null if it works on a study; with both it is of the files of runs, which end in .h5.
+  /// Null if it works on a study; with both it is of the files of exports_file() (export).
   bool (*run_on_files)(const FileInput&) = nullptr;
   /// The study where none is named.
   std::filesystem::path (*built_in)() = built_in_study;

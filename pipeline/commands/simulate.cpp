@@ -122,7 +122,10 @@ bool simulate_command(const FileInput& input) {
   const auto diagram = campbell(file);
   input.folder.make();
   const ResultPaths paths = paths_of(input, model);
-  multibody::OutputOptions options{file.end_time_s, file.output.interval_s};
+  multibody::OutputOptions options{.end_time_s = file.end_time_s,
+                                   .interval_s = file.output.interval_s,
+                                   .states = file.output.states,
+                                   .begin_time_s = file.model.start.time_s};
   SimulatedOutput output(file, paths.history, paths.table, multibody::OutputTimes(options).count());
   options.sink = [&](const multibody::History& block) { output.append(block); };
   options.block = std::max<Eigen::Index>(1, kBlockNumbers / numbers_per_output(file.model));

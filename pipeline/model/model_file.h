@@ -21,6 +21,7 @@ struct OutputSection {
   double interval_s = 1e-3;
   std::vector<std::string> markers;  ///< whose histories are written
   std::vector<std::string> joints;   ///< likewise
+  bool states = false;               ///< of all bodies, too, for a restart
   std::vector<ChannelSpec> channels;
 };
 

@@ -33,7 +33,10 @@ constexpr auto kLoadKeys =
     joined(std::to_array<Key>({
                Key::text("name", kRequired, "Name of the load"),
                Key::text("marker", kRequired, "Marker that it acts at"),
-               Key::numbers("direction", kRequired, "Direction in the world", {.size = 3}),
+               Key::numbers("direction", kRequired,
+                            "Direction in the world; of a follower in the marker's axes",
+                            {.size = 3}),
+               Key::flag("follows", "false", "Whether its direction turns with the marker"),
            }),
            kMagnitudeKeys);
 
@@ -92,6 +95,7 @@ void read_force(const StudyTable& table, Assembly& assembly) {
   force.name = table.text("name");
   force.marker = marker_named(table, "marker", assembly);
   force.direction = unit_vector(table, "direction");
+  force.follows = table.flag("follows");
   force.magnitude_N =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
   assembly.model.forces.add(std::move(force));
@@ -103,6 +107,7 @@ void read_torque(const StudyTable& table, Assembly& assembly) {
   torque.name = table.text("name");
   torque.marker = marker_named(table, "marker", assembly);
   torque.direction = unit_vector(table, "direction");
+  torque.follows = table.flag("follows");
   torque.magnitude_Nm =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N*m"}, assembly);
   assembly.model.forces.add(std::move(torque));

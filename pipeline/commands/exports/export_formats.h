@@ -15,12 +15,16 @@ struct ExportFormat {
   std::string_view ending;
   std::string_view content;
   /// @param mesh of the folder; may be changed
-  void (*write)(const CommandInput& input, mesher::Mesh& mesh);  ///< null if it is of a run
+  void (*write)(const CommandInput& input, mesher::Mesh& mesh);  ///< null if it is of a file
   bool may_be_binary = false;                                    ///< knows --binary
-  void (*write_run)(const FileInput& input) = nullptr;           ///< of the run that a file holds
+  void (*write_file)(const FileInput& input) = nullptr;  ///< of what a file holds: a run, a body
 };
 
 std::span<const ExportFormat> export_formats();
+
+/// Whether `export` is of a file, not of a study's mesh: by the format to be written, or because a
+/// file is none of a study.
+bool exports_file(const std::vector<std::string>& files, const std::filesystem::path& target);
 
 /// The mesh for gmsh.
 void export_msh(const CommandInput& input, mesher::Mesh& mesh);
@@ -46,6 +50,17 @@ void export_motion_pvd(const FileInput& input);
 /// Markers, joints and modal coordinates of a run as one table in SI units, whose only line of
 /// names tells the units.
 void export_motion_csv(const FileInput& input);
+
+/// The modal body of a file for MBDyn, as standard input data, for Exudyn; a warning tells what is
+/// not carried over.
+/// @throws InputError for a body with slits that open and close, or without interfaces.
+void export_mbdyn_body(const FileInput& input);
+void export_sid_body(const FileInput& input);
+void export_exudyn_body(const FileInput& input);
+
+/// A modal body of ours from a file of MBDyn (.fem) or standard input data (.SID_FEM); a warning
+/// tells what is not carried over.
+void import_body(const FileInput& input);
 
 /// The channels of a run, the only one of input.files, as a test of ISO-MME
 /// (iso_mme/test_writer.h). A case's are those of the study that its folder remembers.
