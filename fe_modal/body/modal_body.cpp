@@ -84,6 +84,7 @@ ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& wa
   ModalBody part;
   part.frequencies_Hz = body.frequencies_Hz(kept);
   part.boundary = body.boundary;
+  part.prestress = body.prestress;
   part.certificate = body.certificate;
   part.orthogonality = body.orthogonality;
   part.nodes_m = body.nodes_m;

@@ -106,6 +106,7 @@ struct ModalBody {
   Eigen::VectorXd frequencies_Hz;        ///< (m), ascending
   std::vector<ModeRecord> modes;         ///< m of them
   std::string boundary;                  ///< what was fixed, e.g. "fixed: bolts"
+  std::string prestress = {};            ///< loads whose stresses the modes are about; or empty
   std::string certificate;               ///< "not certified" until completeness has been proved
   std::string solver;                    ///< how the modes were solved for; may be empty
   double orthogonality = 0;              ///< largest |Psi^T M Psi - I|

@@ -40,9 +40,10 @@ const ExportFormat& format_of(const std::filesystem::path& target, bool is_binar
 bool export_run_command(const FileInput& input) {
   const ExportFormat& format = format_of(input.target, input.is_binary);
   if (format.write_run == nullptr)
-    throw InputError(input.target.string() +
-                     ": expected an ending of .mme, .pvd or .csv for the run " +
-                     input.files.front().string() + "; other files are of a study's mesh");
+    throw InputError(
+        input.target.string() +
+        ": expected an ending of .mme, .pvd or .csv for the run, .vtu for the stresses " +
+        input.files.front().string() + "; other files are of a study's mesh");
   if (input.files.size() != 1)
     throw InputError("export: expected one run, found '" + input.files[1].string() + "' too");
   if (!input.settings.empty())

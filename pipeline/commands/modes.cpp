@@ -125,6 +125,7 @@ bool modes_command(const CommandInput& input) {
       "\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary, body.certificate,
       mass_text(input.study, body.invariants.mass), input.folder.modes().string(), body.solver,
       mode_table(body, whole), loaded_text(body, whole)));
+  if (!body.prestress.empty()) input.console.result("Prestress: " + body.prestress);
   input.console.table(basis_text(body));
   std::filesystem::remove(input.folder.sensitivities());  // of other modes
   if (input.sensitivity)

@@ -13,7 +13,8 @@ constexpr std::array<ExportFormat, 9> kFormats = {
      {".mtx", "K and M in Matrix Market's format", export_matrices},
      {".petsc", "K and M in PETSc's", export_matrices},
      {".dat", "the modes for the ATB", export_atb_modes},
-     {".vtu", "mesh and modes for ParaView, meshio", export_modes_vtu},
+     {".vtu", "mesh and modes, or stresses, for ParaView, meshio", export_modes_vtu, false,
+      export_stress_vtu},
      {".pvd", "the motion of a run for ParaView", nullptr, false, export_motion_pvd},
      {".csv", "all that a run records", nullptr, false, export_motion_csv},
      {".mme", "the channels of a run as ISO-MME", nullptr, false, export_mme_test}}};
