@@ -205,6 +205,12 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
   body.shapes = expanded(dof_map, pairs.vectors);
+  if (!options.prestress.empty()) {
+    body.prestress_stiffness =
+        geometric_stiffness(mesh, options.formulation, body.shapes, {options.prestress_m})
+            .front()
+            .diagonal();
+  }
   body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
                               relative_residuals(system.stiffness(), system.mass(), pairs, shift));
   const Eigen::Index eigenvectors = eigenvector_count(basis);
