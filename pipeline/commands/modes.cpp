@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -18,6 +19,7 @@
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/sensitivity.h"
+#include "pipeline/commands/stress.h"
 #include "pipeline/commands/substructures.h"
 #include "pipeline/evaluation/modes_options.h"
 #include "pipeline/evaluation/structure_modes.h"
@@ -132,6 +134,8 @@ bool modes_command(const CommandInput& input) {
     write_sensitivities(input, mesh.mesh, options, body, fields, provenance_of_modes(input));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
+  // Of the same values, and PETSc starts once in a process.
+  if (input.is_run && !input.study.loads.empty()) write_stresses(input, std::move(mesh));
   return true;
 }
 

@@ -72,8 +72,6 @@ std::vector<Stage> stages_before_cases(const Study& study) {
   std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
                                {"modes", modes_provenance(study), {"mesh"}, modes_command},
                                {"pictures", {}, {"mesh", "modes"}, pictures_command}};
-  if (!study.loads.empty())
-    stages.push_back({"stress", modes_provenance(study), {"mesh"}, stress_command});
   if (has_cases(study, CaseSection::Kind::static_test)) {
     stages.push_back({"static",
                       experiment_provenance(study, CaseSection::Kind::static_test),
