@@ -6,8 +6,10 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "fe_modal/algebra/block_product.h"
+#include "fe_modal/analysis/prestress.h"
 #include "fe_modal/solve/block_lanczos.h"
 #include "fe_modal/solve/make_system.h"
 #include "fe_modal/solve/mechanism.h"
@@ -88,6 +90,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   fine_options.ranks = nullptr;  // which keep the coarse problem
   fine_options.element_ranks.clear();
   fine_options.node_order = mesher::nested_dissection(fine.mesh);
+  fine_options = with_prestress(fine.mesh, std::move(fine_options), progress);
   const std::unique_ptr<const ModalSystem> system = make_system(fine.mesh, dof_map, fine_options);
   const std::unique_ptr<const ShiftInverse> inverse =
       system->shift_inverse(fixed ? 0 : -eigenvalue_scale(solved.mesh));

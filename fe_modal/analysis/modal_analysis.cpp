@@ -7,7 +7,9 @@
 
 #include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
+#include "fe_modal/analysis/prestress.h"
 #include "fe_modal/analysis/slit_basis.h"
+#include "fe_modal/analysis/sound_factor.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
@@ -28,24 +30,6 @@
 
 namespace flexneck::fe_modal {
 namespace {
-
-[[noreturn]] void refuse_mechanism(const std::string& motions) {
-  throw InputError("the body is a mechanism: " + motions + "; fix it or bond it to its neighbour");
-}
-
-/// A stiffness that is not definite is that of a mechanism, or of elements that are none.
-std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
-                                                        const DofMap& dof_map,
-                                                        const ModalSystem& system, double shift) {
-  try {
-    return system.shift_inverse(shift);
-  } catch (const ComputationError&) {
-    const auto motions =
-        shift == 0 ? describe_mechanism(mesh, dof_map, system, true) : std::nullopt;
-    if (!motions) throw;
-    refuse_mechanism(*motions);
-  }
-}
 
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
 void check_no_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
@@ -162,22 +146,9 @@ std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
   return responses;
 }
 
-/// "fixed: bolts, x of left", or "free".
-std::string boundary_of(const ModalOptions& options) {
-  std::string fixed = options.fixed_set;
-  for (const auto& [set, directions] : options.fixed_directions) {
-    if (!fixed.empty()) fixed += ", ";
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (directions[a]) fixed += "xyz"[a];
-    }
-    fixed += " of " + set;
-  }
-  return fixed.empty() ? "free" : "fixed: " + fixed;
-}
-
 }  // namespace
 
-ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
                         const Progress& progress, StepTimes* step_times, const Progress& warn,
                         AnalysisFields* fields) {
   StepTimes unseen;
@@ -185,8 +156,13 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   const auto report = [&](const std::string& line) {
     if (progress) progress(line);
   };
-  check_options(mesh, options);
-  check_memory(mesh, options);
+  check_options(mesh, given);
+  check_memory(mesh, given);
+  if (fields != nullptr && !given.prestress.empty()) {
+    throw InputError("derivatives of prestressed modes are not offered: leave the prestress out");
+  }
+  if (!given.prestress.empty()) times.start("static step");
+  const ModalOptions options = with_prestress(mesh, given, progress);
   const bool fixed = options.is_fixed();
   const DofMap dof_map = dof_map_of(mesh, options);
   report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
@@ -200,7 +176,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   // A fixed body has a definite stiffness; a free one is shifted below zero.
   const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
   const std::unique_ptr<const ShiftInverse> inverse =
-      factorise_or_refuse(mesh, dof_map, system, shift);
+      options.prestress.empty() ? factorise_or_refuse(mesh, dof_map, system, shift)
+                                : factorise_prestressed(mesh, dof_map, system, options);
   report(inverse->describe());
   times.start("iterate");
   report("solving for " + std::to_string(options.mode_count) + " modes");
@@ -223,10 +200,17 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   report("reducing to modal coordinates");
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
-  body.boundary = boundary_of(options);
+  body.boundary = boundary_of(options) + (options.prestress.empty() ? "" : "; prestressed");
+  body.prestress = prestress_text(options);
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
   body.shapes = expanded(dof_map, pairs.vectors);
+  if (!options.prestress.empty()) {
+    body.prestress_stiffness =
+        geometric_stiffness(mesh, options.formulation, body.shapes, {options.prestress_m})
+            .front()
+            .diagonal();
+  }
   body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
                               relative_residuals(system.stiffness(), system.mass(), pairs, shift));
   const Eigen::Index eigenvectors = eigenvector_count(basis);

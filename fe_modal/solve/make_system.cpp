@@ -47,12 +47,12 @@ std::unique_ptr<ModalSystem> make_system(const mesher::Mesh& mesh, const DofMap&
     if (!alone) {
       throw InputError("the iterative solver works in one process: start it without mpirun");
     }
-    return std::make_unique<IterativeSystem>(assemble(mesh, dof_map, options.formulation), mesh,
-                                             dof_map);
+    return std::make_unique<IterativeSystem>(
+        assemble(mesh, dof_map, options.formulation, options.prestress_m), mesh, dof_map);
   }
   if (alone) {
-    return std::make_unique<LocalSystem>(assemble(mesh, dof_map, options.formulation),
-                                         std::move(order));
+    return std::make_unique<LocalSystem>(
+        assemble(mesh, dof_map, options.formulation, options.prestress_m), std::move(order));
   }
   const int count = options.ranks->count();
   const mesher::ElementPartition partition =

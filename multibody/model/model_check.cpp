@@ -140,6 +140,10 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
   const Eigen::Index m = deformable.modes.mode_count();
   check_shapes(who, deformable.modes);
   check_invariants(who, deformable.modes.invariants);
+  if (!deformable.modes.prestress.empty())
+    refuse(who, "its modes are about the stresses of fixed loads (" + deformable.modes.prestress +
+                    "), which would act twice here; make them without modes.prestress, or take "
+                    "stress_stiffening, which follows the loads of the motion");
   if (!deformable.modes.slits.empty())
     refuse(who,
            "its slits would open and close without contact, which only a section keeps; make "

@@ -40,6 +40,11 @@ const std::vector<Command>& commands() {
        .files = same_study,
        .options = {folder, settings, modes_settings, sensitivity},
        .run = modes_command},
+      {.name = "stress",
+       .help = "static step under the study's loads: displacements, stresses: stress.h5",
+       .files = same_study,
+       .options = {folder, settings, modes_settings},
+       .run = stress_command},
       {.name = "pictures",
        .help = "draw mesh and modes: mesh.png, modes.png",
        .files = same_study,
@@ -62,11 +67,12 @@ const std::vector<Command>& commands() {
        .run = verify_command},
       {.name = "export",
        .help =
-           "for other programs: mesh, matrices, modes, bodies, runs; --to FILE tells the format",
+           "for other programs: mesh, matrices, modes, stresses, bodies, runs; --to FILE tells the "
+           "format",
        .files =
            {"STUDY.toml or FILE",
-            "Default: the study of the folder; a run for .mme, .pvd and .csv, a modal body for "
-            ".fem, .SID_FEM and .hdf5, one of these but the last for .h5"},
+            "Default: the study of the folder; a run for .mme, .pvd and .csv, stress.h5 for .vtu, a "
+            "modal body for .fem, .SID_FEM and .hdf5, one of these but the last for .h5"},
        .options = {folder, settings, target},
        .run = export_command,
        .run_on_files = export_file_command,

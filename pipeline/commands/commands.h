@@ -93,6 +93,8 @@ bool mesh_command(const CommandInput& input);
 /// nothing.
 bool show_command(const CommandInput& input);
 bool modes_command(const CommandInput& input);
+/// The linear static step under the study's [[load]]: stress.h5, and stress.xdmf for ParaView.
+bool stress_command(const CommandInput& input);
 bool export_command(const CommandInput& input);
 bool pictures_command(const CommandInput& input);
 bool static_command(const CommandInput& input);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -18,6 +19,7 @@
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/sensitivity.h"
+#include "pipeline/commands/stress.h"
 #include "pipeline/commands/substructures.h"
 #include "pipeline/evaluation/modes_options.h"
 #include "pipeline/evaluation/structure_modes.h"
@@ -125,12 +127,15 @@ bool modes_command(const CommandInput& input) {
       "\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary, body.certificate,
       mass_text(input.study, body.invariants.mass), input.folder.modes().string(), body.solver,
       mode_table(body, whole), loaded_text(body, whole)));
+  if (!body.prestress.empty()) input.console.result("Prestress: " + body.prestress);
   input.console.table(basis_text(body));
   std::filesystem::remove(input.folder.sensitivities());  // of other modes
   if (input.sensitivity)
     write_sensitivities(input, mesh.mesh, options, body, fields, provenance_of_modes(input));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
+  // Of the same values, and PETSc starts once in a process.
+  if (input.is_run && !input.study.loads.empty()) write_stresses(input, std::move(mesh));
   return true;
 }
 

@@ -29,7 +29,8 @@ bool exports_file(const std::vector<std::string>& files, const std::filesystem::
 /// The mesh for gmsh.
 void export_msh(const CommandInput& input, mesher::Mesh& mesh);
 
-/// A deck for CalculiX and Abaqus: mesh, materials, supports, and the search for modes.
+/// A deck for CalculiX and Abaqus: mesh, materials, supports, the static step under the study's
+/// loads, as forces of nodes, and the search for modes, about that step if it prestresses them.
 void export_deck(const CommandInput& input, mesher::Mesh& mesh);
 
 /// K and M without what is fixed as NAME_K.mtx and NAME_M.mtx, and the positions of the nodes as
@@ -41,6 +42,10 @@ void export_atb_modes(const CommandInput& input, mesher::Mesh& mesh);
 
 /// Mesh and modes, each mode under its name, as an unstructured grid of VTK.
 void export_modes_vtu(const CommandInput& input, mesher::Mesh& mesh);
+
+/// Mesh, displacements, reactions and the stresses of each material at the nodes, of the static
+/// solution that is the only one of input.files; the mesh is that of its folder.
+void export_stress_vtu(const FileInput& input);
 
 /// How the nodes of a run's deformable body move in the world: NAME.pvd, and the folder NAME with a
 /// grid of VTK for each time, at most 200. Mesh and modes are those of the run's folder.
