@@ -5,6 +5,7 @@
 #include <malloc.h>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <petscpkg_version.h>
 
@@ -15,20 +16,37 @@ namespace flexneck::fe_modal {
 
 namespace {
 
-/// In a process that neither mpirun nor a batch system has started, Open MPI would spend a third of
-/// a second on a daemon and on network connections that are never used.
-void stay_alone() {
-  for (const char* const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
-    if (std::getenv(launched) != nullptr) return;
+/// While MPI starts: in a process that neither mpirun nor a batch system has started, Open MPI would
+/// spend a third of a second on a daemon and on network connections that are never used. What the
+/// user has set stays; programs that this process starts later see nothing of it.
+class StartAlone {
+ public:
+  StartAlone() {
+    for (const char* const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+      if (std::getenv(launched) != nullptr) return;
+    }
+    set("OMPI_MCA_ess_singleton_isolated", "1");
+    set("OMPI_MCA_btl", "self");
+    set("OMPI_MCA_pml", "ob1");
+    // Alone it shares no files. Two processes at once that make and remove the folder for them get
+    // in each other's way.
+    set("OMPI_MCA_orte_create_session_dirs", "0");
   }
-  constexpr int kKeepTheUsers = 0;
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", kKeepTheUsers);
-  setenv("OMPI_MCA_btl", "self", kKeepTheUsers);
-  setenv("OMPI_MCA_pml", "ob1", kKeepTheUsers);
-  // Alone it shares no files. Two processes at once that make and remove the folder for them get in
-  // each other's way.
-  setenv("OMPI_MCA_orte_create_session_dirs", "0", kKeepTheUsers);
-}
+  ~StartAlone() {
+    for (const char* const name : set_) unsetenv(name);
+  }
+  StartAlone(const StartAlone&) = delete;
+  StartAlone& operator=(const StartAlone&) = delete;
+
+ private:
+  void set(const char* name, const char* value) {
+    if (std::getenv(name) != nullptr) return;
+    setenv(name, value, 1);
+    set_.push_back(name);
+  }
+
+  std::vector<const char*> set_;
+};
 
 /// Arrays from a megabyte on go back to the system as soon as they are freed. By default glibc
 /// keeps ever larger ones, in pieces that the next do not fit in: a twentieth of the peak on two
@@ -41,15 +59,18 @@ void give_memory_back() {
 }  // namespace
 
 PetscSession::PetscSession(Start /*start*/) {
-  stay_alone();
+  PetscBool initialized = PETSC_FALSE;
+  require(PetscInitialized(&initialized), "asking whether PETSc is initialised");
+  if (initialized == PETSC_TRUE) {
+    is_outer_ = false;
+    return;
+  }
+  const StartAlone alone;
   give_memory_back();
   int finalized = 0;
   MPI_Finalized(&finalized);
-  PetscBool initialized = PETSC_FALSE;
-  require(PetscInitialized(&initialized), "asking whether PETSc is initialised");
-  if (finalized != 0 || initialized == PETSC_TRUE) {
-    throw ComputationError("PETSc can be initialised once in a process only");
-  }
+  if (finalized != 0) throw ComputationError("PETSc can be initialised once in a process only");
+  PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;
   // The process keeps its signal handlers, and neither a user's .petscrc nor the environment nor
   // the command line steers the solvers: PETSc sees these arguments only.
   unsetenv("PETSC_OPTIONS");
@@ -70,6 +91,7 @@ PetscSession::PetscSession(Start /*start*/) {
 
 // A constructor that delegates ends like any object if what comes after throws: finalised.
 PetscSession::PetscSession() : PetscSession(Start()) {
+  if (!is_outer_) return;
   // Errors come back as codes, without a trace on the terminal, nor what CHOLMOD says of them.
   PetscErrorPrintf = PetscErrorPrintfNone;
   require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
@@ -82,7 +104,9 @@ PetscSession::PetscSession() : PetscSession(Start()) {
           "telling CHOLMOD to keep a given order");
 }
 
-PetscSession::~PetscSession() { static_cast<void>(SlepcFinalize()); }
+PetscSession::~PetscSession() {
+  if (is_outer_) static_cast<void>(SlepcFinalize());
+}
 
 std::map<std::string, std::string> library_versions() {
   const auto join = [](int major, int minor, int patch) {
