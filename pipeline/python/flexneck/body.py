@@ -13,6 +13,7 @@ from . import _core
 from .errors import InputError
 from .folders import Folder, Path, execute
 from .run import Run
+from .values import describe
 
 if typing.TYPE_CHECKING:
     import numpy.typing as npt
@@ -26,11 +27,16 @@ class Interface(typing.NamedTuple):
     """A place where other bodies attach: a rigid frame that moves with the modes."""
 
     position: Array
-    """Undeformed, (3,), m, body frame; a view."""
     translation: Array
-    """Of each mode, (m, 3), kg^(-1/2); a view."""
     rotation: Array
-    """Of each mode, (m, 3), kg^(-1/2) rad/m; a view."""
+
+
+describe(
+    Interface,
+    position="Undeformed, (3,), m, body frame; a view.",
+    translation="Of each mode, (m, 3), kg^(-1/2); a view.",
+    rotation="Of each mode, (m, 3), kg^(-1/2) rad/m; a view.",
+)
 
 
 class ModalBody:

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import os
 import pathlib
+import shutil
 import tempfile
 import typing
+import weakref
 
 from . import _core
 from .errors import warn
@@ -18,9 +20,9 @@ class Folder:
     """A folder of results: the one that is named, or one of its own that goes with this object."""
 
     def __init__(self, path: Path | None) -> None:
-        self._temporary = tempfile.TemporaryDirectory(prefix="flexneck-") if path is None else None
-        named = self._temporary.name if self._temporary else typing.cast(Path, path)
-        self.path = pathlib.Path(named).absolute()
+        self.path = pathlib.Path(tempfile.mkdtemp(prefix="flexneck-") if path is None else path).absolute()
+        if path is None:
+            weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
 
     def file(self, name: str) -> str:
         return str(self.path / name)

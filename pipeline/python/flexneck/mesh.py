@@ -14,6 +14,7 @@ from .body import ModalBody
 from .errors import InputError
 from .folders import Folder, Path, execute
 from .toml_text import setting
+from .values import describe
 
 if typing.TYPE_CHECKING:
     import numpy.typing as npt
@@ -25,47 +26,62 @@ class Material(typing.NamedTuple):
     """Linear elastic and isotropic."""
 
     name: str
-    """Such as "aluminium"."""
     youngs_modulus: float
-    """Pa."""
     poissons_ratio: float
-    """1."""
     density: float
-    """kg/m^3."""
+
+
+describe(
+    Material,
+    name="Such as \"aluminium\".",
+    youngs_modulus="Pa.",
+    poissons_ratio="1.",
+    density="kg/m^3.",
+)
 
 
 class ElementBlock(typing.NamedTuple):
     """Elements of one part and of one kind."""
 
     part: str
-    """Such as "plate_2"."""
     kind: str
-    """Such as "hex27"."""
     material: int
-    """Index into Mesh.materials."""
     nodes: npt.NDArray[np.int32]
-    """(elements, nodes of each) rows of Mesh.nodes, gmsh's order; a view."""
+
+
+describe(
+    ElementBlock,
+    part="Such as \"plate_2\".",
+    kind="Such as \"hex27\".",
+    material="Index into Mesh.materials.",
+    nodes="(elements, nodes of each) rows of Mesh.nodes, gmsh's order; a view.",
+)
 
 
 class Part(typing.NamedTuple):
     """What a part's elements of one kind amount to."""
 
     part: str
-    """Name of the part."""
     kind: str
-    """Kind of its elements."""
     material: str
-    """Name of its material."""
     elements: int
-    """How many."""
     volume: float
-    """m^3."""
     mass: float
-    """kg."""
     smallest_scaled_jacobian: float
-    """1, of all its elements."""
     largest_aspect_ratio: float
-    """1, likewise."""
+
+
+describe(
+    Part,
+    part="Name of the part.",
+    kind="Kind of its elements.",
+    material="Name of its material.",
+    elements="How many.",
+    volume="m^3.",
+    mass="kg.",
+    smallest_scaled_jacobian="1, of all its elements.",
+    largest_aspect_ratio="1, likewise.",
+)
 
 
 class Mesh:
@@ -94,7 +110,7 @@ class Mesh:
 
     @property
     def node_sets(self) -> dict[str, npt.NDArray[np.int32]]:
-        """Nodes by the names of their sets, rows of `nodes`, ascending; views."""
+        """Nodes by the names of their sets, (nodes,) rows of `nodes`, ascending; views."""
         return dict(self._data.node_sets)
 
     @property
@@ -110,7 +126,7 @@ class Mesh:
     @property
     def mass(self) -> float:
         """kg."""
-        return sum(part.mass for part in self.parts)
+        return float(sum(part.mass for part in self.parts))
 
     def modes(self, count: int | None = None, sensitivity: bool = False,
               settings: typing.Mapping[str, typing.Any] | None = None) -> ModalBody:

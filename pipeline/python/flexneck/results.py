@@ -10,6 +10,7 @@ from . import _core
 from .errors import InputError
 from .folders import Folder, Path
 from .run import Run
+from .values import describe
 
 
 class Table(typing.Mapping[str, typing.List[typing.Any]]):
@@ -18,19 +19,30 @@ class Table(typing.Mapping[str, typing.List[typing.Any]]):
 
     def __init__(self, name: str, title: str, columns: list[tuple[str, str]],
                  rows: list[list[str]], notes: list[str]) -> None:
-        self.name, self.title, self.notes = name, title, notes
-        self.units = {column: unit for column, unit in columns if unit}
+        self._name, self._title, self._notes = name, title, notes
+        self._units = {column: unit for column, unit in columns if unit}
         self._columns = {column: [_cell(row[k]) for row in rows]
                          for k, (column, _) in enumerate(columns)}
 
-    name: str
-    """By which programs find it, such as "peaks"."""
-    title: str
-    """For people."""
-    notes: list[str]
-    """Sentences: origins, contradictions, warnings."""
-    units: dict[str, str]
-    """Of columns that have one."""
+    @property
+    def name(self) -> str:
+        """By which programs find it, such as "peaks"."""
+        return self._name
+
+    @property
+    def title(self) -> str:
+        """For people."""
+        return self._title
+
+    @property
+    def notes(self) -> list[str]:
+        """Sentences: origins, contradictions, warnings."""
+        return list(self._notes)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Of columns that have one."""
+        return dict(self._units)
 
     def __getitem__(self, column: str) -> list[typing.Any]:
         return self._columns[column]
@@ -46,28 +58,33 @@ class Table(typing.Mapping[str, typing.List[typing.Any]]):
         return [dict(zip(self._columns, row)) for row in zip(*self._columns.values())]
 
     def __repr__(self) -> str:
-        return f"<Table {self.name!r}: {', '.join(self._columns)}>"
+        return f"<Table {self._name!r}: {', '.join(self._columns)}>"
 
 
 class VerificationRow(typing.NamedTuple):
     """A figure beside its reference."""
 
     quantity: str
-    """Such as "bending 1"."""
     detail: str
-    """Which mode, which method."""
     computed: str
-    """As printed."""
     reference: str
-    """Published as a rule."""
     unit: str
-    """Of both."""
     error_percent: float | None
-    """Of the computed one, where both are numbers."""
     status: str
-    """passed, failed, compared (there is no tolerance) or unjudged."""
     fitted: bool
-    """Whether the geometry was fitted to this figure."""
+
+
+describe(
+    VerificationRow,
+    quantity="Such as \"bending 1\".",
+    detail="Which mode, which method.",
+    computed="As printed.",
+    reference="Published as a rule.",
+    unit="Of both.",
+    error_percent="Per cent, of the computed one, where both are numbers.",
+    status="passed, failed, compared (there is no tolerance) or unjudged.",
+    fitted="Whether the geometry was fitted to this figure.",
+)
 
 
 class Results:

@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from .errors import warn
 from .folders import Folder, Path, execute
-from .values import Value
+from .values import Value, describe
 
 if typing.TYPE_CHECKING:
     import numpy.typing as npt
@@ -72,17 +72,22 @@ class MarkerMotion(typing.NamedTuple):
     """Motion of a marker, a row for each time; views."""
 
     position: Array
-    """(n, 3), m, of its origin in the world."""
     velocity: Array
-    """(n, 3), m/s, world."""
     acceleration: Array
-    """(n, 3), m/s^2, world; kinematic: gravity is not subtracted."""
     rotation: Array
-    """(n, 4), 1, unit quaternion marker to world: w, x, y, z."""
     angular_velocity: Array
-    """(n, 3), rad/s, world."""
     angular_acceleration: Array
-    """(n, 3), rad/s^2, world."""
+
+
+describe(
+    MarkerMotion,
+    position="(n, 3), m, of its origin in the world.",
+    velocity="(n, 3), m/s, world.",
+    acceleration="(n, 3), m/s^2, world; kinematic: gravity is not subtracted.",
+    rotation="(n, 4), 1, unit quaternion marker to world: w, x, y, z.",
+    angular_velocity="(n, 3), rad/s, world.",
+    angular_acceleration="(n, 3), rad/s^2, world.",
+)
 
 
 class JointLoads(typing.NamedTuple):
@@ -90,30 +95,40 @@ class JointLoads(typing.NamedTuple):
     about the joint point; views."""
 
     force: Array
-    """(n, 3), N."""
     moment: Array
-    """(n, 3), N m."""
     undetermined: str
-    """Components that redundant joints leave open; empty as a rule."""
+
+
+describe(
+    JointLoads,
+    force="(n, 3), N.",
+    moment="(n, 3), N m.",
+    undetermined="Components that redundant joints leave open; empty as a rule.",
+)
 
 
 class SmallMotion(typing.NamedTuple):
     """A mode of the linearised model."""
 
     frequency: float
-    """|lambda| / 2 pi, Hz."""
     damped_frequency: float
-    """Hz; 0 of an overdamped one."""
     damping_ratio: float
-    """1."""
     growth_rate: float
-    """1/s; not 0 of an unstable one alone."""
     kink: str
-    """Which load has a kink there, if any."""
     translation: npt.NDArray[np.complex128]
-    """(markers, 3), m, world; the largest is 1."""
     rotation: npt.NDArray[np.complex128]
-    """(markers, 3), rad, likewise."""
+
+
+describe(
+    SmallMotion,
+    frequency="|lambda| / 2 pi, Hz.",
+    damped_frequency="Hz; 0 of an overdamped one.",
+    damping_ratio="1.",
+    growth_rate="1/s; not 0 of an unstable one alone.",
+    kink="Which load has a kink there, if any.",
+    translation="(markers, 3), m, world; the largest is 1.",
+    rotation="(markers, 3), rad, likewise.",
+)
 
 
 class Run:
@@ -148,6 +163,7 @@ class Run:
         return {name: Channel(name, *rest) for name, rest in self._data.channels.items()}
 
     def __getitem__(self, channel: str) -> Channel:
+        """A channel by its name. Raises KeyError, which lists them all."""
         found = self._data.channels.get(channel)
         if found is None:
             raise KeyError(f"there is no channel {channel!r}; there are: "

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every public name has a docstring, every one with a value says of what shape or unit it is, and
-the stub has the names of the compiled module.
+"""Every public name has a docstring, which tells the unit of what is a number and the shape of what is an
+array; and the stub has the names and arguments of the compiled module.
 
 Usage: documented_test.py BUILD SOURCES
 """
@@ -10,19 +10,18 @@ import inspect
 import pathlib
 import re
 import sys
-import typing
 
 import flexneck as fn
 from flexneck import _core
 
-# What tells a shape, a unit, or that there is none.
-TOLD = re.compile(r"\(\w*,|\b(m|mm|kg|s|Hz|N|J|Pa|rad|deg|K)\b|per cent|unit|array|samples|index|text|names?\b|"
-                  r"Such as|such as|folder|files?\b|by name|by their|[Ww]hether|[Ww]hat|[Ww]hy|[Hh]ow many|"
-                  r"study|model|\bas columns|dictionary|processors|case|floats|empty|published")
+# Of what has numbers: its unit, "1" of a pure number; of arrays the shape, too.
+UNIT = re.compile(r"\b(kg|m|s|Hz|N|J|Pa|rad|1|[Pp]er cent)\b|kg\^|`unit`|in another unit|SI unit|their units|rows of|"
+                  r"ratings from 0 to 1|of the shape of|with its unit|multiplied")
+SHAPE = re.compile(r"\([\w ]+,[\w ,]*\)|of the shape of|a row for each|\bas columns\b")
 
 
 def public_names():
-    """Full name, object and docstring of each."""
+    """Full name and object of each."""
     for name in fn.__all__:
         thing = getattr(fn, name)
         if isinstance(thing, str):
@@ -30,28 +29,30 @@ def public_names():
         yield name, thing
         if inspect.isclass(thing) and not issubclass(thing, BaseException):
             for member, value in vars(thing).items():
-                if not member.startswith("_") or member == "__getitem__" and not issubclass(thing, typing.Mapping):
+                if not member.startswith("_"):
                     yield f"{name}.{member}", value
 
 
-def documentation(full, thing, sources):
-    if full.count(".") == 1 and (inspect.isdatadescriptor(thing) and not isinstance(thing, property)
-                                 or isinstance(thing, str)):
-        return sources.get(full, "")
-    return inspect.getdoc(thing.__func__ if isinstance(thing, staticmethod) else thing) or ""
+def annotation(full, thing):
+    """Type of a value or of what a function returns, as text."""
+    owner, _, member = full.partition(".")
+    fields = getattr(getattr(fn, owner), "__annotations__", {})
+    if member in fields:
+        return str(fields[member])
+    function = thing.fget if isinstance(thing, property) else getattr(thing, "__func__", thing)
+    return str(getattr(function, "__annotations__", {}).get("return", ""))
 
 
-def field_documentation(package):
-    """The text below each annotated field of a class, and the fields."""
-    found = {}
-    for path in package.glob("*.py"):
-        for node in ast.parse(path.read_text()).body:
-            if isinstance(node, ast.ClassDef):
-                for field, after in zip(node.body, node.body[1:] + [None]):
-                    if isinstance(field, ast.AnnAssign):
-                        told = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
-                        found[f"{node.name}.{field.target.id}"] = after.value.value if told else ""
-    return found
+def problem_of(full, thing):
+    text = inspect.getdoc(getattr(thing, "__func__", thing)) or ""
+    kind = annotation(full, thing)
+    if not text or text.startswith("Alias for field"):
+        return "has no docstring"
+    if "rray" in kind and not SHAPE.search(text):
+        return f"tells no shape: {text!r}"
+    if re.search(r"rray|\bfloat\b|complex", kind) and not UNIT.search(text):
+        return f"tells no unit: {text!r}"
+    return ""
 
 
 def stub_problems(stub):
@@ -78,18 +79,13 @@ def stub_problems(stub):
 
 def main():
     package = pathlib.Path(sys.argv[2]) / "pipeline/python/flexneck"
-    fields = field_documentation(package)
-    problems, count = list(stub_problems(package / "_core.pyi")), 0
-    for full, thing in public_names():
-        count += 1
-        text = documentation(full, thing, fields)
-        if not text:
-            problems.append(f"{full}: has no docstring")
-        elif "." in full and not TOLD.search(text):
-            problems.append(f"{full}: tells neither shape nor unit nor kind: {text!r}")
+    problems, names = list(stub_problems(package / "_core.pyi")), dict(public_names())
+    for full, thing in names.items():
+        if problem := problem_of(full, thing):
+            problems.append(f"{full}: {problem}")
     print("\n".join(problems))
-    print(f"{count} public names, {len(problems)} problems")
-    sys.exit(bool(problems) or count < 100)
+    print(f"{len(names)} public names, {len(problems)} problems")
+    sys.exit(bool(problems) or len(names) < 100)
 
 
 if __name__ == "__main__":
