@@ -6,6 +6,7 @@
 
 #include "multibody/analysis/linearisation.h"
 #include "multibody/history/incomplete_run.h"
+#include "multibody/joints/joint_kinds.h"
 #include "multibody/numerics/rotation.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
@@ -22,9 +23,10 @@ namespace {
 /// A body on a soft mount, which a bushing or the same as a function makes, on a sled that turns.
 struct Mounted {
   ModelBuilder build;
-  std::size_t below, above;
+  std::size_t below = 0, above = 0;
 
-  explicit Mounted(double sled_rate_rad_s) {
+  /// @param on_axle  the block can only turn about and slide along the mount's z axis
+  explicit Mounted(double sled_rate_rad_s, bool on_axle = false) {
     build.model.gravity_m_s2 = {1, -2, -9.81};
     PrescribedBody sled;
     sled.turn.axis = Vector3d(2, -1, 2) / 3;
@@ -32,10 +34,16 @@ struct Mounted {
     const Eigen::Quaterniond turned = quaternion_exp({0.3, -0.2, 0.4});
     const RigidBody block{2, {0.02, 0.01, -0.03}, Vector3d(0.02, 0.03, 0.04).asDiagonal()};
     const auto base = build.body("sled", sled, {Vector3d(0.1, 0.2, 0), turned});
-    const auto body = build.body("block", block, {Vector3d(0.15, 0.2, 0.1), turned});
-    below = build.marker("below", base, {0.05, 0, 0.1}, quaternion_exp({0, 0.5, 0.1}));
-    above = build.marker("above", body, {0, 0.01, 0}, quaternion_exp({0, 0.5, 0.1}));
+    const auto body = build.body("block", block,
+                                 {Vector3d(0.1, 0.2, 0) + turned * (kBelow_m - kAbove_m), turned});
+    below = build.marker("below", base, kBelow_m, quaternion_exp({0, 0.5, 0.1}));
+    above = build.marker("above", body, kAbove_m, quaternion_exp({0, 0.5, 0.1}));
+    if (on_axle) build.joint("axle", &kCylindricalJoint, below, above, Vector3d::UnitZ());
   }
+
+ private:
+  const Vector3d kBelow_m{0.05, 0, 0.1};
+  const Vector3d kAbove_m{0, 0.01, 0};
 };
 
 Bushing mount(const Mounted& mounted) {
@@ -73,14 +81,12 @@ TEST_CASE("a bushing that is written as a function moves and loads the same") {
   const OutputOptions output{.end_time_s = 0.5, .interval_s = 0.05};
   const History element = simulate(by_element.build.model, solver, output);
   const History function = simulate(by_function.build.model, solver, output);
-  for (const char* const marker : {"below", "above"}) {
-    const MarkerHistory& a = element.marker(marker);
-    const MarkerHistory& b = function.marker(marker);
-    CHECK((a.position_m - b.position_m).norm() < 1e-9);
-    CHECK((a.acceleration_m_s2 - b.acceleration_m_s2).norm() < 1e-6 * a.acceleration_m_s2.norm());
-    CHECK((a.angular_acceleration_rad_s2 - b.angular_acceleration_rad_s2).norm() <
-          1e-6 * a.angular_acceleration_rad_s2.norm());
-  }
+  const MarkerHistory& a = element.marker("above");
+  const MarkerHistory& b = function.marker("above");
+  CHECK((a.position_m - b.position_m).norm() < 1e-9);
+  CHECK((a.acceleration_m_s2 - b.acceleration_m_s2).norm() < 1e-6 * a.acceleration_m_s2.norm());
+  CHECK((a.angular_acceleration_rad_s2 - b.angular_acceleration_rad_s2).norm() <
+        1e-6 * a.angular_acceleration_rad_s2.norm());
   // The books: what the element stores and loses, the function has given as work.
   const EnergyHistory& books = function.energy;
   CHECK(books.dissipated_J.norm() == 0);
@@ -92,15 +98,15 @@ TEST_CASE("a bushing that is written as a function moves and loads the same") {
 }
 
 TEST_CASE("equilibrium and small motions of a function are those of the bushing") {
-  Mounted by_element(0);
-  Mounted by_function(0);
+  Mounted by_element(0, true);
+  Mounted by_function(0, true);
   by_element.build.model.forces.add(mount(by_element));
   by_function.build.model.forces.add(mount_by_function(by_function));
   const std::vector<SystemMode> element = system_modes(by_element.build.model);
   const std::vector<SystemMode> function = system_modes(by_function.build.model);
-  REQUIRE(element.size() == 6);
-  REQUIRE(function.size() == 6);
-  for (std::size_t k = 0; k < 6; ++k) {
+  REQUIRE(element.size() == 2);
+  REQUIRE(function.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
     CHECK(function[k].frequency_Hz == Approx(element[k].frequency_Hz).epsilon(1e-6));
     CHECK(function[k].damping_ratio == Approx(element[k].damping_ratio).epsilon(1e-6));
   }
@@ -165,7 +171,7 @@ TEST_CASE("what a function must not do is refused") {
 }
 
 TEST_CASE("a checkpoint ends a run by what it throws") {
-  Mounted mounted(0);
+  Mounted mounted(0, true);
   mounted.build.model.forces.add(mount(mounted));
   struct Enough {};
   int calls = 0;
