@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Python package beside the command: the same bytes, no copies, errors, Ctrl-C, threads, leaks.
 
-Usage: package_test.py BUILD SOURCES [TEST ...]     (PYTHONPATH has the package)
+Usage: package_test.py BUILD SOURCES [--calls N] [TEST ...]     (PYTHONPATH has the package)
 """
 
 import _thread
@@ -287,8 +287,10 @@ class Leaks(unittest.TestCase):
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
         for _ in range(self.COUNT):
             call()
-        # A history alone has 5 kB.
-        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 2 * self.COUNT)
+        more_kB = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+        print(f"{self.COUNT} calls, {more_kB} kB more")
+        # A history alone has 5 kB; the heap may settle by a few hundred.
+        self.assertLess(more_kB, max(500, self.COUNT // 2))
 
 
 class Import(unittest.TestCase):
@@ -301,7 +303,8 @@ class Import(unittest.TestCase):
 
 if __name__ == "__main__":
     warnings.simplefilter("error", fn.ResultWarning)
-    if "--long" in sys.argv:
-        sys.argv.remove("--long")
-        Leaks.COUNT = 10_000
+    if "--calls" in sys.argv:
+        at = sys.argv.index("--calls")
+        Leaks.COUNT = int(sys.argv[at + 1])
+        del sys.argv[at:at + 2]
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
