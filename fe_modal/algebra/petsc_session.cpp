@@ -2,10 +2,12 @@
 #include "fe_modal/algebra/petsc_session.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <malloc.h>
 #include <map>
+#include <set>
 #include <string>
-#include <vector>
+#include <unistd.h>
 
 #include <petscpkg_version.h>
 
@@ -16,15 +18,18 @@ namespace flexneck::fe_modal {
 
 namespace {
 
-/// While MPI starts: in a process that neither mpirun nor a batch system has started, Open MPI would
-/// spend a third of a second on a daemon and on network connections that are never used. What the
-/// user has set stays; programs that this process starts later see nothing of it.
+/// While MPI starts: in a process that neither mpirun nor a batch system has started, Open MPI
+/// would spend a third of a second on a daemon and on network connections that are never used. What
+/// the user has set stays; what this and Open MPI set goes again, or an mpirun that this process
+/// starts later would take itself for a part of it.
 class StartAlone {
  public:
   StartAlone() {
     for (const char* const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
       if (std::getenv(launched) != nullptr) return;
     }
+    is_alone_ = true;
+    before_ = variables();
     set("OMPI_MCA_ess_singleton_isolated", "1");
     set("OMPI_MCA_btl", "self");
     set("OMPI_MCA_pml", "ob1");
@@ -33,19 +38,31 @@ class StartAlone {
     set("OMPI_MCA_orte_create_session_dirs", "0");
   }
   ~StartAlone() {
-    for (const char* const name : set_) unsetenv(name);
+    if (!is_alone_) return;
+    for (const std::string& name : variables())
+      if (before_.count(name) == 0) unsetenv(name.c_str());
   }
   StartAlone(const StartAlone&) = delete;
   StartAlone& operator=(const StartAlone&) = delete;
 
  private:
-  void set(const char* name, const char* value) {
-    if (std::getenv(name) != nullptr) return;
-    setenv(name, value, 1);
-    set_.push_back(name);
+  static void set(const char* name, const char* value) {
+    constexpr int kKeepTheUsers = 0;
+    setenv(name, value, kKeepTheUsers);
+  }
+  /// Names of those of MPI.
+  static std::set<std::string> variables() {
+    std::set<std::string> names;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+      const std::string name = std::string(*variable).substr(0, std::strcspn(*variable, "="));
+      if (name.starts_with("OMPI_") || name.starts_with("PMIX_") || name.starts_with("OPAL_"))
+        names.insert(name);
+    }
+    return names;
   }
 
-  std::vector<const char*> set_;
+  bool is_alone_ = false;
+  std::set<std::string> before_;
 };
 
 /// Arrays from a megabyte on go back to the system as soon as they are freed. By default glibc

@@ -14,7 +14,7 @@ namespace flexneck::pipeline {
 struct DocumentSource {
   // NOLINTNEXTLINE(google-explicit-constructor): as a rule a document is a file
   template <std::convertible_to<std::filesystem::path> File>
-  DocumentSource(File&& file) : path(std::forward<File>(file)) {}
+  DocumentSource(const File& file) : path(file) {}
   DocumentSource(std::filesystem::path stands_for, std::string toml)
       : path(std::move(stands_for)), text(std::move(toml)) {}
 

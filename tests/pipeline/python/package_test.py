@@ -7,7 +7,7 @@ Usage: package_test.py BUILD SOURCES [--calls N] [TEST ...]     (PYTHONPATH has 
 import _thread
 import filecmp
 import gc
-import json
+import os
 import pathlib
 import resource
 import subprocess
@@ -293,12 +293,20 @@ class Leaks(unittest.TestCase):
         self.assertLess(more_kB, max(500, self.COUNT // 2))
 
 
-class Import(unittest.TestCase):
+class Mpi(unittest.TestCase):
     def test_importing_starts_no_mpi(self):
         code = ("import sys, flexneck\nimport ctypes\nlib = ctypes.CDLL('libmpi.so.40')\n"
                 "flag = ctypes.c_int()\nlib.MPI_Initialized(ctypes.byref(flag))\nprint(flag.value)")
         found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
         self.assertEqual(found.stdout.strip(), "0")
+
+
+    def test_an_mpirun_that_is_started_later_is_one_of_its_own(self):
+        fn.Study("cantilever").mesh()  # starts MPI here
+        subprocess.run(["mpirun", "-n", "2", "--oversubscribe", BUILD / "flexneck", "modes", "--help"],
+                       check=True, capture_output=True,
+                       env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
 
 
 if __name__ == "__main__":
