@@ -43,7 +43,7 @@ install(EXPORT flexneck NAMESPACE flexneck:: FILE flexneck-targets.cmake
 install(DIRECTORY geometry mesher fe_modal multibody pipeline DESTINATION "${flexneck_headers}"
         COMPONENT development FILES_MATCHING PATTERN "*.h"
         PATTERN "pipeline/models" EXCLUDE PATTERN "pipeline/studies" EXCLUDE
-        PATTERN "pipeline/regulations" EXCLUDE PATTERN "pipeline/pictures" EXCLUDE
+        PATTERN "pipeline/regulations" EXCLUDE PATTERN "pipeline/pictures" EXCLUDE PATTERN "pipeline/python" EXCLUDE
         PATTERN "pipeline/verification/*.toml" EXCLUDE PATTERN "geometry/examples" EXCLUDE
         PATTERN "page" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/generated/pipeline/version.h"

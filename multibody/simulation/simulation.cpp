@@ -66,7 +66,7 @@ History settle(const Model& model, const SolverOptions& solver, const OutputOpti
   check_outputs(output);
   check_memory(model, output);
   const std::unique_ptr<Equations> equations = equations_of(model, solver, Drive::held);
-  return settle_along(model, *equations, output);
+  return settle_along(model, *equations, solver.checkpoint, output);
 }
 
 }  // namespace flexneck::multibody

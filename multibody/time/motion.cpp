@@ -70,6 +70,7 @@ class Run {
       const OutputOptions& output)
       : equations_(equations),
         max_steps_(solver.max_steps),
+        checkpoint_(solver.checkpoint),
         recorder_(model, output),
         integrator_(time_integrator(equations, output.begin_time_s, state, solver)),
         output_state_(state) {}
@@ -83,6 +84,7 @@ class Run {
       integrator_->step(end_s);
       limits_.count(*integrator_);
       record_until(integrator_->time_s());
+      if (checkpoint_) checkpoint_();
     }
   }
 
@@ -124,6 +126,7 @@ class Run {
 
   Equations& equations_;
   int max_steps_;
+  std::function<void()> checkpoint_;
   Recorder recorder_;
   std::unique_ptr<TimeIntegrator> integrator_;
   LimitCounter limits_;

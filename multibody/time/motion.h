@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -25,8 +26,10 @@ std::vector<double> breakpoints(const Model& model, double begin_s, double end_s
 
 /// Static equilibria at the output times, each sought from the one before.
 /// @param equations  with prescribed bodies held
+/// @param checkpoint  called after each output, as SolverOptions says; may be empty
 /// @throws IncompleteRun if one is not found.
-History settle_along(const Model& model, Equations& equations, const OutputOptions& output);
+History settle_along(const Model& model, Equations& equations,
+                     const std::function<void()>& checkpoint, const OutputOptions& output);
 
 /// Integrates from a state at the start of the outputs that keeps the joints, and records at their
 /// times.

@@ -15,7 +15,7 @@
 namespace flexneck::pipeline {
 
 struct Expression::Impl {
-  std::vector<double> values;
+  std::vector<double> values;  ///< of the variables, where the parser finds them
   mu::Parser parser;
 };
 
@@ -92,6 +92,10 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
 double Expression::operator()(std::span<const double> values) const {
   std::copy(values.begin(), values.end(), impl_->values.begin());
   return impl_->parser.Eval();
+}
+
+bool Expression::has(const std::string& variable) const {
+  return impl_->parser.GetUsedVar().count(variable) > 0;
 }
 
 }  // namespace flexneck::pipeline

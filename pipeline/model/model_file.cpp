@@ -162,9 +162,9 @@ std::span<const Key> model_keys() {
   return keys;
 }
 
-ModelFile read_model_file(const std::filesystem::path& path,
-                          const std::vector<std::string>& settings) {
-  const StudyDocument document(path, settings, model_keys());
+ModelFile read_model_file(const DocumentSource& source, const std::vector<std::string>& settings) {
+  const std::filesystem::path& path = source.path;
+  const StudyDocument document(source, settings, model_keys());
   const StudyTable root = document.root();
   ModelFile file;
   file.file = path;
