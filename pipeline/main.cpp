@@ -13,7 +13,7 @@
 
 #include <fmt/core.h>
 
-#include "fe_modal/solve/distributed/ranks.h"
+#include "fe_modal/algebra/rank_session.h"
 #include "geometry/foundation/atomic_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
@@ -30,7 +30,9 @@ namespace {
 
 using namespace flexneck::pipeline;
 using flexneck::InputError;
+using flexneck::fe_modal::RankOutcome;
 using flexneck::fe_modal::Ranks;
+using flexneck::fe_modal::RankSession;
 
 constexpr const char* kNoMemory = "the memory that is free does not suffice for this";
 constexpr int kVerificationFailed = 1;
@@ -79,7 +81,9 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
                 const std::function<void()>& take_lock) {
   const Command& command = *line.command;
   const ResultsFolder folder(line.folder);
+  const bool is_first = ranks == nullptr || ranks->is_first();
   if (works_on_files(line)) {
+    if (!is_first) return true;
     take_lock();
     return command.run_on_files({{line.files.begin(), line.files.end()},
                                  line.settings,
@@ -96,9 +100,17 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
   const StudyChoice choice = choose_study(line, console);
   const Study study = read_named(choice);
   for (const std::string& warning : study.warnings) console.warning(warning);
-  take_lock();
-  if (ranks != nullptr && command.name != "modes" && command.name != "run") {
+  if (ranks != nullptr && (line.show || !command.uses_ranks)) {
+    if (!is_first) return true;
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
+    ranks = nullptr;
+  }
+  if (ranks == nullptr) {
+    take_lock();
+  } else {
+    ranks->together([&] {
+      if (is_first) take_lock();
+    });
   }
   if (line.show) return show_command({study, folder, console});
   const bool passed = command.run({.study = study,
@@ -110,7 +122,8 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
                                    .redo = line.redo,
                                    .sensitivity = line.sensitivity,
                                    .shares = line.shares});
-  if (command.writes_results && command.is_remembered) remember_study(line.folder, choice);
+  if (is_first && command.writes_results && command.is_remembered)
+    remember_study(line.folder, choice);
   return passed;
 }
 
@@ -146,18 +159,34 @@ Failure failure() {
   }
 }
 
-int exit_code_of(const CommandLine& line, const Ranks* ranks) {
+int exit_code_of(const CommandLine& line) {
   const Console console(line.verbosity());
   try {
     if (line.command == nullptr || !line.answer.empty()) {
       console.result(line.answer);
       return 0;
     }
-    return execute(line, console, ranks) ? 0 : kVerificationFailed;
+    return execute(line, console, nullptr) ? 0 : kVerificationFailed;
   } catch (...) {
     const Failure found = failure();
     console.error(found.text);
     return found.exit_code;
+  }
+}
+
+/// Of a rank among many, of which the first one speaks.
+RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks) {
+  try {
+    const CommandLine line = parse_command_line(words);
+    const Console console(ranks.is_first() ? line.verbosity() : Verbosity::none);
+    if (line.command == nullptr || !line.answer.empty()) {
+      console.result(line.answer);
+      return {};
+    }
+    return {execute(line, console, &ranks) ? 0 : kVerificationFailed};
+  } catch (...) {
+    const Failure found = failure();
+    return {found.exit_code, found.text};
   }
 }
 
@@ -181,21 +210,15 @@ std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) 
 
 int run(int argc, char** argv) {
   const std::vector<std::string> words(argv, argv + argc);
-  std::optional<Ranks> ranks;
-  if (Ranks::are_many()) {
-    if (const std::optional<CommandLine> line = line_of_shard(words)) {
-      forget_other_processes();
-      return exit_code_of(*line, nullptr);
-    }
-    ranks.emplace([](const std::string& line) {
-      fmt::print(stderr, "flexneck: {}\n", flexneck::printable(line));
-    });
+  if (!RankSession::is_launched()) return exit_code_of(parse_command_line(words));
+  if (const std::optional<CommandLine> line = line_of_shard(words)) {
+    forget_other_processes();
+    return exit_code_of(*line);
   }
-  if (ranks && !ranks->is_leader()) {
-    ranks->serve();
-    return 0;
-  }
-  return exit_code_of(parse_command_line(words), ranks ? &*ranks : nullptr);
+  const RankSession session;
+  return session.end(outcome_of(words, session.ranks()), [](const std::string& line) {
+    fmt::print(stderr, "flexneck: {}\n", flexneck::printable(line));
+  });
 }
 
 void tell_without_console(const char* text) noexcept {

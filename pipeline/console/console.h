@@ -7,8 +7,8 @@
 
 namespace flexneck::pipeline {
 
-/// How much the command says.
-enum class Verbosity { quiet, normal, verbose };
+/// How much the command says; `none` is for a rank of which another one speaks.
+enum class Verbosity { none, quiet, normal, verbose };
 
 /// Before any file is opened: a standard stream that is closed would give its number to one, and
 /// what is printed would go into a result. What is printed to it fails then.
