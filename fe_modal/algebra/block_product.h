@@ -11,8 +11,8 @@
 
 namespace flexneck::fe_modal {
 
-/// A linear map of the free degrees of freedom, applied to each column: this rank's rows, (own dofs,
-/// k).
+/// A linear map of the free degrees of freedom, applied to each column: this rank's rows, (own
+/// dofs, k).
 using BlockOperator = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 
 /// A vector of PETSc's on a column, which outlives it.

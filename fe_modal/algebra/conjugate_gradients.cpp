@@ -63,7 +63,8 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& mat
     multiply(-1, forces, steps, 1, residuals);
     Eigen::MatrixXd next = preconditioner(residuals);
     // The direction is at hand by then: one more step costs no preconditioner.
-    converged = (column_products(ranks, residuals, next).array() <= kTolerance * energies.array()).all();
+    converged =
+        (column_products(ranks, residuals, next).array() <= kTolerance * energies.array()).all();
     multiply(-1, directions, inner_products(ranks, forces, next), 1, next);
     directions = std::move(next);
   }

@@ -167,9 +167,9 @@ MumpsFactor::MumpsFactor(const DofLayout& layout, Kind kind, SymmetricMatrix& pa
   const int beside = ranks_on_this_machine(communicator(layout.ranks()));
   layout.ranks().together([&] {
     constexpr std::size_t kMegabytes = 14;  // of this rank
-    require_memory(beside > 1 ? "the factor on the " + std::to_string(beside) +
-                                    " ranks of this machine"
-                              : "the factor",
+    require_memory(beside > 1
+                       ? "the factor on the " + std::to_string(beside) + " ranks of this machine"
+                       : "the factor",
                    1e6 * beside * data.info[kMegabytes], "take a coarser mesh or more machines");
   });
   instance_->factorise();

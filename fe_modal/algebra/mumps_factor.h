@@ -10,8 +10,8 @@
 
 namespace flexneck::fe_modal {
 
-/// LDL^T of a symmetric matrix whose parts lie on the ranks, by MUMPS's own interface: PETSc's takes
-/// no order of elimination, and Debian's MUMPS has no METIS.
+/// LDL^T of a symmetric matrix whose parts lie on the ranks, by MUMPS's own interface: PETSc's
+/// takes no order of elimination, and Debian's MUMPS has no METIS.
 ///
 /// Every member is collective. A failure is a ComputationError on every rank, an InputError if
 /// memory does not hold the factor.

@@ -9,8 +9,8 @@
 namespace flexneck::fe_modal {
 
 /// A symmetric linear map of the degrees of freedom as a matrix for PETSc and SLEPc, good for
-/// products alone; on many ranks each gets and gives its own rows. All shells of this library are made here: block_product() finds the map behind
-/// them and applies it to all columns at once.
+/// products alone; on many ranks each gets and gives its own rows. All shells of this library are
+/// made here: block_product() finds the map behind them and applies it to all columns at once.
 class OperatorMatrix {
  public:
   struct Context;

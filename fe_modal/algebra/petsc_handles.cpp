@@ -20,10 +20,10 @@ void require(PetscErrorCode code, std::string_view doing) {
 VecHandle vector_on(std::span<const double> values, const Ranks& ranks) {
   VecHandle vector;
   const auto size = static_cast<PetscInt>(values.size());
-  require(ranks.are_many() ? VecCreateMPIWithArray(communicator(ranks), 1, size, PETSC_DECIDE,
-                                                   values.data(), vector.out())
-                           : VecCreateSeqWithArray(communicator(ranks), 1, size, values.data(),
-                                                   vector.out()),
+  require(ranks.are_many()
+              ? VecCreateMPIWithArray(communicator(ranks), 1, size, PETSC_DECIDE, values.data(),
+                                      vector.out())
+              : VecCreateSeqWithArray(communicator(ranks), 1, size, values.data(), vector.out()),
           "laying a vector on memory");
   return vector;
 }

@@ -25,8 +25,8 @@ class RankSession {
 
   const Ranks& ranks() const { return ranks_; }
 
-  /// All ranks meet here at the end. Where ranks have failed, the first of these tells. If others do
-  /// not come, since they wait for one that has failed alone, that one tells and ends all.
+  /// All ranks meet here at the end. Where ranks have failed, the first of these tells. If others
+  /// do not come, since they wait for one that has failed alone, that one tells and ends all.
   /// @param tell gets the line
   /// @return the exit code, the same on all ranks
   int end(const RankOutcome& outcome, const Progress& tell) const;

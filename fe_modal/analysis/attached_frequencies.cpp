@@ -35,7 +35,8 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
     const std::size_t region = interface_index(options, body.interface);
     const Matrix6d rigid_mass = rigid_mass_matrix(
         body.mass_kg, body.center_m - solved.averages[region].point_m(), body.inertia_kg_m2);
-    const AttachedMass mass(solved.system.ranks(), solved.system.mass(), solved.loads[region].forces, rigid_mass);
+    const AttachedMass mass(solved.system.ranks(), solved.system.mass(),
+                            solved.loads[region].forces, rigid_mass);
     const EigenPairs pairs =
         modes.cols() < count
             ? lowest_eigenpairs(solved.system.stiffness(), mass.matrix(), solved.inverse, count)

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "fe_modal/algebra/block_product.h"
-#include "fe_modal/solve/block_lanczos.h"
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/solve/block_lanczos.h"
 #include "fe_modal/solve/mechanism.h"
 #include "mesher/mesh/refinement.h"
 
@@ -91,8 +91,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   const std::unique_ptr<const ShiftInverse> inverse =
       system.shift_inverse(fixed ? 0 : -eigenvalue_scale(solved.mesh));
 
-  std::vector<Eigen::Matrix3Xd> prolonged =
-      solved.system.fields().expand(solved.pairs.vectors);
+  std::vector<Eigen::Matrix3Xd> prolonged = solved.system.fields().expand(solved.pairs.vectors);
   for (Eigen::Matrix3Xd& field : prolonged) {
     field = (fine.prolongation * field.transpose()).transpose().eval();
   }
@@ -109,9 +108,9 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   const Eigen::Index count = start.cols();
   // Its own method needs no exact solves, which are dear there.
   std::optional<EigenPairs> own = inverse->iterate(system.mass(), count);
-  const EigenPairs pairs = own ? *std::move(own)
-                               : block_lanczos(system.mass(), *inverse, EigenPairs(),
-                                               std::move(start), count, settled);
+  const EigenPairs pairs =
+      own ? *std::move(own)
+          : block_lanczos(system.mass(), *inverse, EigenPairs(), std::move(start), count, settled);
 
   const Eigen::MatrixXd similarity = similarities(solved, system.fields(), pairs.vectors);
   const Eigen::VectorXd fine_Hz = pairs.values.unaryExpr(&hertz);

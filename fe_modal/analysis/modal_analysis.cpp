@@ -15,8 +15,8 @@
 #include "fe_modal/reduction/mode_naming.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/reduction/static_response.h"
-#include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/solve/sturm_check.h"
 #include "fe_modal/system/assembly.h"
@@ -40,8 +40,7 @@ std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh
   try {
     return system.shift_inverse(shift);
   } catch (const ComputationError&) {
-    const auto motions =
-        shift == 0 ? describe_mechanism(mesh, system, true) : std::nullopt;
+    const auto motions = shift == 0 ? describe_mechanism(mesh, system, true) : std::nullopt;
     if (!motions) throw;
     refuse_mechanism(*motions);
   }
@@ -200,8 +199,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   report("factorising the stiffness");
   // A fixed body has a definite stiffness; a free one is shifted below zero.
   const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
-  const std::unique_ptr<const ShiftInverse> inverse =
-      factorise_or_refuse(mesh, system, shift);
+  const std::unique_ptr<const ShiftInverse> inverse = factorise_or_refuse(mesh, system, shift);
   report(inverse->describe());
   times.start("iterate");
   report("solving for " + std::to_string(options.mode_count) + " modes");
@@ -228,8 +226,9 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
   body.shapes = field_map.expand(pairs.vectors);
-  body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
-                              relative_residuals(system.stiffness(), system.mass(), *inverse, pairs));
+  body.modes =
+      describe_modes(mesh, options, basis.kinds, body.shapes,
+                     relative_residuals(system.stiffness(), system.mass(), *inverse, pairs));
   const Eigen::Index eigenvectors = eigenvector_count(basis);
   if (options.certify && eigenvectors > 0) {
     times.start("refine and solve again");
@@ -253,9 +252,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
           .maxCoeff();
   if (options.geometric_stiffness) {
     report("integrating the geometric stiffness");
-    body.geometric_stiffness =
-        unit_load_stiffness(mesh, options.formulation, system, operators_of(system, *inverse),
-                            loads, body.shapes);
+    body.geometric_stiffness = unit_load_stiffness(
+        mesh, options.formulation, system, operators_of(system, *inverse), loads, body.shapes);
   }
   if (!options.attachments.empty()) {
     times.start("iterate with bodies attached");

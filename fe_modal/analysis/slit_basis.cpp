@@ -23,8 +23,8 @@ class ShutBody {
   /// Static shapes under loads on the open body, both by the open body's degrees of freedom.
   Eigen::MatrixXd shapes(const Eigen::MatrixXd& loads) const {
     const Eigen::MatrixXd own = system_.fields().gather(open_.expand(loads));
-    return open_.restrict(system_.fields().expand(
-        static_response_beyond(operators_of(system_, *inverse_), {}, own)));
+    return open_.restrict(
+        system_.fields().expand(static_response_beyond(operators_of(system_, *inverse_), {}, own)));
   }
 
  private:

@@ -155,7 +155,8 @@ ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certi
   }
   const std::vector<std::string> names =
       mode_names(std::vector<Shares>(static_cast<std::size_t>(mode_count)));
-  const Eigen::VectorXd residuals = relative_residuals(system.stiffness(), system.mass(), *inverse, pairs);
+  const Eigen::VectorXd residuals =
+      relative_residuals(system.stiffness(), system.mass(), *inverse, pairs);
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     body.modes.push_back({names[static_cast<std::size_t>(k)], "normal", {}, residuals[k]});
   }

@@ -46,8 +46,7 @@ std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_or
 
 }  // namespace
 
-AssembledSystem::Sharing AssembledSystem::share_out(const mesher::Mesh& mesh,
-                                                    const DofMap& dof_map,
+AssembledSystem::Sharing AssembledSystem::share_out(const mesher::Mesh& mesh, const DofMap& dof_map,
                                                     const ModalOptions& options) {
   const int count = ranks_of(options).count();
   Sharing sharing;
@@ -78,8 +77,8 @@ AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map
       order_(order_of_free(options.node_order, dof_map)),
       has_order_(!order_.empty()) {
   ranks().together([&] {
-    matrices_ = std::make_unique<SystemMatrices>(
-        assemble(part_.mesh(), part_.dof_map(), formulation_));
+    matrices_ =
+        std::make_unique<SystemMatrices>(assemble(part_.mesh(), part_.dof_map(), formulation_));
   });
   stiffness_.emplace(
       fields_.own_dof_count(),

@@ -106,8 +106,7 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(const Ranks& ranks, Ma
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(basis.count(), block.vectors.cols());
   Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(block.vectors.cols(), block.vectors.cols());
   Eigen::VectorXd shortest =
-      kNothingNew *
-      column_products(ranks, block.vectors, block.momenta).cwiseMax(0).cwiseSqrt();
+      kNothingNew * column_products(ranks, block.vectors, block.momenta).cwiseMax(0).cwiseSqrt();
   for (int pass = 0; pass < 2; ++pass) {
     const Eigen::MatrixXd more = inner_products(ranks, basis.vectors(), block.momenta);
     multiply(-1, basis.vectors(), more, 1, block.vectors);

@@ -172,8 +172,8 @@ Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const ShiftInverse& 
   };
   const Eigen::MatrixXd forces = block_product(stiffness, pairs.vectors);
   const Eigen::MatrixXd momenta = block_product(mass, pairs.vectors);
-  const Eigen::VectorXd scales = (pairs.values.array() == 0)
-                                     .select(std::abs(inverse.shift()) * norms(momenta), norms(forces));
+  const Eigen::VectorXd scales =
+      (pairs.values.array() == 0).select(std::abs(inverse.shift()) * norms(momenta), norms(forces));
   return norms(forces - momenta * pairs.values.asDiagonal()).cwiseQuotient(scales);
 }
 

@@ -16,8 +16,8 @@ namespace flexneck::fe_modal {
 /// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
 /// inverse if the shift is zero
 /// @param count at most the number of degrees of freedom
-/// @param start of the first search, (own dofs); empty: random. What it does not hold is left to the
-/// block.
+/// @param start of the first search, (own dofs); empty: random. What it does not hold is left to
+/// the block.
 /// @throws ComputationError if the iteration does not converge.
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count, const Eigen::VectorXd& start = {});

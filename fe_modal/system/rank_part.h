@@ -42,9 +42,8 @@ class RankPart {
 };
 
 /// Calls visit(number of the element, its nodes) for each element.
-void for_each_element(
-    const mesher::Mesh& mesh,
-    const std::function<void(std::size_t, std::span<const std::int32_t>)>& visit);
+void for_each_element(const mesher::Mesh& mesh,
+                      const std::function<void(std::size_t, std::span<const std::int32_t>)>& visit);
 
 /// Where vectors lie if the elements are shared out: a block is of the lowest rank that has one of
 /// its elements.

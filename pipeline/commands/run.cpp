@@ -153,11 +153,11 @@ void print_kept(const CommandInput& input, const std::string& stage) {
 }
 
 void make(const CommandInput& input, Stages& records, const Stage& stage, ModesGate& gate) {
-  const bool made = records.make(stage.name, without_studies(stage.from, input.study), stage.after,
-                                 [&] {
-                                   if (stage.name == kModesStage) gate.open();
-                                   stage.command(input);
-                                 });
+  const bool made =
+      records.make(stage.name, without_studies(stage.from, input.study), stage.after, [&] {
+        if (stage.name == kModesStage) gate.open();
+        stage.command(input);
+      });
   if (made) return;
   input.console.step("Nothing has changed for " + stage.name + ": kept");
   print_kept(input, stage.name);

@@ -79,7 +79,8 @@ class Basis {
 };
 
 /// What of the columns is M-orthogonal to the basis, M-orthonormal among themselves.
-Eigen::MatrixXd orthonormal(const Ranks& ranks, const Basis& basis, Eigen::MatrixXd block, Mat mass) {
+Eigen::MatrixXd orthonormal(const Ranks& ranks, const Basis& basis, Eigen::MatrixXd block,
+                            Mat mass) {
   Eigen::MatrixXd momenta = block_product(mass, block);
   for (int pass = 0; pass < 2; ++pass) {
     if (basis.count() > 0) {
@@ -134,8 +135,7 @@ DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness
     Eigen::MatrixXd residuals = stiffness(pairs.vectors);
     residuals -= block_product(mass, pairs.vectors) * values.asDiagonal();
     block = preconditioner(residuals);
-    const Eigen::VectorXd errors =
-        column_products(ranks, block, residuals).cwiseQuotient(values);
+    const Eigen::VectorXd errors = column_products(ranks, block, residuals).cwiseQuotient(values);
     if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
       EigenPairs lowest{values.head(count), pairs.vectors.leftCols(count)};
       if (values.size() > count) lowest.next = values[count];

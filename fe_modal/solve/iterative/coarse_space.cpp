@@ -254,8 +254,8 @@ class CoarseSpace::Builder {
   const SymmetricMatrix& stiffness_;
   const NodeGraph& graph_;
   const std::vector<std::int32_t>& blocks_;
-  std::vector<WholePiece> pieces_;           ///< of the body
-  std::vector<std::int32_t> piece_of_;       ///< of each block of the part, -1 inside
+  std::vector<WholePiece> pieces_;      ///< of the body
+  std::vector<std::int32_t> piece_of_;  ///< of each block of the part, -1 inside
   std::vector<Eigen::Index> place_in_piece_;
 };
 

@@ -11,8 +11,8 @@
 
 namespace flexneck::fe_modal {
 
-/// The interface of subdomains, cut into faces, edges and corners: blocks of degrees of freedom that
-/// the same subdomains share and that hang together by elements. The same on all ranks.
+/// The interface of subdomains, cut into faces, edges and corners: blocks of degrees of freedom
+/// that the same subdomains share and that hang together by elements. The same on all ranks.
 struct InterfacePieces {
   std::vector<std::int32_t> piece_of;  ///< of each block; -1 inside of a subdomain
   NodeLists blocks;                    ///< of each piece

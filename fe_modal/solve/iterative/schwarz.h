@@ -23,7 +23,8 @@ class SchwarzPreconditioner {
  public:
   /// @param body all of it, and how it is cut; the same on all ranks
   /// @param part the matrix of this rank's elements
-  /// @param around the whole matrix, positive definite, in the rows of this rank's subdomains and the
+  /// @param around the whole matrix, positive definite, in the rows of this rank's subdomains and
+  /// the
   ///     blocks next to them
   /// Collective.
   SchwarzPreconditioner(const CutBody& body, const PartMatrix& part, const PartMatrix& around);

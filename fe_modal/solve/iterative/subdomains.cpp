@@ -102,8 +102,8 @@ Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int 
   Subdomains result;
   std::vector<std::size_t> next(parts.size(), 0);
   for (const mesher::ElementBlock& block : mesh.blocks) {
-    const auto p = static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), block.part) - names.begin());
+    const auto p =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), block.part) - names.begin());
     for (std::size_t e = 0; e < block.size(); ++e) {
       result.of_element.push_back(of_element_of_part[p][next[p]++]);
     }
@@ -149,7 +149,8 @@ std::vector<std::int32_t> ranks_of_subdomains(const mesher::Mesh& mesh,
     const auto size = static_cast<double>(subdomains.blocks[order[k]].size());
     const auto ranks_left = static_cast<double>(rank_count - rank);
     const bool is_full = taken > 0 && taken + size / 2 > left / ranks_left;
-    const bool must_spare = taken > 0 && count - k <= static_cast<std::size_t>(rank_count - rank - 1);
+    const bool must_spare =
+        taken > 0 && count - k <= static_cast<std::size_t>(rank_count - rank - 1);
     if (rank + 1 < rank_count && (is_full || must_spare)) {
       left -= taken;
       taken = 0;

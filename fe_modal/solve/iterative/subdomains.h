@@ -23,14 +23,15 @@ struct Subdomains {
   std::int32_t count() const { return static_cast<std::int32_t>(blocks.size()); }
 };
 
-/// Subdomains of some ten thousand nodes whatever the size of the body, at least two where there are
-/// two elements. None goes across parts: the stiffness may jump by thousands there, and a coarse
-/// space follows a jump only along the interface of subdomains.
+/// Subdomains of some ten thousand nodes whatever the size of the body, at least two where there
+/// are two elements. None goes across parts: the stiffness may jump by thousands there, and a
+/// coarse space follows a jump only along the interface of subdomains.
 /// @param least_count of subdomains, if there are as many elements
 Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int least_count = 1);
 
 /// The rank that has each subdomain: they are taken in the order of their places along the longest
-/// side of the body, about as many blocks for each rank, at least one subdomain if there are enough.
+/// side of the body, about as many blocks for each rank, at least one subdomain if there are
+/// enough.
 std::vector<std::int32_t> ranks_of_subdomains(const mesher::Mesh& mesh,
                                               const Subdomains& subdomains, int rank_count);
 /// The same of each element.
