@@ -13,7 +13,7 @@
 
 #include <fmt/core.h>
 
-#include "fe_modal/solve/distributed/ranks.h"
+#include "fe_modal/algebra/rank_session.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/signal_cleanup.h"
@@ -26,7 +26,9 @@ namespace {
 
 using namespace flexneck::pipeline;
 using flexneck::InputError;
+using flexneck::fe_modal::RankOutcome;
 using flexneck::fe_modal::Ranks;
+using flexneck::fe_modal::RankSession;
 
 constexpr const char* kNoMemory = "the memory that is free does not suffice for this";
 constexpr int kVerificationFailed = 1;
@@ -53,18 +55,34 @@ Failure failure() {
   }
 }
 
-int exit_code_of(const CommandLine& line, const Ranks* ranks) {
+int exit_code_of(const CommandLine& line) {
   const Console console(line.verbosity());
   try {
     if (line.command == nullptr || !line.answer.empty()) {
       console.result(line.answer);
       return 0;
     }
-    return execute(line, console, ranks) ? 0 : kVerificationFailed;
+    return execute(line, console, nullptr) ? 0 : kVerificationFailed;
   } catch (...) {
     const Failure found = failure();
     console.error(found.text);
     return found.exit_code;
+  }
+}
+
+/// Of a rank among many, of which the first one speaks.
+RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks) {
+  try {
+    const CommandLine line = parse_command_line(words);
+    const Console console(ranks.is_first() ? line.verbosity() : Verbosity::none);
+    if (line.command == nullptr || !line.answer.empty()) {
+      console.result(line.answer);
+      return {};
+    }
+    return {execute(line, console, &ranks) ? 0 : kVerificationFailed};
+  } catch (...) {
+    const Failure found = failure();
+    return {found.exit_code, found.text};
   }
 }
 
@@ -88,21 +106,15 @@ std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) 
 
 int run(int argc, char** argv) {
   const std::vector<std::string> words(argv, argv + argc);
-  std::optional<Ranks> ranks;
-  if (Ranks::are_many()) {
-    if (const std::optional<CommandLine> line = line_of_shard(words)) {
-      forget_other_processes();
-      return exit_code_of(*line, nullptr);
-    }
-    ranks.emplace([](const std::string& line) {
-      fmt::print(stderr, "flexneck: {}\n", flexneck::printable(line));
-    });
+  if (!RankSession::is_launched()) return exit_code_of(parse_command_line(words));
+  if (const std::optional<CommandLine> line = line_of_shard(words)) {
+    forget_other_processes();
+    return exit_code_of(*line);
   }
-  if (ranks && !ranks->is_leader()) {
-    ranks->serve();
-    return 0;
-  }
-  return exit_code_of(parse_command_line(words), ranks ? &*ranks : nullptr);
+  const RankSession session;
+  return session.end(outcome_of(words, session.ranks()), [](const std::string& line) {
+    fmt::print(stderr, "flexneck: {}\n", flexneck::printable(line));
+  });
 }
 
 void tell_without_console(const char* text) noexcept {

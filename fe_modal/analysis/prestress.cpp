@@ -11,8 +11,7 @@
 #include "fe_modal/algebra/kept_exception.h"
 #include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/analysis/static_analysis.h"
-#include "fe_modal/solve/distributed/ranks.h"
-#include "fe_modal/solve/make_system.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -38,7 +37,7 @@ PetscErrorCode apply_inverse(PC preconditioner, Vec x, Vec y) {
   Inverse* context = nullptr;
   const PetscErrorCode code = PCShellGetContext(preconditioner, static_cast<void*>(&context));
   if (code != 0) return code;
-  return context->failure.keep([&] { context->inverse->solve(x, y); });
+  return context->failure.keep([&] { solve(*context->inverse, x, y); });
 }
 
 /// Converged is also what has settled too near to zero.
@@ -92,6 +91,14 @@ double largest_eigenvalue(Mat compression, Mat stiffness, Inverse& inverse) {
   return value;
 }
 
+/// Each rank solves the static problem by itself: all need its displacements.
+ModalOptions alone(ModalOptions options) {
+  options.ranks = nullptr;
+  options.element_ranks.clear();
+  return options;
+}
+
+
 ModalOptions without_prestress(ModalOptions options) {
   options.prestress_m.resize(3, 0);
   return options;
@@ -109,32 +116,30 @@ ModalOptions without_prestress(ModalOptions options) {
 ModalOptions with_prestress(const mesher::Mesh& mesh, ModalOptions options,
                             const Progress& progress) {
   if (options.prestress.empty()) return options;
-  if (options.ranks != nullptr && options.ranks->count() > 1)
-    throw InputError("prestressed modes are solved for in one process: start without mpirun");
   options = without_prestress(std::move(options));
-  options.prestress_m = static_step(mesh, options, options.prestress, progress).displacements_m;
+  options.prestress_m =
+      static_step(mesh, alone(options), options.prestress, progress).displacements_m;
   return options;
 }
 
 std::optional<double> buckling_factor(const mesher::Mesh& mesh, const DofMap& dof_map,
                                       const ModalOptions& options) {
-  const std::unique_ptr<const ModalSystem> stressed = make_system(mesh, dof_map, options);
-  const std::unique_ptr<const ModalSystem> system =
-      make_system(mesh, dof_map, without_prestress(options));
-  const std::unique_ptr<const ShiftInverse> factor = system->shift_inverse(0);
+  const AssembledSystem stressed(mesh, dof_map, alone(options));
+  const AssembledSystem system(mesh, dof_map, alone(without_prestress(options)));
+  const std::unique_ptr<const ShiftInverse> factor = system.shift_inverse(0);
   Inverse inverse{factor.get(), {}};
   const OperatorMatrix compression(dof_map.dof_count(), [&](const Eigen::MatrixXd& columns) {
-    return Eigen::MatrixXd(block_product(system->stiffness(), columns) -
-                           block_product(stressed->stiffness(), columns));
+    return Eigen::MatrixXd(block_product(system.stiffness(), columns) -
+                           block_product(stressed.stiffness(), columns));
   });
-  const double value = largest_eigenvalue(compression.get(), system->stiffness(), inverse);
+  const double value = largest_eigenvalue(compression.get(), system.stiffness(), inverse);
   if (!(value * kLargestFactor > 1)) return std::nullopt;
   return 1 / value;
 }
 
 std::unique_ptr<const ShiftInverse> factorise_prestressed(const mesher::Mesh& mesh,
                                                           const DofMap& dof_map,
-                                                          const ModalSystem& system,
+                                                          const AssembledSystem& system,
                                                           const ModalOptions& options) {
   const auto refuse_if_buckled = [&] {
     const std::optional<double> factor = buckling_factor(mesh, dof_map, options);

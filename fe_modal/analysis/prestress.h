@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/system/modal_options.h"
-#include "fe_modal/system/modal_system.h"
 #include "geometry/foundation/progress.h"
 #include "mesher/mesh/mesh.h"
 
@@ -30,7 +30,7 @@ std::optional<double> buckling_factor(const mesher::Mesh& mesh, const DofMap& do
 /// @throws ComputationError as ModalSystem::shift_inverse().
 std::unique_ptr<const ShiftInverse> factorise_prestressed(const mesher::Mesh& mesh,
                                                           const DofMap& dof_map,
-                                                          const ModalSystem& system,
+                                                          const AssembledSystem& system,
                                                           const ModalOptions& options);
 
 /// The options' prestress loads in words; empty without any.

@@ -11,13 +11,13 @@ void refuse_mechanism(const std::string& motions) {
 }
 
 std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
-                                                        const DofMap& dof_map,
-                                                        const ModalSystem& system, double shift) {
+                                                        const AssembledSystem& system,
+                                                        double shift) {
   try {
     return system.shift_inverse(shift);
   } catch (const ComputationError&) {
     const auto motions =
-        shift == 0 ? describe_mechanism(mesh, dof_map, system, true) : std::nullopt;
+        shift == 0 ? describe_mechanism(mesh, system, true) : std::nullopt;
     if (!motions) throw;
     refuse_mechanism(*motions);
   }

@@ -4,8 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "fe_modal/dofs/dof_map.h"
-#include "fe_modal/system/modal_system.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
@@ -18,7 +17,7 @@ namespace flexneck::fe_modal {
 /// @throws InputError naming the parts that move without strain, and how.
 /// @throws ComputationError as ModalSystem::shift_inverse() where there is no such motion.
 std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
-                                                        const DofMap& dof_map,
-                                                        const ModalSystem& system, double shift);
+                                                        const AssembledSystem& system,
+                                                        double shift);
 
 }  // namespace flexneck::fe_modal

@@ -10,7 +10,7 @@
 #include "fe_modal/element/stressed_elements.h"
 #include "fe_modal/reduction/operators.h"
 #include "fe_modal/reduction/static_response.h"
-#include "fe_modal/solve/make_system.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/memory_needs.h"
@@ -34,12 +34,12 @@ void require_supports(const ModalOptions& options) {
 }
 
 /// A mechanism may pass the factorisation by rounding: loads move it without strain then.
-void refuse_moved_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map,
-                            const ModalSystem& system, const Eigen::VectorXd& response,
+void refuse_moved_mechanism(const mesher::Mesh& mesh,
+                            const AssembledSystem& system, const Eigen::VectorXd& response,
                             const Eigen::VectorXd& load) {
   const double kinetic = response.dot(block_product(system.mass(), response).col(0));
   if (response.dot(load) > kStrainless * eigenvalue_scale(mesh) * kinetic || kinetic == 0) return;
-  if (const auto motions = describe_mechanism(mesh, dof_map, system, true))
+  if (const auto motions = describe_mechanism(mesh, system, true))
     refuse_mechanism(*motions);
 }
 
@@ -53,18 +53,18 @@ StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
   if (progress) {
     progress("static step, " + std::to_string(dof_map.dof_count()) + " degrees of freedom");
   }
-  const std::unique_ptr<const ModalSystem> system = make_system(mesh, dof_map, options);
+  const AssembledSystem system(mesh, dof_map, options);
   StaticStep step;
-  step.applied_N = nodal_forces(mesh, system->nodal_mass(), loads);
+  step.applied_N = nodal_forces(mesh, system.nodal_mass(), loads);
   Eigen::VectorXd load = dof_map.gather(step.applied_N);
   if (moved_m.cwiseAbs().maxCoeff() > 0)
     load -= dof_map.gather(internal_forces(mesh, options.formulation, moved_m));
   const std::unique_ptr<const ShiftInverse> inverse =
-      factorise_or_refuse(mesh, dof_map, *system, 0);
+      factorise_or_refuse(mesh, system, 0);
   Eigen::VectorXd response = Eigen::VectorXd::Zero(load.size());
   if (load.norm() > 0)
-    response = static_response_beyond(operators_of(*system, *inverse), {}, load).col(0);
-  refuse_moved_mechanism(mesh, dof_map, *system, response, load);
+    response = static_response_beyond(operators_of(system, *inverse), {}, load).col(0);
+  refuse_moved_mechanism(mesh, system, response, load);
   step.displacements_m = dof_map.expand(response) + moved_m;
   step.solver = inverse->describe();
   return step;

@@ -61,7 +61,9 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
                 const std::function<void()>& take_lock) {
   const Command& command = *line.command;
   const ResultsFolder folder(line.folder);
+  const bool is_first = ranks == nullptr || ranks->is_first();
   if (works_on_files(line)) {
+    if (!is_first) return true;
     take_lock();
     return command.run_on_files({{line.files.begin(), line.files.end()},
                                  line.settings,
@@ -79,9 +81,17 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
   Study study = read_named(choice);
   study.solver.checkpoint = console.checkpoint();
   for (const std::string& warning : study.warnings) console.warning(warning);
-  take_lock();
-  if (ranks != nullptr && command.name != "modes" && command.name != "run") {
+  if (ranks != nullptr && (line.show || !command.uses_ranks)) {
+    if (!is_first) return true;
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
+    ranks = nullptr;
+  }
+  if (ranks == nullptr) {
+    take_lock();
+  } else {
+    ranks->together([&] {
+      if (is_first) take_lock();
+    });
   }
   if (line.show) return show_command({study, folder, console});
   const bool passed = command.run({.study = study,
@@ -93,7 +103,8 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
                                    .redo = line.redo,
                                    .sensitivity = line.sensitivity,
                                    .shares = line.shares});
-  if (command.writes_results && command.is_remembered) remember_study(line.folder, choice);
+  if (is_first && command.writes_results && command.is_remembered)
+    remember_study(line.folder, choice);
   return passed;
 }
 

@@ -55,7 +55,8 @@ void require_written_output() {
 Console::Console(Verbosity verbosity) : verbosity_(verbosity) {
   auto logger = spdlog::stderr_color_mt("flexneck");
   logger->set_pattern(verbosity == Verbosity::verbose ? "%^[%T.%e]%$ %v" : "%v");
-  logger->set_level(verbosity == Verbosity::quiet     ? spdlog::level::err
+  logger->set_level(verbosity == Verbosity::none      ? spdlog::level::off
+                    : verbosity == Verbosity::quiet   ? spdlog::level::err
                     : verbosity == Verbosity::verbose ? spdlog::level::debug
                                                       : spdlog::level::info);
   spdlog::set_default_logger(std::move(logger));
@@ -74,7 +75,7 @@ bool Console::hand_on(Message kind, const std::string& text) const {
 
 void Console::result(const std::string& text) const {
   if (hand_on(Message::result, text)) return;
-  if (verbosity_ == Verbosity::quiet) return;
+  if (verbosity_ <= Verbosity::quiet) return;
   std::cout << printable(text, "\n") << '\n';
   require_written_output();
 }

@@ -8,8 +8,8 @@
 
 namespace flexneck::pipeline {
 
-/// How much the command says.
-enum class Verbosity { quiet, normal, verbose };
+/// How much the command says; `none` is for a rank of which another one speaks.
+enum class Verbosity { none, quiet, normal, verbose };
 
 /// Kinds of what a console says.
 enum class Message { result, step, warning, error, detail };

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "fe_modal/algebra/petsc_session.h"
-#include "fe_modal/solve/distributed/ranks.h"
+#include "fe_modal/algebra/rank_session.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/evaluation/serial_thread.h"
 #include "pipeline/sampling/interrupt.h"
@@ -95,7 +95,7 @@ void compute(Place place, const std::function<void(const Checkpoint&)>& work) {
 }
 
 void start_solvers() {
-  if (fe_modal::Ranks::are_many())
+  if (fe_modal::RankSession::is_launched())
     throw InputError(
         "Python runs on one process, and mpirun has started several; 'mpirun flexneck modes' "
         "shares "

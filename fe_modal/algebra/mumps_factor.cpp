@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/solve/distributed/mumps_factor.h"
+#include "fe_modal/algebra/mumps_factor.h"
 
+#include <algorithm>
 #include <dmumps_c.h>
 #include <string>
 #include <vector>
 
 #include "fe_modal/algebra/cholesky_factor.h"
-#include "fe_modal/solve/distributed/messages.h"
+#include "fe_modal/algebra/communicator.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
@@ -37,9 +38,9 @@ struct Coordinates {
   std::vector<MUMPS_INT> columns;
 };
 
-Coordinates coordinates_of(const SymmetricMatrix& part, std::span<const std::int32_t> nodes) {
+Coordinates coordinates_of(const SymmetricMatrix& part, std::span<const std::int32_t> blocks) {
   const auto global = [&](PetscInt dof) {
-    return 3 * nodes[static_cast<std::size_t>(dof / 3)] + dof % 3 + 1;
+    return 3 * blocks[static_cast<std::size_t>(dof / 3)] + dof % 3 + 1;
   };
   Coordinates result;
   const auto offsets = part.offsets();
@@ -58,11 +59,11 @@ Coordinates coordinates_of(const SymmetricMatrix& part, std::span<const std::int
 }
 
 /// When each degree of freedom is eliminated, from 1.
-std::vector<MUMPS_INT> places(std::span<const std::int32_t> node_order) {
-  std::vector<MUMPS_INT> result(3 * node_order.size());
+std::vector<MUMPS_INT> places(std::span<const std::int32_t> order) {
+  std::vector<MUMPS_INT> result(3 * order.size());
   MUMPS_INT place = 0;
-  for (const std::int32_t node : node_order) {
-    for (std::size_t a = 0; a < 3; ++a) result[3 * static_cast<std::size_t>(node) + a] = ++place;
+  for (const std::int32_t block : order) {
+    for (std::size_t a = 0; a < 3; ++a) result[3 * static_cast<std::size_t>(block) + a] = ++place;
   }
   return result;
 }
@@ -80,9 +81,10 @@ int ranks_on_this_machine(MPI_Comm ranks) {
 
 struct MumpsFactor::Instance {
   DMUMPS_STRUC_C data{};
+  const DofLayout& layout;
 
-  Instance(MPI_Comm ranks, Kind kind) {
-    data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(ranks));
+  Instance(const DofLayout& rows, Kind kind) : layout(rows) {
+    data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(communicator(layout.ranks())));
     data.par = 1;
     data.sym = kind == Kind::definite ? 1 : 2;
     run(kBegin, "starting");
@@ -145,28 +147,29 @@ struct MumpsFactor::Instance {
   }
 };
 
-MumpsFactor::MumpsFactor(MPI_Comm ranks, Kind kind, SymmetricMatrix& part,
-                         std::span<const std::int32_t> nodes,
-                         std::span<const std::int32_t> node_order)
-    : instance_(std::make_unique<Instance>(ranks, kind)) {
+MumpsFactor::MumpsFactor(const DofLayout& layout, Kind kind, SymmetricMatrix& part,
+                         std::span<const std::int32_t> blocks, std::span<const std::int32_t> order)
+    : instance_(std::make_unique<Instance>(layout, kind)) {
   DMUMPS_STRUC_C& data = instance_->data;
   Coordinates coordinates;
-  std::vector<MUMPS_INT> order;
-  together(ranks, [&] {
-    coordinates = coordinates_of(part, nodes);
-    order = places(node_order);
+  std::vector<MUMPS_INT> places_of_rows;
+  layout.ranks().together([&] {
+    coordinates = coordinates_of(part, blocks);
+    if (layout.ranks().is_first()) places_of_rows = places(order);
   });
-  data.n = static_cast<MUMPS_INT>(order.size());
-  data.perm_in = order.data();
+  data.n = static_cast<MUMPS_INT>(layout.dof_count());
+  data.perm_in = places_of_rows.data();
   data.nnz_loc = static_cast<MUMPS_INT8>(coordinates.rows.size());
   data.irn_loc = coordinates.rows.data();
   data.jcn_loc = coordinates.columns.data();
   data.a_loc = part.values().data();
   instance_->run(kAnalyse, "analysing the matrix");
-  together(ranks, [&] {
+  const int beside = ranks_on_this_machine(communicator(layout.ranks()));
+  layout.ranks().together([&] {
     constexpr std::size_t kMegabytes = 14;  // of this rank
-    const int beside = ranks_on_this_machine(ranks);
-    require_memory("the factor on the " + std::to_string(beside) + " ranks of this machine",
+    require_memory(beside > 1
+                       ? "the factor on the " + std::to_string(beside) + " ranks of this machine"
+                       : "the factor",
                    1e6 * beside * data.info[kMegabytes], "take a coarser mesh or more machines");
   });
   instance_->factorise();
@@ -174,12 +177,14 @@ MumpsFactor::MumpsFactor(MPI_Comm ranks, Kind kind, SymmetricMatrix& part,
 
 MumpsFactor::~MumpsFactor() = default;
 
-void MumpsFactor::solve(double* values, int columns) const {
+Eigen::MatrixXd MumpsFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
   DMUMPS_STRUC_C& data = instance_->data;
-  data.rhs = values;
-  data.nrhs = columns;
+  Eigen::MatrixXd values = instance_->layout.gather(right_hand_sides);
+  data.rhs = values.data();
+  data.nrhs = static_cast<MUMPS_INT>(values.cols());
   data.lrhs = data.n;
   instance_->run(kSolve, "solving with the factor");
+  return instance_->layout.scatter(values, right_hand_sides.cols());
 }
 
 int MumpsFactor::negative_pivots() const { return instance_->negative_pivots(); }
