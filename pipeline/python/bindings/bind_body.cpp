@@ -50,7 +50,8 @@ py::dict interfaces(const py::object& self) {
 }
 
 /// Matrices of the modes, (m, ...).
-py::array stacked(const std::vector<Eigen::Matrix3d>& matrices, std::vector<py::ssize_t> shape) {
+py::array stacked(const std::vector<Eigen::Matrix3d>& matrices,
+                  const std::vector<py::ssize_t>& shape) {
   py::array_t<double> array(shape);
   double* number = array.mutable_data();
   for (const Eigen::Matrix3d& matrix : matrices)
