@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
+#include "fe_modal/analysis/prestress.h"
 #include "fe_modal/analysis/slit_basis.h"
+#include "fe_modal/analysis/sound_factor.h"
 #include "fe_modal/dofs/rigid_motions.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
@@ -17,8 +18,8 @@
 #include "fe_modal/reduction/particles.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/reduction/static_response.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/eigensolver.h"
-#include "fe_modal/solve/make_system.h"
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/solve/sturm_check.h"
 #include "fe_modal/system/assembly.h"
@@ -31,35 +32,17 @@
 namespace flexneck::fe_modal {
 namespace {
 
-[[noreturn]] void refuse_mechanism(const std::string& motions) {
-  throw InputError("the body is a mechanism: " + motions + "; fix it or bond it to its neighbour");
-}
-
-/// A stiffness that is not definite is that of a mechanism, or of elements that are none.
-std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
-                                                        const DofMap& dof_map,
-                                                        const ModalSystem& system, double shift) {
-  try {
-    return system.shift_inverse(shift);
-  } catch (const ComputationError&) {
-    const auto motions =
-        shift == 0 ? describe_mechanism(mesh, dof_map, system, true) : std::nullopt;
-    if (!motions) throw;
-    refuse_mechanism(*motions);
-  }
-}
-
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
-void check_no_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
+void check_no_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
                         const Eigen::VectorXd& values, Eigen::Index rigid) {
-  const double strainless = mesh.connections.springs.empty() ? kStrainless : kStrainlessOnSprings;
-  if (const Eigen::Index last = std::min(rigid, values.size());
-      last > 0 && values[last - 1] > kStrainless * eigenvalue_scale(mesh)) {
+  const double scale = eigenvalue_scale(mesh);
+  const Eigen::Index last = std::min(rigid, values.size());
+  if (last > 0 && values[last - 1] > kStrainless * scale) {
     throw ComputationError("the body has fewer motions without strain than the " +
                            std::to_string(rigid) + " that its supports leave");
   }
-  if (values.size() <= rigid || values[rigid] > strainless * eigenvalue_scale(mesh)) return;
-  if (const auto motions = describe_mechanism(mesh, dof_map, system, rigid == 0)) {
+  if (values.size() <= rigid || values[rigid] > strainless_share(mesh) * scale) return;
+  if (const auto motions = describe_mechanism(mesh, system, rigid == 0)) {
     refuse_mechanism(*motions);
   }
 }
@@ -104,13 +87,13 @@ std::vector<ModeRecord> describe_modes(const mesher::Mesh& mesh, const ModalOpti
   return records;
 }
 
-std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const DofMap& dof_map,
+std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FieldMap& field_map,
                                      const std::vector<RigidAverage>& averages) {
   const std::vector<std::string>& chosen = options.basis_interfaces;
   std::vector<InterfaceLoads> loads;
   for (std::size_t k = 0; k < averages.size(); ++k) {
     const std::string& name = options.interfaces[k].name;
-    loads.push_back(interface_loads(name, averages[k], dof_map));
+    loads.push_back(interface_loads(name, averages[k], field_map));
     loads.back().corrects_basis =
         chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end();
   }
@@ -131,13 +114,13 @@ struct Basis {
   std::vector<SlitField> slit_fields = {};
 };
 
-Basis reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
+Basis reduced_basis(const mesher::Mesh& mesh, const AssembledSystem& system,
                     const ShiftInverse& inverse, const ModalOptions& options,
                     const std::vector<InterfaceLoads>& loads, Eigen::Index rigid_count,
                     const Progress& progress, const Progress& warn) {
   const BodyOperators operators = operators_of(system, inverse);
   if (options.slit_motions != SlitMotions::none) {
-    SlitBasis basis = slit_basis(mesh, dof_map, operators, options, loads, progress);
+    SlitBasis basis = slit_basis(mesh, system.fields(), operators, options, loads, progress);
     return {std::move(basis.reduction), kNotCertified, std::move(basis.fields)};
   }
   if (options.basis == BasisKind::craig_bampton) {
@@ -151,7 +134,7 @@ Basis reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const Modal
   }
   auto [pairs, certificate] =
       lowest_modes(system, inverse, options.mode_count, options.certify, warn);
-  check_no_mechanism(mesh, dof_map, system, pairs.values, rigid_count);
+  check_no_mechanism(mesh, system, pairs.values, rigid_count);
   check_eigenvalues(pairs.values, inverse.shift());
   warn_of_rigid_cut(pairs.values.size(), rigid_count, warn);
   pairs.values.head(std::min(rigid_count, pairs.values.size())).setZero();
@@ -167,49 +150,19 @@ Eigen::Index eigenvector_count(const Reduction& basis) {
 }
 
 std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
-    const DofMap& dof_map, const BodyOperators& body, const std::vector<InterfaceLoads>& loads) {
+    const FieldMap& field_map, const BodyOperators& body,
+    const std::vector<InterfaceLoads>& loads) {
   std::vector<std::vector<Eigen::Matrix3Xd>> responses;
   responses.reserve(loads.size());
   for (const InterfaceLoads& interface : loads) {
-    responses.push_back(expanded(dof_map, static_response_beyond(body, {}, interface.forces)));
+    responses.push_back(field_map.expand(static_response_beyond(body, {}, interface.forces)));
   }
   return responses;
 }
 
-/// "fixed: bolts, x of left; slides along y", or "free".
-std::string boundary_of(const ModalOptions& options, const mesher::Mesh& mesh,
-                        const RigidMotions& rigid) {
-  constexpr Eigen::Index kFree = 6;
-  std::string fixed = options.fixed_set;
-  for (const auto& [set, directions] : options.fixed_directions) {
-    if (!fixed.empty()) fixed += ", ";
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (directions[a]) fixed += "xyz"[a];
-    }
-    fixed += " of " + set;
-  }
-  std::set<std::string> others;
-  const std::vector<std::int32_t> nodes = options.fixed_set.empty()
-                                              ? std::vector<std::int32_t>()
-                                              : mesh.node_set(options.fixed_set).nodes;
-  for (const mesher::Support& support : mesh.connections.supports) {
-    const std::vector<std::int32_t>& own = support.nodes;
-    if (!std::includes(nodes.begin(), nodes.end(), own.begin(), own.end())) {
-      others.insert(support.name);
-    }
-  }
-  for (const mesher::Equation& equation : mesh.connections.equations) {
-    if (equation.terms.size() == 1) others.insert(equation.name);
-  }
-  for (const std::string& name : others) fixed += (fixed.empty() ? "" : ", ") + name;
-  if (fixed.empty() && rigid.count() < kFree) fixed = "springs";
-  if (fixed.empty()) return "free";
-  return "fixed: " + fixed + (rigid.count() > 0 ? "; " + rigid.text() : "");
-}
-
 }  // namespace
 
-ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
                         const Progress& progress, StepTimes* step_times, const Progress& warn,
                         AnalysisFields* fields) {
   StepTimes unseen;
@@ -217,23 +170,29 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   const auto report = [&](const std::string& line) {
     if (progress) progress(line);
   };
-  check_options(mesh, options);
-  check_memory(mesh, options);
+  check_options(mesh, given);
+  check_memory(mesh, given);
+  if (fields != nullptr && !given.prestress.empty()) {
+    throw InputError("derivatives of prestressed modes are not offered: leave the prestress out");
+  }
+  if (!given.prestress.empty()) times.start("static step");
+  const ModalOptions options = with_prestress(mesh, given, progress);
   const DofMap dof_map = dof_map_of(mesh, options);
   const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);
   const bool fixed = rigid.count() == 0;
   report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
          " degrees of freedom");
   times.start("assemble");
-  const std::unique_ptr<const ModalSystem> owned_system = make_system(mesh, dof_map, options);
-  const ModalSystem& system = *owned_system;
+  const AssembledSystem system(mesh, dof_map, options);
+  const FieldMap& field_map = system.fields();
 
   times.start("order and factorise");
   report("factorising the stiffness");
   // A fixed body has a definite stiffness; one that keeps rigid motions is shifted below zero.
   const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
   const std::unique_ptr<const ShiftInverse> inverse =
-      factorise_or_refuse(mesh, dof_map, system, shift);
+      options.prestress.empty() ? factorise_or_refuse(mesh, system, shift)
+                                : factorise_prestressed(mesh, dof_map, system, options);
   report(inverse->describe());
   times.start("iterate");
   report("solving for " + std::to_string(options.mode_count) + " modes");
@@ -241,14 +200,14 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   for (const InterfaceDefinition& interface : options.interfaces) {
     averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
   }
-  const std::vector<InterfaceLoads> loads = loads_of(options, dof_map, averages);
+  const std::vector<InterfaceLoads> loads = loads_of(options, field_map, averages);
   auto [basis, certificate, slit_fields] =
-      reduced_basis(mesh, dof_map, system, *inverse, options, loads, rigid.count(), progress, warn);
+      reduced_basis(mesh, system, *inverse, options, loads, rigid.count(), progress, warn);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
-    apply_conventions(pairs);
+    apply_conventions(pairs, field_map.layout());
   } else {
-    apply_conventions(pairs, dof_map, averages[interface_index(options, options.sign_interface)],
+    apply_conventions(pairs, field_map, averages[interface_index(options, options.sign_interface)],
                       options.length_m);
   }
 
@@ -256,19 +215,27 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   report("reducing to modal coordinates");
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
-  body.boundary = boundary_of(options, mesh, rigid);
+  body.boundary =
+      boundary_of(mesh, options, rigid) + (options.prestress.empty() ? "" : "; prestressed");
+  body.prestress = prestress_text(options);
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
-  body.shapes = expanded(dof_map, pairs.vectors);
-  body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
-                              relative_residuals(system.stiffness(), system.mass(), pairs, shift));
+  body.shapes = field_map.expand(pairs.vectors);
+  if (!options.prestress.empty()) {
+    body.prestress_stiffness =
+        geometric_stiffness(mesh, options.formulation, body.shapes, {options.prestress_m})
+            .front()
+            .diagonal();
+  }
+  body.modes =
+      describe_modes(mesh, options, basis.kinds, body.shapes,
+                     relative_residuals(system.stiffness(), system.mass(), *inverse, pairs));
   const Eigen::Index eigenvectors = eigenvector_count(basis);
   if (options.certify && eigenvectors > 0) {
     times.start("refine and solve again");
     const EigenPairs normal = {pairs.values.head(eigenvectors),
                                pairs.vectors.leftCols(eigenvectors)};
-    const auto errors =
-        mesh_errors({mesh, dof_map, system.mass(), normal, fixed}, options, progress);
+    const auto errors = mesh_errors({mesh, system, normal, fixed}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       body.modes[k].mesh_error = errors[k];
     }
@@ -276,8 +243,11 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   body.slits = slit_motions(mesh, slit_fields, body.shapes);
   body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
-  const std::vector<Particle> particles = particles_of(mesh, dof_map, pairs.vectors);
-  body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes, particles);
+  const std::vector<Particle> particles =
+      particles_of(mesh, dof_map, field_map.layout().whole(pairs.vectors));
+  body.invariants = inertia_invariants(
+      [&](const Eigen::MatrixXd& columns) { return system.mass_integrals(columns); }, mesh.nodes,
+      body.shapes, particles);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
   body.orthogonality =
       (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
@@ -286,20 +256,20 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   if (options.geometric_stiffness) {
     report("integrating the geometric stiffness");
     body.geometric_stiffness =
-        unit_load_stiffness(mesh, options.formulation, dof_map, system.nodal_mass(),
-                            operators_of(system, *inverse), loads, body.shapes, particles);
+        unit_load_stiffness(mesh, options.formulation, system, operators_of(system, *inverse),
+                            loads, body.shapes, particles);
   }
   if (!options.attachments.empty()) {
     times.start("iterate with bodies attached");
     report("solving with rigid bodies attached");
   }
-  body.attached = attach_bodies(options, {system, *inverse, dof_map, averages, loads},
+  body.attached = attach_bodies(options, {system, *inverse, averages, loads},
                                 pairs.vectors.leftCols(eigenvectors),
                                 fields != nullptr ? &fields->attached_shapes : nullptr);
   if (fields != nullptr) {
     times.start("static responses");
     if (fixed) {
-      fields->responses = interface_responses(dof_map, operators_of(system, *inverse), loads);
+      fields->responses = interface_responses(field_map, operators_of(system, *inverse), loads);
     }
     fields->next_Hz = std::sqrt(pairs.next) / (2 * std::numbers::pi);
   }

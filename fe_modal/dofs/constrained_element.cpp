@@ -12,7 +12,7 @@ ConstrainedElement::ConstrainedElement(std::span<const std::int32_t> sites, cons
     return;
   }
   for (const std::int32_t site : sites) {
-    dof_map.for_each_block(site, [&](std::int32_t block) { numbers_.push_back(block); });
+    dof_map.for_each_number(site, [&](std::int32_t block) { numbers_.push_back(block); });
   }
   std::sort(numbers_.begin(), numbers_.end());
   numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());

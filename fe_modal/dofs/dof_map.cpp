@@ -95,6 +95,54 @@ void DofMap::add_composite(const AffineConstraints& constraints, std::int32_t si
   }
 }
 
+DofMap DofMap::part(std::span<const std::int32_t> nodes, std::span<const std::int32_t> more,
+                    std::vector<std::int32_t>& numbers) const {
+  numbers.clear();
+  for (const auto& sites : {nodes, more}) {
+    for (const std::int32_t site : sites) {
+      for_each_number(site, [&](std::int32_t block) { numbers.push_back(block); });
+    }
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  const auto place = [&](std::int32_t block) {
+    return std::lower_bound(numbers.begin(), numbers.end(), block) - numbers.begin();
+  };
+  const auto is_here = [&](std::int32_t block) {
+    return std::binary_search(numbers.begin(), numbers.end(), block);
+  };
+  DofMap result;
+  result.node_count_ = static_cast<Eigen::Index>(nodes.size());
+  result.free_count_ = static_cast<Eigen::Index>(numbers.size());
+  result.first_point_block_ = static_cast<std::int32_t>(place(first_point_block_));
+  std::vector<std::int32_t> sites(nodes.begin(), nodes.end());
+  for (auto site = static_cast<std::int32_t>(node_count()); site < site_count(); ++site) {
+    sites.push_back(site);
+  }
+  for (const std::int32_t site : sites) {
+    const std::int32_t block = index(site);
+    result.indices_.push_back(block >= 0 && is_here(block) ? static_cast<std::int32_t>(place(block))
+                                                           : -1);
+    if (!is_constrained()) continue;
+    bool is_composite = !is_plain(site);
+    // Of a point that the part does not have, nothing moves.
+    for_each_number(site, [&](std::int32_t each) { is_composite = is_composite && is_here(each); });
+    result.composite_of_.push_back(
+        is_composite ? static_cast<std::int32_t>((result.offsets_.size() - 1) / 3) : -1);
+    for (int a = 0; is_composite && a < 3; ++a) {
+      for (const DofTerm& term : terms(site, a)) {
+        const auto own = static_cast<std::int32_t>(place(term.dof / 3));
+        result.terms_.push_back({3 * own + term.dof % 3, term.coefficient});
+      }
+      result.offsets_.push_back(result.terms_.size());
+    }
+  }
+  for (std::size_t k = 0; !dependent_.empty() && k < numbers.size(); ++k) {
+    result.dependent_.push_back(dependent_[static_cast<std::size_t>(numbers[k])]);
+  }
+  return result;
+}
+
 std::span<const DofTerm> DofMap::terms(std::int32_t site, int a) const {
   const auto row = 3 * static_cast<std::size_t>(composite_of_[static_cast<std::size_t>(site)]) +
                    static_cast<std::size_t>(a);

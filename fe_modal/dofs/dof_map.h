@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,12 +32,13 @@ class DofMap {
   DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> fixed)
       : DofMap(mesh, fixed, mesh.connections) {}
 
-  /// As numbered elsewhere, without constraints.
-  /// @param indices what index() is to return
-  DofMap(std::vector<std::int32_t> indices, std::int32_t free_count)
-      : indices_(std::move(indices)),
-        node_count_(static_cast<Eigen::Index>(indices_.size())),
-        free_count_(free_count) {}
+  /// The same of some nodes alone and of all reference points, by blocks of their own, which ascend
+  /// as those of the whole do.
+  /// @param nodes of the whole, ascending
+  /// @param more sites of the whole that have blocks besides
+  /// @param numbers takes what the blocks are in the whole
+  DofMap part(std::span<const std::int32_t> nodes, std::span<const std::int32_t> more,
+              std::vector<std::int32_t>& numbers) const;
 
   Eigen::Index node_count() const { return node_count_; }
   Eigen::Index site_count() const { return static_cast<Eigen::Index>(indices_.size()); }
@@ -56,7 +56,7 @@ class DofMap {
   std::span<const DofTerm> terms(std::int32_t site, int a) const;
   /// Calls visit(block) for the blocks that move a site; one may come more than once.
   template <typename Visitor>
-  void for_each_block(std::int32_t site, const Visitor& visit) const;
+  void for_each_number(std::int32_t site, const Visitor& visit) const;
 
   /// Whether some degrees of freedom are not those of a node that moves freely.
   bool is_constrained() const { return !composite_of_.empty(); }
@@ -82,6 +82,7 @@ class DofMap {
   void add_force(std::int32_t site, const Eigen::Vector3d& force, Eigen::VectorXd& values) const;
 
  private:
+  DofMap() = default;
   void number(const AffineConstraints& constraints);
   void add_composite(const AffineConstraints& constraints, std::int32_t site);
   void fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) const;
@@ -97,7 +98,7 @@ class DofMap {
 };
 
 template <typename Visitor>
-void DofMap::for_each_block(std::int32_t site, const Visitor& visit) const {
+void DofMap::for_each_number(std::int32_t site, const Visitor& visit) const {
   if (is_plain(site)) {
     if (index(site) >= 0) visit(index(site));
     return;

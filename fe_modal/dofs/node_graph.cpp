@@ -89,7 +89,7 @@ NodeGraph::NodeGraph(const mesher::Mesh& mesh) {
 
 NodeGraph::NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map) {
   const auto free = [&](std::int32_t site, const auto& emit) {
-    dof_map.for_each_block(site, emit);
+    dof_map.for_each_number(site, emit);
   };
   Rows elements = nodes_of_elements(mesh, free);
   for (const PointElement& point : point_elements_of(mesh.connections, mesh.nodes.size())) {

@@ -104,7 +104,7 @@ std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positio
   return fields;
 }
 
-/// Less the inertia forces of a particle in the same accelerations.
+/// Less the inertia forces of a particle in the same accelerations, on all degrees of freedom.
 void add_inertia_forces(const Particle& particle, const DofMap& dof_map, Eigen::MatrixXd& loads) {
   std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(particle.position_m);
   for (const auto& motion : particle.motions.colwise()) accelerations.emplace_back(motion);
@@ -139,29 +139,28 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
 }
 
 GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
-                                       const FormulationChoice& formulation, const DofMap& dof_map,
-                                       const NodalMass& nodal_mass, const BodyOperators& body,
+                                       const FormulationChoice& formulation,
+                                       const AssembledSystem& system, const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
                                        const std::vector<Eigen::Matrix3Xd>& modes,
                                        const std::vector<Particle>& particles) {
   std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(mesher::positions_of(mesh));
   accelerations.insert(accelerations.end(), modes.begin(), modes.end());
   const auto inertial = static_cast<Eigen::Index>(accelerations.size());
-  Eigen::MatrixXd loads(dof_map.dof_count(),
+  Eigen::MatrixXd loads(system.fields().own_dof_count(),
                         inertial + static_cast<Eigen::Index>(6 * interfaces.size()));
-  for (Eigen::Index i = 0; i < inertial; ++i) {
-    const Eigen::MatrixX3d field = accelerations[static_cast<std::size_t>(i)].transpose();
-    loads.col(i) = -dof_map.gather(Eigen::MatrixX3d(nodal_mass * field).transpose());
+  loads.leftCols(inertial) = -system.inertia_forces(accelerations);
+  if (!particles.empty()) {
+    const DofMap& dof_map = system.fields().dof_map();
+    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(dof_map.dof_count(), inertial);
+    for (const Particle& particle : particles) add_inertia_forces(particle, dof_map, forces);
+    loads.leftCols(inertial) += system.fields().layout().own_rows(forces);
   }
-  for (const Particle& particle : particles) add_inertia_forces(particle, dof_map, loads);
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
     loads.middleCols<6>(inertial + static_cast<Eigen::Index>(6 * k)) = interfaces[k].forces;
   }
-  const Eigen::MatrixXd responses = static_response_beyond(body, {}, loads);
-  std::vector<Eigen::Matrix3Xd> displacements;
-  for (const auto& response : responses.colwise()) {
-    displacements.push_back(dof_map.expand(response));
-  }
+  const std::vector<Eigen::Matrix3Xd> displacements =
+      system.fields().expand(static_response_beyond(body, {}, loads));
   const std::vector<Eigen::MatrixXd> all =
       geometric_stiffness(mesh, formulation, modes, displacements);
   const auto group = [&](std::size_t first, std::size_t count) {

@@ -21,6 +21,16 @@ Eigen::Matrix3d inertia_integral(const Products& c) {
 
 InertiaInvariants inertia_invariants(const NodalMass& mass,
                                      const std::vector<std::array<double, 3>>& nodes_m,
+                                     const std::vector<Eigen::Matrix3Xd>& shapes) {
+  return inertia_invariants(
+      [&](const Eigen::MatrixXd& fields) -> Eigen::MatrixXd {
+        return fields.transpose() * (mass * fields);
+      },
+      nodes_m, shapes);
+}
+
+InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
+                                     const std::vector<std::array<double, 3>>& nodes_m,
                                      const std::vector<Eigen::Matrix3Xd>& shapes,
                                      const std::vector<Particle>& particles) {
   const auto n = static_cast<Eigen::Index>(nodes_m.size());
@@ -35,7 +45,7 @@ InertiaInvariants inertia_invariants(const NodalMass& mass,
   for (Eigen::Index l = 0; l < m; ++l) {
     fields.middleCols<3>(4 + 3 * l) = shapes[static_cast<std::size_t>(l)].transpose();
   }
-  Eigen::MatrixXd integrals = fields.transpose() * (mass * fields);
+  Eigen::MatrixXd integrals = mass_integrals(fields);
   for (const Particle& particle : particles) {
     Eigen::VectorXd values(4 + 3 * m);
     values << 1, particle.position_m, particle.motions.reshaped();

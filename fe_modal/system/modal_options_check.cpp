@@ -113,6 +113,20 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError("slits that open and close: the mesh has no open slit");
 }
 
+void check_prestress(const ModalOptions& options, const RigidMotions& rigid) {
+  if (options.prestress.empty()) return;
+  check_names(names_of(options.prestress), "load");
+  if (rigid.count() > 0) {
+    throw InputError("a prestress needs supports, but this is " + body_with(rigid) +
+                     ": name node sets in modes.fixed or modes.fixed_directions");
+  }
+  if (options.geometric_stiffness || options.slit_motions != SlitMotions::none) {
+    throw InputError(
+        "a prestress is not offered with the geometric stiffness of unit loads, nor with slits "
+        "that open and close: their loads would add to it");
+  }
+}
+
 }  // namespace
 
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
@@ -131,6 +145,7 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_interfaces(mesh, options, rigid);
   check_basis(options, dofs, rigid);
   check_slit_motions(mesh, options);
+  check_prestress(options, rigid);
   if (options.geometric_stiffness && rigid.count() > 0) {
     throw InputError(
         "the geometric stiffness under unit loads is that of a fixed body, and this "

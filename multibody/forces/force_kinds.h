@@ -3,6 +3,7 @@
 
 #include "multibody/forces/bushing.h"
 #include "multibody/forces/force_lists.h"
+#include "multibody/forces/function_force.h"
 #include "multibody/forces/joint_resistance.h"
 #include "multibody/forces/line_force.h"
 #include "multibody/forces/marker_spring.h"
@@ -20,6 +21,7 @@ using Forces = ForceLists<PointForce,       // [[force]] in model files
                           Bushing,          // [[bushing]]
                           JointResistance,  // [[resistance]]
                           LineForce,        // [[line_force]]
-                          Section>;         // [[section]]
+                          Section,          // [[section]]
+                          FunctionForce>;   // [[function_force]]
 
 }  // namespace flexneck::multibody

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/forces/section.h"
 
-#include <algorithm>
-#include <limits>
-
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 
+#include "multibody/forces/arc.h"
+#include "multibody/forces/least_gaps.h"
 #include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody {
@@ -16,67 +15,87 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// sinc of half an angle, and its gradient over the rotation vector's part across the length.
-struct ArcShortening {
-  explicit ArcShortening(const Vector3d& across) {
-    const RotationCoefficients k = rotation_coefficients(across.squaredNorm() / 4);
-    ratio = k.a;
-    gradient = (k.c - k.b) / 4 * across;
-  }
-
-  double ratio;
-  Vector3d gradient;
-};
-
-Vector3d across(const Vector3d& theta, const Vector3d& length) {
-  const double squared = length.squaredNorm();
-  if (squared == 0) return Vector3d::Zero();
-  return theta - (theta.dot(length) / squared) * length;
-}
-
-/// The least of an energy g^T A g / 2 + r^T g over g >= 0, A positive definite: of all ways to keep
-/// some closed, the one in which nothing else would open or overlap.
-class Gaps {
+/// A section whose number of gaps the compiler knows, so that its small vectors stay in registers:
+/// sections are much of the work of a neck of plates.
+template <int kGaps>
+class Sized {
  public:
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Section::kMaxGaps,
-                               Section::kMaxGaps>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Section::kMaxGaps, 1>;
+  static constexpr int kSize = 6 + kGaps;
+  using Vector = Eigen::Matrix<double, kSize, 1>;
 
-  Gaps(const Matrix& A, const Vector& r) : openings_m(Vector::Zero(r.size())) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int open = 0; open < 1 << r.size(); ++open) {
-      const Vector g = with_open(A, r, open);
-      const Vector force = A * g + r;
-      double violation = 0;  // as energy, so that openings and forces compare
-      for (Eigen::Index k = 0; k < r.size(); ++k)
-        violation = std::max(violation,
-                             is_open(open, k)
-                                 ? std::max(0.0, -g[k]) * std::max(0.0, -g[k]) * A(k, k)
-                                 : std::max(0.0, -force[k]) * std::max(0.0, -force[k]) / A(k, k));
-      if (violation >= least) continue;
-      least = violation;
-      openings_m = g.cwiseMax(0.0);
-      which_open = open;
-      if (violation == 0) return;  // there is but one least energy
+  explicit Sized(const Section& section) : section_(section) {}
+
+  Vector with_gaps(const Vector6d& e, [[maybe_unused]] InternalVariables internal,
+                   [[maybe_unused]] int& which_open) const {
+    Vector strain = Vector::Zero();
+    strain.template head<6>() = e;
+    if constexpr (kGaps > 0) {
+      using Gaps = LeastGaps<kGaps>;
+      const auto K = map(section_.stiffness);
+      typename Gaps::Matrix A = K.template bottomRightCorner<kGaps, kGaps>();
+      typename Gaps::Vector r = K.template bottomLeftCorner<kGaps, 6>().lazyProduct(e);
+      for (const Section::Branch& branch : section_.branches) {
+        const auto spring = branch.spring(internal);
+        const auto K_branch = map(branch.stiffness);
+        A += spring.share * K_branch.template bottomRightCorner<kGaps, kGaps>();
+        r += K_branch.template bottomRows<kGaps>().lazyProduct(strain_of(spring, strain));
+        internal = internal.behind(kSize);
+      }
+      const Gaps found(A, r, which_open);
+      strain.template tail<kGaps>() = found.openings_m;
+      which_open = found.which_open;
     }
+    return strain;
   }
 
-  Vector openings_m;
-  int which_open = 0;  ///< a bit each
+  /// Loads that go with the motion e; internal variables and energies besides.
+  Vector6d stress(const Vector6d& e, InternalVariables internal, int& which_open,
+                  ForceEnergies& sums) const {
+    const Vector strain = with_gaps(e, internal, which_open);
+    Vector sum = map(section_.stiffness).lazyProduct(strain);
+    sums.stored_J += strain.dot(sum) / 2;
+    for (const Section::Branch& branch : section_.branches) {
+      const Vector spring = strain_of(branch.spring(internal), strain);
+      const Vector part = map(branch.stiffness).lazyProduct(spring);
+      sum += part;
+      const double energy_J = spring.dot(part) / 2;
+      sums.stored_J += energy_J;
+      sums.lost_W += 2 * energy_J / branch.relaxation_time_s;
+      branch.answer(Section::Strain(strain), Section::Strain(spring), internal);
+      internal = internal.behind(kSize);
+    }
+    return sum.template head<6>();
+  }
 
  private:
-  static bool is_open(int open, Eigen::Index gap) { return (open >> gap & 1) != 0; }
-  static Vector with_open(Matrix A, Vector r, int open) {
-    for (Eigen::Index k = 0; k < r.size(); ++k) {
-      if (is_open(open, k)) continue;
-      A.row(k).setZero();
-      A.col(k).setZero();
-      A(k, k) = 1;
-      r[k] = 0;
-    }
-    return -A.llt().solve(r);
+  static Vector strain_of(const Section::Branch::SpringStrain& spring, const Vector& strain) {
+    return spring.share * strain + Eigen::Map<const Vector>(spring.offset.data());
   }
+  static Eigen::Map<const Eigen::Matrix<double, kSize, kSize>> map(
+      const Section::Stiffness& matrix) {
+    return Eigen::Map<const Eigen::Matrix<double, kSize, kSize>>(matrix.data());
+  }
+
+  const Section& section_;
 };
+
+/// Does work with the section, its number of gaps known.
+template <class Work>
+auto sized(const Section& section, const Work& work) {
+  static_assert(Section::kMaxGaps == 4);
+  switch (section.gap_count()) {
+    case 1:
+      return work(Sized<1>(section));
+    case 2:
+      return work(Sized<2>(section));
+    case 3:
+      return work(Sized<3>(section));
+    case 4:
+      return work(Sized<4>(section));
+    default:
+      return work(Sized<0>(section));
+  }
+}
 
 }  // namespace
 
@@ -103,59 +122,30 @@ void Section::check(const std::string& who, const ForceSites& sites) const {
 
 Section::Strain Section::with_gaps(const Vector6d& e, const InternalVariables& internal,
                                    int& which_open) const {
-  const Eigen::Index gaps = gap_count();
-  Strain strain = Strain::Zero(6 + gaps);
-  strain.head<6>() = e;
-  if (gaps == 0) return strain;
-  Gaps::Matrix A = stiffness.bottomRightCorner(gaps, gaps);
-  Gaps::Vector r = stiffness.bottomRows(gaps) * strain;
-  InternalVariables of_branch = internal;
-  for (const Branch& branch : branches) {
-    const Branch::SpringStrain spring = branch.spring(of_branch);
-    A += spring.share * branch.stiffness.bottomRightCorner(gaps, gaps);
-    r += branch.stiffness.bottomRows(gaps) * spring.of(strain);
-    of_branch = of_branch.behind(branch_size());
-  }
-  const Gaps found(A, r);
-  strain.tail(gaps) = found.openings_m;
-  which_open = found.which_open;
-  return strain;
+  return sized(*this,
+               [&](const auto& of) { return Strain(of.with_gaps(e, internal, which_open)); });
 }
 
 void Section::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const {
   const Matrix3d& R_i = input.i.R;
   const Vector3d theta = rotation_log(R_i.transpose() * input.j.R);
-  const Matrix3d half = rotation_exp(theta / 2);
-  const Matrix3d R_mid = R_i * half;
-  const Vector3d d = R_mid.transpose() * (input.j.p - input.i.p);
-  const ArcShortening arc(across(theta, rest_m));
+  const HalfTurn half(theta);
+  const Vector3d d = half.turned_back(R_i.transpose() * (input.j.p - input.i.p));
+  const ArcShortening arc(part_across(theta, rest_m));
 
   Vector6d e;
   e << d - arc.ratio * rest_m + theta.cross(rest_m) / 2, theta;
-  load.piece = {};
-  const Strain strain = with_gaps(e, input.internal, load.piece.deflection);
-  Strain stress = stiffness * strain;
-  sums.stored_J += strain.dot(stress) / 2;
-  InternalVariables internal = input.internal;
-  for (const Branch& branch : branches) {
-    const Strain spring = branch.spring(internal).of(strain);
-    const Strain part = branch.stiffness * spring;
-    stress += part;
-    sums.stored_J += spring.dot(part) / 2;
-    sums.lost_W += spring.dot(part) / branch.relaxation_time_s;
-    branch.answer(strain, spring, internal);
-    internal = internal.behind(branch_size());
-  }
+  int which_open = load.piece.deflection;
+  const Vector6d stress =
+      sized(*this, [&](const auto& of) { return of.stress(e, input.internal, which_open, sums); });
+  load.piece = {which_open, 0};
 
   // Virtual work (equations.md section 8): of w and theta, then of the motion of j against i.
   const Vector3d f = stress.head<3>();
-  const Vector3d m = stress.segment<3>(3) + rest_m.cross(f) / 2 - f.dot(rest_m) * arc.gradient;
-  const Vector3d turning = half * f.cross(d);
-  const Matrix3d J = left_jacobian(theta);
-  const Vector3d moment =
-      J.transpose().inverse() * (left_jacobian(theta / 2).transpose() * turning / 2 + m);
-  load.force_N = -(R_mid * f);
-  load.moment_Nm = -(R_i * moment);
+  const Vector3d m = stress.tail<3>() + rest_m.cross(f) / 2 - f.dot(rest_m) * arc.gradient;
+  const Vector3d turning = half.turned(f.cross(d));
+  load.force_N = -(R_i * half.turned(f));
+  load.moment_Nm = -(R_i * half.to_moment(half.of_rate(turning) / 2 + m));
 }
 
 }  // namespace flexneck::multibody

@@ -9,7 +9,7 @@
 
 namespace flexneck::multibody {
 
-/// Runs a model from the state its bodies are given; constraints are projected first. Joints that
+/// Runs a model from the state its bodies are given at its start; constraints are projected first. Joints that
 /// repeat what others hold are treated: see History::redundant_constraints.
 /// @throws InputError if the model is not sound, an option makes no sense, a joint is violated at
 /// the start in position or velocity by more than rounding (1e-6 of the system's size or speed,

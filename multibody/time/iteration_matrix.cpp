@@ -23,7 +23,6 @@ IterationMatrix::IterationMatrix(const Equations& equations, Index state_size)
       damping_(nv_, nv_),
       stiffness_(nv_, nv_),
       rows_transposed_(nv_, nc_),
-      matrix_(MatrixXd::Zero(nv_ + nc_, nv_ + nc_)),
       factors_(nv_ + nc_),
       base_(nv_ + nc_),
       moved_(nv_ + nc_),
@@ -71,30 +70,32 @@ void IterationMatrix::linearise(Equations& equations, double time_s, const Vecto
 
 void IterationMatrix::factorise(double q, double v) {
   q_ = q;
-  matrix_.topLeftCorner(nv_, nv_) = mass_ + v * damping_ + q * stiffness_;
-  matrix_.topRightCorner(nv_, nc_) = rows_transposed_;
-  matrix_.bottomLeftCorner(nc_, nv_) = rows_transposed_.transpose();
-  matrix_.bottomRightCorner(nc_, nc_).setZero();
+  MatrixXd& matrix = factors_.matrix();
+  matrix.topLeftCorner(nv_, nv_) = mass_ + v * damping_ + q * stiffness_;
+  matrix.topRightCorner(nv_, nc_) = rows_transposed_;
+  matrix.bottomLeftCorner(nc_, nv_) = rows_transposed_.transpose();
+  matrix.bottomRightCorner(nc_, nc_).setZero();
   for (const Index row : redundant_) {
-    matrix_.row(nv_ + row).setZero();
-    matrix_.col(nv_ + row).setZero();
-    matrix_(nv_ + row, nv_ + row) = 1;
+    matrix.row(nv_ + row).setZero();
+    matrix.col(nv_ + row).setZero();
+    matrix(nv_ + row, nv_ + row) = 1;
   }
-  factors_.compute(matrix_);
+  factors_.factorise();
 }
 
 void IterationMatrix::solve(Vector& residual) {
   right_.head(nv_) = -residual.head(nv_);
   right_.tail(nc_) = residual.tail(nc_) / -q_;
   for (const Index row : redundant_) right_[nv_ + row] = 0;
-  residual = factors_.solve(right_);
+  factors_.solve(right_);
+  residual = right_;
 }
 
 void IterationMatrix::filter(Vector& change) {
   right_.setZero();
   right_.head(nv_).noalias() = mass_ * change;
-  moved_ = factors_.solve(right_);
-  change = moved_.head(nv_);
+  factors_.solve(right_);
+  change = right_.head(nv_);
 }
 
 }  // namespace flexneck::multibody

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "multibody/equations/equations.h"
+#include "multibody/numerics/small_lu.h"
 
 namespace flexneck::multibody {
 
@@ -39,8 +39,8 @@ class IterationMatrix {
   Eigen::Index nq_, nv_, nc_;
   /// Constraints that others hold, ascending: their multiplier is zero.
   std::vector<Eigen::Index> redundant_, redundant_elsewhere_;
-  Eigen::MatrixXd mass_, damping_, stiffness_, rows_transposed_, matrix_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  Eigen::MatrixXd mass_, damping_, stiffness_, rows_transposed_;
+  SmallLu factors_;
   Vector base_, moved_, state_, rate_, right_, change_;
   double q_ = 0;
 };

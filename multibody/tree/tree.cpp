@@ -180,7 +180,9 @@ Tree::Tree(const Model& of)
     if (body.carrier.body != kNone) carries[body.carrier.body] = true;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     TreeBody& body = bodies[b];
-    body.is_rigid_end = body.is_fixed() && body.inertia.mode_count() == 0 && !carries[b];
+    const bool is_rigid_outside = body.inertia.mode_count() == 0 && !carries[b];
+    body.is_rigid_end = body.is_fixed() && is_rigid_outside;
+    body.is_alone = body.joint_index == kNone && is_rigid_outside;
     body.rides = body.is_fixed() && body.inertia.mode_count() > 0 && !body.inertia.stiffens() &&
                  !body.outer.moves && body.carrier.prescribed != kNone &&
                  !turning[body.carrier.prescribed];

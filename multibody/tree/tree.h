@@ -39,6 +39,8 @@ struct TreeBody {
   /// Rigid, fixed to its carrier and without outer bodies: its articulated inertia is its own, and
   /// constant.
   bool is_rigid_end = false;
+  /// Rigid, without joint and outer bodies: it moves as its loads have it, whatever the others do.
+  bool is_alone = false;
   /// Fixed to a prescribed body that never turns: the inertia of its own frame acts on nothing but
   /// the reaction of that joint.
   bool rides = false;

@@ -67,14 +67,34 @@ void TreeDynamics::accelerate(const TreeBody& body, Work& work) {
   work.frame.acceleration = carried(at_origin, -work.outer.s);
 }
 
+/// Of a body alone nothing is eliminated; S, which turns what is against the world into its axes,
+/// is a rotation.
+void TreeDynamics::accelerate_alone(const TreeBody& body, Work& work) {
+  const auto extra = extra_forces_.segment<6>(body.velocity);
+  Vector6d load = -work.terms.bias_r;
+  load.head<3>() += work.R.transpose() * extra.head<3>();
+  load.tail<3>() += extra.tail<3>();
+  work.frame.acceleration = work.inverse.lazyProduct(load);
+  auto u_rate = accelerations_.segment<6>(body.velocity);
+  u_rate.head<3>() = work.R * work.frame.acceleration.head<3>() - world_.acceleration.head<3>();
+  u_rate.tail<3>() = work.frame.acceleration.tail<3>();
+}
+
 void TreeDynamics::solve() {
   for (std::size_t b = work_.size(); b-- > 0;) {
     const TreeBody& body = tree_.bodies[b];
+    if (body.is_alone) continue;
     eliminate_modes(body, work_[b]);
     eliminate_joint(body, work_[b]);
     pass_inwards(body, work_[b]);
   }
-  for (std::size_t b = 0; b < work_.size(); ++b) accelerate(tree_.bodies[b], work_[b]);
+  for (std::size_t b = 0; b < work_.size(); ++b) {
+    const TreeBody& body = tree_.bodies[b];
+    if (body.is_alone)
+      accelerate_alone(body, work_[b]);
+    else
+      accelerate(body, work_[b]);
+  }
   ++evaluations_;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
 #include "multibody/tree/spatial.h"
 
 namespace flexneck::multibody::tree {
@@ -29,7 +31,6 @@ TreeDynamics::Work::Work(const TreeBody& body)
       R(inner.R * outer.R.transpose()),
       d(Vector3d::Zero()),
       S(Matrix6d::Zero()),
-      joint_bias(Vector6d::Zero()),
       terms(body.inertia),
       coupling(6, body.inertia.mode_count()),
       z(a),
@@ -38,6 +39,7 @@ TreeDynamics::Work::Work(const TreeBody& body)
   // Of a rigid end this stays; of others it is set anew at each state.
   tree::update(body.inertia, a, a_rate, Vector3d::Zero(), terms);
   inertia = shifted(terms.M_rr, Vector3d(-outer.s));
+  if (body.is_alone) inverse = inertia.llt().solve(Matrix6d::Identity());
 }
 
 TreeDynamics::TreeDynamics(const Tree& tree, Drive drive)
@@ -146,11 +148,29 @@ void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVect
     tree::update(body.inertia, work.a, work.a_rate, frame.w, work.terms);
 }
 
+/// The same of a body whose markers F and M are the world and its own axes.
+void TreeDynamics::update_alone(const TreeBody& body, Work& work, const ConstVector& state) {
+  const auto u = state.segment<6>(tree_.position_count + body.velocity);
+  tree::update(body.joint, state.segment<7>(body.position), u, work.joint);
+  work.R = work.joint.R;
+  work.d = work.joint.d;
+  work.frame.A = work.R;
+  work.frame.x = work.d;
+  work.frame.v.noalias() = work.R.transpose() * u.head<3>();
+  work.frame.w = u.tail<3>();
+  update_rigid_bias(body.inertia, work.frame.w, work.terms);
+}
+
 void TreeDynamics::update(double time_s, const ConstVector& state, Purpose purpose) {
   time_s_ = time_s;
   update_prescribed_bodies();
-  for (std::size_t b = 0; b < work_.size(); ++b)
-    update_body(tree_.bodies[b], work_[b], state, purpose);
+  for (std::size_t b = 0; b < work_.size(); ++b) {
+    const TreeBody& body = tree_.bodies[b];
+    if (body.is_alone)
+      update_alone(body, work_[b], state);
+    else
+      update_body(body, work_[b], state, purpose);
+  }
   apply_forces();
 }
 

@@ -85,7 +85,9 @@ class TreeDynamics {
     Eigen::Matrix3d R;  ///< body axes to the carrier's
     Eigen::Vector3d d;  ///< F to M, carrier's axes
     Matrix6d S;         ///< the joint's, body axes
-    Vector6d inner_bias, outer_bias, joint_bias;
+    Vector6d inner_bias = Vector6d::Zero();
+    Vector6d outer_bias = Vector6d::Zero();
+    Vector6d joint_bias = Vector6d::Zero();
     InertiaTerms terms;  ///< articulated as the recursion comes inwards
     Matrix6Xd coupling;  ///< (6, m): M_ra seen from M, then Y^T
     Eigen::VectorXd z;   ///< L^-1 of the modal bias
@@ -94,6 +96,7 @@ class TreeDynamics {
     Matrix6d U;         ///< inertia S
     Matrix6d D;         ///< factor of S^T U
     Vector6d residual;  ///< tau - S^T bias
+    Matrix6d inverse;   ///< of the inertia of a body alone
 
     /// Force above moment at M on this body, body axes: what its articulated
     /// inertia takes.
@@ -104,6 +107,7 @@ class TreeDynamics {
   const Frame& frame_of(const Carrier& carrier) const;
   void update_prescribed_bodies();
   void update_body(const TreeBody& body, Work& work, const ConstVector& state, Purpose purpose);
+  void update_alone(const TreeBody& body, Work& work, const ConstVector& state);
   void apply_forces();
   void apply(const TreeMarker& marker, const NodeMotion& node, const Eigen::Vector3d& force,
              const Eigen::Vector3d& torque);
@@ -112,6 +116,7 @@ class TreeDynamics {
   void pass_inwards(const TreeBody& body, Work& work);
   void pass_inwards_from_rigid_end(const TreeBody& body, Work& work);
   void accelerate(const TreeBody& body, Work& work);
+  void accelerate_alone(const TreeBody& body, Work& work);
 
   const Tree& tree_;
   Drive drive_;

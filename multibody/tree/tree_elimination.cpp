@@ -70,6 +70,7 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
 void TreeDynamics::eliminate_joint(const TreeBody& body, Work& work) {
   const Index nu = body.joint.velocity_count();
   if (nu == 0) return;
+  const bool is_carried = body.carrier.body != kNone;  // else nothing asks for what goes inwards
   for (Index k = 0; k < nu; ++k) {
     work.U.col(k).noalias() = work.inertia * work.S.col(k);
     work.residual[k] = extra_forces_[body.velocity + k] - work.S.col(k).dot(work.bias);
@@ -88,6 +89,7 @@ void TreeDynamics::eliminate_joint(const TreeBody& body, Work& work) {
       work.residual[l] -= work.D(l, k) * work.residual[k];
       for (Index j = k + 1; j <= l; ++j) work.D(l, j) -= work.D(l, k) * work.D(j, k);
     }
+    if (!is_carried) continue;
     work.inertia.noalias() -= work.U.col(k) * work.U.col(k).transpose();
     work.bias += work.residual[k] * work.U.col(k);
   }

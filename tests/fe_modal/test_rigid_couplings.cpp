@@ -151,9 +151,6 @@ TEST_CASE("rigid interfaces that cannot be are refused by name") {
       analyse_modes(mesh, options, {}),
       Contains("rigid interface 'again' and rigid interface 'tip' contradict one another: both "
                "determine x of the node at ("));
-  options = fixed_with_rigid_tip(BasisKind::normal, 2);
-  options.solver = Solver::iterative;
-  CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("direct solver in one process"));
 }
 
 }  // namespace flexneck::fe_modal

@@ -165,7 +165,7 @@ bool pushes_forward_at_top(const Study& study, const std::string& name) {
   const auto& forces = model.forces.of<multibody::PointForce>();
   return std::all_of(forces.begin(), forces.end(), [&](const multibody::PointForce& force) {
     return model.markers[force.marker].name == "neck.top" &&
-           force.direction.isApprox(Vector3d::UnitX());
+           !force.follows && force.direction.isApprox(Vector3d::UnitX());
   });
 }
 
