@@ -98,7 +98,6 @@ ModalOptions alone(ModalOptions options) {
   return options;
 }
 
-
 ModalOptions without_prestress(ModalOptions options) {
   options.prestress_m.resize(3, 0);
   return options;

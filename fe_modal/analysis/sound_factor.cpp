@@ -16,8 +16,7 @@ std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh
   try {
     return system.shift_inverse(shift);
   } catch (const ComputationError&) {
-    const auto motions =
-        shift == 0 ? describe_mechanism(mesh, system, true) : std::nullopt;
+    const auto motions = shift == 0 ? describe_mechanism(mesh, system, true) : std::nullopt;
     if (!motions) throw;
     refuse_mechanism(*motions);
   }

@@ -34,13 +34,11 @@ void require_supports(const ModalOptions& options) {
 }
 
 /// A mechanism may pass the factorisation by rounding: loads move it without strain then.
-void refuse_moved_mechanism(const mesher::Mesh& mesh,
-                            const AssembledSystem& system, const Eigen::VectorXd& response,
-                            const Eigen::VectorXd& load) {
+void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
+                            const Eigen::VectorXd& response, const Eigen::VectorXd& load) {
   const double kinetic = response.dot(block_product(system.mass(), response).col(0));
   if (response.dot(load) > kStrainless * eigenvalue_scale(mesh) * kinetic || kinetic == 0) return;
-  if (const auto motions = describe_mechanism(mesh, system, true))
-    refuse_mechanism(*motions);
+  if (const auto motions = describe_mechanism(mesh, system, true)) refuse_mechanism(*motions);
 }
 
 }  // namespace
@@ -59,8 +57,7 @@ StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
   Eigen::VectorXd load = dof_map.gather(step.applied_N);
   if (moved_m.cwiseAbs().maxCoeff() > 0)
     load -= dof_map.gather(internal_forces(mesh, options.formulation, moved_m));
-  const std::unique_ptr<const ShiftInverse> inverse =
-      factorise_or_refuse(mesh, system, 0);
+  const std::unique_ptr<const ShiftInverse> inverse = factorise_or_refuse(mesh, system, 0);
   Eigen::VectorXd response = Eigen::VectorXd::Zero(load.size());
   if (load.norm() > 0)
     response = static_response_beyond(operators_of(system, *inverse), {}, load).col(0);

@@ -78,9 +78,8 @@ AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map
       order_(order_of_free(options.node_order, dof_map)),
       has_order_(!order_.empty()) {
   ranks().together([&] {
-    matrices_ =
-        std::make_unique<SystemMatrices>(assemble(part_.mesh(), part_.dof_map(), formulation_,
-                                             part_.columns_of_nodes(prestress_m_)));
+    matrices_ = std::make_unique<SystemMatrices>(assemble(
+        part_.mesh(), part_.dof_map(), formulation_, part_.columns_of_nodes(prestress_m_)));
   });
   stiffness_.emplace(
       fields_.own_dof_count(),

@@ -191,8 +191,9 @@ TEST_CASE("lumped masses of an MBDyn file are summed, and contradictions refused
                         Contains("contradict each other by 0.1"));
   CHECK_THROWS_WITH(read(replaced(lumped_bar("2.5"), " 1D0 1D0 1D0 0.", " 1D0 1D0 1D0 1.")),
                     Contains("bar.fem:22: lumped masses with rotary inertia are not read"));
-  CHECK_THROWS_WITH(read(replaced(lumped_bar("2.5"), " 2.\n** RECORD GROUP 11", " 2. 3.\n** RECORD GROUP 11")),
-                    Contains("expected 1 numbers in RECORD GROUP 10, found 2"));
+  CHECK_THROWS_WITH(
+      read(replaced(lumped_bar("2.5"), " 2.\n** RECORD GROUP 11", " 2. 3.\n** RECORD GROUP 11")),
+      Contains("expected 1 numbers in RECORD GROUP 10, found 2"));
   CHECK_THROWS_WITH(read(replaced(lumped_bar("2.5"), "GROUP 10,", "GROUP 20,")),
                     Contains("bar.fem:19: expected a RECORD GROUP from 1 to 19"));
 }

@@ -77,8 +77,9 @@ std::unique_ptr<const SchwarzPreconditioner> make_preconditioner(
 }  // namespace
 
 SchwarzInverse::SchwarzInverse(const CutBody& body, const FormulationChoice& formulation,
-                               const Eigen::Matrix3Xd& prestress_m, const RankPart& part, const SystemMatrices& matrices, Mat stiffness,
-                               Mat mass, double shift)
+                               const Eigen::Matrix3Xd& prestress_m, const RankPart& part,
+                               const SystemMatrices& matrices, Mat stiffness, Mat mass,
+                               double shift)
     : ShiftInverse(shift, body.fields.ranks()),
       stiffness_(stiffness),
       mass_(mass),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/exchange/static_xdmf.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/hdf5_file.h"
 #include "mesher/exchange/vtu_writer.h"
 #include "pipeline/commands/exports/export_formats.h"
 #include "pipeline/isolation/result_files.h"
@@ -9,6 +10,11 @@ namespace flexneck::pipeline {
 
 void export_stress_vtu(const FileInput& input) {
   const std::filesystem::path& file = input.files.front();
+  if (std::filesystem::exists(file) &&
+      format_of(ReadableFile(file).path()) != fe_modal::kStaticSolutionFormat.name)
+    throw InputError(input.target.string() +
+                     ": expected an ending of .mme, .pvd or .csv for the run " + file.string() +
+                     ", which holds no stresses");
   const fe_modal::StaticSolution solution = read_static_solution(file).solution;
   const ResultsFolder folder(file.parent_path());
   const mesher::Mesh mesh = read_mesh(folder.mesh()).mesh;
