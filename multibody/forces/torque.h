@@ -5,8 +5,8 @@
 
 namespace flexneck::multibody {
 
-/// A torque on a marker's body, fixed in the world's axes or, as a follower, in the marker's. It has
-/// no potential.
+/// A torque on a marker's body, fixed in the world's axes or, as a follower, in the marker's. It
+/// has no potential.
 struct Torque {
   static constexpr std::string_view kName = "torque";
 

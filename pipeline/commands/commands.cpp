@@ -69,13 +69,9 @@ const std::vector<Command>& commands() {
        .options = {folder, settings},
        .run = verify_command},
       {.name = "export",
-       .help =
-           "for other programs: mesh, matrices, modes, stresses, bodies, runs; --to FILE tells the "
-           "format",
-       .files =
-           {"STUDY.toml or FILE",
-            "Default: the study of the folder; a run for .mme, .pvd and .csv, stress.h5 for .vtu, a "
-            "modal body for .fem, .SID_FEM and .hdf5, one of these but the last for .h5"},
+       .help = "for other programs, by the ending of --to: mesh, modes, bodies, stresses, runs",
+       .files = {"STUDY.toml or FILE",
+                 "Default: the study of the folder; else a run, stresses or a body"},
        .options = {folder, settings, target},
        .run = export_command,
        .run_on_files = export_file_command,

@@ -30,16 +30,15 @@ constexpr auto kMagnitudeKeys =
            kCsvKeys);
 
 /// Of a force and a torque.
-constexpr auto kLoadKeys =
-    joined(std::to_array<Key>({
-               Key::text("name", kRequired, "Name of the load"),
-               Key::text("marker", kRequired, "Marker that it acts at"),
-               Key::numbers("direction", kRequired,
-                            "Direction in the world; of a follower in the marker's axes",
-                            {.size = 3}),
-               Key::flag("follows", "false", "Whether its direction turns with the marker"),
-           }),
-           kMagnitudeKeys);
+constexpr auto kLoadKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the load"),
+        Key::text("marker", kRequired, "Marker that it acts at"),
+        Key::numbers("direction", kRequired,
+                     "Direction in the world; of a follower in the marker's axes", {.size = 3}),
+        Key::flag("follows", "false", "Whether its direction turns with the marker"),
+    }),
+    kMagnitudeKeys);
 
 constexpr Key kFunctionForceKeys[] = {
     Key::text("name", kRequired, "Name of the force"),

@@ -24,8 +24,9 @@ constexpr Key kKeys[] = {
     Key::quantity("damping_time", "s", kNone,
                   "Besides or in its place: damping is this time multiplied by the stiffness"),
     Key::numbers("offset", kNone, "Permanent set of the modal coordinates, in kg^(1/2) m"),
-    Key::numbers("modal_coordinates", kNone,
-                 "Modal coordinates at the start, in kg^(1/2) m; the offset if the key is not there"),
+    Key::numbers(
+        "modal_coordinates", kNone,
+        "Modal coordinates at the start, in kg^(1/2) m; the offset if the key is not there"),
     Key::numbers("modal_rates", kNone, "Their rates at the start, in kg^(1/2) m/s; zero if not"),
     Key::flag("stress_stiffening", "false", "Whether the body's loads stiffen and soften it"),
 };

@@ -33,7 +33,8 @@ std::span<const ExportFormat> export_formats() { return kFormats; }
 
 bool exports_file(const std::vector<std::string>& files, const std::filesystem::path& target) {
   const bool is_of_file = std::any_of(kFormats.begin(), kFormats.end(), [&](const auto& format) {
-    return format.ending == target.extension() && format.write_file != nullptr;
+    return format.ending == target.extension() && format.write_file != nullptr &&
+           format.write == nullptr;
   });
   return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
     return is_of_file || std::any_of(kNoStudies.begin(), kNoStudies.end(),

@@ -22,8 +22,8 @@ struct ExportFormat {
 
 std::span<const ExportFormat> export_formats();
 
-/// Whether `export` is of a file, not of a study's mesh: by the format to be written, or because a
-/// file is none of a study.
+/// Whether `export` is of a file, not of a study's mesh: by the format to be written, which is of
+/// files alone, or because a file is none of a study.
 bool exports_file(const std::vector<std::string>& files, const std::filesystem::path& target);
 
 /// The mesh for gmsh.

@@ -26,4 +26,5 @@ picture = Picture("time, ms", "head rotation, deg")
 picture.curve(run.time * 1e3, rotation, "plates of 0.4 in")
 picture.save(out / "first_steps.svg")
 body.export(out / "neck.vtu")  # mesh and modes for ParaView
+body.export(out / "neck.fem")  # the modal body for MBDyn
 run.export(out / "run.csv")

@@ -89,6 +89,11 @@ class Stages(InFolder):
         np.testing.assert_array_equal(again.time, run.time)
         body.export(self.folder / "neck.vtu")
         self.assertTrue((self.folder / "neck.vtu").stat().st_size > 0)
+        with self.assertWarnsRegex(fn.ResultWarning, "not carried over"):
+            body.export(self.folder / "python.fem")
+        flexneck("export", self.folder / "command/modes.h5", "--to", self.folder / "command.fem")
+        self.assertEqual((self.folder / "python.fem").read_bytes(),
+                         (self.folder / "command.fem").read_bytes())
         # A folder of modes of other values is refused, as the command does.
         with self.assertWarnsRegex(fn.ResultWarning, "modes.count = 6, now with 4"):
             mesh.modes(count=4)
