@@ -2,7 +2,6 @@
 #include "mesher/exchange/inp_connections.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -12,9 +11,6 @@
 
 namespace flexneck::mesher {
 namespace {
-
-constexpr std::array<std::pair<const char*, std::size_t>, 4> kPointTypes = {
-    {{"MASS", 1}, {"SPRING1", 1}, {"SPRING2", 2}, {"SPRINGA", 2}}};
 
 /// Components that named supports fix.
 const std::map<std::string, std::set<int>>& named_supports() {
@@ -52,39 +48,11 @@ std::vector<Field> fields_from(const InpCard& card, std::size_t& line, std::size
   return fields;
 }
 
-int component_of(const InpData& line, std::size_t field) {
-  const std::int64_t component = inp_integer(line, field);
-  if (component < 1 || component > 6) {
-    throw InputError(line.place.text() + "expected a degree of freedom from 1 to 6, found " +
-                     std::to_string(component));
-  }
-  return static_cast<int>(component);
-}
-
 Eigen::Vector3d vector_at(const InpData& line, std::size_t first) {
   return {inp_number(line, first), inp_number(line, first + 1), inp_number(line, first + 2)};
 }
 
 }  // namespace
-
-bool InpConnectionReader::is_point_type(const std::string& type) {
-  return std::any_of(kPointTypes.begin(), kPointTypes.end(),
-                     [&](const auto& each) { return type == each.first; });
-}
-
-std::vector<std::int64_t> InpConnectionReader::elements(const InpCard& card,
-                                                        const std::string& type) {
-  const auto* const row = std::find_if(kPointTypes.begin(), kPointTypes.end(),
-                                       [&](const auto& each) { return type == each.first; });
-  std::vector<std::int64_t> numbers;
-  for (const InpData& line : card.data) {
-    Element element{type, upper_case(card.parameter("ELSET")), inp_integer(line, 0), {}};
-    for (std::size_t f = 1; f <= row->second; ++f) element.nodes.push_back(inp_integer(line, f));
-    numbers.push_back(element.number);
-    elements_.push_back(std::move(element));
-  }
-  return numbers;
-}
 
 const std::map<std::string, InpConnectionReader::Handler>& InpConnectionReader::handlers() {
   static const std::map<std::string, Handler> kHandlers = {
@@ -92,13 +60,12 @@ const std::map<std::string, InpConnectionReader::Handler>& InpConnectionReader::
       {"EQUATION", &InpConnectionReader::equation},
       {"MPC", &InpConnectionReader::mpc},
       {"RIGID BODY", &InpConnectionReader::rigid_body},
-      {"TRANSFORM", &InpConnectionReader::transform},
-      {"MASS", &InpConnectionReader::property},
-      {"SPRING", &InpConnectionReader::property}};
+      {"TRANSFORM", &InpConnectionReader::transform}};
   return kHandlers;
 }
 
 bool InpConnectionReader::read(const InpCard& card, const InpModel& model) {
+  if (point_elements_.read(card)) return true;
   const auto found = handlers().find(card.keyword);
   if (found == handlers().end()) return false;
   (this->*found->second)(card, model);
@@ -146,7 +113,7 @@ void InpConnectionReader::equation(const InpCard& card, const InpModel& /*model*
     const auto fields = fields_from(card, ++line, 3 * static_cast<std::size_t>(count));
     for (std::size_t f = 0; f < fields.size(); f += 3) {
       equation.terms.push_back({inp_integer(*fields[f].line, fields[f].field),
-                                component_of(*fields[f + 1].line, fields[f + 1].field),
+                                inp_component(*fields[f + 1].line, fields[f + 1].field),
                                 inp_number(*fields[f + 2].line, fields[f + 2].field)});
     }
     connections_.equations.push_back(std::move(equation));
@@ -246,51 +213,6 @@ void InpConnectionReader::transform(const InpCard& card, const InpModel& model) 
   }
 }
 
-void InpConnectionReader::property(const InpCard& card, const InpModel& /*model*/) {
-  for (const char* const parameter : {"NONLINEAR", "ORIENTATION", "RTOL"}) {
-    if (card.has(parameter)) card.refuse(std::string(parameter) + " is not supported");
-  }
-  static_cast<void>(card.parameter("ELSET"));
-  properties_.push_back(card);
-}
-
-void InpConnectionReader::add_masses(const InpCard& card) {
-  if (card.data.size() != 1) card.refuse("expected one line of data, the mass");
-  for (const Element& element : elements_) {
-    if (element.set != upper_case(card.parameter("ELSET")) || element.type != "MASS") continue;
-    connections_.masses.push_back({"MASS element " + std::to_string(element.number),
-                                   element.nodes[0],
-                                   inp_number(card.data.front(), 0),
-                                   {},
-                                   {}});
-  }
-}
-
-void InpConnectionReader::add_springs(const InpCard& card) {
-  for (const Element& element : elements_) {
-    if (element.set != upper_case(card.parameter("ELSET"))) continue;
-    DeckSpring spring;
-    spring.name = element.type + " element " + std::to_string(element.number);
-    spring.is_along_nodes = element.type == "SPRINGA";
-    const std::size_t lines = spring.is_along_nodes ? 1 : 2;  // its blank line is none to us
-    if (card.data.size() != lines) {
-      card.refuse("expected its degrees of freedom and one line with the stiffness");
-    }
-    if (card.data.back().fields.size() > 1 && inp_number(card.data.back(), 1) != 0) {
-      card.refuse("only one stiffness is supported");
-    }
-    spring.stiffness = inp_number(card.data.back(), 0);
-    for (std::size_t k = 0; k < element.nodes.size(); ++k) {
-      const int component = spring.is_along_nodes ? 1 : component_of(card.data.front(), k);
-      if (connections_.axes.count(element.nodes[k]) > 0) {
-        card.refuse(spring.name + " is at a node with a *TRANSFORM, which is not supported");
-      }
-      spring.terms.push_back({element.nodes[k], component, k == 0 ? 1.0 : -1.0});
-    }
-    connections_.springs.push_back(std::move(spring));
-  }
-}
-
 DeckConnections InpConnectionReader::finish(const InpModel& model) {
   for (const DeckEquation& equation : connections_.equations) {
     for (const DeckTerm& term : equation.terms) {
@@ -298,23 +220,7 @@ DeckConnections InpConnectionReader::finish(const InpModel& model) {
       throw InputError(equation.name + " is at a node with a *TRANSFORM, which is not supported");
     }
   }
-  std::set<std::string> given;
-  for (const InpCard& card : properties_) {
-    const std::string set = upper_case(card.parameter("ELSET"));
-    if (std::none_of(elements_.begin(), elements_.end(), [&](const Element& element) {
-          return element.set == set && (element.type == "MASS") == (card.keyword == "MASS");
-        })) {
-      card.refuse("there are no such elements in ELSET '" + card.parameter("ELSET") +
-                  "'; give them by ELSET= of their *ELEMENT");
-    }
-    given.insert(set);
-    card.keyword == "MASS" ? add_masses(card) : add_springs(card);
-  }
-  for (const Element& element : elements_) {
-    if (given.count(element.set) > 0) continue;
-    throw InputError(element.type + " element " + std::to_string(element.number) + " has no *" +
-                     (element.type == "MASS" ? "MASS" : "SPRING") + " of its ELSET");
-  }
+  point_elements_.add_to(connections_);
   for (const auto& [node, components] : supports_) {
     if (model.nodes.count(node) == 0) continue;  // of a range
     DeckSupport support{"*BOUNDARY", node, {}};

@@ -9,6 +9,7 @@
 
 #include "mesher/exchange/deck_connections.h"
 #include "mesher/exchange/inp_model.h"
+#include "mesher/exchange/inp_point_elements.h"
 
 namespace flexneck::mesher {
 
@@ -18,10 +19,10 @@ namespace flexneck::mesher {
 /// (*TRANSFORM).
 class InpConnectionReader {
  public:
-  /// Whether the elements of a TYPE=, in capitals, are masses or springs.
-  static bool is_point_type(const std::string& type);
-  /// @return the numbers of the elements
-  std::vector<std::int64_t> elements(const InpCard& card, const std::string& type);
+  /// Elements of types that InpPointElements has. @return their numbers
+  std::vector<std::int64_t> elements(const InpCard& card, const std::string& type) {
+    return point_elements_.add(card, type);
+  }
 
   /// Whether the card is one of those above, but *ELEMENT; it is read then.
   bool read(const InpCard& card, const InpModel& model);
@@ -41,20 +42,9 @@ class InpConnectionReader {
   void mpc(const InpCard& card, const InpModel& model);
   void rigid_body(const InpCard& card, const InpModel& model);
   void transform(const InpCard& card, const InpModel& model);
-  void property(const InpCard& card, const InpModel& model);
-  void add_springs(const InpCard& card);
-  void add_masses(const InpCard& card);
-
-  struct Element {
-    std::string type;
-    std::string set;  ///< in capitals
-    std::int64_t number;
-    std::vector<std::int64_t> nodes;
-  };
 
   DeckConnections connections_;
-  std::vector<Element> elements_;
-  std::vector<InpCard> properties_;  ///< *MASS and *SPRING
+  InpPointElements point_elements_;
   std::map<std::int64_t, std::set<int>> supports_;
   std::vector<std::int64_t> supported_by_number_;
 };

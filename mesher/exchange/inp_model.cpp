@@ -153,7 +153,7 @@ void ModelReader::nodes(const InpCard& card) {
 void ModelReader::elements(const InpCard& card) {
   const std::string type = upper_case(card.parameter("TYPE"));
   const auto kind = kind_of_abaqus_type(type);
-  if (InpConnectionReader::is_point_type(type)) {
+  if (InpPointElements::has(type)) {
     for (const std::int64_t number : connections_.elements(card, type)) {
       element_numbers_.insert(number);
     }
