@@ -32,8 +32,7 @@ Eigen::MatrixXd strainless_fields(const AssembledSystem& system, double scale, d
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
   const DofMap& dof_map = system.fields().dof_map();
   const Eigen::Index dofs = dof_map.dof_count() - dof_map.dependent_count();
-  const EigenPairs pairs =
-      lowest_eigenpairs(system.stiffness(), system.mass(), *inverse, std::min(kMaxMotions, dofs));
+  const EigenPairs pairs = lowest_eigenpairs(system.mass(), *inverse, std::min(kMaxMotions, dofs));
   const Eigen::Index count = (pairs.values.array() < strainless * scale).count();
   Eigen::MatrixXd fields(3 * system.fields().node_count(), count);
   const auto expanded = system.fields().expand(pairs.vectors.leftCols(count));

@@ -71,14 +71,15 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options,
   check_names(names_of(options.attachments), "attachment");
 }
 
-void check_basis(const ModalOptions& options, Eigen::Index dofs, const RigidMotions& rigid) {
+void check_basis(const mesher::Mesh& mesh, const ModalOptions& options, Eigen::Index dofs,
+                 const RigidMotions& rigid) {
   if (options.basis == BasisKind::normal) return;
   const std::string who =
       "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
   if (options.basis == BasisKind::inertia_relief && rigid.count() == 0) {
-    throw InputError(who +
-                     " is for a body that keeps rigid motions, but its supports leave it none; "
-                     "take 'residual' or fix less");
+    throw InputError(who + " is for a body that keeps rigid motions, and of one that is '" +
+                     boundary_of(mesh, options, rigid) +
+                     "' none is left; take 'residual' or fix less");
   }
   if (options.basis != BasisKind::inertia_relief && rigid.count() > 0) {
     throw InputError(who + " is for a fixed body, but this is " + body_with(rigid) +
@@ -143,7 +144,7 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
                      std::to_string(options.mode_count));
   }
   check_interfaces(mesh, options, rigid);
-  check_basis(options, dofs, rigid);
+  check_basis(mesh, options, dofs, rigid);
   check_slit_motions(mesh, options);
   check_prestress(options, rigid);
   if (options.geometric_stiffness && rigid.count() > 0) {

@@ -168,7 +168,7 @@ TEST_CASE("half of a neck on its bolts, between planes of symmetry, has modes of
   constexpr double kSame = 1e-6;
   geometry::NeckDivisions coarse;
   coarse.quadrant = 2;
-  coarse.inner_ring = 2;
+  coarse.inner_ring = 4;
   coarse.rubber_layers = 1;
   auto options = testing::neck_mesh_options(testing::neck_parameters("A"), coarse);
   options.element = mesher::ElementKind::hex8;

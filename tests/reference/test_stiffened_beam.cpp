@@ -280,7 +280,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a pressed column softens to nothing at Euler's load; a linear one does not feel it") {
+TEST_CASE(
+    "a pressed column softens to nothing at Euler's load, and a linear one does not feel it") {
   constexpr int kModes = 4;
   const Beam beam;
   const double x = kClampedFree[0];
