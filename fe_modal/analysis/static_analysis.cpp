@@ -15,6 +15,7 @@
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/memory_needs.h"
 #include "fe_modal/system/modal_options_check.h"
+#include "fe_modal/system/point_forces.h"
 #include "fe_modal/system/supports.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/positions.h"
@@ -25,25 +26,6 @@ namespace {
 /// Of the free nodes' forces, relative to the nodal forces of the elements: rounding makes 1e-12 of
 /// slender bodies.
 constexpr double kBalanced = 1e-6;
-
-/// @throws InputError for what the balance of forces on nodes does not know: couplings, equations,
-/// springs, masses, supports in axes of their own.
-void check_connections(mesher::Connections connections) {
-  std::erase_if(connections.supports, [](const mesher::Support& support) {
-    return !support.axes.is_cylindrical && support.axes.axes.isIdentity(0);
-  });
-  if (connections.empty()) return;
-  throw InputError("a static step is not offered with " + connections.text() +
-                   ": of these only supports along x, y and z are; leave the others out");
-}
-
-void require_supports(const RigidMotions& rigid) {
-  if (rigid.count() == 0) return;
-  constexpr Eigen::Index kAll = 6;
-  throw InputError("a static step needs supports, but " +
-                   (rigid.count() == kAll ? "nothing is fixed" : "the body " + rigid.text()) +
-                   ": name node sets in modes.fixed or modes.fixed_directions");
-}
 
 /// A mechanism may pass the factorisation by rounding: loads move it without strain then.
 void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
@@ -57,8 +39,7 @@ void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& sys
 
 StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
                        const std::vector<Load>& loads, const Progress& progress) {
-  check_connections(mesh.connections);
-  require_supports(rigid_motions_of(mesh, options));
+  require_supports(rigid_motions_of(mesh, options), "a static step");
   const DofMap dof_map = dof_map_of(mesh, options);
   const Eigen::Matrix3Xd moved_m = support_displacements(mesh, options, loads);
   if (progress) {
@@ -67,7 +48,8 @@ StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
   const AssembledSystem system(mesh, dof_map, options);
   StaticStep step;
   step.applied_N = nodal_forces(mesh, system.nodal_mass(), loads);
-  Eigen::VectorXd load = dof_map.gather(step.applied_N);
+  const Eigen::VectorXd weights = weights_at_points(mesh, dof_map, loads);
+  Eigen::VectorXd load = dof_map.gather(step.applied_N) + weights;
   if (moved_m.cwiseAbs().maxCoeff() > 0)
     load -= dof_map.gather(internal_forces(mesh, options.formulation, moved_m));
   const std::unique_ptr<const ShiftInverse> inverse = factorise_or_refuse(mesh, system, 0);
@@ -76,6 +58,7 @@ StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
     response = static_response_beyond(operators_of(system, *inverse), {}, load).col(0);
   refuse_moved_mechanism(mesh, system, response, load);
   step.displacements_m = dof_map.expand(response) + moved_m;
+  step.point_forces = weights - spring_forces(mesh, dof_map, response);
   step.solver = inverse->describe();
   return step;
 }
@@ -89,7 +72,7 @@ Eigen::Matrix3Xd consistent_forces(const mesher::Mesh& mesh, const ModalOptions&
 StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& options,
                               const std::vector<Load>& loads, const Progress& progress) {
   const RigidMotions rigid = rigid_motions_of(mesh, options);
-  require_supports(rigid);
+  require_supports(rigid, "a static step");
   check_options(mesh, options);
   check_memory(mesh, options);
   StaticStep step = static_step(mesh, options, loads, progress);
@@ -104,16 +87,19 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
       internal_forces(mesh, options.formulation, step.displacements_m);
   const Eigen::Matrix3Xd unbalanced_N = internal_N - step.applied_N;
   const double scale = std::max(internal_N.norm(), step.applied_N.norm());
-  if (scale > 0) solution.imbalance = dof_map_of(mesh, options).gather(unbalanced_N).norm() / scale;
+  if (scale > 0) {
+    solution.imbalance =
+        (dof_map_of(mesh, options).gather(unbalanced_N) - step.point_forces).norm() / scale;
+  }
   if (!(solution.imbalance < kBalanced))
     throw ComputationError(
         "the static step is not in equilibrium: " + std::to_string(solution.imbalance) +
         " of the forces are left over at free nodes");
-  const std::vector<std::array<bool, 3>> fixed = fixed_directions_of(mesh, options);
+  const std::vector<std::array<bool, 3>> reacting = reacting_directions_of(mesh, options);
   solution.reactions_N = unbalanced_N;
-  for (std::size_t k = 0; k < fixed.size(); ++k) {
+  for (std::size_t k = 0; k < reacting.size(); ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
-      if (!fixed[k][a])
+      if (!reacting[k][a])
         solution.reactions_N(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(k)) = 0;
     }
   }

@@ -31,9 +31,10 @@ void check_parts(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
 }
 
+constexpr Eigen::Index kAll = 6;  ///< rigid motions
+
 /// "a free body", or "a body that slides along x"
 std::string body_with(const RigidMotions& rigid) {
-  constexpr Eigen::Index kAll = 6;
   return rigid.count() == kAll ? "a free body" : "a body that " + rigid.text();
 }
 
@@ -114,13 +115,24 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError("slits that open and close: the mesh has no open slit");
 }
 
-void check_prestress(const ModalOptions& options, const RigidMotions& rigid) {
+/// Forces in couplings and springs turn with the body and stiffen or soften it, which constraints
+/// and springs of small motions leave out.
+void refuse_turning_forces(const mesher::Mesh& mesh, const std::string& what) {
+  mesher::Connections turning;
+  turning.points = mesh.connections.points;
+  turning.couplings = mesh.connections.couplings;
+  turning.springs = mesh.connections.springs;
+  if (turning.empty()) return;
+  throw InputError(what + " is not offered with " + turning.text() +
+                   ", whose forces would turn with the body: leave these out");
+}
+
+void check_prestress(const mesher::Mesh& mesh, const ModalOptions& options,
+                     const RigidMotions& rigid) {
   if (options.prestress.empty()) return;
+  refuse_turning_forces(mesh, "a prestress");
   check_names(names_of(options.prestress), "load");
-  if (rigid.count() > 0) {
-    throw InputError("a prestress needs supports, but this is " + body_with(rigid) +
-                     ": name node sets in modes.fixed or modes.fixed_directions");
-  }
+  require_supports(rigid, "a prestress");
   if (options.geometric_stiffness || options.slit_motions != SlitMotions::none) {
     throw InputError(
         "a prestress is not offered with the geometric stiffness of unit loads, nor with slits "
@@ -129,6 +141,13 @@ void check_prestress(const ModalOptions& options, const RigidMotions& rigid) {
 }
 
 }  // namespace
+
+void require_supports(const RigidMotions& rigid, const std::string& who) {
+  if (rigid.count() == 0) return;
+  throw InputError(who + " needs supports, but " +
+                   (rigid.count() == kAll ? "nothing is fixed" : "the body " + rigid.text()) +
+                   ": name node sets in modes.fixed or modes.fixed_directions");
+}
 
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   mesher::check(mesh);
@@ -146,7 +165,9 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_interfaces(mesh, options, rigid);
   check_basis(mesh, options, dofs, rigid);
   check_slit_motions(mesh, options);
-  check_prestress(options, rigid);
+  check_prestress(mesh, options, rigid);
+  if (options.geometric_stiffness)
+    refuse_turning_forces(mesh, "the geometric stiffness under unit loads");
   if (options.geometric_stiffness && rigid.count() > 0) {
     throw InputError(
         "the geometric stiffness under unit loads is that of a fixed body, and this "

@@ -85,8 +85,8 @@ struct DeckNodes {
 /// @param left_out gets what cannot be: rotations and inertias of nodes of solids, which do not
 /// rotate
 /// @return the nodes that no element uses and the mesh has all the same
-/// @throws InputError for nodes that the deck does not give, couplings without nodes, equations
-/// with rotations of nodes of solids, springs between translations and rotations.
+/// @throws InputError for nodes that the deck does not give, couplings without nodes or of other
+/// points, equations with rotations of nodes of solids, springs between translations and rotations.
 std::set<std::int64_t> add_connections(const DeckConnections& deck, const DeckNodes& nodes,
                                        Mesh& mesh, LeftOut& left_out);
 

@@ -187,9 +187,8 @@ void write_boundary(OutputFile& out, const Mesh& mesh, const InpOptions& options
 
 /// Supports along x, y and z are written, nothing else.
 void check_connections(Connections connections) {
-  std::erase_if(connections.supports, [](const Support& support) {
-    return !support.axes.is_cylindrical && support.axes.axes.isIdentity(0);
-  });
+  std::erase_if(connections.supports,
+                [](const Support& support) { return support.axes.is_global(); });
   if (connections.empty()) return;
   throw InputError(
       "an .inp is not written with " + connections.text() +

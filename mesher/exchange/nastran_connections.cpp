@@ -17,9 +17,9 @@
 namespace flexneck::mesher {
 namespace {
 
-class Reader {
+class ConnectionReader {
  public:
-  explicit Reader(LeftOut& left_out) : left_out_(left_out) {}
+  explicit ConnectionReader(LeftOut& left_out) : left_out_(left_out) {}
 
   void read(const NastranCard& card) {
     if (card.name == "GRID") {
@@ -287,7 +287,7 @@ bool is_nastran_connection(std::string_view name) {
 }
 
 NastranConnections read_nastran_connections(std::string_view text, LeftOut& left_out) {
-  Reader reader(left_out);
+  ConnectionReader reader(left_out);
   for_each_nastran_card(text, [&](const NastranCard& card) { reader.read(card); });
   return reader.finish(read_nastran_case_control(text));
 }

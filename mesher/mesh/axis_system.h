@@ -11,6 +11,8 @@ struct AxisSystem {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: unit vectors x, y, z
   bool is_cylindrical = false;                         ///< about z through the origin
 
+  /// Whether it is that of the mesh: its x, y and z.
+  bool is_global() const { return !is_cylindrical && axes.isIdentity(0); }
   /// Columns: the three directions at a point.
   /// @throws InputError for a point on the axis of a cylindrical system, which has no radial
   /// direction.

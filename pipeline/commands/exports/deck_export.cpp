@@ -50,7 +50,6 @@ mesher::InpStaticStep static_step_of(const CommandInput& input, mesher::Mesh mes
 void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
   const Study& study = input.study;
   const fe_modal::FormulationChoice choice = formulation_of(study);
-  add_study_connections(study, mesh);
   mesher::InpOptions options{.reduced = {},
                              .fixed = study.modes.fixed,
                              .fixed_directions = study.modes.fixed_directions,
@@ -60,7 +59,9 @@ void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
       options.reduced.insert(material.name);
     }
   }
+  // It adds the study's connections to a mesh of its own.
   if (!study.loads.empty()) options.static_step = static_step_of(input, mesh);
+  add_study_connections(study, mesh);
   mesher::write_inp(input.target, mesh, options);
   const std::string line = mixed_materials(mesh, choice);
   if (!line.empty()) input.console.warning(input.target.string() + ": " + line);
