@@ -251,7 +251,7 @@ TEST_CASE("a spun beam stiffens by Southwell's coefficient across its plane, by 
 }
 
 TEST_CASE(
-    "Kane's beam lags behind its hub as it spins up and comes back; a linear one is stopped") {
+    "Kane's beam lags behind its hub as it spins up and comes back, and a linear one is stopped") {
   const SpinUp law;
   const OutputOptions output{.end_time_s = 20, .interval_s = 0.1};
   const History history = spin_up(law, true, output);
