@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "fe_modal/element/element_fields.h"
 
@@ -29,6 +30,21 @@ double stress_work(const PointFields& fields, double shear_modulus_Pa) {
   return work;
 }
 
+/// Twice the energy of springs between nodes and to ground, J; nothing if some are at reference
+/// points, whose motions the mode of a body does not have.
+std::optional<double> spring_work(const mesher::Mesh& mesh, const Eigen::Matrix3Xd& mode) {
+  double work = 0;
+  for (const mesher::Spring& spring : mesh.connections.springs) {
+    double elongation = 0;
+    for (const mesher::Term& term : spring.terms) {
+      if (term.site >= mode.cols()) return std::nullopt;
+      elongation += Eigen::Vector3d(term.coefficients.data()).dot(mode.col(term.site));
+    }
+    work += spring.stiffness * elongation * elongation;
+  }
+  return work;
+}
+
 }  // namespace
 
 double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formulation,
@@ -37,11 +53,13 @@ double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formula
                                     [](double frequency) { return frequency > 0; });
   if (elastic == body.frequencies_Hz.end()) return 0;
   const Eigen::Index mode = elastic - body.frequencies_Hz.begin();
-  double work = 0;
-  for_each_element(mesh, formulation, {&body.shapes[static_cast<std::size_t>(mode)]},
-                   [&](const ElementState& state) {
-                     work += stress_work(state.fields, state.shear_modulus_Pa);
-                   });
+  const Eigen::Matrix3Xd& shape = body.shapes[static_cast<std::size_t>(mode)];
+  const std::optional<double> springs = spring_work(mesh, shape);
+  if (!springs) return 0;
+  double work = *springs;
+  for_each_element(mesh, formulation, {&shape}, [&](const ElementState& state) {
+    work += stress_work(state.fields, state.shear_modulus_Pa);
+  });
   if (body.prestress_stiffness.size() > 0) work += body.prestress_stiffness[mode];
   const double omega = 2 * std::numbers::pi * *elastic;
   const double exact = std::sqrt(work / body.invariants.Maa(mode, mode));

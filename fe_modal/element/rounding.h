@@ -11,9 +11,10 @@ namespace flexneck::fe_modal {
 /// stiffness are of the size of the bulk modulus times the element's; rounded, they no longer let a
 /// body translate without force. What holds it then is lost below some 1e-16 of them: the more, the
 /// nearer Poisson's ratio is to 1/2, and the more slender the body. The strain energy of the mode
-/// summed from strains, element by element, and what a prestress adds to it, have no such loss: by
-/// Rayleigh's quotient its difference from the eigenvalue is the error. Zero if there is no elastic
-/// mode.
+/// summed from strains, element by element, and what a prestress and springs add to it, have no
+/// such loss: by Rayleigh's quotient its difference from the eigenvalue is the error. Zero if there
+/// is no elastic mode, and where springs are at reference points, whose motions a ModalBody does
+/// not have.
 double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                       const ModalBody& body);
 

@@ -10,6 +10,7 @@
 #include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/exchange/modes_xdmf.h"
 #include "fe_modal/system/memory_needs.h"
+#include "fe_modal/system/modal_options_check.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/step_times.h"
@@ -122,6 +123,7 @@ bool modes_command(const CommandInput& input) {
   }
   fe_modal::ModalOptions options = modes_options(input.study, mesh.mesh);
   share_work(input, mesh, options);
+  fe_modal::check_options(mesh.mesh, options);
   for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, options.formulation)) {
     input.console.warning(line);
   }
