@@ -2,6 +2,7 @@
 #pragma once
 
 #include "multibody/forces/bushing.h"
+#include "multibody/forces/cable.h"
 #include "multibody/forces/force_lists.h"
 #include "multibody/forces/joint_resistance.h"
 #include "multibody/forces/line_force.h"
@@ -20,6 +21,7 @@ using Forces = ForceLists<PointForce,       // [[force]] in model files
                           Bushing,          // [[bushing]]
                           JointResistance,  // [[resistance]]
                           LineForce,        // [[line_force]]
-                          Section>;         // [[section]]
+                          Section,          // [[section]]
+                          Cable>;           // [[cable]]
 
 }  // namespace flexneck::multibody
