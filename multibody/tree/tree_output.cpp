@@ -36,12 +36,17 @@ void TreeDynamics::marker_state(std::size_t index, MarkerState& state) {
     const Work& work = work_[marker.carrier.body];
     tree::update(marker.node, work.a, work.a_rate, node);
   }
+  const Vector3d carried_along = frame.w.cross(node.s);
+  Vector3d velocity = frame.v + carried_along;
+  Vector3d w = frame.w;
   Vector3d acceleration = frame.acceleration.head<3>() +
-                          frame.acceleration.tail<3>().cross(node.s) +
-                          frame.w.cross(frame.w.cross(node.s) + 2 * node.s_dot) + node.s_dot_rate;
+                          frame.acceleration.tail<3>().cross(node.s) + frame.w.cross(carried_along);
   Vector3d turning = frame.acceleration.tail<3>();
   if (moves) {
     const Work& work = work_[marker.carrier.body];
+    velocity += node.s_dot;
+    w += node.turn;
+    acceleration += 2 * frame.w.cross(node.s_dot) + node.s_dot_rate;
     turning += frame.w.cross(node.turn) + node.turn_rate;
     for (Index l = 0; l < work.a.size(); ++l) {
       acceleration += work.a_acceleration[l] * node.psi.col(l);
@@ -50,8 +55,8 @@ void TreeDynamics::marker_state(std::size_t index, MarkerState& state) {
   }
   state.position_m = frame.x + frame.A * node.s;
   state.rotation = frame.A * node.R;
-  state.velocity_m_s = frame.A * (frame.v + frame.w.cross(node.s) + node.s_dot);
-  state.angular_velocity_rad_s = frame.A * (frame.w + node.turn);
+  state.velocity_m_s = frame.A * velocity;
+  state.angular_velocity_rad_s = frame.A * w;
   state.acceleration_m_s2 = frame.A * acceleration + gravity_;
   state.angular_acceleration_rad_s2 = frame.A * turning;
 }

@@ -302,6 +302,7 @@ TEST_CASE(
     "mirrors") {
   const auto run = [](const std::string& name, std::vector<std::string> settings) {
     settings.push_back("case." + name + ".duration=0.1 s");
+    settings.push_back("variant.equivalent.of=['extension-60']");  // it has one axis
     const Experiment experiment(settings);
     return run_pendulum(experiment.study, experiment.named(name), experiment.body).channels;
   };
