@@ -27,6 +27,18 @@ pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(slepc REQUIRED IMPORTED_TARGET slepc)
 pkg_check_modules(petsc REQUIRED IMPORTED_TARGET petsc)
 
+if(FLEXNECK_PYTHON)
+  # The system's, whichever comes first on the user's path: its NumPy and its place for packages.
+  set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "Interpreter of the Python package")
+  set(PYBIND11_NOPYTHON ON)
+  find_package(Python3 3.9 COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.10 CONFIG)
+  if(NOT Python3_Development.Module_FOUND OR NOT pybind11_FOUND)
+    message(STATUS "No Python package: it needs pybind11-dev and python3-dev")
+    set(FLEXNECK_PYTHON OFF)
+  endif()
+endif()
+
 # petsc.pc is a Debian alternative that a complex build may have taken over.
 include(CheckCSourceCompiles)
 set(CMAKE_REQUIRED_LIBRARIES PkgConfig::petsc MPI::MPI_C)

@@ -28,7 +28,7 @@ install(DIRECTORY pipeline/report/page DESTINATION "${flexneck_data}/pipeline/re
 
 # The rooms: target flexneck_multibody is flexneck::multibody for those who use it.
 set(flexneck_libraries
-    foundation geometry mesh partition drawing xdmf mesher exchange modal_body fe_modal multibody
+    foundation geometry mesh partition drawing xdmf mesher exchange modal_body body_exchange fe_modal multibody
     isolation pipeline)
 foreach(library ${flexneck_libraries})
   set_target_properties(flexneck_${library} PROPERTIES EXPORT_NAME ${library})
@@ -43,7 +43,7 @@ install(EXPORT flexneck NAMESPACE flexneck:: FILE flexneck-targets.cmake
 install(DIRECTORY geometry mesher fe_modal multibody pipeline DESTINATION "${flexneck_headers}"
         COMPONENT development FILES_MATCHING PATTERN "*.h"
         PATTERN "pipeline/models" EXCLUDE PATTERN "pipeline/studies" EXCLUDE
-        PATTERN "pipeline/regulations" EXCLUDE PATTERN "pipeline/pictures" EXCLUDE
+        PATTERN "pipeline/regulations" EXCLUDE PATTERN "pipeline/pictures" EXCLUDE PATTERN "pipeline/python" EXCLUDE
         PATTERN "pipeline/verification/*.toml" EXCLUDE PATTERN "geometry/examples" EXCLUDE
         PATTERN "page" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/generated/pipeline/version.h"

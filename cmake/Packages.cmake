@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cpack: flexneck_<version>_<architecture>.deb with the command and all it ships, and libflexneck-dev
-# with libraries and headers. What the program is linked to is found by dpkg-shlibdeps.
+# with libraries and headers, and python3-flexneck. What the program is linked to is found by dpkg-shlibdeps.
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL runtime development)
@@ -30,4 +30,18 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
     "flexneck, libslepc-real-dev, libgmsh-dev, libmetis-dev, libmumps-dev, libsuitesparse-dev, libcairo2-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
     "libboost-dev, libcli11-dev, libtomlplusplus-dev, libspdlog-dev, libfmt-dev, libmuparser-dev, nlohmann-json3-dev")
+if(FLEXNECK_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-flexneck)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+      "Python package: studies, meshes, modes, models and runs as NumPy arrays.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # The module is of one version of Python; files and child processes are the command's.
+  math(EXPR after "${Python3_VERSION_MINOR} + 1")
+  string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+         "flexneck (= ${PROJECT_VERSION}), python3-numpy, "
+         "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${after}~)")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
+endif()
 include(CPack)

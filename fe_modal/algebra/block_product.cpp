@@ -117,8 +117,8 @@ Eigen::MatrixXd product(const Matrix& matrix, const Eigen::MatrixXd& columns) {
 
 }  // namespace
 
-VecHandle column_vector(const Eigen::MatrixXd& columns, Eigen::Index column) {
-  return vector_on({columns.col(column).data(), static_cast<std::size_t>(columns.rows())});
+VecHandle column_vector(const Eigen::MatrixXd& columns, Eigen::Index column, const Ranks& ranks) {
+  return vector_on({columns.col(column).data(), static_cast<std::size_t>(columns.rows())}, ranks);
 }
 
 Eigen::MatrixXd block_product(Mat matrix, const Eigen::MatrixXd& columns) {

@@ -11,11 +11,13 @@
 
 namespace flexneck::fe_modal {
 
-/// A linear map of the free degrees of freedom, applied to each column, (N, k).
+/// A linear map of the free degrees of freedom, applied to each column: this rank's rows, (own
+/// dofs, k).
 using BlockOperator = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 
 /// A vector of PETSc's on a column, which outlives it.
-VecHandle column_vector(const Eigen::MatrixXd& columns, Eigen::Index column);
+VecHandle column_vector(const Eigen::MatrixXd& columns, Eigen::Index column,
+                        const Ranks& ranks = {});
 
 /// The matrix, or operator, times each column, (N, k).
 Eigen::MatrixXd block_product(Mat matrix, const Eigen::MatrixXd& columns);

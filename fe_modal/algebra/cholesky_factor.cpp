@@ -65,10 +65,6 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
   }
 }
 
-void CholeskyFactor::solve(Vec right_hand_side, Vec solution) const {
-  require(MatSolve(factor_.get(), right_hand_side, solution), "solving with the factor");
-}
-
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
   constexpr const char* kSolving = "solving with the factor";
   Eigen::MatrixXd solutions(right_hand_sides.rows(), right_hand_sides.cols());

@@ -36,7 +36,6 @@ class CholeskyFactor : public ShiftInverse {
 
   /// Entries of the factor, as CHOLMOD counts them.
   double nonzeros() const { return nonzeros_; }
-  void solve(Vec right_hand_side, Vec solution) const override;
   /// For each column, all at once: the factor, which no cache holds, is read once for many.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override;
   std::string describe() const override;

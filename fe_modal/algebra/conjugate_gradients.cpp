@@ -20,11 +20,6 @@ constexpr int kMaxIterations = 2000;
 /// when a column has converged, or two have come to the same.
 constexpr double kNoDirection = 1e-12;
 
-/// Of each column with its partner.
-Eigen::VectorXd dots(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
-  return one.cwiseProduct(other).colwise().sum().transpose();
-}
-
 /// Combinations of the directions D that have D^T A D = 1, without those that say nothing new.
 /// @param energies D^T A D
 Eigen::MatrixXd orthonormal_combinations(const Eigen::MatrixXd& energies) {
@@ -45,7 +40,7 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& c
 
 }  // namespace
 
-Eigen::MatrixXd conjugate_gradients(const BlockOperator& matrix,
+Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& matrix,
                                     const BlockOperator& preconditioner,
                                     const Eigen::MatrixXd& right_hand_sides,
                                     const Eigen::VectorXd& known_energies) {
@@ -53,23 +48,24 @@ Eigen::MatrixXd conjugate_gradients(const BlockOperator& matrix,
       Eigen::MatrixXd::Zero(right_hand_sides.rows(), right_hand_sides.cols());
   Eigen::MatrixXd residuals = right_hand_sides;
   Eigen::MatrixXd directions = preconditioner(residuals);
-  Eigen::VectorXd energies = dots(residuals, directions);
+  Eigen::VectorXd energies = column_products(ranks, residuals, directions);
   if (known_energies.size() > 0) energies += known_energies;
   bool converged = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     Eigen::MatrixXd forces = matrix(directions);
     const Eigen::MatrixXd combinations =
-        orthonormal_combinations(inner_products(directions, forces));
+        orthonormal_combinations(inner_products(ranks, directions, forces));
     directions = product(directions, combinations);
-    const Eigen::MatrixXd steps = inner_products(directions, residuals);
+    const Eigen::MatrixXd steps = inner_products(ranks, directions, residuals);
     multiply(1, directions, steps, 1, solutions);
     if (converged) return solutions;
     forces = product(forces, combinations);
     multiply(-1, forces, steps, 1, residuals);
     Eigen::MatrixXd next = preconditioner(residuals);
     // The direction is at hand by then: one more step costs no preconditioner.
-    converged = (dots(residuals, next).array() <= kTolerance * energies.array()).all();
-    multiply(-1, directions, inner_products(forces, next), 1, next);
+    converged =
+        (column_products(ranks, residuals, next).array() <= kTolerance * energies.array()).all();
+    multiply(-1, directions, inner_products(ranks, forces, next), 1, next);
     directions = std::move(next);
   }
   throw ComputationError("conjugate gradients have not converged in " +

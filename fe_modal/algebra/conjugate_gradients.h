@@ -17,7 +17,7 @@ namespace flexneck::fe_modal {
 /// @param known_energies of each column: of what has been taken out of the solution before, of
 ///     which this finds the rest; empty if nothing has
 /// @throws ComputationError if one does not converge.
-Eigen::MatrixXd conjugate_gradients(const BlockOperator& matrix,
+Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& matrix,
                                     const BlockOperator& preconditioner,
                                     const Eigen::MatrixXd& right_hand_sides,
                                     const Eigen::VectorXd& known_energies = {});

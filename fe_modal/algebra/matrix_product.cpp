@@ -41,9 +41,16 @@ void multiply_by_transpose(double factor, const MatrixView& a, const MatrixView&
   product("N", "T", a.cols(), factor, a, b, keep, result);
 }
 
-Eigen::MatrixXd inner_products(const MatrixView& a, const MatrixView& b) {
+Eigen::MatrixXd inner_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   product("T", "N", a.rows(), 1, a, b, 0, result);
+  ranks.sum(result);
+  return result;
+}
+
+Eigen::VectorXd column_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b) {
+  Eigen::MatrixXd result = a.cwiseProduct(b).colwise().sum().transpose();
+  ranks.sum(result);
   return result;
 }
 

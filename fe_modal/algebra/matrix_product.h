@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/ranks.h"
+
 namespace flexneck::fe_modal {
 
 /// Products by the BLAS, which knows the processor that it runs on; a portable build of Eigen does
@@ -15,7 +17,9 @@ void multiply(double factor, const MatrixView& a, const MatrixView& b, double ke
 /// result = factor a b^T + keep result
 void multiply_by_transpose(double factor, const MatrixView& a, const MatrixView& b, double keep,
                            Eigen::Ref<Eigen::MatrixXd> result);
-/// a^T b
-Eigen::MatrixXd inner_products(const MatrixView& a, const MatrixView& b);
+/// a^T b over the rows of all ranks. Collective.
+Eigen::MatrixXd inner_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b);
+/// Each column of a with that of b, over the rows of all ranks. Collective.
+Eigen::VectorXd column_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b);
 
 }  // namespace flexneck::fe_modal

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/kept_exception.h"
 
 namespace flexneck::fe_modal {
@@ -25,7 +26,7 @@ PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
   const PetscScalar* in = nullptr;
   PetscScalar* out = nullptr;
   PetscErrorCode code = MatShellGetContext(shell, static_cast<void*>(&context));
-  if (code == 0) code = VecGetSize(x, &size);
+  if (code == 0) code = VecGetLocalSize(x, &size);
   if (code == 0) code = VecGetArrayRead(x, &in);
   if (code == 0) code = VecGetArray(y, &out);
   if (code != 0) return code;
@@ -52,10 +53,12 @@ OperatorMatrix::Context* context_of(Mat matrix) {
 
 }  // namespace
 
-OperatorMatrix::OperatorMatrix(Eigen::Index size, BlockOperator apply)
+OperatorMatrix::OperatorMatrix(Eigen::Index own_size, BlockOperator apply, const Ranks& ranks)
     : context_(std::make_unique<Context>(Context{std::move(apply), {}})) {
-  const auto n = static_cast<PetscInt>(size);
-  require(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, context_.get(), shell_.out()), kMaking);
+  const auto n = static_cast<PetscInt>(own_size);
+  require(MatCreateShell(communicator(ranks), n, n, PETSC_DETERMINE, PETSC_DETERMINE,
+                         context_.get(), shell_.out()),
+          kMaking);
   require(MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(&multiply)),
           kMaking);
   require(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE), kMaking);

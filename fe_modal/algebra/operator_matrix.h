@@ -8,14 +8,15 @@
 
 namespace flexneck::fe_modal {
 
-/// A symmetric linear map of N degrees of freedom as a matrix for PETSc and SLEPc, good for
-/// products alone. All shells of this library are made here: block_product() finds the map behind
-/// them and applies it to all columns at once.
+/// A symmetric linear map of the degrees of freedom as a matrix for PETSc and SLEPc, good for
+/// products alone; on many ranks each gets and gives its own rows. All shells of this library are
+/// made here: block_product() finds the map behind them and applies it to all columns at once.
 class OperatorMatrix {
  public:
   struct Context;
 
-  OperatorMatrix(Eigen::Index size, BlockOperator apply);
+  /// @param own_size rows of this rank
+  OperatorMatrix(Eigen::Index own_size, BlockOperator apply, const Ranks& ranks = {});
   ~OperatorMatrix();
   OperatorMatrix(OperatorMatrix&& other) noexcept;
   OperatorMatrix& operator=(OperatorMatrix&& other) noexcept;

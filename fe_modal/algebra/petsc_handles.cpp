@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "fe_modal/algebra/communicator.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -16,10 +17,13 @@ void require(PetscErrorCode code, std::string_view doing) {
                          std::to_string(static_cast<int>(code)) + ")");
 }
 
-VecHandle vector_on(std::span<const double> values) {
+VecHandle vector_on(std::span<const double> values, const Ranks& ranks) {
   VecHandle vector;
-  require(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(values.size()),
-                                values.data(), vector.out()),
+  const auto size = static_cast<PetscInt>(values.size());
+  require(ranks.are_many()
+              ? VecCreateMPIWithArray(communicator(ranks), 1, size, PETSC_DECIDE, values.data(),
+                                      vector.out())
+              : VecCreateSeqWithArray(communicator(ranks), 1, size, values.data(), vector.out()),
           "laying a vector on memory");
   return vector;
 }

@@ -5,7 +5,10 @@
 #include <string_view>
 #include <utility>
 
+#include <petscsf.h>
 #include <slepceps.h>
+
+#include "fe_modal/algebra/ranks.h"
 
 namespace flexneck::fe_modal {
 
@@ -55,8 +58,9 @@ using MatHandle = PetscHandle<Mat, MatDestroy>;
 using IsHandle = PetscHandle<IS, ISDestroy>;
 using VecHandle = PetscHandle<Vec, VecDestroy>;
 using EpsHandle = PetscHandle<EPS, EPSDestroy>;
+using StarForest = PetscHandle<PetscSF, PetscSFDestroy>;
 
-/// A vector of this process on memory that outlives it.
-VecHandle vector_on(std::span<const double> values);
+/// A vector of the ranks, of which this one has the rows on memory that outlives it.
+VecHandle vector_on(std::span<const double> values, const Ranks& ranks = {});
 
 }  // namespace flexneck::fe_modal

@@ -2,9 +2,12 @@
 #include "fe_modal/algebra/petsc_session.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <malloc.h>
 #include <map>
+#include <set>
 #include <string>
+#include <unistd.h>
 
 #include <petscpkg_version.h>
 
@@ -15,20 +18,52 @@ namespace flexneck::fe_modal {
 
 namespace {
 
-/// In a process that neither mpirun nor a batch system has started, Open MPI would spend a third of
-/// a second on a daemon and on network connections that are never used.
-void stay_alone() {
-  for (const char* const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
-    if (std::getenv(launched) != nullptr) return;
+/// While MPI starts: in a process that neither mpirun nor a batch system has started, Open MPI
+/// would spend a third of a second on a daemon and on network connections that are never used. What
+/// the user has set stays; what this and Open MPI set goes again, or an mpirun that this process
+/// starts later would take itself for a part of it.
+class StartAlone {
+ public:
+  StartAlone() {
+    for (const char* const launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+      if (std::getenv(launched) != nullptr) return;
+    }
+    is_alone_ = true;
+    before_ = variables();
+    set("OMPI_MCA_ess_singleton_isolated", "1");
+    set("OMPI_MCA_btl", "self");
+    set("OMPI_MCA_pml", "ob1");
+    // Alone it shares no files. Two processes at once that make and remove the folder for them get
+    // in each other's way.
+    set("OMPI_MCA_orte_create_session_dirs", "0");
   }
-  constexpr int kKeepTheUsers = 0;
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", kKeepTheUsers);
-  setenv("OMPI_MCA_btl", "self", kKeepTheUsers);
-  setenv("OMPI_MCA_pml", "ob1", kKeepTheUsers);
-  // Alone it shares no files. Two processes at once that make and remove the folder for them get in
-  // each other's way.
-  setenv("OMPI_MCA_orte_create_session_dirs", "0", kKeepTheUsers);
-}
+  ~StartAlone() {
+    if (!is_alone_) return;
+    for (const std::string& name : variables())
+      if (before_.count(name) == 0) unsetenv(name.c_str());
+  }
+  StartAlone(const StartAlone&) = delete;
+  StartAlone& operator=(const StartAlone&) = delete;
+
+ private:
+  static void set(const char* name, const char* value) {
+    constexpr int kKeepTheUsers = 0;
+    setenv(name, value, kKeepTheUsers);
+  }
+  /// Names of those of MPI.
+  static std::set<std::string> variables() {
+    std::set<std::string> names;
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+      const std::string name = std::string(*variable).substr(0, std::strcspn(*variable, "="));
+      if (name.starts_with("OMPI_") || name.starts_with("PMIX_") || name.starts_with("OPAL_"))
+        names.insert(name);
+    }
+    return names;
+  }
+
+  bool is_alone_ = false;
+  std::set<std::string> before_;
+};
 
 /// Arrays from a megabyte on go back to the system as soon as they are freed. By default glibc
 /// keeps ever larger ones, in pieces that the next do not fit in: a twentieth of the peak on two
@@ -41,15 +76,18 @@ void give_memory_back() {
 }  // namespace
 
 PetscSession::PetscSession(Start /*start*/) {
-  stay_alone();
+  PetscBool initialized = PETSC_FALSE;
+  require(PetscInitialized(&initialized), "asking whether PETSc is initialised");
+  if (initialized == PETSC_TRUE) {
+    is_outer_ = false;
+    return;
+  }
+  const StartAlone alone;
   give_memory_back();
   int finalized = 0;
   MPI_Finalized(&finalized);
-  PetscBool initialized = PETSC_FALSE;
-  require(PetscInitialized(&initialized), "asking whether PETSc is initialised");
-  if (finalized != 0 || initialized == PETSC_TRUE) {
-    throw ComputationError("PETSc can be initialised once in a process only");
-  }
+  if (finalized != 0) throw ComputationError("PETSc can be initialised once in a process only");
+  PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;
   // The process keeps its signal handlers, and neither a user's .petscrc nor the environment nor
   // the command line steers the solvers: PETSc sees these arguments only.
   unsetenv("PETSC_OPTIONS");
@@ -70,6 +108,7 @@ PetscSession::PetscSession(Start /*start*/) {
 
 // A constructor that delegates ends like any object if what comes after throws: finalised.
 PetscSession::PetscSession() : PetscSession(Start()) {
+  if (!is_outer_) return;
   // Errors come back as codes, without a trace on the terminal, nor what CHOLMOD says of them.
   PetscErrorPrintf = PetscErrorPrintfNone;
   require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
@@ -82,7 +121,9 @@ PetscSession::PetscSession() : PetscSession(Start()) {
           "telling CHOLMOD to keep a given order");
 }
 
-PetscSession::~PetscSession() { static_cast<void>(SlepcFinalize()); }
+PetscSession::~PetscSession() {
+  if (is_outer_) static_cast<void>(SlepcFinalize());
+}
 
 std::map<std::string, std::string> library_versions() {
   const auto join = [](int major, int minor, int patch) {

@@ -6,8 +6,9 @@
 
 namespace flexneck::fe_modal {
 
-/// Keeps PETSc and SLEPc (and MPI) initialised while it lives; one at a time. All that
-/// solves needs it.
+/// Keeps PETSc and SLEPc (and MPI) initialised while it lives. All that solves needs it. MPI begins
+/// once in a process: a session within the life of another one shares it, after the end of that one
+/// there is none. One thread at a time may solve, whichever began it.
 class PetscSession {
  public:
   PetscSession();
@@ -18,6 +19,8 @@ class PetscSession {
  private:
   struct Start {};
   explicit PetscSession(Start start);
+
+  bool is_outer_ = true;  ///< which ends what it has begun
 };
 
 /// Versions of PETSc, SLEPc and MUMPS, for the provenance.

@@ -11,19 +11,19 @@
 
 namespace flexneck::fe_modal {
 
-/// (K - shift M)^-1 as an operator, whoever makes it: a factor here, one shared among ranks, or an
-/// iteration. Vectors are sequential, N degrees of freedom.
+/// (K - shift M)^-1 as an operator, whoever makes it: a factor here, one on all ranks, or an
+/// iteration. Vectors are this rank's rows; every member but the plain ones is collective.
 class ShiftInverse {
  public:
-  explicit ShiftInverse(double shift) : shift_(shift) {}
+  explicit ShiftInverse(double shift, const Ranks& ranks = {}) : shift_(shift), ranks_(ranks) {}
   virtual ~ShiftInverse() = default;
   ShiftInverse(const ShiftInverse&) = delete;
   ShiftInverse& operator=(const ShiftInverse&) = delete;
 
   double shift() const { return shift_; }
+  const Ranks& ranks() const { return ranks_; }
+  /// For each column, (own dofs, k).
   /// @throws ComputationError if the solver fails.
-  virtual void solve(Vec right_hand_side, Vec solution) const = 0;
-  /// For each column, (N, k).
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const = 0;
   /// Near that, symmetric and positive definite: all that conjugate gradients need.
   virtual Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const {
@@ -39,6 +39,10 @@ class ShiftInverse {
 
  private:
   double shift_;
+  Ranks ranks_;
 };
+
+/// y = (K - shift M)^-1 x for vectors of PETSc.
+void solve(const ShiftInverse& inverse, Vec right_hand_side, Vec solution);
 
 }  // namespace flexneck::fe_modal

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "fe_modal/algebra/random_block.h"
 #include "fe_modal/solve/attached_mass.h"
 #include "fe_modal/solve/eigensolver.h"
 
@@ -24,30 +25,26 @@ std::size_t interface_index(const ModalOptions& options, const std::string& name
   return static_cast<std::size_t>(found - options.interfaces.begin());
 }
 
-std::vector<Eigen::Matrix3Xd> expanded(const DofMap& dof_map, const Eigen::MatrixXd& vectors) {
-  std::vector<Eigen::Matrix3Xd> shapes;
-  for (const auto& vector : vectors.colwise()) shapes.push_back(dof_map.expand(vector));
-  return shapes;
-}
-
 std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
                                                const SolvedBody& solved,
                                                const Eigen::Ref<const Eigen::MatrixXd>& modes,
                                                std::vector<std::vector<Eigen::Matrix3Xd>>* shapes) {
-  const Eigen::Index count = std::min(kAttachedCount, modes.rows());
+  const Eigen::Index count = std::min(kAttachedCount, size_of(solved.system.mass()));
   std::vector<AttachedFrequencies> result;
   for (const RigidAttachment& body : options.attachments) {
     const std::size_t region = interface_index(options, body.interface);
     const Matrix6d rigid_mass = rigid_mass_matrix(
         body.mass_kg, body.center_m - solved.averages[region].point_m(), body.inertia_kg_m2);
-    const AttachedMass mass(solved.system.mass(), solved.loads[region].forces, rigid_mass);
+    const AttachedMass mass(solved.system.ranks(), solved.system.mass(),
+                            solved.loads[region].forces, rigid_mass);
     const EigenPairs pairs =
         modes.cols() < count
             ? lowest_eigenpairs(solved.system.stiffness(), mass.matrix(), solved.inverse, count)
             : lowest_eigenpairs(mass, solved.inverse, modes, count);
     result.push_back({body.name, body.interface, frequencies_Hz(pairs.values), rigid_mass});
     if (shapes == nullptr) continue;
-    shapes->push_back(expanded(solved.dof_map, converged_vectors(mass, solved.inverse, pairs)));
+    shapes->push_back(
+        solved.system.fields().expand(converged_vectors(mass, solved.inverse, pairs)));
   }
   return result;
 }

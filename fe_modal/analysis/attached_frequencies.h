@@ -8,10 +8,9 @@
 
 #include "fe_modal/algebra/shift_inverse.h"
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/reduction.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/system/modal_options.h"
-#include "fe_modal/system/modal_system.h"
 #include "fe_modal/system/rigid_average.h"
 
 namespace flexneck::fe_modal {
@@ -21,14 +20,10 @@ Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues);
 /// Position of an interface among options.interfaces; it is known to be there.
 std::size_t interface_index(const ModalOptions& options, const std::string& name);
 
-/// Each column on all nodes, (3, n).
-std::vector<Eigen::Matrix3Xd> expanded(const DofMap& dof_map, const Eigen::MatrixXd& vectors);
-
 /// A body that is assembled and factorised.
 struct SolvedBody {
-  const ModalSystem& system;
+  const AssembledSystem& system;
   const ShiftInverse& inverse;
-  const DofMap& dof_map;
   const std::vector<RigidAverage>& averages;  ///< of the options' interfaces
   const std::vector<InterfaceLoads>& loads;   ///< likewise
 };

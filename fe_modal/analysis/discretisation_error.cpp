@@ -6,13 +6,15 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/analysis/prestress.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/block_lanczos.h"
-#include "fe_modal/solve/make_system.h"
 #include "fe_modal/solve/mechanism.h"
 #include "mesher/mesh/refinement.h"
-#include "mesher/partition/node_order.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -60,16 +62,16 @@ MeshError compare(double coarse_Hz, const Eigen::VectorXd& fine_Hz,
 }
 
 /// Modal assurance criteria (coarse, fine) in the mass of the coarse mesh, whose nodes come first.
-Eigen::MatrixXd similarities(const SolvedMesh& coarse, const DofMap& fine_nodes,
+Eigen::MatrixXd similarities(const SolvedMesh& coarse, const FieldMap& fine_nodes,
                              const Eigen::MatrixXd& fine) {
-  Eigen::MatrixXd seen(coarse.pairs.vectors.rows(), fine.cols());
-  for (Eigen::Index j = 0; j < fine.cols(); ++j) {
-    const Eigen::Matrix3Xd field = fine_nodes.expand(fine.col(j));
-    seen.col(j) = coarse.dof_map.restrict(field.leftCols(coarse.dof_map.node_count()));
-  }
-  const Eigen::MatrixXd momentum = block_product(coarse.mass, seen);
-  const Eigen::ArrayXd norms = seen.cwiseProduct(momentum).colwise().sum();
-  const Eigen::ArrayXXd products = (coarse.pairs.vectors.transpose() * momentum).array();
+  const FieldMap& coarse_nodes = coarse.system.fields();
+  const Ranks& ranks = coarse_nodes.ranks();
+  std::vector<Eigen::Matrix3Xd> fields = fine_nodes.expand(fine);
+  for (Eigen::Matrix3Xd& field : fields) field = field.leftCols(coarse_nodes.node_count()).eval();
+  const Eigen::MatrixXd seen = coarse_nodes.restrict(fields);
+  const Eigen::MatrixXd momentum = block_product(coarse.system.mass(), seen);
+  const Eigen::ArrayXd norms = column_products(ranks, seen, momentum);
+  const Eigen::ArrayXXd products = inner_products(ranks, coarse.pairs.vectors, momentum).array();
   return products.square().rowwise() / norms.transpose();
 }
 
@@ -85,18 +87,19 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
              " degrees of freedom");
   }
   ModalOptions fine_options = options;
-  fine_options.ranks = nullptr;  // which keep the coarse problem
   fine_options.element_ranks.clear();
-  fine_options.node_order = mesher::nested_dissection(fine.mesh);
-  const std::unique_ptr<const ModalSystem> system = make_system(fine.mesh, dof_map, fine_options);
+  fine_options.node_order.clear();
+  fine_options = with_prestress(fine.mesh, std::move(fine_options), progress);
+  const AssembledSystem system(fine.mesh, dof_map, fine_options);
   const std::unique_ptr<const ShiftInverse> inverse =
-      system->shift_inverse(fixed ? 0 : -eigenvalue_scale(solved.mesh));
+      system.shift_inverse(fixed ? 0 : -eigenvalue_scale(solved.mesh));
 
-  Eigen::MatrixXd start(dof_map.dof_count(), solved.pairs.vectors.cols());
-  for (Eigen::Index k = 0; k < start.cols(); ++k) {
-    const Eigen::Matrix3Xd field = solved.dof_map.expand(solved.pairs.vectors.col(k));
-    start.col(k) = dof_map.restrict((fine.prolongation * field.transpose()).transpose());
+  std::vector<Eigen::Matrix3Xd> prolonged = solved.system.fields().expand(solved.pairs.vectors);
+  for (Eigen::Matrix3Xd& field : prolonged) {
+    field = (fine.prolongation * field.transpose()).transpose().eval();
   }
+  Eigen::MatrixXd start = system.fields().restrict(prolonged);
+  prolonged.clear();
   const Eigen::ArrayXd coarse = solved.pairs.values;
   const Settled settled = [&](const RitzState& state) {
     if (state.before.size() == 0) return false;
@@ -106,10 +109,13 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
     return ((state.values - state.before).array().abs() <= allowed).all();
   };
   const Eigen::Index count = start.cols();
+  // Its own method needs no exact solves, which are dear there.
+  std::optional<EigenPairs> own = inverse->iterate(system.mass(), count);
   const EigenPairs pairs =
-      block_lanczos(system->mass(), *inverse, EigenPairs(), std::move(start), count, settled);
+      own ? *std::move(own)
+          : block_lanczos(system.mass(), *inverse, EigenPairs(), std::move(start), count, settled);
 
-  const Eigen::MatrixXd similarity = similarities(solved, dof_map, pairs.vectors);
+  const Eigen::MatrixXd similarity = similarities(solved, system.fields(), pairs.vectors);
   const Eigen::VectorXd fine_Hz = pairs.values.unaryExpr(&hertz);
   std::vector<MeshError> errors;
   for (Eigen::Index k = 0; k < similarity.rows(); ++k) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/modal_options.h"
 #include "geometry/foundation/progress.h"
@@ -15,8 +15,7 @@ namespace flexneck::fe_modal {
 /// The modes of one mesh, as far as their error asks.
 struct SolvedMesh {
   const mesher::Mesh& mesh;
-  const DofMap& dof_map;
-  Mat mass;  ///< of the free degrees of freedom
+  const AssembledSystem& system;
   const EigenPairs& pairs;
 };
 

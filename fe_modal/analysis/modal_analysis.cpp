@@ -7,7 +7,9 @@
 
 #include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
+#include "fe_modal/analysis/prestress.h"
 #include "fe_modal/analysis/slit_basis.h"
+#include "fe_modal/analysis/sound_factor.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
@@ -15,8 +17,8 @@
 #include "fe_modal/reduction/mode_naming.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/reduction/static_response.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/eigensolver.h"
-#include "fe_modal/solve/make_system.h"
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/solve/sturm_check.h"
 #include "fe_modal/system/assembly.h"
@@ -29,30 +31,12 @@
 namespace flexneck::fe_modal {
 namespace {
 
-[[noreturn]] void refuse_mechanism(const std::string& motions) {
-  throw InputError("the body is a mechanism: " + motions + "; fix it or bond it to its neighbour");
-}
-
-/// A stiffness that is not definite is that of a mechanism, or of elements that are none.
-std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
-                                                        const DofMap& dof_map,
-                                                        const ModalSystem& system, double shift) {
-  try {
-    return system.shift_inverse(shift);
-  } catch (const ComputationError&) {
-    const auto motions =
-        shift == 0 ? describe_mechanism(mesh, dof_map, system, true) : std::nullopt;
-    if (!motions) throw;
-    refuse_mechanism(*motions);
-  }
-}
-
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
-void check_no_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
+void check_no_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
                         const Eigen::VectorXd& values, bool fixed) {
   const Eigen::Index rigid = fixed ? 0 : 6;
   if (values.size() <= rigid || values[rigid] > kStrainless * eigenvalue_scale(mesh)) return;
-  if (const auto motions = describe_mechanism(mesh, dof_map, system, fixed)) {
+  if (const auto motions = describe_mechanism(mesh, system, fixed)) {
     refuse_mechanism(*motions);
   }
 }
@@ -97,13 +81,13 @@ std::vector<ModeRecord> describe_modes(const mesher::Mesh& mesh, const ModalOpti
   return records;
 }
 
-std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const DofMap& dof_map,
+std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FieldMap& field_map,
                                      const std::vector<RigidAverage>& averages) {
   const std::vector<std::string>& chosen = options.basis_interfaces;
   std::vector<InterfaceLoads> loads;
   for (std::size_t k = 0; k < averages.size(); ++k) {
     const std::string& name = options.interfaces[k].name;
-    loads.push_back(interface_loads(name, averages[k], dof_map));
+    loads.push_back(interface_loads(name, averages[k], field_map));
     loads.back().corrects_basis =
         chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end();
   }
@@ -117,13 +101,13 @@ struct Basis {
   std::vector<SlitField> slit_fields = {};
 };
 
-Basis reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalSystem& system,
+Basis reduced_basis(const mesher::Mesh& mesh, const AssembledSystem& system,
                     const ShiftInverse& inverse, const ModalOptions& options,
                     const std::vector<InterfaceLoads>& loads, const Progress& progress,
                     const Progress& warn) {
   const BodyOperators operators = operators_of(system, inverse);
   if (options.slit_motions != SlitMotions::none) {
-    SlitBasis basis = slit_basis(mesh, dof_map, operators, options, loads, progress);
+    SlitBasis basis = slit_basis(mesh, system.fields(), operators, options, loads, progress);
     return {std::move(basis.reduction), kNotCertified, std::move(basis.fields)};
   }
   if (options.basis == BasisKind::craig_bampton) {
@@ -137,7 +121,7 @@ Basis reduced_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const Modal
   }
   auto [pairs, certificate] =
       lowest_modes(system, inverse, options.mode_count, options.certify, warn);
-  check_no_mechanism(mesh, dof_map, system, pairs.values, options.is_fixed());
+  check_no_mechanism(mesh, system, pairs.values, options.is_fixed());
   check_eigenvalues(pairs.values, inverse.shift());
   for (double& value : pairs.values) {
     if (value < kStrainless * -inverse.shift()) value = 0;
@@ -153,31 +137,19 @@ Eigen::Index eigenvector_count(const Reduction& basis) {
 }
 
 std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
-    const DofMap& dof_map, const BodyOperators& body, const std::vector<InterfaceLoads>& loads) {
+    const FieldMap& field_map, const BodyOperators& body,
+    const std::vector<InterfaceLoads>& loads) {
   std::vector<std::vector<Eigen::Matrix3Xd>> responses;
   responses.reserve(loads.size());
   for (const InterfaceLoads& interface : loads) {
-    responses.push_back(expanded(dof_map, static_response_beyond(body, {}, interface.forces)));
+    responses.push_back(field_map.expand(static_response_beyond(body, {}, interface.forces)));
   }
   return responses;
 }
 
-/// "fixed: bolts, x of left", or "free".
-std::string boundary_of(const ModalOptions& options) {
-  std::string fixed = options.fixed_set;
-  for (const auto& [set, directions] : options.fixed_directions) {
-    if (!fixed.empty()) fixed += ", ";
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (directions[a]) fixed += "xyz"[a];
-    }
-    fixed += " of " + set;
-  }
-  return fixed.empty() ? "free" : "fixed: " + fixed;
-}
-
 }  // namespace
 
-ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
                         const Progress& progress, StepTimes* step_times, const Progress& warn,
                         AnalysisFields* fields) {
   StepTimes unseen;
@@ -185,22 +157,28 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   const auto report = [&](const std::string& line) {
     if (progress) progress(line);
   };
-  check_options(mesh, options);
-  check_memory(mesh, options);
+  check_options(mesh, given);
+  check_memory(mesh, given);
+  if (fields != nullptr && !given.prestress.empty()) {
+    throw InputError("derivatives of prestressed modes are not offered: leave the prestress out");
+  }
+  if (!given.prestress.empty()) times.start("static step");
+  const ModalOptions options = with_prestress(mesh, given, progress);
   const bool fixed = options.is_fixed();
   const DofMap dof_map = dof_map_of(mesh, options);
   report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
          " degrees of freedom");
   times.start("assemble");
-  const std::unique_ptr<const ModalSystem> owned_system = make_system(mesh, dof_map, options);
-  const ModalSystem& system = *owned_system;
+  const AssembledSystem system(mesh, dof_map, options);
+  const FieldMap& field_map = system.fields();
 
   times.start("order and factorise");
   report("factorising the stiffness");
   // A fixed body has a definite stiffness; a free one is shifted below zero.
   const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
   const std::unique_ptr<const ShiftInverse> inverse =
-      factorise_or_refuse(mesh, dof_map, system, shift);
+      options.prestress.empty() ? factorise_or_refuse(mesh, system, shift)
+                                : factorise_prestressed(mesh, dof_map, system, options);
   report(inverse->describe());
   times.start("iterate");
   report("solving for " + std::to_string(options.mode_count) + " modes");
@@ -208,14 +186,14 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   for (const InterfaceDefinition& interface : options.interfaces) {
     averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
   }
-  const std::vector<InterfaceLoads> loads = loads_of(options, dof_map, averages);
+  const std::vector<InterfaceLoads> loads = loads_of(options, field_map, averages);
   auto [basis, certificate, slit_fields] =
-      reduced_basis(mesh, dof_map, system, *inverse, options, loads, progress, warn);
+      reduced_basis(mesh, system, *inverse, options, loads, progress, warn);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
-    apply_conventions(pairs);
+    apply_conventions(pairs, field_map.layout());
   } else {
-    apply_conventions(pairs, dof_map, averages[interface_index(options, options.sign_interface)],
+    apply_conventions(pairs, field_map, averages[interface_index(options, options.sign_interface)],
                       options.length_m);
   }
 
@@ -223,18 +201,26 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   report("reducing to modal coordinates");
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
-  body.boundary = boundary_of(options);
+  body.boundary = boundary_of(options) + (options.prestress.empty() ? "" : "; prestressed");
+  body.prestress = prestress_text(options);
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
-  body.shapes = expanded(dof_map, pairs.vectors);
-  body.modes = describe_modes(mesh, options, basis.kinds, body.shapes,
-                              relative_residuals(system.stiffness(), system.mass(), pairs, shift));
+  body.shapes = field_map.expand(pairs.vectors);
+  if (!options.prestress.empty()) {
+    body.prestress_stiffness =
+        geometric_stiffness(mesh, options.formulation, body.shapes, {options.prestress_m})
+            .front()
+            .diagonal();
+  }
+  body.modes =
+      describe_modes(mesh, options, basis.kinds, body.shapes,
+                     relative_residuals(system.stiffness(), system.mass(), *inverse, pairs));
   const Eigen::Index eigenvectors = eigenvector_count(basis);
   if (options.certify && eigenvectors > 0) {
     times.start("refine and solve again");
     const EigenPairs normal = {pairs.values.head(eigenvectors),
                                pairs.vectors.leftCols(eigenvectors)};
-    const auto errors = mesh_errors({mesh, dof_map, system.mass(), normal}, options, progress);
+    const auto errors = mesh_errors({mesh, system, normal}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       body.modes[k].mesh_error = errors[k];
     }
@@ -242,7 +228,9 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   body.slits = slit_motions(mesh, slit_fields, body.shapes);
   body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
-  body.invariants = inertia_invariants(system.nodal_mass(), mesh.nodes, body.shapes);
+  body.invariants = inertia_invariants(
+      [&](const Eigen::MatrixXd& columns) { return system.mass_integrals(columns); }, mesh.nodes,
+      body.shapes);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
   body.orthogonality =
       (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
@@ -250,21 +238,20 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
           .maxCoeff();
   if (options.geometric_stiffness) {
     report("integrating the geometric stiffness");
-    body.geometric_stiffness =
-        unit_load_stiffness(mesh, options.formulation, dof_map, system.nodal_mass(),
-                            operators_of(system, *inverse), loads, body.shapes);
+    body.geometric_stiffness = unit_load_stiffness(
+        mesh, options.formulation, system, operators_of(system, *inverse), loads, body.shapes);
   }
   if (!options.attachments.empty()) {
     times.start("iterate with bodies attached");
     report("solving with rigid bodies attached");
   }
-  body.attached = attach_bodies(options, {system, *inverse, dof_map, averages, loads},
+  body.attached = attach_bodies(options, {system, *inverse, averages, loads},
                                 pairs.vectors.leftCols(eigenvectors),
                                 fields != nullptr ? &fields->attached_shapes : nullptr);
   if (fields != nullptr) {
     times.start("static responses");
     if (fixed) {
-      fields->responses = interface_responses(dof_map, operators_of(system, *inverse), loads);
+      fields->responses = interface_responses(field_map, operators_of(system, *inverse), loads);
     }
     fields->next_Hz = std::sqrt(pairs.next) / (2 * std::numbers::pi);
   }

@@ -29,10 +29,10 @@ struct AnalysisFields {
 /// @param warn takes a line if the number of modes cuts a cluster of equal frequencies; may be
 /// empty
 /// @param fields takes fields of the same solution if it is not null, for a few solves more
-/// @throws InputError for unknown sets, parts or interfaces, elements that have no such
-/// formulation, more modes than degrees of freedom, a basis that the boundary does not allow, more
-/// than memory holds, or a body that is a mechanism: the message names the parts that move without
-/// strain, and how.
+/// @throws InputError for a body that buckles under its prestress, unknown sets, parts or
+/// interfaces, elements that have no such formulation, more modes than degrees of freedom, a basis
+/// that the boundary does not allow, more than memory holds, or a body that is a mechanism: the
+/// message names the parts that move without strain, and how.
 /// @throws ComputationError if the factorisation or the eigensolver fails, or if a mode is missing.
 ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
                         const Progress& progress, StepTimes* times = nullptr,

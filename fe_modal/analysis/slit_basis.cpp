@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/analysis/slit_basis.h"
 
-#include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/reduction/ritz.h"
 #include "fe_modal/reduction/static_response.h"
 #include "fe_modal/reduction/static_shapes.h"
-#include "fe_modal/solve/make_system.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -14,23 +13,18 @@ namespace {
 /// The body with its slits shut, whose nodes are those of the open one.
 class ShutBody {
  public:
-  ShutBody(mesher::Mesh mesh, const DofMap& open, const ModalOptions& options)
+  ShutBody(mesher::Mesh mesh, const FieldMap& open, const ModalOptions& options)
       : mesh_(tied(std::move(mesh))),
         open_(open),
         dof_map_(dof_map_of(mesh_, options)),
-        system_(make_system(mesh_, dof_map_, options)),
-        inverse_(system_->shift_inverse(0)) {}
+        system_(mesh_, dof_map_, options),
+        inverse_(system_.shift_inverse(0)) {}
 
   /// Static shapes under loads on the open body, both by the open body's degrees of freedom.
   Eigen::MatrixXd shapes(const Eigen::MatrixXd& loads) const {
-    Eigen::MatrixXd own(dof_map_.dof_count(), loads.cols());
-    for (Eigen::Index k = 0; k < loads.cols(); ++k)
-      own.col(k) = dof_map_.gather(open_.expand(loads.col(k)));
-    own = static_response_beyond(operators_of(*system_, *inverse_), {}, own);
-    Eigen::MatrixXd result(loads.rows(), loads.cols());
-    for (Eigen::Index k = 0; k < loads.cols(); ++k)
-      result.col(k) = open_.restrict(dof_map_.expand(own.col(k)));
-    return result;
+    const Eigen::MatrixXd own = system_.fields().gather(open_.expand(loads));
+    return open_.restrict(
+        system_.fields().expand(static_response_beyond(operators_of(system_, *inverse_), {}, own)));
   }
 
  private:
@@ -40,34 +34,34 @@ class ShutBody {
   }
 
   mesher::Mesh mesh_;
-  const DofMap& open_;
+  const FieldMap& open_;
   DofMap dof_map_;
-  std::unique_ptr<const ModalSystem> system_;
+  AssembledSystem system_;
   std::unique_ptr<const ShiftInverse> inverse_;
 };
 
 }  // namespace
 
-SlitBasis slit_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const BodyOperators& open,
+SlitBasis slit_basis(const mesher::Mesh& mesh, const FieldMap& field_map, const BodyOperators& open,
                      const ModalOptions& options, const std::vector<InterfaceLoads>& loads,
                      const Progress& progress) {
   // Forces on couplings and in fixed directions do not pass from the one body to the other.
-  if (dof_map.is_constrained())
+  if (field_map.dof_map().is_constrained())
     throw InputError(
         "slits that open and close: expected no rigid interface and no direction fixed alone");
   const StaticShapes shapes = static_shapes(open, {}, loads);
   const Eigen::MatrixXd combinations = correcting_loads(shapes, loads, progress);
 
   SlitBasis basis;
-  basis.fields = slit_fields(mesh, expanded(dof_map, shapes.beyond * combinations),
+  basis.fields = slit_fields(mesh, field_map.expand(shapes.beyond * combinations),
                              options.slit_motions == SlitMotions::openings_and_sliding);
   if (progress)
     progress(std::to_string(basis.fields.size()) + " ways in which slits part join the basis");
-  Eigen::MatrixXd jumps(shapes.loads.rows(), static_cast<Eigen::Index>(basis.fields.size()));
-  for (std::size_t k = 0; k < basis.fields.size(); ++k)
-    jumps.col(static_cast<Eigen::Index>(k)) = dof_map.restrict(on_nodes(mesh, basis.fields[k]));
+  std::vector<Eigen::Matrix3Xd> parted;
+  for (const SlitField& field : basis.fields) parted.push_back(on_nodes(mesh, field));
+  const Eigen::MatrixXd jumps = field_map.restrict(parted);
 
-  const ShutBody shut(mesh, dof_map, options);
+  const ShutBody shut(mesh, field_map, options);
   Eigen::MatrixXd vectors(jumps.rows(), combinations.cols() + jumps.cols());
   vectors << shut.shapes(shapes.loads * combinations), jumps - shut.shapes(open.stiffness(jumps));
   basis.reduction.pairs = ritz_pairs(open, Eigen::MatrixXd(), std::move(vectors));

@@ -20,10 +20,10 @@ struct SlitBasis {
 /// all amplitudes zero the body is the one without slits, exactly; with openings that loads pull
 /// apart it is the open one as far as its jumps are sums of the fields.
 /// @param mesh     with slits, none of them tied
-/// @param dof_map, open  of that mesh
+/// @param field_map, open  of that mesh
 /// @param loads    of the interfaces
 /// @throws InputError as slit_fields() does, and for rigid interfaces and directions fixed alone
-SlitBasis slit_basis(const mesher::Mesh& mesh, const DofMap& dof_map, const BodyOperators& open,
+SlitBasis slit_basis(const mesher::Mesh& mesh, const FieldMap& field_map, const BodyOperators& open,
                      const ModalOptions& options, const std::vector<InterfaceLoads>& loads,
                      const Progress& progress);
 

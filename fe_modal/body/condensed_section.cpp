@@ -80,6 +80,10 @@ MatrixXd without_load(const MatrixXd& stiffness, Eigen::Index count) {
 }  // namespace
 
 CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top) {
+  if (!body.prestress.empty())
+    throw InputError(
+        "a section is of a body without prestress, found modes about the stresses of " +
+        body.prestress + "; make them without modes.prestress");
   const Eigen::Index m = body.mode_count();
   const auto slits = static_cast<Eigen::Index>(body.slits.size());
   if (m != 6 + slits) {

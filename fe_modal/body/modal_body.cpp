@@ -84,6 +84,9 @@ ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& wa
   ModalBody part;
   part.frequencies_Hz = body.frequencies_Hz(kept);
   part.boundary = body.boundary;
+  part.prestress = body.prestress;
+  if (body.prestress_stiffness.size() > 0)
+    part.prestress_stiffness = body.prestress_stiffness(kept);
   part.certificate = body.certificate;
   part.orthogonality = body.orthogonality;
   part.nodes_m = body.nodes_m;

@@ -103,9 +103,12 @@ struct AttachedFrequencies {
 /// A deformable body reduced to m mass-normalised modes in its body frame, which rides on the fixed
 /// nodes. Row k of a shape belongs to row k of `nodes_m`.
 struct ModalBody {
-  Eigen::VectorXd frequencies_Hz;        ///< (m), ascending
-  std::vector<ModeRecord> modes;         ///< m of them
-  std::string boundary;                  ///< what was fixed, e.g. "fixed: bolts"
+  Eigen::VectorXd frequencies_Hz;  ///< (m), ascending
+  std::vector<ModeRecord> modes;   ///< m of them
+  std::string boundary;            ///< what was fixed, e.g. "fixed: bolts"
+  std::string prestress = {};      ///< loads whose stresses the modes are about; or empty
+  /// (m), what the geometric stiffness of these stresses adds to (2 pi f)^2, 1/s^2; or empty.
+  Eigen::VectorXd prestress_stiffness = {};
   std::string certificate;               ///< "not certified" until completeness has been proved
   std::string solver;                    ///< how the modes were solved for; may be empty
   double orthogonality = 0;              ///< largest |Psi^T M Psi - I|

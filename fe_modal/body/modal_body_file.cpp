@@ -121,6 +121,10 @@ void write_basis(Hdf5Writer& file, const ModalBody& body) {
   file.write(kEnergyFractions, shares, {m, 4}, "percent");
   file.write("/basis/residual", residuals, {m}, "1");
   file.write_attribute("/basis", "boundary", std::string_view(body.boundary));
+  if (!body.prestress.empty()) {
+    file.write_attribute("/basis", "prestress", std::string_view(body.prestress));
+    write_vector(file, "/basis/prestress_stiffness", body.prestress_stiffness, "1/s^2");
+  }
   if (!body.solver.empty()) file.write("/basis/solver", std::vector<std::string>{body.solver});
 }
 
@@ -151,6 +155,11 @@ void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
     body.modes.push_back(mode);
   }
   body.boundary = file.string_attribute("/basis", "boundary");
+  const std::vector<std::string> attributes = file.attributes("/basis");
+  if (std::find(attributes.begin(), attributes.end(), "prestress") != attributes.end()) {
+    body.prestress = file.string_attribute("/basis", "prestress");
+    body.prestress_stiffness = read_vector(file, "/basis/prestress_stiffness", m, "1/s^2");
+  }
   if (!file.has("/basis/solver")) return;
   const std::vector<std::string> solver = file.read_strings("/basis/solver");
   if (solver.size() != 1) file.refuse("/basis/solver", "expected one text");

@@ -127,6 +127,36 @@ void DofMap::fix(std::span<const FixedDirections> directions,
   }
 }
 
+DofMap DofMap::part(std::span<const std::int32_t> nodes, std::vector<std::int32_t>& numbers) const {
+  numbers.clear();
+  for (const std::int32_t node : nodes) {
+    for_each_number(node, [&](std::int32_t number) { numbers.push_back(number); });
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  const auto place = [&](std::int32_t number) {
+    return static_cast<std::int32_t>(std::lower_bound(numbers.begin(), numbers.end(), number) -
+                                     numbers.begin());
+  };
+  DofMap result;
+  result.free_count_ = static_cast<Eigen::Index>(numbers.size());
+  result.first_coupling_ = place(first_coupling_);
+  for (const std::int32_t node : nodes) {
+    result.indices_.push_back(index(node) < 0 ? -1 : place(index(node)));
+    if (!has_rigid_couplings()) continue;
+    result.coupling_of_.push_back(
+        coupling(node) < 0 ? -1
+                           : (place(translation(coupling(node))) - result.first_coupling_) / 2);
+  }
+  if (has_rigid_couplings()) result.arms_m_ = arms_m_(Eigen::all, nodes);
+  if (!fixed_.empty()) {
+    for (const std::int32_t number : numbers) {
+      result.fixed_.push_back(fixed_[static_cast<std::size_t>(number)]);
+    }
+  }
+  return result;
+}
+
 Eigen::Index DofMap::fixed_direction_count() const {
   Eigen::Index count = 0;
   for (const std::array<bool, 3>& fixed : fixed_)

@@ -45,10 +45,10 @@ class DofMap {
          std::span<const RigidCoupling> couplings = {},
          std::span<const FixedDirections> directions = {});
 
-  /// As numbered elsewhere.
-  /// @param indices what index() is to return
-  DofMap(std::vector<std::int32_t> indices, std::int32_t free_count)
-      : indices_(std::move(indices)), free_count_(free_count) {}
+  /// The same of some nodes alone, by numbers of their own, which ascend as those of the whole do.
+  /// @param nodes of the whole, ascending
+  /// @param numbers takes what the numbers are in the whole
+  DofMap part(std::span<const std::int32_t> nodes, std::vector<std::int32_t>& numbers) const;
 
   Eigen::Index node_count() const { return static_cast<Eigen::Index>(indices_.size()); }
   Eigen::Index free_count() const { return free_count_; }
@@ -64,6 +64,16 @@ class DofMap {
   /// Numbers of a rigid coupling's translation, m, and rotation, rad.
   std::int32_t translation(std::int32_t coupling) const { return first_coupling_ + 2 * coupling; }
   std::int32_t rotation(std::int32_t coupling) const { return first_coupling_ + 2 * coupling + 1; }
+  /// Calls emit(number) for each number that a node's displacement depends on.
+  template <typename Emit>
+  void for_each_number(std::int32_t node, const Emit& emit) const {
+    if (coupling(node) >= 0) {
+      emit(translation(coupling(node)));
+      emit(rotation(coupling(node)));
+    } else if (index(node) >= 0) {
+      emit(index(node));
+    }
+  }
   /// Whether a node, by its number, is fixed in direction a.
   bool is_fixed(std::int32_t number, Eigen::Index a) const {
     return !fixed_.empty() && fixed_[static_cast<std::size_t>(number)][static_cast<std::size_t>(a)];
@@ -84,6 +94,7 @@ class DofMap {
   Eigen::VectorXd gather(const Eigen::Matrix3Xd& forces) const;
 
  private:
+  DofMap() = default;
   void couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupling> couplings);
   void fix(std::span<const FixedDirections> directions, std::span<const RigidCoupling> couplings);
   /// Zero in the directions that are fixed, (dof_count()).

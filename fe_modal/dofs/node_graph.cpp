@@ -88,13 +88,7 @@ NodeGraph::NodeGraph(const mesher::Mesh& mesh) {
 
 NodeGraph::NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map) {
   const auto free = [&](std::int32_t node, const auto& emit) {
-    const std::int32_t coupling = dof_map.coupling(node);
-    if (coupling >= 0) {
-      emit(dof_map.translation(coupling));
-      emit(dof_map.rotation(coupling));
-    } else if (dof_map.index(node) >= 0) {
-      emit(dof_map.index(node));
-    }
+    dof_map.for_each_number(node, emit);
   };
   connect(nodes_of_elements(mesh, free), static_cast<std::size_t>(dof_map.free_count()), offsets_,
           columns_);

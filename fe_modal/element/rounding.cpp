@@ -42,6 +42,7 @@ double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formula
                    [&](const PointFields& fields, double shear_modulus_Pa) {
                      work += stress_work(fields, shear_modulus_Pa);
                    });
+  if (body.prestress_stiffness.size() > 0) work += body.prestress_stiffness[mode];
   const double omega = 2 * std::numbers::pi * *elastic;
   const double exact = std::sqrt(work / body.invariants.Maa(mode, mode));
   return std::abs(omega - exact) / exact;

@@ -11,8 +11,9 @@ namespace flexneck::fe_modal {
 /// stiffness are of the size of the bulk modulus times the element's; rounded, they no longer let a
 /// body translate without force. What holds it then is lost below some 1e-16 of them: the more, the
 /// nearer Poisson's ratio is to 1/2, and the more slender the body. The strain energy of the mode
-/// summed from strains, element by element, has no such loss: by Rayleigh's quotient its difference
-/// from the eigenvalue is the error. Zero if there is no elastic mode.
+/// summed from strains, element by element, and what a prestress adds to it, have no such loss: by
+/// Rayleigh's quotient its difference from the eigenvalue is the error. Zero if there is no elastic
+/// mode.
 double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                       const ModalBody& body);
 

@@ -18,7 +18,12 @@ constexpr std::size_t kMaxNodes = 4000;
 constexpr std::size_t kMaxModes = 4;
 
 /// The lowest modes that are eigenvectors and no rigid motions.
+/// @throws InputError for a prestressed body, whose loads the ATB would apply again.
 std::vector<std::size_t> modes_to_write(const ModalBody& body) {
+  if (!body.prestress.empty())
+    throw InputError(
+        "the ATB would apply the loads again that the modes are prestressed by; make "
+        "them without modes.prestress");
   std::vector<std::size_t> modes;
   for (std::size_t k = 0; k < body.modes.size() && modes.size() < kMaxModes; ++k) {
     if (body.modes[k].kind == "normal") modes.push_back(k);

@@ -62,13 +62,13 @@ class ImportedSystem : public ModalSystem {
 
   Mat stiffness() const override { return stiffness_.get(); }
   Mat mass() const override { return mass_.get(); }
-  const NodalMass& nodal_mass() const override { return nodal_mass_; }
+  const NodalMass& nodal_mass() const { return nodal_mass_; }
   std::unique_ptr<ShiftInverse> shift_inverse(double shift) const override {
     if (shift == 0) return std::make_unique<CholeskyFactor>(stiffness_.get(), shift);
     const UpperMatrix shifted = body_.stiffness - shift * body_.mass;
     return std::make_unique<CholeskyFactor>(wrap(shifted).get(), shift);
   }
-  Eigen::Index eigenvalues_below(double sigma) const override {
+  std::optional<Eigen::Index> eigenvalues_below(double sigma) const override {
     const UpperMatrix shifted = body_.stiffness - sigma * body_.mass;
     return negative_eigenvalues(wrap(shifted).get());
   }
@@ -142,7 +142,7 @@ ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certi
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(0);
   auto [pairs, certificate] = lowest_modes(system, *inverse, mode_count, certify, warn);
   check_eigenvalues(pairs.values, 0);
-  apply_conventions(pairs);
+  apply_conventions(pairs, DofLayout(input.nodes_m.cols()));
 
   ModalBody body;
   body.frequencies_Hz = pairs.values.cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
@@ -155,7 +155,8 @@ ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certi
   }
   const std::vector<std::string> names =
       mode_names(std::vector<Shares>(static_cast<std::size_t>(mode_count)));
-  const Eigen::VectorXd residuals = relative_residuals(system.stiffness(), system.mass(), pairs, 0);
+  const Eigen::VectorXd residuals =
+      relative_residuals(system.stiffness(), system.mass(), *inverse, pairs);
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     body.modes.push_back({names[static_cast<std::size_t>(k)], "normal", {}, residuals[k]});
   }

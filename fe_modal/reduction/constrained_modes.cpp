@@ -3,17 +3,20 @@
 
 #include <Eigen/Cholesky>
 
+#include "fe_modal/algebra/matrix_product.h"
+
 namespace flexneck::fe_modal {
 struct ConstrainedMass::Terms {
+  Ranks ranks;
   Eigen::MatrixXd constraints;           ///< C^T, (dofs, n)
   Eigen::MatrixXd responses;             ///< X, (dofs, n)
   Eigen::LLT<Eigen::MatrixXd> products;  ///< of C X
 
   Eigen::MatrixXd project(const Eigen::MatrixXd& fields) const {
-    return fields - responses * products.solve(constraints.transpose() * fields);
+    return fields - responses * products.solve(inner_products(ranks, constraints, fields));
   }
   Eigen::MatrixXd project_transposed(const Eigen::MatrixXd& momenta) const {
-    return momenta - constraints * products.solve(responses.transpose() * momenta);
+    return momenta - constraints * products.solve(inner_products(ranks, responses, momenta));
   }
 };
 
@@ -25,14 +28,18 @@ Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-ConstrainedMass::ConstrainedMass(Mat mass, const Eigen::MatrixXd& constraints,
+ConstrainedMass::ConstrainedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& constraints,
                                  const Eigen::MatrixXd& responses)
     : terms_(std::make_shared<const Terms>(
-          Terms{constraints, responses,
-                Eigen::LLT<Eigen::MatrixXd>(symmetric_part(constraints.transpose() * responses))})),
-      operator_(constraints.rows(), [mass, terms = terms_](const Eigen::MatrixXd& fields) {
-        return terms->project_transposed(block_product(mass, terms->project(fields)));
-      }) {}
+          Terms{ranks, constraints, responses,
+                Eigen::LLT<Eigen::MatrixXd>(
+                    symmetric_part(inner_products(ranks, constraints, responses)))})),
+      operator_(
+          constraints.rows(),
+          [mass, terms = terms_](const Eigen::MatrixXd& fields) {
+            return terms->project_transposed(block_product(mass, terms->project(fields)));
+          },
+          ranks) {}
 
 Eigen::MatrixXd ConstrainedMass::project(const Eigen::MatrixXd& columns) const {
   return terms_->project(columns);

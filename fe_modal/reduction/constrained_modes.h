@@ -18,7 +18,8 @@ class ConstrainedMass {
   /// @param mass of the free degrees of freedom; must outlive this
   /// @param constraints C^T, (dofs, n), independent
   /// @param responses X, (dofs, n)
-  ConstrainedMass(Mat mass, const Eigen::MatrixXd& constraints, const Eigen::MatrixXd& responses);
+  ConstrainedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& constraints,
+                  const Eigen::MatrixXd& responses);
 
   Mat matrix() const { return operator_.get(); }
   /// P x of each column.

@@ -124,27 +124,21 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
 }
 
 GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
-                                       const FormulationChoice& formulation, const DofMap& dof_map,
-                                       const NodalMass& nodal_mass, const BodyOperators& body,
+                                       const FormulationChoice& formulation,
+                                       const AssembledSystem& system, const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
                                        const std::vector<Eigen::Matrix3Xd>& modes) {
   std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(mesher::positions_of(mesh));
   accelerations.insert(accelerations.end(), modes.begin(), modes.end());
   const auto inertial = static_cast<Eigen::Index>(accelerations.size());
-  Eigen::MatrixXd loads(dof_map.dof_count(),
+  Eigen::MatrixXd loads(system.fields().own_dof_count(),
                         inertial + static_cast<Eigen::Index>(6 * interfaces.size()));
-  for (Eigen::Index i = 0; i < inertial; ++i) {
-    const Eigen::MatrixX3d field = accelerations[static_cast<std::size_t>(i)].transpose();
-    loads.col(i) = -dof_map.gather(Eigen::MatrixX3d(nodal_mass * field).transpose());
-  }
+  loads.leftCols(inertial) = -system.inertia_forces(accelerations);
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
     loads.middleCols<6>(inertial + static_cast<Eigen::Index>(6 * k)) = interfaces[k].forces;
   }
-  const Eigen::MatrixXd responses = static_response_beyond(body, {}, loads);
-  std::vector<Eigen::Matrix3Xd> displacements;
-  for (const auto& response : responses.colwise()) {
-    displacements.push_back(dof_map.expand(response));
-  }
+  const std::vector<Eigen::Matrix3Xd> displacements =
+      system.fields().expand(static_response_beyond(body, {}, loads));
   const std::vector<Eigen::MatrixXd> all =
       geometric_stiffness(mesh, formulation, modes, displacements);
   const auto group = [&](std::size_t first, std::size_t count) {

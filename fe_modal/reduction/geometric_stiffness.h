@@ -6,11 +6,10 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/reduction/operators.h"
 #include "fe_modal/reduction/reduction.h"
-#include "fe_modal/system/mass_matrix.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
@@ -26,10 +25,9 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
 
 /// The same for the stresses of unit accelerations, angular accelerations, products of angular
 /// velocities, modal accelerations and interface loads of a fixed body, from static solutions.
-/// @param nodal_mass of all nodes
 GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
-                                       const FormulationChoice& formulation, const DofMap& dof_map,
-                                       const NodalMass& nodal_mass, const BodyOperators& body,
+                                       const FormulationChoice& formulation,
+                                       const AssembledSystem& system, const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
                                        const std::vector<Eigen::Matrix3Xd>& modes);
 

@@ -22,6 +22,16 @@ Eigen::Matrix3d inertia_integral(const Products& c) {
 InertiaInvariants inertia_invariants(const NodalMass& mass,
                                      const std::vector<std::array<double, 3>>& nodes_m,
                                      const std::vector<Eigen::Matrix3Xd>& shapes) {
+  return inertia_invariants(
+      [&](const Eigen::MatrixXd& fields) -> Eigen::MatrixXd {
+        return fields.transpose() * (mass * fields);
+      },
+      nodes_m, shapes);
+}
+
+InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
+                                     const std::vector<std::array<double, 3>>& nodes_m,
+                                     const std::vector<Eigen::Matrix3Xd>& shapes) {
   const auto n = static_cast<Eigen::Index>(nodes_m.size());
   const auto m = static_cast<Eigen::Index>(shapes.size());
   // Columns: 1, then the components of s0, then those of psi_0 … psi_(m-1).
@@ -34,7 +44,7 @@ InertiaInvariants inertia_invariants(const NodalMass& mass,
   for (Eigen::Index l = 0; l < m; ++l) {
     fields.middleCols<3>(4 + 3 * l) = shapes[static_cast<std::size_t>(l)].transpose();
   }
-  const Eigen::MatrixXd integrals = fields.transpose() * (mass * fields);
+  const Eigen::MatrixXd integrals = mass_integrals(fields);
   const auto products = [&](Eigen::Index first, Eigen::Index second) -> Products {
     return integrals.block<3, 3>(1 + 3 * first, 1 + 3 * second);  // 0: s0, l + 1: psi_l
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "fe_modal/body/modal_body.h"
@@ -9,11 +10,18 @@
 
 namespace flexneck::fe_modal {
 
+using MassIntegrals = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
+
 /// Inertia invariants from the consistent mass matrix (equations.md, section 2): each is a sum of
 /// integrals int rho p q = p^T M q of the component fields p, q in {1, s0, psi}. For isoparametric
 /// elements that is the integral itself, by the quadrature of the mass matrix.
+/// @param mass_integrals int rho f g dV of all pairs of fields, (n, k) -> (k, k)
 /// @param nodes_m positions in the body frame
 /// @param shapes m fields on all nodes, (3, n) each
+InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
+                                     const std::vector<std::array<double, 3>>& nodes_m,
+                                     const std::vector<Eigen::Matrix3Xd>& shapes);
+/// The same of a mass matrix between all nodes.
 InertiaInvariants inertia_invariants(const NodalMass& mass,
                                      const std::vector<std::array<double, 3>>& nodes_m,
                                      const std::vector<Eigen::Matrix3Xd>& shapes);

@@ -14,11 +14,12 @@ constexpr double kSameFrequency = 1e-6;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// Translations and length x rotations at the observed region, one column a mode.
-Motions observe(const EigenPairs& pairs, const DofMap& dof_map, const RigidAverage& seen,
+Motions observe(const EigenPairs& pairs, const FieldMap& field_map, const RigidAverage& seen,
                 double length_m) {
   Motions motions(6, pairs.values.size());
+  const std::vector<Eigen::Matrix3Xd> shapes = field_map.expand(pairs.vectors);
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
-    motions.col(k) = seen.of(dof_map.expand(pairs.vectors.col(k)));
+    motions.col(k) = seen.of(shapes[static_cast<std::size_t>(k)]);
   }
   motions.bottomRows<3>() *= length_m;
   return motions;
@@ -50,9 +51,9 @@ double sign_of_largest(const Eigen::VectorXd& values) {
 
 }  // namespace
 
-void apply_conventions(EigenPairs& pairs, const DofMap& dof_map, const RigidAverage& seen,
+void apply_conventions(EigenPairs& pairs, const FieldMap& field_map, const RigidAverage& seen,
                        double length_m) {
-  Motions motions = observe(pairs, dof_map, seen, length_m);
+  Motions motions = observe(pairs, field_map, seen, length_m);
   for (Eigen::Index first = 0; first < pairs.values.size();) {
     const Eigen::Index count = end_of_group(pairs.values, first) - first;
     if (count > 1 && pairs.values[first] > 0) {
@@ -67,8 +68,8 @@ void apply_conventions(EigenPairs& pairs, const DofMap& dof_map, const RigidAver
   }
 }
 
-void apply_conventions(EigenPairs& pairs) {
-  for (auto vector : pairs.vectors.colwise()) vector *= sign_of_largest(vector);
+void apply_conventions(EigenPairs& pairs, const DofLayout& layout) {
+  for (auto vector : pairs.vectors.colwise()) vector *= sign_of_largest(layout.whole(vector));
 }
 
 }  // namespace flexneck::fe_modal

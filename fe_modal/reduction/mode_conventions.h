@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/field_map.h"
 #include "fe_modal/system/rigid_average.h"
 
 namespace flexneck::fe_modal {
@@ -14,10 +14,10 @@ namespace flexneck::fe_modal {
 /// @param pairs changed in place; rigid-body modes (frequency zero) keep their basis
 /// @param seen where the motion is observed
 /// @param length_m turns rotations into lengths
-void apply_conventions(EigenPairs& pairs, const DofMap& dof_map, const RigidAverage& seen,
+void apply_conventions(EigenPairs& pairs, const FieldMap& field_map, const RigidAverage& seen,
                        double length_m);
 
 /// Where nothing is observed: the largest component is made positive.
-void apply_conventions(EigenPairs& pairs);
+void apply_conventions(EigenPairs& pairs, const DofLayout& layout);
 
 }  // namespace flexneck::fe_modal

@@ -11,7 +11,7 @@ BodyOperators operators_of(const ModalSystem& system, const ShiftInverse& invers
   };
   return {multiply_by(system.stiffness()), multiply_by(system.mass()),
           [&inverse](const Eigen::MatrixXd& loads) { return inverse.precondition(loads); },
-          inverse.shift()};
+          inverse.shift(), inverse.ranks()};
 }
 
 }  // namespace flexneck::fe_modal

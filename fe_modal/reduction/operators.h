@@ -14,6 +14,7 @@ struct BodyOperators {
   BlockOperator mass;          ///< M x, kg
   BlockOperator precondition;  ///< (K - shift M)^-1 f, or near it
   double shift = 0;            ///< zero for a fixed body, below zero for a free one, 1/s^2
+  Ranks ranks = {};            ///< whose rows they take and give
 };
 
 /// @param system, inverse must outlive the operators

@@ -54,7 +54,7 @@ Reduction craig_bampton(const BodyOperators& body, Mat mass, const ModeSolver& s
   const StaticShapes shapes = static_shapes(body, {}, interfaces);
   const Eigen::MatrixXd combinations = correcting_loads(shapes, interfaces, progress);
   const Eigen::MatrixXd responses = shapes.beyond * combinations;
-  const ConstrainedMass constrained(mass, shapes.loads * combinations, responses);
+  const ConstrainedMass constrained(body.ranks, mass, shapes.loads * combinations, responses);
   Eigen::MatrixXd vectors(responses.rows(), count + responses.cols());
   vectors.rightCols(responses.cols()) = responses;
   if (count > 0) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/reduction/static_response.h"
 
 namespace flexneck::fe_modal {
@@ -23,9 +24,10 @@ EigenPairs ritz_pairs(const BodyOperators& body, const Eigen::MatrixXd& modes,
   if (pairs.values.size() == 0) return pairs;
   const Eigen::MatrixXd momenta = modes.cols() > 0 ? body.mass(modes) : modes;
   for (int pass = 0; pass < kPasses; ++pass) {
-    remove_modes(modes, momenta, pairs.vectors);
-    Eigen::MatrixXd mass = pairs.vectors.transpose() * body.mass(pairs.vectors);
-    Eigen::MatrixXd stiffness = pairs.vectors.transpose() * body.stiffness(pairs.vectors);
+    remove_modes(body.ranks, modes, momenta, pairs.vectors);
+    Eigen::MatrixXd mass = inner_products(body.ranks, pairs.vectors, body.mass(pairs.vectors));
+    Eigen::MatrixXd stiffness =
+        inner_products(body.ranks, pairs.vectors, body.stiffness(pairs.vectors));
     // Shapes of unit mass, so that the small problem is as well conditioned as it can be.
     const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
     mass = scale.asDiagonal() * symmetric_part(mass) * scale.asDiagonal();

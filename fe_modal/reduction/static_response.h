@@ -11,7 +11,7 @@ namespace flexneck::fe_modal {
 /// The columns less what the modes have of them, M-orthogonal to the modes.
 /// @param modes (dofs, m), M-orthonormal; may have no columns
 /// @param momenta M times the modes
-void remove_modes(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& momenta,
+void remove_modes(const Ranks& ranks, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& momenta,
                   Eigen::MatrixXd& columns);
 
 /// What static shapes have beyond some modes: X with K X = F - M Phi Phi^T F, M-orthogonal to the

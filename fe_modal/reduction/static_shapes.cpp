@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/reduction/static_shapes.h"
 
+#include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/body/independent_loads.h"
 #include "fe_modal/reduction/static_response.h"
 
 namespace flexneck::fe_modal {
 
 InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
-                               const DofMap& dof_map) {
-  InterfaceLoads loads{name, Eigen::MatrixXd(dof_map.dof_count(), 6)};
-  const auto weights = average.weights(dof_map.node_count());
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    loads.forces.col(static_cast<Eigen::Index>(i)) = dof_map.gather(weights[i]);
-  }
-  return loads;
+                               const FieldMap& field_map) {
+  return {name, field_map.gather(average.weights(field_map.node_count()))};
 }
 
 StaticShapes static_shapes(const BodyOperators& body, const EigenPairs& kept,
@@ -25,11 +21,12 @@ StaticShapes static_shapes(const BodyOperators& body, const EigenPairs& kept,
     shapes.loads.middleCols<6>(static_cast<Eigen::Index>(6 * k)) = interfaces[k].forces;
   }
   shapes.beyond = static_response_beyond(body, kept, shapes.loads);
-  shapes.rest = shapes.loads.transpose() * shapes.beyond;
-  const Eigen::MatrixXd rest_mass = shapes.beyond.transpose() * body.mass(shapes.beyond);
+  shapes.rest = inner_products(body.ranks, shapes.loads, shapes.beyond);
+  const Eigen::MatrixXd rest_mass =
+      inner_products(body.ranks, shapes.beyond, body.mass(shapes.beyond));
   ModalResponse modal{Eigen::MatrixXd::Zero(count, count), Eigen::MatrixXd::Zero(count, count)};
   if (kept.values.size() > 0) {
-    modal = modal_response(kept.values, kept.vectors.transpose() * shapes.loads);
+    modal = modal_response(kept.values, inner_products(body.ranks, kept.vectors, shapes.loads));
   }
   const Eigen::MatrixXd compliance = modal.compliance + shapes.rest;
   const Eigen::MatrixXd mass = modal.mass + rest_mass;

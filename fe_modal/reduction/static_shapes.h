@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 
 #include "fe_modal/body/modal_body.h"
-#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/reduction/operators.h"
 #include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/system/field_map.h"
 #include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/progress.h"
 
@@ -19,13 +19,13 @@ namespace flexneck::fe_modal {
 /// is that of the interface's average motion.
 struct InterfaceLoads {
   std::string name;
-  Eigen::MatrixXd forces;      ///< C^T, (dofs, 6)
+  Eigen::MatrixXd forces;      ///< C^T, (own dofs, 6)
   bool corrects_basis = true;  ///< whether static shapes of this interface join the basis
 };
 
 /// Loads of an interface on the free degrees of freedom.
 InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
-                               const DofMap& dof_map);
+                               const FieldMap& field_map);
 
 /// Static shapes of all interfaces' loads, less what some modes have of them.
 struct StaticShapes {

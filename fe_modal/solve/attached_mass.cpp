@@ -27,13 +27,17 @@ Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
   return matrix;
 }
 
-AttachedMass::AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass)
+AttachedMass::AttachedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& loads,
+                           const Matrix6d& rigid_mass)
     : loads_(loads),
-      operator_(loads.rows(), [mass, rigid_mass, &loads](const Eigen::MatrixXd& fields) {
-        Eigen::MatrixXd momenta = block_product(mass, fields);
-        multiply(1, loads, rigid_mass * inner_products(loads, fields), 1, momenta);
-        return momenta;
-      }) {}
+      operator_(
+          loads.rows(),
+          [ranks, mass, rigid_mass, &loads](const Eigen::MatrixXd& fields) {
+            Eigen::MatrixXd momenta = block_product(mass, fields);
+            multiply(1, loads, rigid_mass * inner_products(ranks, loads, fields), 1, momenta);
+            return momenta;
+          },
+          ranks) {}
 
 EigenPairs lowest_eigenpairs(const AttachedMass& mass, const ShiftInverse& inverse,
                              const Eigen::Ref<const Eigen::MatrixXd>& modes, Eigen::Index count) {
@@ -43,7 +47,7 @@ EigenPairs lowest_eigenpairs(const AttachedMass& mass, const ShiftInverse& inver
   constexpr double kResidual = 1e-6;
   Eigen::MatrixXd start(modes.rows(), modes.cols() + mass.loads().cols());
   start << modes, inverse.solve(mass.loads());
-  start.colwise().normalize();
+  start *= column_products(inverse.ranks(), start, start).cwiseSqrt().cwiseInverse().asDiagonal();
   return block_lanczos(mass.matrix(), inverse, EigenPairs(), std::move(start), count,
                        settled_to(kResidual));
 }

@@ -20,7 +20,8 @@ class AttachedMass {
   /// @param mass of the free degrees of freedom; must outlive this
   /// @param loads C^T, (dofs, 6): unit forces and moments on the region; must outlive this
   /// @param rigid_mass about the point that they act at
-  AttachedMass(Mat mass, const Eigen::MatrixXd& loads, const Matrix6d& rigid_mass);
+  AttachedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& loads,
+               const Matrix6d& rigid_mass);
 
   Mat matrix() const { return operator_.get(); }
   const Eigen::MatrixXd& loads() const { return loads_; }

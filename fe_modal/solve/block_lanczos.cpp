@@ -10,6 +10,7 @@
 
 #include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/algebra/random_block.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -29,18 +30,19 @@ struct Columns {
 /// Makes the columns M-orthonormal, one after the other, and drops those that are shorter than
 /// `shortest` by then.
 /// @return R, (kept, all), with the old columns = the new ones R, but for what was dropped
-Eigen::MatrixXd orthonormalise(Columns& block, const Eigen::VectorXd& shortest) {
+Eigen::MatrixXd orthonormalise(const Ranks& ranks, Columns& block,
+                               const Eigen::VectorXd& shortest) {
   const Eigen::Index all = block.vectors.cols();
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(all, all);
   Eigen::Index kept = 0;
   for (Eigen::Index k = 0; k < all; ++k) {
     Eigen::VectorXd vector = block.vectors.col(k);
     Eigen::VectorXd momentum = block.momenta.col(k);
-    const Eigen::VectorXd shares = block.vectors.leftCols(kept).transpose() * momentum;
+    const Eigen::VectorXd shares = inner_products(ranks, block.vectors.leftCols(kept), momentum);
     vector.noalias() -= block.vectors.leftCols(kept) * shares;
     momentum.noalias() -= block.momenta.leftCols(kept) * shares;
     factor.col(k).head(kept) = shares;
-    const double length = std::sqrt(std::max(vector.dot(momentum), 0.0));
+    const double length = std::sqrt(std::max(column_products(ranks, vector, momentum)[0], 0.0));
     if (length <= shortest[k]) continue;
     factor(kept, k) = length;
     block.vectors.col(kept) = vector / length;
@@ -99,20 +101,19 @@ class Basis {
 /// M-orthogonalises the block against the basis, twice, since once leaves rounding errors. M X is
 /// computed anew each time: where little of X remains, an updated M X would be inaccurate.
 /// @return {S, R} with the old block = V S + the new block R
-std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(Mat mass, const Basis& basis,
-                                                          Columns& block) {
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(const Ranks& ranks, Mat mass,
+                                                          const Basis& basis, Columns& block) {
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(basis.count(), block.vectors.cols());
   Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(block.vectors.cols(), block.vectors.cols());
   Eigen::VectorXd shortest =
-      kNothingNew *
-      block.vectors.cwiseProduct(block.momenta).colwise().sum().cwiseMax(0).cwiseSqrt().transpose();
+      kNothingNew * column_products(ranks, block.vectors, block.momenta).cwiseMax(0).cwiseSqrt();
   for (int pass = 0; pass < 2; ++pass) {
-    const Eigen::MatrixXd more = inner_products(basis.vectors(), block.momenta);
+    const Eigen::MatrixXd more = inner_products(ranks, basis.vectors(), block.momenta);
     multiply(-1, basis.vectors(), more, 1, block.vectors);
     block.momenta.resize(0, 0);
     block.momenta = block_product(mass, block.vectors);
     shares += more * factor;
-    factor = (orthonormalise(block, shortest) * factor).eval();
+    factor = (orthonormalise(ranks, block, shortest) * factor).eval();
     shortest = Eigen::VectorXd::Zero(block.vectors.cols());
   }
   return {shares, factor};
@@ -122,13 +123,13 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(Mat mass, const Basis&
 
 EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs& known,
                          Eigen::MatrixXd start, Eigen::Index count, const Settled& settled) {
-  const Eigen::Index size = start.rows();
+  const Ranks& ranks = inverse.ranks();
   const Eigen::Index width = start.cols();
-  Basis basis(size, std::min(known.values.size() + kBlocksOfBasis * width, size));
+  Basis basis(start.rows(), std::min(known.values.size() + kBlocksOfBasis * width, size_of(mass)));
   if (known.values.size() > 0) basis.take(inverse.shift(), known);
   Columns block{std::move(start), Eigen::MatrixXd()};
   block.momenta = block_product(mass, block.vectors);
-  orthogonalise(mass, basis, block);
+  orthogonalise(ranks, mass, basis, block);
   RitzState state;
   for (int blocks = 0; blocks < kMaxBlocks; ++blocks) {
     const Eigen::Index last = block.vectors.cols();
@@ -136,7 +137,7 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs
     block.vectors.resize(0, 0);  // frees it before the solution comes
     block.vectors = inverse.solve(block.momenta);
     block.momenta = block_product(mass, block.vectors);
-    const auto [shares, coupling] = orthogonalise(mass, basis, block);
+    const auto [shares, coupling] = orthogonalise(ranks, mass, basis, block);
     basis.project_last(shares);
 
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());
@@ -168,8 +169,8 @@ EigenPairs purified(Mat mass, const ShiftInverse& inverse, const EigenPairs& pai
   const Eigen::MatrixXd vectors = inverse.solve(before);
   const Eigen::MatrixXd momenta = block_product(mass, vectors);
   // What was before is (K - shift M) times the new vectors.
-  const Eigen::MatrixXd stiffness = vectors.transpose() * before;
-  const Eigen::MatrixXd inertia = vectors.transpose() * momenta;
+  const Eigen::MatrixXd stiffness = inner_products(inverse.ranks(), vectors, before);
+  const Eigen::MatrixXd inertia = inner_products(inverse.ranks(), vectors, momenta);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
       (stiffness + stiffness.transpose()) / 2, inertia);
   return {ritz.eigenvalues().array() + inverse.shift(), vectors * ritz.eigenvectors(), pairs.next};

@@ -27,7 +27,7 @@ using Settled = std::function<bool(const RitzState&)>;
 /// Copies of a multiple eigenvalue come together if the start has as many columns.
 /// @param mass may differ from that in the inverse if the shift is zero
 /// @param known eigenpairs to go on from, perhaps none
-/// @param start (dofs, block); what depends on other columns and on known vectors is dropped
+/// @param start (own dofs, block); what depends on other columns and on known vectors is dropped
 /// @param count wanted, the known ones among them
 /// @return `count` pairs, or fewer if all that was given spans no more
 /// @throws ComputationError if they do not settle.

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <string>
 
 #include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/kept_exception.h"
+#include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/algebra/operator_matrix.h"
+#include "fe_modal/algebra/random_block.h"
 #include "fe_modal/solve/block_lanczos.h"
 #include "geometry/foundation/error.h"
 
@@ -47,13 +49,13 @@ PetscErrorCode apply_inverse(PC preconditioner, Vec x, Vec y) {
   InverseContext* context = nullptr;
   const PetscErrorCode code = PCShellGetContext(preconditioner, static_cast<void*>(&context));
   if (code != 0) return code;
-  return context->failure.keep([&] { context->inverse->solve(x, y); });
+  return context->failure.keep([&] { solve(*context->inverse, x, y); });
 }
 
 /// @param context lives as long as the solver
 EpsHandle make_solver(const Problem& problem, InverseContext& context) {
   EpsHandle handle;
-  require(EPSCreate(PETSC_COMM_SELF, handle.out()), kSolving);
+  require(EPSCreate(communicator(problem.inverse->ranks()), handle.out()), kSolving);
   EPS eps = handle.get();
   require(EPSSetOperators(eps, problem.stiffness, problem.mass), kSolving);
   require(EPSSetProblemType(eps, EPS_GHEP), kSolving);
@@ -77,28 +79,18 @@ EpsHandle make_solver(const Problem& problem, InverseContext& context) {
 }
 
 EigenPairs converged_pairs(EPS eps, const Problem& problem, Eigen::Index count, Eigen::Index size) {
+  const Ranks& ranks = problem.inverse->ranks();
   EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(size, count)};
   for (Eigen::Index k = 0; k < count; ++k) {
-    const VecHandle vector = column_vector(pairs.vectors, k);
+    const VecHandle vector = column_vector(pairs.vectors, k, ranks);
     require(EPSGetEigenpair(eps, static_cast<PetscInt>(k), &pairs.values[k], nullptr, vector.get(),
                             nullptr),
             kSolving);
   }
-  for (auto vector : pairs.vectors.colwise()) {
-    vector /= std::sqrt(vector.dot(block_product(problem.mass, vector).col(0)));
-  }
+  const Eigen::VectorXd squares =
+      column_products(ranks, pairs.vectors, block_product(problem.mass, pairs.vectors));
+  pairs.vectors *= squares.cwiseSqrt().cwiseInverse().asDiagonal();
   return pairs;
-}
-
-/// Numbers between -1/2 and 1/2: each eigenspace has its share in each column.
-Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  Eigen::MatrixXd block(size, columns);
-  // Not std::uniform_real_distribution, whose numbers differ from library to library.
-  for (double& x : block.reshaped()) {
-    x = std::ldexp(static_cast<double>(generator() >> 11U), -53) - 0.5;
-  }
-  return block;
 }
 
 /// The lowest pairs, but of a multiple eigenvalue perhaps only one.
@@ -106,11 +98,12 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Eigen::Matri
   InverseContext inverse{problem.inverse, {}};
   const EpsHandle handle = make_solver(problem, inverse);
   EPS eps = handle.get();
-  const VecHandle start_handle = column_vector(start, 0);
+  const VecHandle start_handle = column_vector(start, 0, problem.inverse->ranks());
   Vec start_space = start_handle.get();
   require(EPSSetInitialSpace(eps, 1, &start_space), kSolving);
   const auto wanted = static_cast<PetscInt>(count);
-  const auto size = static_cast<PetscInt>(start.rows());
+  PetscInt size = 0;
+  require(MatGetSize(problem.mass, &size, nullptr), kSolving);
   require(EPSSetDimensions(eps, wanted, std::min(size, 2 * wanted + kMoreThanTwice), PETSC_DEFAULT),
           kSolving);
   require(EPSSetTolerances(eps, kResidual, 200), kSolving);
@@ -133,7 +126,7 @@ EigenPairs search(const Problem& problem, Eigen::Index count, const Eigen::Matri
 /// only its own part of each eigenspace, has missed.
 EigenPairs completed(const Problem& problem, const EigenPairs& pairs) {
   const Eigen::Index count = pairs.values.size();
-  const Eigen::Index size = pairs.vectors.rows();
+  const Eigen::Index size = size_of(problem.mass);
   if (count == size) return pairs;
   const Settled settled = [&](const RitzState& state) {
     return state.residuals.head(count).maxCoeff() < kResidual &&
@@ -142,7 +135,7 @@ EigenPairs completed(const Problem& problem, const EigenPairs& pairs) {
   const Eigen::Index columns = std::min(kColumns, size - count);
   const EigenPairs all =
       block_lanczos(problem.mass, *problem.inverse, pairs,
-                    random_block(size, columns, kSeedOfOthers), count + 1, settled);
+                    random_block(problem.mass, columns, kSeedOfOthers), count + 1, settled);
   EigenPairs found{all.values.head(count), all.vectors.leftCols(count)};
   if (all.values.size() > count) found.next = all.values[count];
   return found;
@@ -153,25 +146,23 @@ EigenPairs completed(const Problem& problem, const EigenPairs& pairs) {
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count, const Eigen::VectorXd& start) {
   if (std::optional<EigenPairs> own = inverse.iterate(mass, count)) return *std::move(own);
-  PetscInt size = 0;
-  require(MatGetSize(mass, &size, nullptr), kSolving);
   const Problem problem{stiffness, mass, &inverse};
-  Eigen::MatrixXd first = random_block(size, 1, kSeed);
+  Eigen::MatrixXd first = random_block(mass, 1, kSeed);
   if (start.size() > 0) first = start;
   const EigenPairs found = search(problem, count, first);
   return purified(mass, inverse, completed(problem, found));
 }
 
-Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const EigenPairs& pairs, double shift) {
+Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const ShiftInverse& inverse,
+                                   const EigenPairs& pairs) {
+  const auto norms = [&](const Eigen::MatrixXd& columns) -> Eigen::VectorXd {
+    return column_products(inverse.ranks(), columns, columns).cwiseSqrt();
+  };
   const Eigen::MatrixXd forces = block_product(stiffness, pairs.vectors);
   const Eigen::MatrixXd momenta = block_product(mass, pairs.vectors);
-  Eigen::VectorXd residuals(pairs.values.size());
-  for (Eigen::Index k = 0; k < residuals.size(); ++k) {
-    const double scale =
-        pairs.values[k] == 0 ? std::abs(shift) * momenta.col(k).norm() : forces.col(k).norm();
-    residuals[k] = (forces.col(k) - pairs.values[k] * momenta.col(k)).norm() / scale;
-  }
-  return residuals;
+  const Eigen::VectorXd scales =
+      (pairs.values.array() == 0).select(std::abs(inverse.shift()) * norms(momenta), norms(forces));
+  return norms(forces - momenta * pairs.values.asDiagonal()).cwiseQuotient(scales);
 }
 
 }  // namespace flexneck::fe_modal

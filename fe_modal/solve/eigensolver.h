@@ -16,14 +16,15 @@ namespace flexneck::fe_modal {
 /// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
 /// inverse if the shift is zero
 /// @param count at most the number of degrees of freedom
-/// @param start of the first search, (dofs); empty: random. What it does not hold is left to the
-/// block.
+/// @param start of the first search, (own dofs); empty: random. What it does not hold is left to
+/// the block.
 /// @throws ComputationError if the iteration does not converge.
 EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
                              Eigen::Index count, const Eigen::VectorXd& start = {});
 
 /// ||K x - lambda M x|| / ||K x|| of each pair; of a rigid-body motion, lambda = 0, where that is
 /// not defined, ||K x|| / ||shift M x||.
-Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const EigenPairs& pairs, double shift);
+Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const ShiftInverse& inverse,
+                                   const EigenPairs& pairs);
 
 }  // namespace flexneck::fe_modal

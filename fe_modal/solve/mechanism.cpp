@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include "fe_modal/algebra/random_block.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/rigid_average.h"
 #include "mesher/mesh/bounding_box.h"
@@ -27,15 +28,15 @@ constexpr double kNone = 1e-3;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
-Eigen::MatrixXd strainless_fields(const DofMap& dof_map, const ModalSystem& system, double scale) {
+Eigen::MatrixXd strainless_fields(const AssembledSystem& system, double scale) {
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
   const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), system.mass(), *inverse,
-                                             std::min(kMaxMotions, dof_map.dof_count()));
+                                             std::min(kMaxMotions, size_of(system.mass())));
   const Eigen::Index count = (pairs.values.array() < kStrainless * scale).count();
-  Eigen::MatrixXd fields(3 * dof_map.node_count(), count);
+  Eigen::MatrixXd fields(3 * system.fields().node_count(), count);
+  const auto expanded = system.fields().expand(pairs.vectors.leftCols(count));
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Matrix3Xd field = dof_map.expand(pairs.vectors.col(k));
-    fields.col(k) = Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
+    fields.col(k) = expanded[static_cast<std::size_t>(k)].reshaped();
   }
   return fields;
 }
@@ -155,11 +156,11 @@ double eigenvalue_scale(const mesher::Mesh& mesh) {
   return slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
 }
 
-std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map,
-                                              const ModalSystem& system, bool is_fixed) {
+std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh,
+                                              const AssembledSystem& system, bool is_fixed) {
   const double length_m = mesher::bounding_box(mesh).extent_m().norm();
   const std::vector<Part> parts = rigid_parts_of(mesh);
-  Eigen::MatrixXd fields = strainless_fields(dof_map, system, eigenvalue_scale(mesh));
+  Eigen::MatrixXd fields = strainless_fields(system, eigenvalue_scale(mesh));
   if (!is_fixed && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
   std::string text;
   for (const Part& part : parts) {

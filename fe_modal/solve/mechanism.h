@@ -4,8 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "fe_modal/dofs/dof_map.h"
-#include "fe_modal/system/modal_system.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
@@ -22,7 +21,7 @@ inline constexpr double kStrainless = 1e-6;
 /// @param is_fixed whether a node set is fixed
 /// @return nothing if every such motion is too large for parts as rigid bodies: then it bends
 /// @throws ComputationError if the motions cannot be computed.
-std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh, const DofMap& dof_map,
-                                              const ModalSystem& system, bool is_fixed);
+std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh,
+                                              const AssembledSystem& system, bool is_fixed);
 
 }  // namespace flexneck::fe_modal

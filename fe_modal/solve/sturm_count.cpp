@@ -40,8 +40,4 @@ Eigen::Index negative_eigenvalues(Mat shifted) {
   return negative;
 }
 
-Eigen::Index eigenvalues_below(const SystemMatrices& system, double sigma) {
-  return negative_eigenvalues(shifted_stiffness(system, sigma).get());
-}
-
 }  // namespace flexneck::fe_modal

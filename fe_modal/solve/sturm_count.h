@@ -3,17 +3,14 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/system/assembly.h"
+#include "fe_modal/algebra/petsc_handles.h"
 
 namespace flexneck::fe_modal {
 
-/// Number of negative eigenvalues of a symmetric matrix, upper half stored; the same way.
+/// Number of negative eigenvalues of a symmetric matrix of this process, upper half stored, by an
+/// indefinite factorisation with MUMPS: of K - sigma M as many as K x = lambda M x has below sigma
+/// (Sylvester's law of inertia).
+/// @throws ComputationError if one is zero to rounding, or the factorisation fails.
 Eigen::Index negative_eigenvalues(Mat shifted);
-
-/// Number of eigenvalues of K x = lambda M x below sigma: as many as K - sigma M has negative ones
-/// (Sylvester's law of inertia). By an indefinite factorisation of its own, with MUMPS: it owes
-/// nothing to the eigensolver.
-/// @throws ComputationError if sigma is an eigenvalue to rounding, or the factorisation fails.
-Eigen::Index eigenvalues_below(const SystemMatrices& system, double sigma);
 
 }  // namespace flexneck::fe_modal

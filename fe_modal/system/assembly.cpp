@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "fe_modal/dofs/constrained_element.h"
+#include "fe_modal/element/element_fields.h"
 #include "fe_modal/element/element_kernel.h"
+#include "fe_modal/element/geometric_kernel.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/positions.h"
 
@@ -95,11 +97,16 @@ void add_constrained(std::span<const std::int32_t> nodes, const DofMap& dof_map,
 }
 
 void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, const DofMap& dof_map,
-               const FormulationChoice& formulation, SymmetricMatrix& stiffness, NodalMass& mass,
+               const FormulationChoice& formulation, const Eigen::Matrix3Xd& prestress_m,
+               SymmetricMatrix& stiffness, NodalMass& mass,
                std::optional<SymmetricMatrix>& constrained_mass) {
   const mesher::Material& material = mesh.materials.at(block.material);
-  ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
+  const ElementScheme& scheme = element_scheme(block.kind, formulation.of(material));
+  ElementKernel kernel(scheme);
+  std::optional<GeometricKernel> geometric;
+  if (prestress_m.cols() > 0) geometric.emplace(scheme);
   ElementMatrices element;
+  Eigen::MatrixXd displacements_m;
   const std::size_t width = mesher::nodes_per_element(block.kind);
   Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
   SortedNodes sorted;
@@ -108,6 +115,10 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, cons
     mesher::copy_positions(mesh, nodes, coordinates);
     try {
       kernel.compute(coordinates, material, element);
+      if (geometric) {
+        gather(nodes, {&prestress_m}, displacements_m);
+        geometric->add(coordinates, material, displacements_m, element.stiffness);
+      }
     } catch (const ComputationError& error) {
       throw ComputationError("part '" + block.part + "', element " + std::to_string(e) +
                              " of its " + std::string(mesher::name_of(block.kind)) + ": " +
@@ -142,14 +153,15 @@ void stiffen_fixed(const DofMap& dof_map, SymmetricMatrix& stiffness) {
 }  // namespace
 
 SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
-                        const FormulationChoice& formulation) {
+                        const FormulationChoice& formulation, const Eigen::Matrix3Xd& prestress_m) {
   NodeGraph graph(mesh, dof_map);
   SymmetricMatrix stiffness(graph);
   NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));
   std::optional<SymmetricMatrix> constrained_mass;
   if (dof_map.is_constrained()) constrained_mass.emplace(graph);
   for (const mesher::ElementBlock& block : mesh.blocks) {
-    add_block(mesh, block, dof_map, formulation, stiffness, nodal_mass, constrained_mass);
+    add_block(mesh, block, dof_map, formulation, prestress_m, stiffness, nodal_mass,
+              constrained_mass);
   }
   if (dof_map.fixed_direction_count() > 0) stiffen_fixed(dof_map, stiffness);
   MassMatrix mass(nodal_mass, graph, dof_map);

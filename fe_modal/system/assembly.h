@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "fe_modal/algebra/symmetric_matrix.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/dofs/node_graph.h"
@@ -25,10 +27,13 @@ struct SystemMatrices {
   Mat mass_operator() const { return constrained_mass ? constrained_mass->get() : mass.get(); }
 };
 
+/// @param prestress_m displacements of all nodes, (3, n), whose stresses add their geometric
+/// stiffness; without columns: none
 /// @throws InputError if a part's kind of element has no such formulation.
 /// @throws ComputationError if an element is inverted, or PETSc fails, e.g. for want of memory.
 SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
-                        const FormulationChoice& formulation = {});
+                        const FormulationChoice& formulation = {},
+                        const Eigen::Matrix3Xd& prestress_m = Eigen::Matrix3Xd());
 
 /// K - shift M.
 SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift);

@@ -20,4 +20,16 @@ DofMap dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options) {
           couplings, directions};
 }
 
+std::string boundary_of(const ModalOptions& options) {
+  std::string fixed = options.fixed_set;
+  for (const auto& [set, directions] : options.fixed_directions) {
+    if (!fixed.empty()) fixed += ", ";
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (directions[a]) fixed += "xyz"[a];
+    }
+    fixed += " of " + set;
+  }
+  return fixed.empty() ? "free" : "fixed: " + fixed;
+}
+
 }  // namespace flexneck::fe_modal

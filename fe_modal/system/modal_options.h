@@ -12,6 +12,7 @@
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/element/formulation.h"
+#include "fe_modal/system/loads.h"
 #include "fe_modal/system/solver.h"
 #include "mesher/mesh/mesh.h"
 
@@ -60,6 +61,10 @@ struct ModalOptions {
   double length_m = 0;                   ///< turns rotations into lengths for the sign rule
   std::string sign_interface;            ///< interface whose motion fixes the signs
   std::vector<RigidAttachment> attachments;
+  /// Loads of a linear static step whose stresses the modes are about; empty: none.
+  std::vector<Load> prestress = {};
+  /// Displacements of that step, (3, n), that with_prestress() finds; no columns: none.
+  Eigen::Matrix3Xd prestress_m = Eigen::Matrix3Xd();
   const Ranks* ranks = nullptr;  ///< processes that share the work, see ranks.h; null: this alone
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
@@ -69,5 +74,8 @@ struct ModalOptions {
 
 /// The nodes that the options leave free. @throws InputError for unknown sets, and as DofMap.
 DofMap dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options);
+
+/// "fixed: bolts, x of left", or "free".
+std::string boundary_of(const ModalOptions& options);
 
 }  // namespace flexneck::fe_modal

@@ -122,6 +122,21 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError("slits that open and close: the mesh has no open slit");
 }
 
+void check_prestress(const ModalOptions& options) {
+  if (options.prestress.empty()) return;
+  check_names(names_of(options.prestress), "load");
+  if (!options.is_fixed()) {
+    throw InputError(
+        "a prestress needs supports, but nothing is fixed: name node sets in modes.fixed or "
+        "modes.fixed_directions");
+  }
+  if (options.geometric_stiffness || options.slit_motions != SlitMotions::none) {
+    throw InputError(
+        "a prestress is not offered with the geometric stiffness of unit loads, nor with slits "
+        "that open and close: their loads would add to it");
+  }
+}
+
 }  // namespace
 
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
@@ -143,6 +158,7 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_interfaces(mesh, options);
   check_basis(options, dofs);
   check_slit_motions(mesh, options);
+  check_prestress(options);
   if (options.geometric_stiffness && !options.is_fixed()) {
     throw InputError(
         "the geometric stiffness under unit loads is that of a fixed body: name a set "

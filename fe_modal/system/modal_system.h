@@ -2,16 +2,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+
+#include <Eigen/Core>
 
 #include "fe_modal/algebra/petsc_handles.h"
 #include "fe_modal/algebra/shift_inverse.h"
-#include "fe_modal/system/mass_matrix.h"
 
 namespace flexneck::fe_modal {
 
 /// K and M of a body and what is done with them, wherever their entries are: in this process,
-/// shared among ranks, or read from files. Vectors are sequential, by DofMap' degrees of
-/// freedom.
+/// distributed among ranks, or read from files. Vectors are this rank's rows; every member is
+/// collective.
 class ModalSystem {
  public:
   ModalSystem() = default;
@@ -21,13 +23,13 @@ class ModalSystem {
 
   virtual Mat stiffness() const = 0;  ///< N/m, symmetric; perhaps only good for products
   virtual Mat mass() const = 0;       ///< kg, likewise
-  virtual const NodalMass& nodal_mass() const = 0;  ///< of all nodes, kg
   /// (K - shift M)^-1; the system must outlive it.
   /// @throws ComputationError if K - shift M is not positive definite, or for want of memory.
   virtual std::unique_ptr<ShiftInverse> shift_inverse(double shift) const = 0;
-  /// Number of eigenvalues below sigma, by inertia.
+  /// Number of eigenvalues below sigma, by inertia; nothing where the solver does without a factor
+  /// and memory would not hold one.
   /// @throws ComputationError if sigma is an eigenvalue to rounding, or the factorisation fails.
-  virtual Eigen::Index eigenvalues_below(double sigma) const = 0;
+  virtual std::optional<Eigen::Index> eigenvalues_below(double sigma) const = 0;
 };
 
 }  // namespace flexneck::fe_modal

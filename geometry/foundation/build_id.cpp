@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/foundation/build_id.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <string_view>
 
 #include "geometry/foundation/content_hash.h"
+#include "geometry/foundation/running_object.h"
 
 namespace flexneck {
 
@@ -45,8 +47,21 @@ std::string id_in(Bytes notes) {
   return {};
 }
 
-/// Called for each loaded file; the first one is the program.
+/// In the object that is looked for.
+const char kHere = 0;
+
+bool holds_this(const dl_phdr_info& info) {
+  const auto here = std::bit_cast<ElfW(Addr)>(&kHere);
+  const std::span parts(info.dlpi_phdr, info.dlpi_phnum);
+  return std::any_of(parts.begin(), parts.end(), [&](const ElfW(Phdr) & part) {
+    const ElfW(Addr) begin = info.dlpi_addr + part.p_vaddr;
+    return part.p_type == PT_LOAD && begin <= here && here < begin + part.p_memsz;
+  });
+}
+
+/// Called for each loaded file until it returns 1.
 int look_into(dl_phdr_info* info, std::size_t /*size*/, void* found) {
+  if (!holds_this(*info)) return 0;
   for (const ElfW(Phdr) & part : std::span(info->dlpi_phdr, info->dlpi_phnum)) {
     if (part.p_type != PT_NOTE) continue;
     // The loader tells addresses as numbers.
@@ -60,7 +75,7 @@ int look_into(dl_phdr_info* info, std::size_t /*size*/, void* found) {
 std::string found_id() {
   std::string id;
   dl_iterate_phdr(look_into, &id);
-  return id.empty() ? hash_of_file("/proc/self/exe") : id;
+  return id.empty() ? hash_of_file(running_object().string()) : id;
 }
 
 }  // namespace

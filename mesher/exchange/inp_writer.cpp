@@ -176,6 +176,35 @@ void write_boundary(OutputFile& out, const InpOptions& options) {
   }
 }
 
+/// "node,direction[,direction],value" of what is not zero.
+void write_values(OutputFile& out, const std::string& card, bool twice,
+                  const std::vector<std::array<double, 3>>& values) {
+  bool has_begun = false;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (values[n][a] == 0) continue;
+      if (!has_begun) out.write(card + "\n");
+      has_begun = true;
+      const std::string direction = "," + std::to_string(a + 1);
+      out.write(std::to_string(n + 1) + direction + (twice ? direction : "") + "," +
+                number(values[n][a]) + "\n");
+    }
+  }
+}
+
+void write_steps(OutputFile& out, const InpOptions& options) {
+  const bool is_loaded = options.static_step.has_value();
+  if (is_loaded) {
+    out.write("*STEP\n*STATIC\n");
+    write_values(out, "*BOUNDARY", true, options.static_step->displacements_m);
+    write_values(out, "*CLOAD", false, options.static_step->forces_N);
+    out.write("*NODE FILE\nU,RF\n*EL FILE\nS\n*END STEP\n");
+  }
+  out.write(is_loaded && options.static_step->prestresses_modes ? "*STEP,PERTURBATION\n"
+                                                                : "*STEP\n");
+  out.write("*FREQUENCY\n" + std::to_string(options.mode_count) + "\n*END STEP\n");
+}
+
 FixedNodes fixed_nodes(const Mesh& mesh, const InpOptions& options) {
   FixedNodes nodes;
   const auto fix = [&](const std::string& name, const std::array<bool, 3>& directions) {
@@ -209,7 +238,7 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   write_materials(out, mesh);
   write_ties(out, mesh, fixed);
   write_boundary(out, options);
-  out.write("*STEP\n*FREQUENCY\n" + std::to_string(options.mode_count) + "\n*END STEP\n");
+  write_steps(out, options);
   out.commit();
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,17 +13,25 @@
 
 namespace flexneck::mesher {
 
+/// A *STATIC step in front of the search for modes.
+struct InpStaticStep {
+  std::vector<std::array<double, 3>> forces_N;         ///< (n), for *CLOAD
+  std::vector<std::array<double, 3>> displacements_m;  ///< (n), of fixed nodes, for *BOUNDARY
+  bool prestresses_modes = false;                      ///< *FREQUENCY is a PERTURBATION of it
+};
+
 struct InpOptions {
   std::set<std::string> reduced;   ///< materials of C3D20R instead of C3D20
   std::vector<std::string> fixed;  ///< node sets for *BOUNDARY
   std::map<std::string, std::array<bool, 3>> fixed_directions = {};  ///< others, in x, y, z
   int mode_count = 10;                                               ///< of *FREQUENCY
+  std::optional<InpStaticStep> static_step = std::nullopt;
 };
 
 /// Writes a deck in SI units that CalculiX solves for the modes and Abaqus reads: *NODE, *ELEMENT
-/// by part, *NSET, *SURFACE, *MATERIAL, *SOLID SECTION, *BOUNDARY and a step with *FREQUENCY; the
-/// node pairs of tied slits as *EQUATION. Numbers have at most 20 characters, which is all that
-/// CalculiX reads: 13 digits at least.
+/// by part, *NSET, *SURFACE, *MATERIAL, *SOLID SECTION, *BOUNDARY, a step with *STATIC if there are
+/// loads, and one with *FREQUENCY; the node pairs of tied slits as *EQUATION. Numbers have at most
+/// 20 characters, which is all that CalculiX reads: 13 digits at least.
 /// @throws InputError if the file cannot be written, an element kind has no type there (hex27,
 /// prism18), or a name is none there: letters, digits, "_", "-" and ".", a letter first, different
 /// in capitals.

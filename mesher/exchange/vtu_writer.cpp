@@ -85,7 +85,8 @@ void VtuWriter::write(const std::filesystem::path& path, std::span<const double>
   document.array("Int32", "part", 1, std::span(parts_));
   document.array("Int32", "material", 1, std::span(materials_));
   document.line("</CellData>\n<PointData>");
-  for (const NodeVectors& each : vectors) document.array("Float64", each.name, 3, each.values);
+  for (const NodeVectors& each : vectors)
+    document.array("Float64", each.name, each.components, each.values);
   document.line("</PointData>\n</Piece>\n</UnstructuredGrid>");
   document.write(path);
 }

@@ -10,10 +10,11 @@
 
 namespace flexneck::mesher {
 
-/// A vector at each node: (n, 3), row-major.
+/// Numbers at each node, (n, components), row-major: a vector, a scalar, or a tensor of nine.
 struct NodeVectors {
   std::string name;
   std::span<const double> values;
+  int components = 3;
 };
 
 /// Writes a mesh as unstructured grids of VTK (.vtu, XML with raw appended data), which ParaView,

@@ -63,6 +63,14 @@ void XdmfDocument::node_vector(const std::string& name, const XdmfItem& values) 
   attribute(name, "AttributeType=\"Vector\" Center=\"Node\"", values);
 }
 
+void XdmfDocument::node_scalar(const std::string& name, const XdmfItem& values) {
+  attribute(name, "AttributeType=\"Scalar\" Center=\"Node\"", values);
+}
+
+void XdmfDocument::node_tensor(const std::string& name, const XdmfItem& values) {
+  attribute(name, "AttributeType=\"Tensor\" Center=\"Node\"", values);
+}
+
 void XdmfDocument::commit() {
   file_.write("</Grid>\n</Domain>\n</Xdmf>\n");
   file_.commit(Durability::none);

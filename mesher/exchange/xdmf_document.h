@@ -37,6 +37,10 @@ class XdmfDocument {
   void element_scalar(const std::string& name, const XdmfItem& values);
   /// @param values (n, 3)
   void node_vector(const std::string& name, const XdmfItem& values);
+  /// @param values (n, 1)
+  void node_scalar(const std::string& name, const XdmfItem& values);
+  /// @param values (n, 9), row-major
+  void node_tensor(const std::string& name, const XdmfItem& values);
 
   void commit();
 

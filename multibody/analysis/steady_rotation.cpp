@@ -84,7 +84,7 @@ void check_load(const Kind& element, const Vector3d& axis) {
   if constexpr (RelaxingForce<Kind>)
     if (element.branch_count() > 0) refuse(title(element) + " relaxes");
   if constexpr (WorldForce<Kind>)
-    if (!is_along(element.direction, axis))
+    if (element.keeps_direction() && !is_along(element.direction, axis))
       refuse(title(element) + " is not along the axis about which prescribed bodies turn");
 }
 

@@ -57,7 +57,10 @@ class DescriptorEquations final : public Equations {
   Vector given_state() override {
     Vector state = multibody::given_state(model_, system_);
     join(model_, equations_, state, Check::positions_and_velocities);
-    system_.internal(state) = equations_.forces().internal();
+    const RunStart& start = model_.start;
+    system_.internal(state) =
+        start.internal.size() > 0 ? start.internal : equations_.forces().internal();
+    state.tail<2>() << start.dissipated_J, start.work_J;
     return state;
   }
 
@@ -166,12 +169,27 @@ class DescriptorEquations final : public Equations {
                      equations_.marker(system_.joints[k].marker_i).R);
     for (std::size_t b = 0; b < system_.bodies.size(); ++b)
       recorder.modal(column, system_.bodies[b].index, equations_.body(b).a);
+    if (recorder.keeps_states()) record_state(state, recorder, column);
     if (!equations_.solver().redundant_rows().empty()) record_undetermined(recorder);
     recorder.energy(column, energies_of(equations_, state), state[state.size() - 2],
                     state[state.size() - 1]);
   }
 
  private:
+  void record_state(const Vector& state, Recorder& recorder, Index column) const {
+    for (const FreeBody& body : system_.bodies) {
+      const Index m = body.constants.mode_count();
+      const auto q = state.segment<4>(body.position + 3);
+      BodyState motion{state.segment<3>(body.position),
+                       Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix(),
+                       state.segment(body.position + 7, m),
+                       state.segment(system_.position_count + body.velocity, 6 + m),
+                       {}};
+      recorder.state(column, body.index, motion);
+    }
+    recorder.internal(column, system_.internal(state));
+  }
+
   void record_residuals(double time_s, Recorder& recorder, Index column) {
     for (const Joint& joint : system_.joints)
       for (const std::size_t marker : {joint.marker_i, joint.marker_j}) {

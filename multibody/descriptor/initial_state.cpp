@@ -41,8 +41,12 @@ VectorXd given_state(const Model& model, const System& system) {
     const Eigen::Quaterniond& q = body.initial_pose.rotation;
     state.segment<3>(free.position) = body.initial_pose.position_m;
     state.segment<4>(free.position + 3) << q.w(), q.x(), q.y(), q.z();
-    state.segment(free.position + 7, free.constants.mode_count()) = free.constants.springs.offset;
     const Index velocity = system.position_count + free.velocity;
+    if (const auto* const deformable = std::get_if<DeformableBody>(&body.kind)) {
+      const Index m = free.constants.mode_count();
+      state.segment(free.position + 7, m) = initial_modal(*deformable);
+      state.segment(velocity + 6, m) = initial_modal_rate(*deformable);
+    }
     state.segment<3>(velocity) = body.initial_velocity_m_s;
     state.segment<3>(velocity + 3) = body.initial_angular_velocity_rad_s;
   }
@@ -53,11 +57,12 @@ VectorXd given_state(const Model& model, const System& system) {
 void join(const Model& model, EquationsOfMotion& equations, VectorXd& state, Check check) {
   const System& system = equations.system();
   const auto velocities = state.segment(system.position_count, system.velocity_count);
-  equations.set_positions(0, state.head(system.position_count));
+  const double time_s = model.start.time_s;
+  equations.set_positions(time_s, state.head(system.position_count));
   check_all_positions(model, equations);
   equations.set_velocities(velocities);
   if (check == Check::positions_and_velocities) check_all_velocities(model, equations);
-  Projection(equations).apply(0, state);
+  Projection(equations).apply(time_s, state);
 }
 
 VectorXd given_positions(const Model& model, EquationsOfMotion& equations) {

@@ -8,19 +8,19 @@
 
 namespace flexneck::multibody {
 
-/// The state that the model's bodies are given, undeformed, as System lays it out.
+/// The state that the model's bodies are given, as System lays it out.
 Eigen::VectorXd given_state(const Model& model, const System& system);
 
 /// Whether velocities matter: a search for an equilibrium has no use for them.
 enum class Check { positions, positions_and_velocities };
 
-/// Puts the state at time zero onto the joints.
+/// Puts the state at the start of the run onto the joints.
 /// @throws InputError if a joint is violated by more than rounded input explains: its markers apart
 /// by over 1e-6 of the system's size or turned by over 1e-6 rad, or parting faster than 1e-6 of the
 /// system's largest speed. The message names the joint.
 void join(const Model& model, EquationsOfMotion& equations, Eigen::VectorXd& state, Check check);
 
-/// The positions that the model's bodies are given, put onto the joints at time zero.
+/// The positions that the model's bodies are given, put onto the joints at the start.
 /// @throws as join().
 Eigen::VectorXd given_positions(const Model& model, EquationsOfMotion& equations);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 namespace flexneck::multibody {
 
 /// Which equations of motion a run solves. They agree to rounding; see README.md for the choice.
@@ -27,6 +29,9 @@ struct SolverOptions {
   /// Of the generalised-alpha method, in [0, 1]: by what a step multiplies vibrations that it does
   /// not resolve.
   double spectral_radius = 0.8;
+  /// Called after each step, and after each output of a quasi-static ramp: what it throws ends the
+  /// run, without a history unless it is a ComputationError. So a run is stopped from outside.
+  std::function<void()> checkpoint = {};
 };
 
 }  // namespace flexneck::multibody

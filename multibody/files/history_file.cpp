@@ -79,6 +79,30 @@ ModalHistory read_modal(const Hdf5Reader& file, const std::string& body, std::si
   return modal;
 }
 
+/// Of as many rows as the file says.
+Eigen::MatrixXd read_rows(const Hdf5Reader& file, const std::string& dataset, std::size_t times,
+                          std::string_view unit) {
+  const Shape shape = file.shape(dataset);
+  return read_columns<Eigen::MatrixXd>(file, dataset, times, shape.size() == 2 ? shape[1] : 0,
+                                       unit);
+}
+
+BodyHistory read_state(const Hdf5Reader& file, const std::string& name, std::size_t times) {
+  BodyHistory body;
+  body.name = name;
+  visit_state(body, [&](const char* dataset, auto& values, const char* unit) {
+    using Matrix = std::remove_reference_t<decltype(values)>;
+    const std::string path = path_of(path_of(kStates, name), dataset);
+    if constexpr (Matrix::RowsAtCompileTime == Eigen::Dynamic)
+      values = read_rows(file, path, times, unit);
+    else
+      values = read_columns<Matrix>(file, path, times, Matrix::RowsAtCompileTime, unit);
+  });
+  if (body.modal_rate.rows() != body.modal.rows())
+    file.refuse(path_of(kStates, name), "it has not as many modal rates as modal coordinates");
+  return body;
+}
+
 Channel read_channel(const Hdf5Reader& file, const std::string& name, std::size_t times) {
   const std::string group = path_of(kChannels, name);
   Channel channel;
@@ -184,6 +208,10 @@ HistoryFile read_history(const std::filesystem::path& path) {
   for (const std::string& name : ordered_members(reader, kModal)) {
     history.modal.push_back(read_modal(reader, name, times));
   }
+  for (const std::string& name : ordered_members(reader, kStates))
+    history.state.bodies.push_back(read_state(reader, name, times));
+  if (!history.state.bodies.empty())
+    history.state.internal = read_rows(reader, kInternal, times, "m, rad");
   for (const std::string& name : ordered_members(reader, kChannels)) {
     file.channels.push_back(read_channel(reader, name, times));
   }

@@ -14,6 +14,8 @@ namespace flexneck::multibody {
 inline constexpr const char* kMarkers = "/markers";
 inline constexpr const char* kJoints = "/joints";
 inline constexpr const char* kModal = "/modal";
+inline constexpr const char* kStates = "/state/bodies";
+inline constexpr const char* kInternal = "/state/internal";  ///< m and rad
 inline constexpr const char* kChannels = "/channels";
 inline constexpr const char* kEnergy = "/energy";
 inline constexpr const char* kConstraints = "/constraints";
@@ -61,6 +63,16 @@ void visit_constraints(Constraints& constraints, const Visit& visit) {
   visit("orientation", constraints.orientation_rad, "rad");
   visit("velocity", constraints.velocity_m_s, "m/s");
   visit("angular_velocity", constraints.angular_velocity_rad_s, "rad/s");
+}
+
+template <class Bodies, class Visit>
+void visit_state(Bodies& body, const Visit& visit) {
+  visit("position", body.position_m, "m");
+  visit("rotation", body.rotation, "1");
+  visit("velocity", body.velocity_m_s, "m/s");
+  visit("angular_velocity", body.angular_velocity_rad_s, "rad/s");
+  visit("modal", body.modal, kModalUnit);
+  visit("modal_rate", body.modal_rate, "kg^(1/2) m/s");
 }
 
 inline std::string path_of(const std::string& group, const std::string& name) {

@@ -18,6 +18,7 @@ void check_group_names(const History& history) {
   std::vector<std::string> bodies;
   for (const ModalHistory& modal : history.modal) bodies.push_back(modal.body);
   check_names(bodies, "body");
+  check_names(names_of(history.state.bodies), "body");
 }
 
 std::span<const double> numbers_of(const auto& values) {
@@ -39,6 +40,9 @@ void put_arrays(const History& history, const std::vector<Channel>& channels, co
     visit_reactions(joint, into(path_of(kJoints, joint.name)));
   for (const ModalHistory& modal : history.modal)
     put(path_of(path_of(kModal, modal.body), "coordinates"), modal.coordinates, kModalUnit);
+  for (const BodyHistory& body : history.state.bodies)
+    visit_state(body, into(path_of(kStates, body.name)));
+  if (!history.state.bodies.empty()) put(kInternal, history.state.internal, "m, rad");
   for (const Channel& channel : channels)
     put(path_of(path_of(kChannels, channel.name), "values"), channel.values, channel.unit);
   visit_energies(history.energy, [&](const char* name, const Eigen::VectorXd& values) {
@@ -104,6 +108,8 @@ void write_groups(Hdf5Writer& file, const History& history, const std::vector<Ch
     write_index(file, group, k);
     file.write(path_of(group, "modes"), history.modal[k].modes);
   }
+  for (std::size_t k = 0; k < history.state.bodies.size(); ++k)
+    write_index(file, path_of(kStates, history.state.bodies[k].name), k);
   for (std::size_t k = 0; k < channels.size(); ++k) {
     const std::string group = path_of(kChannels, channels[k].name);
     write_index(file, group, k);

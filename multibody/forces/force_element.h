@@ -78,10 +78,11 @@ concept TimedForce = requires(const Kind& element) {
   { element.load_over_time() } -> std::same_as<const TimeTable&>;
 };
 
-/// Its load keeps a direction in the world, a unit vector.
+/// Its load has a direction, a unit vector, which it keeps in the world if it says so.
 template <class Kind>
 concept WorldForce = requires(const Kind& element) {
   { element.direction } -> std::convertible_to<const Eigen::Vector3d&>;
+  { element.keeps_direction() } -> std::same_as<bool>;
 };
 
 /// Its load has kinks along a motion, and it says on which smooth piece it is.

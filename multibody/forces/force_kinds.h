@@ -4,6 +4,7 @@
 #include "multibody/forces/bushing.h"
 #include "multibody/forces/cable.h"
 #include "multibody/forces/force_lists.h"
+#include "multibody/forces/function_force.h"
 #include "multibody/forces/joint_resistance.h"
 #include "multibody/forces/line_force.h"
 #include "multibody/forces/marker_spring.h"
@@ -22,6 +23,7 @@ using Forces = ForceLists<PointForce,       // [[force]] in model files
                           JointResistance,  // [[resistance]]
                           LineForce,        // [[line_force]]
                           Section,          // [[section]]
+                          FunctionForce,    // [[function_force]]
                           Cable>;           // [[cable]]
 
 }  // namespace flexneck::multibody

@@ -14,6 +14,7 @@ struct LineForce {
   std::size_t marker_i = 0;
   std::size_t marker_j = 0;
   TimeTable magnitude_N;
+  double input_N = 0;  ///< added to the table
 
   void check(const std::string& who, const ForceSites& sites) const {
     check_pair(who, marker_i, marker_j, sites);
@@ -26,7 +27,7 @@ struct LineForce {
     const Eigen::Vector3d line = input.j.p - input.i.p;
     const double length = line.norm();
     if (!(length > kNoDirection)) return;
-    const double magnitude = magnitude_N.value(input.time_s);
+    const double magnitude = magnitude_N.value(input.time_s) + input_N;
     load.force_N = magnitude / length * line;
     sums.work_W += load.force_N.dot(input.j.v - input.i.v);
     sums.potential_J -= magnitude * length;

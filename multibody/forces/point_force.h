@@ -5,14 +5,16 @@
 
 namespace flexneck::multibody {
 
-/// A force on a marker's origin, fixed in the world's axes.
+/// A force on a marker's origin, fixed in the world's axes or, as a follower, in the marker's.
 struct PointForce {
   static constexpr std::string_view kName = "force";
 
   std::string name;
   std::size_t marker = 0;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in these axes
   TimeTable magnitude_N;
+  bool follows = false;  ///< its direction turns with the marker
+  double input_N = 0;    ///< added to the table
 
   void check(const std::string& who, const ForceSites& sites) const {
     check_marker(who, marker, sites);
@@ -20,10 +22,13 @@ struct PointForce {
   }
   std::array<std::size_t, 1> markers(const std::vector<Joint>&) const { return {marker}; }
   const TimeTable& load_over_time() const { return magnitude_N; }
+  bool keeps_direction() const { return !follows; }
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const {
-    load.force_N = magnitude_N.value(input.time_s) * direction;
+    load.force_N = (magnitude_N.value(input.time_s) + input_N) * direction;
+    if (follows) load.force_N = (input.j.R * load.force_N).eval();
     sums.work_W += load.force_N.dot(input.j.v);
-    sums.potential_J -= load.force_N.dot(input.j.p);
+    // A follower has no potential.
+    if (!follows) sums.potential_J -= load.force_N.dot(input.j.p);
   }
 };
 

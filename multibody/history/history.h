@@ -38,6 +38,23 @@ struct ModalHistory {
   Eigen::MatrixXd coordinates;  ///< kg^(1/2) m
 };
 
+/// The whole state of a body that is not prescribed: with it a run may go on from any output.
+struct BodyHistory {
+  std::string name;
+  Eigen::Matrix3Xd position_m;              ///< of its origin, world
+  Eigen::Matrix4Xd rotation;                ///< unit quaternion body to world: w, x, y, z
+  Eigen::Matrix3Xd velocity_m_s;            ///< world
+  Eigen::Matrix3Xd angular_velocity_rad_s;  ///< body axes
+  Eigen::MatrixXd modal;                    ///< kg^(1/2) m, (m, n); no rows for a rigid body
+  Eigen::MatrixXd modal_rate;               ///< kg^(1/2) m/s
+};
+
+/// Where the output asks for it.
+struct StateHistory {
+  std::vector<BodyHistory> bodies;
+  Eigen::MatrixXd internal;  ///< variables of the branches of sections, m and rad, a column a time
+};
+
 struct EnergyHistory {
   Eigen::VectorXd kinetic_J, gravitational_J;
   Eigen::VectorXd strain_J;  ///< of bodies, springs and bushings
@@ -75,6 +92,7 @@ struct History {
   std::vector<MarkerHistory> markers;
   std::vector<JointHistory> joints;
   std::vector<ModalHistory> modal;
+  StateHistory state = {};  ///< empty as a rule
   EnergyHistory energy;
   ConstraintHistory constraints;
   StepStatistics statistics;

@@ -29,6 +29,14 @@ void visit_arrays(AnyHistory& history, const Visit& visit) {
     visit(joint.moment_Nm);
   }
   for (auto& modal : history.modal) visit(modal.coordinates);
+  for (auto& body : history.state.bodies) {
+    for (auto* each : {&body.position_m, &body.velocity_m_s, &body.angular_velocity_rad_s})
+      visit(*each);
+    visit(body.rotation);
+    visit(body.modal);
+    visit(body.modal_rate);
+  }
+  if (!history.state.bodies.empty()) visit(history.state.internal);
   auto& energy = history.energy;
   auto& constraints = history.constraints;
   for (auto* part :

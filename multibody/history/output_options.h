@@ -15,7 +15,9 @@ struct OutputOptions {
   /// Where there is one, it takes the outputs in blocks as they come, so that memory does not grow
   /// with their number. What the run returns then has the last block only.
   std::function<void(const History& outputs)> sink = {};
-  Eigen::Index block = 0;  ///< outputs of a block, with a sink
+  Eigen::Index block = 0;   ///< outputs of a block, with a sink
+  bool states = false;      ///< whether History::state is recorded
+  double begin_time_s = 0;  ///< that of the model's start
 };
 
 }  // namespace flexneck::multibody

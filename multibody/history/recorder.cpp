@@ -29,11 +29,12 @@ void resize(Array& values, Index columns) {
 }  // namespace
 
 OutputTimes::OutputTimes(const OutputOptions& output)
-    : interval_s_(output.interval_s), end_s_(output.end_time_s) {
+    : begin_s_(output.begin_time_s), interval_s_(output.interval_s), end_s_(output.end_time_s) {
   constexpr double kSlack = 1e-9;  // of an interval: the end may be a multiple but for rounding
-  const auto whole = static_cast<Index>(end_s_ / interval_s_ + kSlack);
+  const double length = end_s_ - begin_s_;
+  const auto whole = static_cast<Index>(length / interval_s_ + kSlack);
   const bool end_is_multiple =
-      end_s_ - static_cast<double>(whole) * interval_s_ <= kSlack * interval_s_;
+      length - static_cast<double>(whole) * interval_s_ <= kSlack * interval_s_;
   count_ = whole + (end_is_multiple ? 1 : 2);
 }
 
@@ -50,6 +51,7 @@ Recorder::Recorder(const Model& model, const OutputOptions& output)
       deformation_(model),
       turns_(model),
       modal_of_body_(model.bodies.size(), 0),
+      state_of_body_(model.bodies.size(), 0),
       last_rotations_(model.markers.size(), Eigen::Vector4d::Zero()),
       undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {
   for (const Marker& marker : model.markers) history_.markers.emplace_back().name = marker.name;
@@ -64,7 +66,40 @@ Recorder::Recorder(const Model& model, const OutputOptions& output)
     modal_of_body_[b] = history_.modal.size();
     history_.modal.push_back(std::move(modal));
   }
+  if (output.states) prepare_states(model);
   make_room();
+}
+
+void Recorder::prepare_states(const Model& model) {
+  StateHistory& states = history_.state;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (std::holds_alternative<PrescribedBody>(model.bodies[b].kind)) continue;
+    const auto* deformable = std::get_if<DeformableBody>(&model.bodies[b].kind);
+    const Index m = deformable == nullptr ? 0 : deformable->modes.mode_count();
+    state_of_body_[b] = states.bodies.size();
+    BodyHistory& body = states.bodies.emplace_back();
+    body.name = model.bodies[b].name;
+    body.modal.resize(m, 0);
+    body.modal_rate.resize(m, 0);
+  }
+}
+
+void Recorder::state(Index column, std::size_t body, const BodyState& motion) {
+  BodyHistory& state = history_.state.bodies[state_of_body_[body]];
+  column = place(column);
+  const Eigen::Quaterniond q(motion.rotation);
+  state.position_m.col(column) = motion.position_m;
+  state.rotation.col(column) << q.w(), q.x(), q.y(), q.z();
+  state.velocity_m_s.col(column) = motion.velocities.head<3>();
+  state.angular_velocity_rad_s.col(column) = motion.velocities.segment<3>(3);
+  state.modal.col(column) = motion.modal;
+  state.modal_rate.col(column) = motion.velocities.tail(motion.modal.size());
+}
+
+void Recorder::internal(Index column, const VectorXd& variables) {
+  Eigen::MatrixXd& internal = history_.state.internal;
+  if (internal.rows() != variables.size()) internal.resize(variables.size(), internal.cols());
+  internal.col(place(column)) = variables;
 }
 
 void Recorder::make_room() {

@@ -13,17 +13,17 @@
 
 namespace flexneck::multibody {
 
-/// Multiples of the interval up to the end, and the end.
+/// The beginning and multiples of the interval from it up to the end, and the end.
 class OutputTimes {
  public:
   explicit OutputTimes(const OutputOptions& output);
   Eigen::Index count() const { return count_; }
   double operator[](Eigen::Index column) const {
-    return column + 1 < count_ ? static_cast<double>(column) * interval_s_ : end_s_;
+    return column + 1 < count_ ? begin_s_ + static_cast<double>(column) * interval_s_ : end_s_;
   }
 
  private:
-  double interval_s_, end_s_;
+  double begin_s_, interval_s_, end_s_;
   Eigen::Index count_;
 };
 
@@ -49,6 +49,11 @@ class Recorder {
   /// @param body  among the model's bodies; nothing is recorded of one that has no modes
   /// @throws ComputationError if it is deformed beyond reason, see DeformationGuard.
   void modal(Eigen::Index column, std::size_t body, const Eigen::VectorXd& a);
+  /// Whether state() and internal() are asked for.
+  bool keeps_states() const { return !history_.state.bodies.empty(); }
+  /// @param body  among the model's bodies, not prescribed
+  void state(Eigen::Index column, std::size_t body, const BodyState& motion);
+  void internal(Eigen::Index column, const Eigen::VectorXd& variables);
   void energy(Eigen::Index column, const Energies& stored, double dissipated_J, double work_J);
   /// Where nothing is lost, behind energy(): the work is what the energies have gained since the
   /// first column.
@@ -69,6 +74,7 @@ class Recorder {
 
  private:
   Eigen::Index place(Eigen::Index column) const { return column - history_.handed_on; }
+  void prepare_states(const Model& model);
   /// Room for the block that begins after what was handed on.
   void make_room();
 
@@ -78,7 +84,7 @@ class Recorder {
   History history_;
   DeformationGuard deformation_;
   TurnGuard turns_;
-  std::vector<std::size_t> modal_of_body_;
+  std::vector<std::size_t> modal_of_body_, state_of_body_;
   std::vector<Eigen::Vector4d> last_rotations_;  ///< of the markers, in the block before
   double first_energy_J_ = 0;
   std::vector<Eigen::Array<bool, 6, 1>> undetermined_;

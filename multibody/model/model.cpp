@@ -17,4 +17,14 @@ std::size_t Model::joint_index(const std::string& name) const {
   return find_name(names_of(joints), name, "joint");
 }
 
+Eigen::VectorXd initial_modal(const DeformableBody& body) {
+  if (body.initial_modal.size() > 0) return body.initial_modal;
+  return body.offset.size() > 0 ? body.offset : Eigen::VectorXd::Zero(body.modes.mode_count());
+}
+
+Eigen::VectorXd initial_modal_rate(const DeformableBody& body) {
+  return body.initial_modal_rate.size() > 0 ? body.initial_modal_rate
+                                            : Eigen::VectorXd::Zero(body.modes.mode_count());
+}
+
 }  // namespace flexneck::multibody

@@ -11,6 +11,7 @@
 #include "fe_modal/body/modal_body.h"
 #include "multibody/forces/force_kinds.h"
 #include "multibody/joints/joint.h"
+#include "multibody/numerics/prescribed_coordinate.h"
 #include "multibody/numerics/smooth_motion.h"
 #include "multibody/numerics/time_table.h"
 
@@ -31,12 +32,15 @@ struct RigidBody {
 struct DeformableBody {
   fe_modal::ModalBody modes;      ///< the chosen modes only
   Eigen::VectorXd damping_ratio;  ///< zeta of each mode
-  /// Modal coordinates of the body without load, a permanent set, kg^(1/2) m; empty for none. The
-  /// body starts there.
+  /// Modal coordinates of the body without load, a permanent set, kg^(1/2) m; empty for none.
   Eigen::VectorXd offset = {};
   /// Whether its loads stiffen and soften it, by the geometric stiffness in its modes file
   /// (equations.md section 3a). Without, it is linear in its own frame.
   bool stress_stiffening = false;
+  /// Modal coordinates and rates at the start, kg^(1/2) m and kg^(1/2) m/s; empty: `offset`, at
+  /// rest.
+  Eigen::VectorXd initial_modal = {};
+  Eigen::VectorXd initial_modal_rate = {};
 };
 
 /// Rotation of a prescribed body about an axis through a point, which translates with the body. The
@@ -47,6 +51,7 @@ struct PrescribedTurn {
   double initial_rate_rad_s = 0;
   TimeTable acceleration_rad_s2;  ///< zero outside
   SmoothMotion motion = {};       ///< in rad where that says m
+  HeldInput input = {};
 };
 
 /// A body that translates and turns in a given way, whatever acts on it. Its travel is the sum of
@@ -57,6 +62,7 @@ struct PrescribedBody {
   TimeTable acceleration_m_s2;                           ///< along `direction`; zero outside
   SmoothMotion motion = {};                              ///< along `direction`
   PrescribedTurn turn = {};
+  HeldInput input = {};  ///< along `direction`
 };
 
 struct Body {
@@ -77,18 +83,32 @@ struct Marker {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< marker axes to body axes
 };
 
+/// When a run begins, and what its force elements and books of energy bring along; by default at
+/// time zero, at rest for long. Bodies start as they are given.
+struct RunStart {
+  double time_s = 0;
+  Eigen::VectorXd internal = {};  ///< variables of the branches of sections; empty: relaxed
+  double dissipated_J = 0;        ///< by then
+  double work_J = 0;              ///< likewise
+};
+
 struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
   std::vector<Joint> joints;
   Forces forces;                                           ///< force elements of all kinds
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< world
+  RunStart start = {};
 
   /// @throws InputError if there is none of that name; the message lists those there are.
   std::size_t body_index(const std::string& name) const;
   std::size_t marker_index(const std::string& name) const;
   std::size_t joint_index(const std::string& name) const;
 };
+
+/// Modal coordinates and rates of a deformable body at the start, (m).
+Eigen::VectorXd initial_modal(const DeformableBody& body);
+Eigen::VectorXd initial_modal_rate(const DeformableBody& body);
 
 /// Checks names, indices, masses and inertias (symmetric, positive, triangle inequality), damping,
 /// unit vectors. @throws InputError naming the body, marker, joint or force.

@@ -140,6 +140,10 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
   const Eigen::Index m = deformable.modes.mode_count();
   check_shapes(who, deformable.modes);
   check_invariants(who, deformable.modes.invariants);
+  if (!deformable.modes.prestress.empty())
+    refuse(who, "its modes are about the stresses of fixed loads (" + deformable.modes.prestress +
+                    "), which would act twice here; make them without modes.prestress, or take "
+                    "stress_stiffening, which follows the loads of the motion");
   if (!deformable.modes.slits.empty())
     refuse(who,
            "its slits would open and close without contact, which only a section keeps; make "
@@ -152,10 +156,15 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
     refuse(who, "there must be one damping ratio per mode, " + std::to_string(m) +
                     ", but there are " + std::to_string(deformable.damping_ratio.size()));
   }
-  if (deformable.offset.size() != 0 && deformable.offset.size() != m)
-    refuse(who, "its offset must have one coordinate per mode, " + std::to_string(m) +
-                    ", but has " + std::to_string(deformable.offset.size()));
-  check_finite(who, "offset", deformable.offset);
+  const auto check_modal = [&](const std::string& what, const Eigen::VectorXd& values) {
+    if (values.size() != 0 && values.size() != m)
+      refuse(who, "its " + what + " must have one coordinate per mode, " + std::to_string(m) +
+                      ", but has " + std::to_string(values.size()));
+    check_finite(who, what, values);
+  };
+  check_modal("offset", deformable.offset);
+  check_modal("initial modal coordinates", deformable.initial_modal);
+  check_modal("initial modal rates", deformable.initial_modal_rate);
   check_stress_stiffening(who, deformable);
   for (Eigen::Index k = 0; k < m; ++k) {
     const double zeta = deformable.damping_ratio[k];

@@ -13,8 +13,9 @@ PrescribedPath::PrescribedPath(const Pose& start, const PrescribedBody& body)
       direction_(body.direction),
       axis_(body.turn.axis),
       point_m_(body.turn.point_m),
-      travel_(body.initial_velocity_m_s, body.acceleration_m_s2, body.motion),
-      angle_(body.turn.initial_rate_rad_s, body.turn.acceleration_rad_s2, body.turn.motion) {}
+      travel_(body.initial_velocity_m_s, body.acceleration_m_s2, body.motion, body.input),
+      angle_(body.turn.initial_rate_rad_s, body.turn.acceleration_rad_s2, body.turn.motion,
+             body.turn.input) {}
 
 PrescribedMotion PrescribedPath::at(double time_s, double table_time_s) const {
   PrescribedMotion motion;

@@ -8,14 +8,30 @@
 
 namespace flexneck::multibody {
 
-/// A coordinate given over time, in m or rad: the sum of an initial rate, a table of accelerations
-/// and a function of time. Exact, by the integrals of the table and of the function; by default
-/// zero.
+/// A coordinate's share that an input holds: its second rate, constant from a time on, m/s^2 or
+/// rad/s^2, with what it has come to by then, m or rad.
+struct HeldInput {
+  double since_s = 0;
+  double value = 0;
+  double rate = 0;
+  double second_rate = 0;
+
+  bool is_none() const { return value == 0 && rate == 0 && second_rate == 0; }
+  double value_at(double time_s) const {
+    const double passed = time_s - since_s;
+    return value + passed * (rate + 0.5 * passed * second_rate);
+  }
+  double rate_at(double time_s) const { return rate + (time_s - since_s) * second_rate; }
+};
+
+/// A coordinate given over time, in m or rad: the sum of an initial rate, a table of accelerations,
+/// a function of time and what an input holds. Exact, by the integrals of the table and of the
+/// function; by default zero.
 class PrescribedCoordinate {
  public:
   PrescribedCoordinate() = default;
   PrescribedCoordinate(double initial_rate, const TimeTable& accelerations,
-                       const SmoothMotion& function);
+                       const SmoothMotion& function, const HeldInput& input = {});
 
   bool moves() const { return moves_; }
   double value(double time_s) const;
@@ -30,6 +46,7 @@ class PrescribedCoordinate {
   double value_before_ = 0, rate_before_ = 0;  ///< what the table alone would have at time zero
   TimeTable table_;
   SmoothMotion function_;
+  HeldInput input_;
 };
 
 }  // namespace flexneck::multibody

@@ -9,8 +9,8 @@
 
 namespace flexneck::multibody {
 
-/// Runs a model from the state its bodies are given; constraints are projected first. Joints that
-/// repeat what others hold are treated: see History::redundant_constraints.
+/// Runs a model from the state its bodies are given at its start; constraints are projected first.
+/// Joints that repeat what others hold are treated: see History::redundant_constraints.
 /// @throws InputError if the model is not sound, an option makes no sense, a joint is violated at
 /// the start in position or velocity by more than rounding (1e-6 of the system's size or speed,
 /// 1e-6 rad), or if the recursive formulation is asked for and a joint closes a loop.

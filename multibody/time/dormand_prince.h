@@ -40,6 +40,11 @@ class DormandPrince final : public TimeIntegrator {
   DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s, const Vector& y);
 
   void restart() override;
+  Pace pace() const override { return {proposed_s_, last_error_}; }
+  void set_pace(const Pace& pace) override {
+    proposed_s_ = pace.proposed_s;
+    last_error_ = pace.error;
+  }
   void step(double limit_s) override;
   /// A step of the given length, whatever its error.
   void fixed_step(double length_s);

@@ -22,23 +22,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Times inside (0, end) at which a table has a kink or a jump, ascending and distinct.
-std::vector<double> breakpoints(const Model& model, double end_s) {
-  std::vector<double> times;
-  for (const Body& body : model.bodies) {
-    const auto* prescribed = std::get_if<PrescribedBody>(&body.kind);
-    if (prescribed == nullptr) continue;
-    PrescribedPath(body.initial_pose, *prescribed).add_breakpoints(times);
-  }
-  for (const Joint& joint : model.joints)
-    for (const JointMotor& motor : joint.motors) motor.path.add_breakpoints(times);
-  ForceSet(model).add_breakpoints(times);
-  std::erase_if(times, [&](double time) { return !(time > 0 && time < end_s); });
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
-}
-
 /// Counts what set the lengths of steps.
 class LimitCounter {
  public:
@@ -87,8 +70,9 @@ class Run {
       const OutputOptions& output)
       : equations_(equations),
         max_steps_(solver.max_steps),
+        checkpoint_(solver.checkpoint),
         recorder_(model, output),
-        integrator_(time_integrator(equations, state, solver)),
+        integrator_(time_integrator(equations, output.begin_time_s, state, solver)),
         output_state_(state) {}
 
   /// Steps over an interval in which no table has a kink.
@@ -100,6 +84,7 @@ class Run {
       integrator_->step(end_s);
       limits_.count(*integrator_);
       record_until(integrator_->time_s());
+      if (checkpoint_) checkpoint_();
     }
   }
 
@@ -141,6 +126,7 @@ class Run {
 
   Equations& equations_;
   int max_steps_;
+  std::function<void()> checkpoint_;
   Recorder recorder_;
   std::unique_ptr<TimeIntegrator> integrator_;
   LimitCounter limits_;
@@ -150,11 +136,29 @@ class Run {
 
 }  // namespace
 
-std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const VectorXd& state,
+std::vector<double> breakpoints(const Model& model, double begin_s, double end_s) {
+  std::vector<double> times;
+  for (const Body& body : model.bodies) {
+    const auto* prescribed = std::get_if<PrescribedBody>(&body.kind);
+    if (prescribed == nullptr) continue;
+    PrescribedPath(body.initial_pose, *prescribed).add_breakpoints(times);
+  }
+  for (const Joint& joint : model.joints)
+    for (const JointMotor& motor : joint.motors) motor.path.add_breakpoints(times);
+  ForceSet(model).add_breakpoints(times);
+  std::erase_if(times, [&](double time) { return !(time > begin_s && time < end_s); });
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double time_s,
+                                                const VectorXd& state,
                                                 const SolverOptions& solver) {
   const StepLimits limits{solver.max_step_s, solver.min_step_s};
   if (solver.integrator == Integrator::generalised_alpha)
-    return std::make_unique<GeneralisedAlpha>(equations, solver.spectral_radius, limits, 0, state);
+    return std::make_unique<GeneralisedAlpha>(equations, solver.spectral_radius, limits, time_s,
+                                              state);
   InitialValueProblem problem{
       [&](double t, const VectorXd& y, VectorXd& rate) { equations.derivative(t, y, rate); },
       [&](double t, VectorXd& y, VectorXd& rate) { equations.finish_step(t, y, rate); },
@@ -168,16 +172,16 @@ std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const Vect
       return equations.forces().name_of_piece(piece);
     };
   }
-  return std::make_unique<DormandPrince>(std::move(problem), limits, 0, state);
+  return std::make_unique<DormandPrince>(std::move(problem), limits, time_s, state);
 }
 
 History integrate(const Model& model, Equations& equations, const VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output) {
   Run run(model, equations, state, solver, output);
-  std::vector<double> ends = breakpoints(model, output.end_time_s);
+  std::vector<double> ends = breakpoints(model, output.begin_time_s, output.end_time_s);
   ends.push_back(output.end_time_s);
   try {
-    double begin = 0;
+    double begin = output.begin_time_s;
     for (const double end : ends) {
       run.advance(begin, end);
       begin = end;

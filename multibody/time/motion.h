@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -14,16 +16,23 @@
 
 namespace flexneck::multibody {
 
-/// Steps from a state at time zero as the options say. The equations must outlive it.
-std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, const Eigen::VectorXd& state,
+/// Steps from a state as the options say. The equations must outlive it.
+std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double time_s,
+                                                const Eigen::VectorXd& state,
                                                 const SolverOptions& solver);
+
+/// Times inside (begin, end) at which a table has a kink or a jump, ascending and distinct.
+std::vector<double> breakpoints(const Model& model, double begin_s, double end_s);
 
 /// Static equilibria at the output times, each sought from the one before.
 /// @param equations  with prescribed bodies held
+/// @param checkpoint  called after each output, as SolverOptions says; may be empty
 /// @throws IncompleteRun if one is not found.
-History settle_along(const Model& model, Equations& equations, const OutputOptions& output);
+History settle_along(const Model& model, Equations& equations,
+                     const std::function<void()>& checkpoint, const OutputOptions& output);
 
-/// Integrates from a state at time zero that keeps the joints, and records at the output times.
+/// Integrates from a state at the start of the outputs that keeps the joints, and records at their
+/// times.
 /// @throws IncompleteRun as simulate().
 History integrate(const Model& model, Equations& equations, const Eigen::VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output);

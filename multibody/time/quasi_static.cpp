@@ -8,7 +8,8 @@
 
 namespace flexneck::multibody {
 
-History settle_along(const Model& model, Equations& equations, const OutputOptions& output) {
+History settle_along(const Model& model, Equations& equations,
+                     const std::function<void()>& checkpoint, const OutputOptions& output) {
   Recorder recorder(model, output);
   const auto count = [&] { recorder.statistics().evaluations = equations.evaluations(); };
   Eigen::Index column = 0;
@@ -23,6 +24,7 @@ History settle_along(const Model& model, Equations& equations, const OutputOptio
       recorder.check_turns(column);
       recorder.conserve_energy(column);
       if (column == 0) recorder.redundant(equations.redundant_constraints());
+      if (checkpoint) checkpoint();
     }
   } catch (const ComputationError& error) {
     count();

@@ -23,6 +23,13 @@ enum class StepReason {
   iteration      ///< an implicit method's equations could not be solved over a longer one
 };
 
+/// What of a method goes on from step to step besides the state: with it a run that is taken up
+/// again goes on as it would have.
+struct Pace {
+  double proposed_s = 0;  ///< length of the next step; zero: to be chosen
+  double error = 1e-4;    ///< of the last step, against what is allowed
+};
+
 /// Steps through time with a step size that follows the error.
 class TimeIntegrator {
  public:
@@ -38,6 +45,8 @@ class TimeIntegrator {
   /// @throws ComputationError if the step would have to be smaller than the smallest allowed or the
   /// rate is not a number: time and component that limited it.
   virtual void step(double limit_s) = 0;
+  virtual Pace pace() const { return {}; }
+  virtual void set_pace(const Pace& /*pace*/) {}
   /// The state inside the last step.
   virtual void interpolate(double time_s, Vector& y) const = 0;
   virtual std::string name_of(std::size_t component) const = 0;

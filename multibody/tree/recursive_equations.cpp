@@ -28,7 +28,13 @@ class RecursiveEquations final : public Equations {
         guard_(model, {solver.relative_tolerance, solver.absolute_tolerance}, tree_.size_m),
         markers_(model.markers.size()) {}
 
-  Vector given_state() override { return relaxed(tree::given_state(tree_)); }
+  Vector given_state() override {
+    const RunStart& start = tree_.model.start;
+    Vector state = relaxed(tree::given_state(tree_), start.time_s);
+    if (start.internal.size() > 0) tree_.internal(state) = start.internal;
+    state.tail<2>() << start.dissipated_J, start.work_J;
+    return state;
+  }
 
   Vector given_place() override { return tree::given_positions(tree_); }
 
@@ -113,6 +119,11 @@ class RecursiveEquations final : public Equations {
       recorder.joint(column, k, dynamics_.joint_reaction(k), dynamics_.joint_axes(k));
     for (std::size_t b = 0; b < tree_.bodies.size(); ++b)
       recorder.modal(column, tree_.bodies[b].index, dynamics_.modal(b));
+    if (recorder.keeps_states()) {
+      for (std::size_t b = 0; b < tree_.bodies.size(); ++b)
+        recorder.state(column, tree_.bodies[b].index, dynamics_.body_state(b));
+      recorder.internal(column, tree_.internal(state));
+    }
     recorder.energy(column, dynamics_.energies(), state[state.size() - 2], state[state.size() - 1]);
   }
 

@@ -34,8 +34,8 @@ FrameState node_state(const TreeNode& node, const BodyState& body) {
           body.rotation * (w + motion.turn)};
 }
 
-FrameState prescribed_state(const PrescribedPath& path, const TreeNode& node) {
-  const PrescribedMotion body = path.at(0);
+FrameState prescribed_state(const PrescribedPath& path, double time_s, const TreeNode& node) {
+  const PrescribedMotion body = path.at(time_s);
   const Vector3d arm = body.rotation * node.s0;
   return {body.position_m + arm, body.rotation * node.R0,
           body.velocity_m_s + body.angular_velocity_rad_s.cross(arm), body.angular_velocity_rad_s};
@@ -84,7 +84,8 @@ Fits fit_all(const Tree& tree, const std::vector<BodyState>& bodies) {
     FrameState inner;
     if (body.carrier.body != kNone) inner = node_state(body.inner, bodies[body.carrier.body]);
     if (body.carrier.prescribed != kNone)
-      inner = prescribed_state(tree.prescribed[body.carrier.prescribed], body.inner);
+      inner = prescribed_state(tree.prescribed[body.carrier.prescribed], tree.model.start.time_s,
+                               body.inner);
     const FrameState outer = node_state(body.outer, bodies[b]);
     const Fit found = fit(body.joint, inner, outer);
     for (const FrameState& each : {inner, outer})
@@ -106,8 +107,12 @@ std::vector<BodyState> given_bodies(const Tree& tree) {
     const Body& body = tree.model.bodies[each.index];
     const Index m = each.inertia.mode_count();
     BodyState state{body.initial_pose.position_m,
-                    body.initial_pose.rotation.normalized().toRotationMatrix(),
-                    each.inertia.springs.offset, VectorXd::Zero(6 + m), VectorXd::Zero(6 + m)};
+                    body.initial_pose.rotation.normalized().toRotationMatrix(), VectorXd::Zero(m),
+                    VectorXd::Zero(6 + m), VectorXd::Zero(6 + m)};
+    if (const auto* const deformable = std::get_if<DeformableBody>(&body.kind)) {
+      state.modal = initial_modal(*deformable);
+      state.velocities.tail(m) = initial_modal_rate(*deformable);
+    }
     state.velocities.head<3>() = body.initial_velocity_m_s;
     state.velocities.segment<3>(3) = body.initial_angular_velocity_rad_s;
     bodies.push_back(std::move(state));

@@ -10,8 +10,8 @@
 
 namespace flexneck::multibody::tree {
 
-/// The state whose joints come next to the poses and velocities that the bodies are given,
-/// undeformed.
+/// The state whose joints come next to the poses and velocities that the bodies are given, at the
+/// start of the run.
 /// @throws InputError naming a joint that these violate by more than rounding (see joint_check.h).
 Eigen::VectorXd given_state(const Tree& tree);
 /// The same at rest: velocities are not looked at.

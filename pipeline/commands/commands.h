@@ -4,14 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "fe_modal/algebra/ranks.h"
 #include "pipeline/commands/file_commands.h"
 #include "pipeline/console/console.h"
 #include "pipeline/folder/results_folder.h"
 #include "pipeline/study/study.h"
-
-namespace flexneck::fe_modal {
-class Ranks;
-}
 
 namespace flexneck::pipeline {
 
@@ -21,7 +18,8 @@ struct RowShares {
   int threads = 0;
 };
 
-/// What every command gets.
+/// What every command gets. Of a command that uses ranks, all call it; the first one alone writes
+/// files, and its console is the only one that speaks.
 struct CommandInput {
   const Study& study;
   const ResultsFolder& folder;
@@ -34,6 +32,11 @@ struct CommandInput {
   bool sensitivity = false;                ///< of modes: their derivatives, too
   RowShares shares = {};                   ///< of sweep and fit
 };
+
+/// Whether this process writes files.
+inline bool writes(const CommandInput& input) {
+  return input.ranks == nullptr || input.ranks->is_first();
+}
 
 /// Options that some commands have and others have not.
 enum class CommandOption {
@@ -66,7 +69,7 @@ struct Command {
   FileArguments files;
   std::vector<CommandOption> options;
   bool (*run)(const CommandInput&);  ///< null if it works on files
-  /// Null if it works on a study; with both it is of the files of runs, which end in .h5.
+  /// Null if it works on a study; with both it is of the files of exports_file() (export).
   bool (*run_on_files)(const FileInput&) = nullptr;
   /// The study where none is named.
   std::filesystem::path (*built_in)() = built_in_study;
@@ -74,6 +77,7 @@ struct Command {
   bool begins = false;         ///< makes a folder from a study that is named
   bool locks = true;           ///< the folder, all the time; otherwise it does so itself
   bool has_shards = false;     ///< which processes of mpirun are
+  bool uses_ranks = false;     ///< processes of mpirun work together
   bool is_remembered = true;   ///< the folder remembers its study
 };
 
@@ -93,6 +97,8 @@ bool mesh_command(const CommandInput& input);
 /// nothing.
 bool show_command(const CommandInput& input);
 bool modes_command(const CommandInput& input);
+/// The linear static step under the study's [[load]]: stress.h5, and stress.xdmf for ParaView.
+bool stress_command(const CommandInput& input);
 bool export_command(const CommandInput& input);
 bool pictures_command(const CommandInput& input);
 bool static_command(const CommandInput& input);

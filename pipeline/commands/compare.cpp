@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <optional>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/file_commands.h"
+#include "pipeline/folder/remembered_study.h"
 #include "pipeline/report/comparison.h"
 
 namespace flexneck::pipeline {
@@ -22,6 +24,18 @@ std::string label_of(const fs::path& folder, const std::vector<fs::path>& folder
   return same > 1 ? folder.lexically_normal().generic_string() : name(folder);
 }
 
+/// The study that made a folder, which tells the scene of its bodies; empty where it cannot be read
+/// any more.
+Study study_of(const fs::path& folder) {
+  const std::optional<StudyChoice> choice = remembered_study(folder);
+  if (!choice) return {};
+  try {
+    return read_study(choice->study.empty() ? built_in_study() : choice->study, choice->settings);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 bool compare_command(const FileInput& input) {
@@ -33,7 +47,8 @@ bool compare_command(const FileInput& input) {
   std::vector<ComparedStudy> studies;
   for (const fs::path& folder : input.files) {
     // Without a study of its own: a folder is what it is, not to be measured by today's values.
-    studies.push_back({label_of(folder, input.files), read_results(folder, Study())});
+    studies.push_back(
+        {label_of(folder, input.files), read_results(folder, Study()), study_of(folder)});
     if (studies.back().results.files.empty()) {
       throw InputError(folder.string() + ": holds no results; make them with 'flexneck run -o " +
                        folder.string() + "'");

@@ -12,23 +12,27 @@ namespace flexneck::pipeline {
 namespace {
 
 /// ".msh (the mesh for gmsh), …"
-std::string offered() {
+template <class Wanted>
+std::string offered(const Wanted& wanted) {
   std::string text;
   for (const ExportFormat& format : export_formats())
-    text += (text.empty() ? "" : ", ") + std::string(format.ending) + " (" +
-            std::string(format.content) + ")";
+    if (wanted(format))
+      text += (text.empty() ? "" : ", ") + std::string(format.ending) + " (" +
+              std::string(format.content) + ")";
   return text;
 }
 
+bool any(const ExportFormat& /*format*/) { return true; }
+
 const ExportFormat& format_of(const std::filesystem::path& target, bool is_binary) {
   if (target.empty())
-    throw InputError("export: name the file to write, --to FILE with an ending of " + offered());
+    throw InputError("export: name the file to write, --to FILE with an ending of " + offered(any));
   const auto formats = export_formats();
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const ExportFormat& format) {
     return target.extension() == format.ending;
   });
   if (found == formats.end())
-    throw InputError(target.string() + ": expected a file with an ending of " + offered());
+    throw InputError(target.string() + ": expected a file with an ending of " + offered(any));
   if (is_binary && !found->may_be_binary)
     throw InputError(target.string() + ": --binary has no meaning for a " +
                      std::string(found->ending));
@@ -37,18 +41,19 @@ const ExportFormat& format_of(const std::filesystem::path& target, bool is_binar
 
 }  // namespace
 
-bool export_run_command(const FileInput& input) {
+bool export_file_command(const FileInput& input) {
   const ExportFormat& format = format_of(input.target, input.is_binary);
-  if (format.write_run == nullptr)
-    throw InputError(input.target.string() +
-                     ": expected an ending of .mme, .pvd or .csv for the run " +
-                     input.files.front().string() + "; other files are of a study's mesh");
+  if (format.write_file == nullptr)
+    throw InputError(input.target.string() + ": expected an ending of " +
+                     offered([](const ExportFormat& each) { return each.write_file != nullptr; }) +
+                     " for the file " + input.files.front().string() +
+                     "; other files are of a study's mesh");
   if (input.files.size() != 1)
-    throw InputError("export: expected one run, found '" + input.files[1].string() + "' too");
+    throw InputError("export: expected one file, found '" + input.files[1].string() + "' too");
   if (!input.settings.empty())
-    throw InputError("--set: has no meaning for a run, which is exported as it is");
+    throw InputError("--set: has no meaning for a file, which is exported as it is");
   input.console.step("Writing " + input.target.string());
-  format.write_run(input);
+  format.write_file(input);
   return true;
 }
 
@@ -57,7 +62,8 @@ bool export_command(const CommandInput& input) {
   const ExportFormat& format = format_of(target, input.is_binary);
   if (format.write == nullptr)
     throw InputError(target.string() +
-                     ": name the run, such as 'flexneck export out/pendulum-flexion-80.h5 --to " +
+                     ": name the file that holds it, such as 'flexneck export "
+                     "out/pendulum-flexion-80.h5 --to " +
                      target.string() + "'");
   mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),

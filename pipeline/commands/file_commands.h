@@ -60,9 +60,9 @@ bool rate_command(const FileInput& input);
 /// @throws InputError for loads that cannot be read or filtered.
 bool nij_command(const FileInput& input);
 
-/// Writes the run of a file of ours in a foreign format.
-/// @throws InputError for a format that is none of a run, or a run that it cannot take.
-bool export_run_command(const FileInput& input);
+/// Writes the run or the modal body of a file in another format.
+/// @throws InputError for a format that is none of a file, or what it cannot take.
+bool export_file_command(const FileInput& input);
 
 /// What files that users write may say: the keys of studies, models and tables of references.
 /// @throws InputError for a name that is none of a kind of file, a table or a key in it.

@@ -114,7 +114,8 @@ bool fit_command(const CommandInput& input) {
   input.console.result(wrapped(verdict_of_fit(fit.objective(), result), ""));
   show_families(input, fit, result);
   show(input, tables);
-  input.console.result("\nFitted study: " + fitted.string());
+  input.console.result("\n" + wrapped(choices_text(fit.section()), ""));
+  input.console.result("Fitted study: " + fitted.string());
   remove_former(results);
   draw(input, fit, result);
   return true;

@@ -11,6 +11,7 @@
 #include "pipeline/commands/info_folder.h"
 #include "pipeline/commands/mesh_result.h"
 #include "pipeline/commands/mode_table.h"
+#include "pipeline/commands/stress_text.h"
 #include "pipeline/console/text_table.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/output/result_table.h"
@@ -60,12 +61,21 @@ std::string describe_modes(const fs::path& path) {
       "{}, {}; mass {:.4g} kg, {} nodes\nSolver: {}\n{}{}", file.body.boundary,
       file.body.certificate, file.body.invariants.mass, file.body.nodes_m.cols(), file.body.solver,
       mode_table(file.body, true), "\n" + basis_text(file.body) + loaded_text(file.body, true));
+  if (!file.body.prestress.empty()) text += "\nPrestress: " + file.body.prestress;
   for (const fe_modal::Interface& interface : file.body.interfaces) {
     const Eigen::Vector3d& at = interface.position_m;
     text += fmt::format("\nInterface {} at ({:.4g}, {:.4g}, {:.4g}) m", interface.name, at[0],
                         at[1], at[2]);
   }
   return text + provenance_text(file.provenance);
+}
+
+std::string describe_stresses(const fs::path& path) {
+  const fe_modal::StaticSolutionFile file = fe_modal::read_static_solution(path);
+  return fmt::format("{}; {} nodes\nSolver: {}\n{}", file.solution.boundary,
+                     file.solution.nodes_m.cols(), file.solution.solver,
+                     stress_text(file.solution)) +
+         provenance_text(file.provenance);
 }
 
 std::string describe_history(const fs::path& path) {
@@ -127,9 +137,10 @@ struct Kind {
   std::string (*describe)(const fs::path&);
 };
 
-constexpr std::array<Kind, 4> kKinds = {{{kSweepFormat.name, describe_sweep},
+constexpr std::array<Kind, 5> kKinds = {{{kSweepFormat.name, describe_sweep},
                                          {mesher::kMeshFormat.name, describe_mesh},
                                          {fe_modal::kModalBodyFormat.name, describe_modes},
+                                         {fe_modal::kStaticSolutionFormat.name, describe_stresses},
                                          {multibody::kHistoryFormat.name, describe_history}}};
 
 }  // namespace
@@ -156,10 +167,10 @@ bool info_command(const FileInput& input) {
     if (text.empty() && is_json && holds_tables(path)) text = describe_tables(path);
     if (text.empty() && is_json) text = describe_verification(path);
     if (text.empty()) {
-      throw InputError(
-          path.string() +
-          ": expected a mesh, modes, a history, a sweep, tables or a verification of flexneck, "
-          "found another kind of file");
+      throw InputError(path.string() +
+                       ": expected a mesh, modes, stresses, a history, a sweep, tables or a "
+                       "verification of flexneck, "
+                       "found another kind of file");
     }
     input.console.result(path.string() + ": " + described_format(path, format) + "\n" + text);
   }

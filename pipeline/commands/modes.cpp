@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/algebra/ranks.h"
 #include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/exchange/modes_xdmf.h"
-#include "fe_modal/solve/distributed/ranks.h"
 #include "fe_modal/system/memory_needs.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
@@ -18,6 +20,7 @@
 #include "pipeline/commands/matrices.h"
 #include "pipeline/commands/mode_table.h"
 #include "pipeline/commands/sensitivity.h"
+#include "pipeline/commands/stress.h"
 #include "pipeline/commands/substructures.h"
 #include "pipeline/evaluation/modes_options.h"
 #include "pipeline/evaluation/structure_modes.h"
@@ -31,6 +34,23 @@ namespace {
 std::string mass_text(const Study& study, double mass_kg) {
   return study.neck() != nullptr ? fmt::format("{:.3f} lb", mass_kg * factor_from_si("kg", "lb"))
                                  : fmt::format("{:.4g} kg", mass_kg);
+}
+
+/// The folder's mesh, the same on all ranks.
+mesher::MeshFile read_mesh_together(const CommandInput& input) {
+  const std::filesystem::path path = input.folder.mesh();
+  if (input.ranks == nullptr) return read_mesh(path);
+  mesher::MeshFile mesh;
+  input.ranks->together([&] { mesh = read_mesh(path); });
+  const std::uint64_t hash = std::hash<std::string>()(hash_of_file(path.string()));
+  const std::uint64_t of_first = input.ranks->of_first(hash);
+  input.ranks->together([&] {
+    if (hash != of_first)
+      throw InputError(path.string() + ": rank " + std::to_string(input.ranks->own()) +
+                       " reads another file of this name than the first one: take a folder that "
+                       "all ranks share");
+  });
+  return mesh;
 }
 
 /// Tells the analysis what stands in the mesh file for it.
@@ -59,6 +79,7 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
   fe_modal::ModalBodyFile file;
   file.body = fe_modal::analyse_modes(mesh, options, input.console.detail(), &times,
                                       input.console.warnings(path.filename().string()), fields);
+  if (!writes(input)) return file.body;
   if (const std::string line = rounding_remark(mesh, options, file.body); !line.empty())
     input.console.warning(line);
   times.start("write");
@@ -74,7 +95,7 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
 void solve_static(const CommandInput& input, const mesher::Mesh& mesh,
                   fe_modal::ModalOptions options) {
   if (!input.study.has_static_moduli()) {
-    std::filesystem::remove(input.folder.static_modes());
+    if (writes(input)) std::filesystem::remove(input.folder.static_modes());
     return;
   }
   input.console.step("Solving again with the static moduli");
@@ -91,10 +112,10 @@ void solve_static(const CommandInput& input, const mesher::Mesh& mesh,
 
 bool modes_command(const CommandInput& input) {
   if (input.sensitivity) check_sensitivity(input.study);
-  if (input.study.matrices) return modes_of_matrices(input);
+  if (input.study.matrices) return !writes(input) || modes_of_matrices(input);
   StepTimes times;
   times.start("read");
-  mesher::MeshFile mesh = read_mesh(input.folder.mesh());
+  mesher::MeshFile mesh = read_mesh_together(input);
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),
                       "flexneck mesh");
   if (!input.study.structure) {
@@ -125,12 +146,15 @@ bool modes_command(const CommandInput& input) {
       "\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary, body.certificate,
       mass_text(input.study, body.invariants.mass), input.folder.modes().string(), body.solver,
       mode_table(body, whole), loaded_text(body, whole)));
+  if (!body.prestress.empty()) input.console.result("Prestress: " + body.prestress);
   input.console.table(basis_text(body));
-  std::filesystem::remove(input.folder.sensitivities());  // of other modes
-  if (input.sensitivity)
+  if (writes(input)) std::filesystem::remove(input.folder.sensitivities());  // of other modes
+  if (input.sensitivity && writes(input))
     write_sensitivities(input, mesh.mesh, options, body, fields, provenance_of_modes(input));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
+  // Of the same values, and PETSc starts once in a process.
+  if (input.is_run && !input.study.loads.empty()) write_stresses(input, std::move(mesh));
   return true;
 }
 

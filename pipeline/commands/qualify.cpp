@@ -39,6 +39,7 @@ std::string pulse_origins(const Study& study) {
 bool qualify_command(const CommandInput& input) {
   require_regulation(input.study);
   const bool passed = run_command(input);
+  if (!writes(input)) return passed;
   // With --verbose the run has shown them.
   if (!input.console.is_verbose())
     for (const ResultTable& table : read_tables(input.folder.file("verdicts.json")).tables)

@@ -43,6 +43,8 @@ std::string origin_table(const Study& study) {
   return rows.size() > 1 ? text_table(rows, {0, 1, 2}) : "";
 }
 
+constexpr const char* kModesStage = "modes";
+
 /// A stage of `run`. A command that throws has not made it; one that returns false has, only its
 /// verification failed.
 struct Stage {
@@ -50,6 +52,33 @@ struct Stage {
   Provenance from;
   std::vector<std::string> after;
   std::function<bool(const CommandInput&)> command;
+};
+
+/// On many ranks the first one makes all stages; the others wait until it comes to the modes, which
+/// all make together, if they are due.
+class ModesGate {
+ public:
+  explicit ModesGate(const fe_modal::Ranks* ranks) : ranks_(ranks) {}
+  ~ModesGate() { tell(kNotDue); }
+  ModesGate(const ModesGate&) = delete;
+  ModesGate& operator=(const ModesGate&) = delete;
+
+  /// Of the first rank, before it makes the modes.
+  void open() { tell(kDue); }
+  /// Of the others. @return whether modes are to be made
+  static bool wait(const fe_modal::Ranks& ranks) { return ranks.of_first(kNotDue) == kDue; }
+
+ private:
+  static constexpr std::uint64_t kNotDue = 0;
+  static constexpr std::uint64_t kDue = 1;
+
+  void tell(std::uint64_t word) {
+    if (ranks_ != nullptr && !has_told_) static_cast<void>(ranks_->of_first(word));
+    has_told_ = true;
+  }
+
+  const fe_modal::Ranks* ranks_;
+  bool has_told_ = false;
 };
 
 /// Less the study's own files: they change with every value, which do not all matter to a stage.
@@ -68,9 +97,9 @@ bool has_cases(const Study& study, CaseSection::Kind kind) {
 
 /// Up to the experiments that are one stage.
 std::vector<Stage> stages_before_cases(const Study& study) {
-  if (study.matrices) return {{"modes", provenance_of(study), {}, modes_command}};
+  if (study.matrices) return {{kModesStage, provenance_of(study), {}, modes_command}};
   std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
-                               {"modes", modes_provenance(study), {"mesh"}, modes_command},
+                               {kModesStage, modes_provenance(study), {"mesh"}, modes_command},
                                {"pictures", {}, {"mesh", "modes"}, pictures_command}};
   if (has_cases(study, CaseSection::Kind::static_test)) {
     stages.push_back({"static",
@@ -123,9 +152,12 @@ void print_kept(const CommandInput& input, const std::string& stage) {
   show_tables(input, read_tables(tables).tables);
 }
 
-void make(const CommandInput& input, Stages& records, const Stage& stage) {
-  const bool made = records.make(stage.name, without_studies(stage.from, input.study), stage.after,
-                                 [&] { stage.command(input); });
+void make(const CommandInput& input, Stages& records, const Stage& stage, ModesGate& gate) {
+  const bool made =
+      records.make(stage.name, without_studies(stage.from, input.study), stage.after, [&] {
+        if (stage.name == kModesStage) gate.open();
+        stage.command(input);
+      });
   if (made) return;
   input.console.step("Nothing has changed for " + stage.name + ": kept");
   print_kept(input, stage.name);
@@ -155,13 +187,14 @@ PendulumResults make_cases(const CommandInput& input, Stages& records) {
 
 bool run_stages(const CommandInput& input, StepTimes& times) {
   const Study& study = input.study;
+  ModesGate gate(input.ranks);
   input.console.result("Inputs by origin: " + origin_counts(study) + " (flexneck study)");
   if (const std::string table = origin_table(study); !table.empty()) input.console.table(table);
   Stages records(input.folder.path(), input.redo);
   const auto make_all = [&](const std::vector<Stage>& stages) {
     for (const Stage& stage : stages) {
       times.start(stage.name);
-      make(input, records, stage);
+      make(input, records, stage, gate);
     }
   };
   make_all(stages_before_cases(study));
@@ -177,6 +210,7 @@ bool run_stages(const CommandInput& input, StepTimes& times) {
 bool run_command(const CommandInput& alone) {
   CommandInput input = alone;
   input.is_run = true;
+  if (!writes(input)) return !ModesGate::wait(*input.ranks) || modes_command(input);
   input.folder.make();
   StepTimes times;
   const bool passed = run_stages(input, times);

@@ -35,6 +35,9 @@ void check_sensitivity(const Study& study) {
   if (study.modes.solver != fe_modal::Solver::direct) {
     refuse("needs a factor, found modes.solver = \"iterative\"; take \"direct\"");
   }
+  if (study.modes.prestress) {
+    refuse("is not offered of prestressed modes; leave modes.prestress out");
+  }
   if (study.modes.basis == fe_modal::BasisKind::craig_bampton) {
     refuse(
         "needs eigenvectors, found modes.basis = \"craig-bampton\"; take \"normal\" or "

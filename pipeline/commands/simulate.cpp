@@ -9,9 +9,9 @@
 #include "multibody/history/incomplete_run.h"
 #include "multibody/history/recorder.h"
 #include "pipeline/commands/file_commands.h"
+#include "pipeline/commands/simulated_model.h"
 #include "pipeline/document/shipped_files.h"
 #include "pipeline/folder/results_folder.h"
-#include "pipeline/model/model_file.h"
 #include "pipeline/output/campbell_output.h"
 #include "pipeline/output/simulated_output.h"
 #include "pipeline/study/file_kind.h"
@@ -98,6 +98,13 @@ void tell(const FileInput& input, const ResultPaths& paths, const multibody::His
                           ": modes are of the mean stiffness of both sides of a kink: " + kink);
 }
 
+multibody::OutputOptions outputs_of(const ModelFile& file) {
+  return {.end_time_s = file.end_time_s,
+          .interval_s = file.output.interval_s,
+          .states = file.output.states,
+          .begin_time_s = file.model.start.time_s};
+}
+
 void write(const FileInput& input, const std::string& model,
            const multibody::CampbellDiagram& diagram) {
   input.folder.make();
@@ -111,18 +118,12 @@ void write(const FileInput& input, const std::string& model,
 
 }  // namespace
 
-bool simulate_command(const FileInput& input) {
-  if (input.files.size() != 1)
-    throw InputError("simulate: name one model, 'flexneck simulate MODEL.toml'");
-  const fs::path model = named_file(input.files.front());
-  const ModelFile file = read(model, input.settings);
-  for (const std::string& warning : file.warnings) input.console.warning(warning);
-  input.console.step("Simulating " + model.string());
+void simulate_model(const ModelFile& file, const FileInput& input) {
   const auto linearisation = linearised(file);
   const auto diagram = campbell(file);
   input.folder.make();
-  const ResultPaths paths = paths_of(input, model);
-  multibody::OutputOptions options{file.end_time_s, file.output.interval_s};
+  const ResultPaths paths = paths_of(input, file.file);
+  multibody::OutputOptions options = outputs_of(file);
   SimulatedOutput output(file, paths.history, paths.table, multibody::OutputTimes(options).count());
   options.sink = [&](const multibody::History& block) { output.append(block); };
   options.block = std::max<Eigen::Index>(1, kBlockNumbers / numbers_per_output(file.model));
@@ -137,6 +138,34 @@ bool simulate_command(const FileInput& input) {
     throw ComputationError(file.file.string() + ": " + stopped.what() +
                            "; what was computed until then is kept, marked incomplete");
   }
+}
+
+SimulatedModel simulated(const ModelFile& file) {
+  if (!file.rates_rad_s.empty())
+    throw InputError(
+        file.file.string() +
+        ": linearisation.rates: a Campbell diagram is written into a folder, and there "
+        "is none; name one");
+  const auto linearisation = linearised(file);
+  const multibody::OutputOptions options = outputs_of(file);
+  SimulatedOutput output(file, {}, {}, multibody::OutputTimes(options).count());
+  try {
+    return {output.finish(run(file, options), linearisation), {}};
+  } catch (const multibody::IncompleteRun& stopped) {
+    return {output.finish(stopped.history, linearisation),
+            file.file.string() + ": " + stopped.what()};
+  }
+}
+
+bool simulate_command(const FileInput& input) {
+  if (input.files.size() != 1)
+    throw InputError("simulate: name one model, 'flexneck simulate MODEL.toml'");
+  const fs::path model = named_file(input.files.front());
+  ModelFile file = read(model, input.settings);
+  file.solver.checkpoint = input.console.checkpoint();
+  for (const std::string& warning : file.warnings) input.console.warning(warning);
+  input.console.step("Simulating " + model.string());
+  simulate_model(file, input);
   return true;
 }
 

@@ -26,7 +26,7 @@ void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
                                         input.console.warnings(path.filename().string()));
     require_rigid_face(input.study, piece, file.body);
     file.provenance = provenance;
-    fe_modal::write_modal_body(path, file);
+    if (writes(input)) fe_modal::write_modal_body(path, file);
     const Eigen::VectorXd& frequencies = file.body.frequencies_Hz;
     rows.push_back({piece.name, piece.options.fixed_set,
                     fmt::format("{}", fmt::join(names_of(piece.options.interfaces), ", ")),

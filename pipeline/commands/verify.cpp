@@ -36,6 +36,10 @@ bool compare_with_published(const CommandInput& input) {
   const fe_modal::ModalBodyFile modes = read_modal_body(input.folder.modes());
   require_same_inputs(input.folder.modes(), modes.provenance, input.study,
                       modes_provenance(input.study).parameters, "flexneck modes");
+  if (!modes.body.prestress.empty())
+    throw InputError(input.folder.modes().string() +
+                     ": published figures are of bodies without prestress; make the modes without "
+                     "modes.prestress");
   Provenance provenance = provenance_of(input.study);
   const Study study = with_pieces(input, provenance.inputs);
   std::vector<PendulumEvidence> pendulum;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <iostream>
+#include <utility>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -54,14 +55,27 @@ void require_written_output() {
 Console::Console(Verbosity verbosity) : verbosity_(verbosity) {
   auto logger = spdlog::stderr_color_mt("flexneck");
   logger->set_pattern(verbosity == Verbosity::verbose ? "%^[%T.%e]%$ %v" : "%v");
-  logger->set_level(verbosity == Verbosity::quiet     ? spdlog::level::err
+  logger->set_level(verbosity == Verbosity::none      ? spdlog::level::off
+                    : verbosity == Verbosity::quiet   ? spdlog::level::err
                     : verbosity == Verbosity::verbose ? spdlog::level::debug
                                                       : spdlog::level::info);
   spdlog::set_default_logger(std::move(logger));
 }
 
+Console::Console(Receiver receiver, std::function<void()> checkpoint)
+    : verbosity_(Verbosity::normal),
+      receiver_(std::move(receiver)),
+      checkpoint_(std::move(checkpoint)) {}
+
+/// @return whether there is a receiver, which then has it
+bool Console::hand_on(Message kind, const std::string& text) const {
+  if (receiver_) receiver_(kind, text);
+  return receiver_ != nullptr;
+}
+
 void Console::result(const std::string& text) const {
-  if (verbosity_ == Verbosity::quiet) return;
+  if (hand_on(Message::result, text)) return;
+  if (verbosity_ <= Verbosity::quiet) return;
   std::cout << printable(text, "\n") << '\n';
   require_written_output();
 }
@@ -70,18 +84,22 @@ void Console::table(const std::string& text) const {
   if (is_verbose()) result(text);
 }
 
-void Console::step(const std::string& line) const { spdlog::info(one_line(line)); }
+void Console::step(const std::string& line) const {
+  if (!hand_on(Message::step, line)) spdlog::info(one_line(line));
+}
 
 void Console::warning(const std::string& line) const {
-  spdlog::error("Warning: {}", one_line(line));
+  if (!hand_on(Message::warning, line)) spdlog::error("Warning: {}", one_line(line));
 }
 
 void Console::error(const std::string& line) const {
-  spdlog::error("flexneck: {}", one_line(line));
+  if (!hand_on(Message::error, line)) spdlog::error("flexneck: {}", one_line(line));
 }
 
 Progress Console::detail() const {
-  return [](const std::string& line) { spdlog::debug("  {}", one_line(line)); };
+  return [console = *this](const std::string& line) {
+    if (!console.hand_on(Message::detail, line)) spdlog::debug("  {}", one_line(line));
+  };
 }
 
 Progress Console::warnings(const std::string& of) const {

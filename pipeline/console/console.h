@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::pipeline {
 
-/// How much the command says.
-enum class Verbosity { quiet, normal, verbose };
+/// How much the command says; `none` is for a rank of which another one speaks.
+enum class Verbosity { none, quiet, normal, verbose };
+
+/// Kinds of what a console says.
+enum class Message { result, step, warning, error, detail };
 
 /// Before any file is opened: a standard stream that is closed would give its number to one, and
 /// what is printed would go into a result. What is printed to it fails then.
@@ -23,6 +27,10 @@ void require_written_output();
 class Console {
  public:
   explicit Console(Verbosity verbosity);
+  /// Says nothing itself: all goes to a receiver, which may throw what ends the work.
+  /// @param checkpoint  may, too; long computations call it now and then
+  using Receiver = std::function<void(Message kind, const std::string& text)>;
+  Console(Receiver receiver, std::function<void()> checkpoint);
 
   /// Verdicts and short tables, within kConsoleColumns (wrapped_text.h); silent when quiet.
   /// @throws ComputationError if standard output cannot be written.
@@ -34,11 +42,17 @@ class Console {
   void warning(const std::string& line) const;  ///< always: a result may not be what it seems
   void error(const std::string& line) const;    ///< always
   Progress detail() const;                      ///< for the stages: shown when verbose
+  /// What a computation calls now and then; empty where nobody wants to stop it.
+  const std::function<void()>& checkpoint() const { return checkpoint_; }
   /// For the stages: warnings that begin with what they are of.
   Progress warnings(const std::string& of) const;
 
  private:
+  bool hand_on(Message kind, const std::string& text) const;
+
   Verbosity verbosity_;
+  Receiver receiver_;
+  std::function<void()> checkpoint_;
 };
 
 }  // namespace flexneck::pipeline

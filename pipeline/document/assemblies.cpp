@@ -49,9 +49,9 @@ class Reading {
       settings_.push_back(with_current_names(setting, keys, content_.warnings));
   }
 
-  DocumentContent document(const fs::path& path) {
+  DocumentContent document(const DocumentSource& source) {
     toml::table& root = content_.root;
-    root = file(path);
+    root = file(source);
     for (const std::string& setting : taken(settings_, "variables.")) apply_setting(root, setting);
     Variables variables(taken_table(root, "variables", "variables"), "variables");
     variables.substitute(root);
@@ -68,12 +68,12 @@ class Reading {
 
  private:
   /// The file with what it includes; it stays open until close().
-  toml::table file(const fs::path& path) {
+  toml::table file(const DocumentSource& source) {
     std::vector<InputFile> read;
-    toml::table table = parse_with_includes(path, read, [&](toml::table& each) {
+    toml::table table = parse_with_includes(source, read, [&](toml::table& each) {
       use_current_names(each, keys_, "", content_.warnings);
     });
-    open_.push_back(fs::weakly_canonical(path));
+    open_.push_back(fs::weakly_canonical(source.path));
     count_ += read.size();
     for (InputFile& each : read)
       if (std::none_of(content_.files.begin(), content_.files.end(), [&](const InputFile& other) {
@@ -217,9 +217,9 @@ Key assembly_key() {
                      kAssemblyKeys);
 }
 
-DocumentContent read_document(const fs::path& path, const std::vector<std::string>& settings,
-                              std::span<const Key> keys) {
-  return Reading(settings, keys).document(path);
+DocumentContent read_document(const DocumentSource& source,
+                              const std::vector<std::string>& settings, std::span<const Key> keys) {
+  return Reading(settings, keys).document(source);
 }
 
 }  // namespace flexneck::pipeline

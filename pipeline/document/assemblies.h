@@ -9,6 +9,7 @@
 #include <toml++/toml.h>
 
 #include "geometry/foundation/provenance.h"
+#include "pipeline/document/document_source.h"
 #include "pipeline/document/key.h"
 
 namespace flexneck::pipeline {
@@ -31,7 +32,7 @@ struct DocumentContent {
 /// @param settings    "dotted.key=value"; variables.NAME and assembly.NAME.variables.NAME, too
 /// @param keys  of the format; what earlier versions called otherwise gets its name of today
 /// @throws InputError with file, line, column and dotted key
-DocumentContent read_document(const std::filesystem::path& path,
+DocumentContent read_document(const DocumentSource& source,
                               const std::vector<std::string>& settings, std::span<const Key> keys);
 
 }  // namespace flexneck::pipeline

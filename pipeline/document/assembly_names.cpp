@@ -42,6 +42,7 @@ const std::vector<Section>& sections() {
       {"section", none, {{"lower", marker}, {"upper", marker}}},
       {"line_force", none, {{"lower", marker}, {"upper", marker}}},
       {"cable", none, {{"lower", marker}, {"upper", marker}}},
+      {"function_force", none, {{"lower", marker}, {"upper", marker}}},
       {"resistance", none, {{"joint", joint}}},
       {"channel",
        none,

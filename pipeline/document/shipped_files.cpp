@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/running_object.h"
 
 namespace flexneck::pipeline {
 
@@ -22,7 +23,7 @@ constexpr std::array<const char*, 4> kNamedFolders = {"pipeline/studies", "pipel
                                                       "pipeline/models", "geometry/examples"};
 
 fs::path found_folder() {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path program = running_object();
   for (fs::path at = program.parent_path();; at = at.parent_path()) {
     if (fs::is_directory(at / kFolder)) return fs::canonical(at / kFolder);
     if (at == at.root_path()) break;

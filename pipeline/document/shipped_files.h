@@ -8,9 +8,9 @@
 namespace flexneck::pipeline {
 
 /// The folder of the files that come with the program, which stand in it as in the sources:
-/// share/flexneck beside or above the running program. So an installed program finds it wherever
-/// its prefix has been moved to (<prefix>/bin/flexneck, <prefix>/share/flexneck), and one that is
-/// not installed finds that of its build.
+/// share/flexneck beside or above the running program or Python module. So an installed program
+/// finds it wherever its prefix has been moved to (<prefix>/bin/flexneck, <prefix>/share/flexneck),
+/// and one that is not installed finds that of its build.
 /// @throws ComputationError if there is none.
 std::filesystem::path shipped_folder();
 

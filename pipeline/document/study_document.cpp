@@ -232,11 +232,11 @@ void StudyTable::refuse_given(const std::vector<std::string>& keys,
 
 std::span<const Key> StudyTable::key_rows() const { return node_->keys; }
 
-StudyDocument::StudyDocument(const std::filesystem::path& path,
-                             const std::vector<std::string>& settings, std::span<const Key> keys)
+StudyDocument::StudyDocument(const DocumentSource& source, const std::vector<std::string>& settings,
+                             std::span<const Key> keys)
     : impl_(std::make_shared<Impl>()) {
   impl_->keys = keys;
-  impl_->content = read_document(path, settings, keys);
+  impl_->content = read_document(source, settings, keys);
   impl_->records.parameters = impl_->content.parameters;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/foundation/provenance.h"
+#include "pipeline/document/document_source.h"
 #include "pipeline/document/key.h"
 
 namespace flexneck::pipeline {
@@ -86,7 +87,7 @@ class StudyDocument {
   /// as in "case.flexion-60.duration=0.5 s".
   /// @param keys  of the format; they outlive the document and its tables
   /// @throws InputError for a file that is missing or does not parse (line and column).
-  StudyDocument(const std::filesystem::path& path, const std::vector<std::string>& settings,
+  StudyDocument(const DocumentSource& source, const std::vector<std::string>& settings,
                 std::span<const Key> keys);
 
   StudyTable root() const;

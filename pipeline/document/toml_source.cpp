@@ -111,9 +111,10 @@ class Reading {
   Reading(std::vector<InputFile>& files, const Preparation& prepare)
       : files_(files), prepare_(prepare) {}
 
-  toml::table merged(const fs::path& path) {
+  toml::table merged(const DocumentSource& source) {
+    const fs::path& path = source.path;
     open(path);
-    const std::string text = read_text(path, kMaxBytes);
+    const std::string text = source.text ? *source.text : read_text(path, kMaxBytes);
     toml::table own = parse(path, text);
     prepare_(own);
     toml::table table;
@@ -188,9 +189,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 }  // namespace
 
-toml::table parse_with_includes(const fs::path& path, std::vector<InputFile>& files,
+toml::table parse_with_includes(const DocumentSource& source, std::vector<InputFile>& files,
                                 const Preparation& prepare) {
-  return Reading(files, prepare).merged(path);
+  return Reading(files, prepare).merged(source);
 }
 
 void apply_setting(toml::table& root, const std::string& setting) {

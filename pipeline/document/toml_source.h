@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "geometry/foundation/provenance.h"
+#include "pipeline/document/document_source.h"
 
 namespace flexneck::pipeline {
 
@@ -20,7 +21,7 @@ inline constexpr std::size_t kDeepestInclude = 16;  ///< files within one anothe
 using Preparation = std::function<void(toml::table&)>;
 
 /// Parses a file and everything it includes into one table. The files read are appended to `files`.
-toml::table parse_with_includes(const std::filesystem::path& path, std::vector<InputFile>& files,
+toml::table parse_with_includes(const DocumentSource& source, std::vector<InputFile>& files,
                                 const Preparation& prepare);
 
 /// Applies one "dotted.key=value" from the command line.

@@ -102,6 +102,7 @@ fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
   options.basis = study.modes.basis;
   options.basis_interfaces = study.modes.basis_interfaces;
   options.geometric_stiffness = study.modes.stress_stiffening;
+  if (study.modes.prestress) options.prestress = study.loads;
   options.certify = study.modes.certify;
   options.rigid_parts = study.modes.rigid_parts;
   options.fixed_directions = study.modes.fixed_directions;

@@ -120,7 +120,8 @@ bool differ_in_mesh_only(const Study& a, const Study& b) {
 }
 
 bool has_modes_slopes(const Study& study) {
-  return study.structure && study.modes.solver == fe_modal::Solver::direct &&
+  return study.structure && !study.modes.prestress &&
+         study.modes.solver == fe_modal::Solver::direct &&
          study.modes.basis != fe_modal::BasisKind::craig_bampton;
 }
 

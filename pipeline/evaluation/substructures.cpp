@@ -114,6 +114,8 @@ std::vector<Substructure> substructures(const SubstructuresSection& section,
                                         const fe_modal::ModalOptions& whole) {
   if (section.slit_motions != fe_modal::SlitMotions::none && !has_open_slit(mesh))
     throw InputError("slits: the mesh has no open slit; take geometry.slits = \"open\"");
+  if (!whole.prestress.empty())
+    throw InputError("the loads of a prestress are of the whole; leave modes.prestress out");
   const std::vector<std::string> names = names_of(section.pieces);
   std::vector<mesher::MeshPiece> pieces =
       mesher::cut_apart(mesh, piece_of_element(section, mesh), names);

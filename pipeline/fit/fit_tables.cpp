@@ -51,6 +51,7 @@ ResultTable parameter_table(const StudyFit& fit, const FitResult& result) {
                           is_at_bound(result.best().place[place]) ? "at its bound" : "", of.key});
   }
   table.notes = {verdict_of_fit(objective, result)};
+  if (fit.section().choices.empty()) table.notes.push_back(choices_text(fit.section()));
   return table;
 }
 
@@ -261,10 +262,20 @@ std::vector<FittedParameter> fitted_parameters(const FitObjective& objective,
   return all;
 }
 
+std::string choices_text(const FitSection& section) {
+  if (section.choices.empty())
+    return "The study states no choices that were made with the targets in sight (fit.choices).";
+  std::string text = "Chosen with the targets in sight:";
+  for (std::size_t k = 0; k < section.choices.size(); ++k)
+    text += fmt::format(" ({}) {}", k + 1, section.choices[k]);
+  return text;
+}
+
 std::vector<ResultTable> fit_tables(const StudyFit& fit, const FitResult& result) {
-  std::vector<ResultTable> tables = {parameter_table(fit, result), target_table(fit, result),
-                                     family_table(fit, result)};
+  std::vector<ResultTable> tables = {parameter_table(fit, result)};
   if (!fit.section().choices.empty()) tables.push_back(choice_table(fit));
+  tables.push_back(target_table(fit, result));
+  tables.push_back(family_table(fit, result));
   tables.push_back(direction_table(fit, result));
   tables.push_back(correlation_table(fit, result));
   tables.push_back(contribution_table(fit, result));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "pipeline/fit/fit_job.h"
@@ -8,10 +9,13 @@
 
 namespace flexneck::pipeline {
 
-/// "fit parameters", whose first note is the verdict; "fit targets", "fit families", "fit choices",
+/// "fit parameters", whose first note is the verdict; "fit choices", "fit targets", "fit families",
 /// "fit directions", "fit correlations", "fit contributions", "fit history", as far as there are
 /// such; and "fit failures".
 std::vector<ResultTable> fit_tables(const StudyFit& fit, const FitResult& result);
+
+/// The choices that were made with the targets in sight, or that the study states none.
+std::string choices_text(const FitSection& section);
 
 /// The parameters of a fit with their intervals of 95 %, in their own units.
 struct FittedParameter {

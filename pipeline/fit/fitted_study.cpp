@@ -93,7 +93,7 @@ void put_fitted(toml::table& root, const FitParameter& parameter, const FittedPa
 
 /// What verification calls the figure that a target is; empty if it has none.
 std::string verified_name(const StudyFit& fit, const FitTarget& target) {
-  if (target.curve) return {};
+  if (target.output.empty()) return {};
   const OutputName output = output_name(target.output, fit.evaluator().base());
   if (output.figure == kSystemFrequency) return "system frequency";
   if (output.of != OutputName::Of::modes) return {};

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/document/product_text.h"
 #include "pipeline/fit/curve_terms.h"
@@ -20,7 +21,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 StudyFit::StudyFit(Evaluator& evaluator, FitSection section, unsigned threads)
-    : evaluator_(evaluator), section_(std::move(section)) {
+    : evaluator_(evaluator),
+      section_(std::move(section)),
+      expressions_(names_of(section_.parameters)) {
   std::vector<FitTerm> all = terms();
   check_parameters();
   const auto plain = [this](const VectorXd& at) { return observables(at); };
@@ -29,6 +32,8 @@ StudyFit::StudyFit(Evaluator& evaluator, FitSection section, unsigned threads)
   };
   differences_ = central_differences(plain, ranges(), threads);
   differences_of_others_ = central_differences(of_others, ranges(), threads);
+  differences_of_expressions_ =
+      central_differences([this](const VectorXd& at) { return expressions_.values(at); }, ranges());
   FitModel model{[this](const VectorXd& at) { return values(at); },
                  [this](const VectorXd& at) { return slopes(at); }};
   objective_.emplace(ranges(), std::move(all), std::move(model));
@@ -145,10 +150,22 @@ void StudyFit::add_curve_terms(const FitTarget& target, std::vector<FitTerm>& te
   targets_.push_back({target.name, curve.output, unit, factor, wanted_text(target), {}});
 }
 
+void StudyFit::add_expression_term(const FitTarget& target, std::vector<FitTerm>& terms) {
+  at_key(target.table, "expression",
+         [&] { expressions_.add(target.expression, static_cast<Index>(terms.size())); });
+  terms.push_back(target.is_window() ? window_term(target, "1") : value_term(target, "1"));
+  targets_.push_back({target.name, target.expression, "1", 1, wanted_text(target), {}});
+}
+
 std::vector<FitTerm> StudyFit::terms() {
   std::vector<FitTerm> all;
   for (const FitTarget& each : section_.targets) {
-    each.curve ? add_curve_terms(each, all) : add_figure_terms(each, all);
+    if (each.curve)
+      add_curve_terms(each, all);
+    else if (each.expression.empty())
+      add_figure_terms(each, all);
+    else
+      add_expression_term(each, all);
     targets_.back().origin = origin_of(evaluator_.base(), each);
   }
   return all;
@@ -171,7 +188,10 @@ bool StudyFit::is_accepted(const VectorXd& parameters) {
 }
 
 VectorXd StudyFit::observables(const VectorXd& parameters) {
-  return all_.observables(evaluator_, settings(parameters));
+  VectorXd all(static_cast<Index>(all_.rows().size() + expressions_.rows().size()));
+  all(all_.rows()) = all_.observables(evaluator_, settings(parameters));
+  all(expressions_.rows()) = expressions_.values(parameters);
+  return all;
 }
 
 StudyFit::Moved StudyFit::moved(const VectorXd& parameters, double direction) const {
@@ -245,19 +265,26 @@ ModelSlopes StudyFit::slopes(const VectorXd& parameters) {
   const auto terms = static_cast<Index>(objective_->terms().size());
   // What is held out takes no part, and needs no slopes.
   ModelSlopes all{VectorXd::Zero(terms), MatrixXd::Zero(terms, parameters.size())};
-  const auto put = [&](const ModelSlopes& some, const ObservedTargets& of) {
+  const auto put = [&](const ModelSlopes& some, const auto& of) {
     all.values(of.rows()) = some.values;
     all.derivatives(of.rows(), Eigen::all) = some.derivatives;
   };
   put(*closed, of_modes_);
   if (!others_.is_empty()) put(differences_of_others_(parameters), others_);
+  if (!expressions_.rows().empty()) put(differences_of_expressions_(parameters), expressions_);
   return all;
 }
 
 VectorXd StudyFit::values(const VectorXd& parameters) {
   // Of the modes alone: a fit asks for slopes at the same place next.
-  if (has_closed_slopes_ && of_modes_.rows().size() == objective_->terms().size())
-    if (const std::optional<ModelSlopes> found = closed_slopes(parameters)) return found->values;
+  if (has_closed_slopes_ && of_modes_.rows().size() == all_.rows().size()) {
+    if (const std::optional<ModelSlopes> found = closed_slopes(parameters)) {
+      VectorXd all(static_cast<Index>(objective_->terms().size()));
+      all(of_modes_.rows()) = found->values;
+      all(expressions_.rows()) = expressions_.values(parameters);
+      return all;
+    }
+  }
   return observables(parameters);
 }
 

@@ -13,6 +13,7 @@
 #include "pipeline/evaluation/evaluator.h"
 #include "pipeline/fit/fit_objective.h"
 #include "pipeline/fit/observed_targets.h"
+#include "pipeline/fit/parameter_expressions.h"
 #include "pipeline/sampling/varied_key.h"
 #include "pipeline/study/fit_section.h"
 
@@ -73,6 +74,7 @@ class StudyFit {
   std::vector<FitTerm> terms();
   void add_figure_terms(const FitTarget& target, std::vector<FitTerm>& terms);
   void add_curve_terms(const FitTarget& target, std::vector<FitTerm>& terms);
+  void add_expression_term(const FitTarget& target, std::vector<FitTerm>& terms);
   /// @param first  row of its observables, that of its first term
   void add_observed(const FitTarget& target, const OutputName& output, std::size_t first,
                     std::size_t count);
@@ -92,10 +94,12 @@ class StudyFit {
   ObservedTargets all_;
   ObservedTargets of_modes_;  ///< figures of the modes, which may have closed slopes
   ObservedTargets others_;    ///< that are fitted
+  ParameterExpressions expressions_;
   std::vector<ShownTarget> targets_;
   std::optional<FitObjective> objective_;
   std::function<ModelSlopes(const Eigen::VectorXd&)> differences_;
   std::function<ModelSlopes(const Eigen::VectorXd&)> differences_of_others_;
+  std::function<ModelSlopes(const Eigen::VectorXd&)> differences_of_expressions_;
   Eigen::VectorXd start_;
   bool has_closed_slopes_ = false;  ///< of the modes
 

@@ -23,6 +23,8 @@ class ResultsFolder {
   std::filesystem::path modes() const { return path_ / "modes.h5"; }
   /// Modes with the static moduli, where a material has one.
   std::filesystem::path static_modes() const { return path_ / "modes_static.h5"; }
+  /// Displacements and stresses of the static step under the study's loads.
+  std::filesystem::path stress() const { return path_ / "stress.h5"; }
   /// Modes of one piece of the structure.
   std::filesystem::path substructure(const std::string& piece) const {
     return path_ / ("substructure_" + piece + ".h5");

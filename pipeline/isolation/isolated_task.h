@@ -7,6 +7,7 @@
 
 #include "geometry/foundation/progress.h"
 #include "pipeline/isolation/child_limits.h"
+#include "pipeline/isolation/command_program.h"
 
 namespace flexneck::pipeline {
 
@@ -26,10 +27,10 @@ struct IsolatedTask {
   std::filesystem::path file;  ///< what the library reads, for messages
   std::string library;         ///< whose name the user knows: "gmsh"
   std::string advice;          ///< what to do if it cannot: "write it anew"
-  std::filesystem::path program = "/proc/self/exe";
+  std::filesystem::path program = command_program();
 };
 
-/// Runs a task in a child process: this program, started again.
+/// Runs a task in a child process: the command, started again.
 /// @param temporary  a folder for what it leaves behind
 /// @throws InputError or ComputationError, as the task does; InputError in one line if the child
 /// crashes or exceeds its limits.

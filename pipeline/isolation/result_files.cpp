@@ -18,7 +18,7 @@ struct Kind {
   void (*copy)(const fs::path& from, const fs::path& to);
 };
 
-constexpr std::array<Kind, 3> kKinds = {
+constexpr std::array<Kind, 4> kKinds = {
     {{mesher::kMeshFormat.name,
       [](const fs::path& from, const fs::path& to) {
         mesher::write_mesh(to, mesher::read_mesh(from));
@@ -26,6 +26,10 @@ constexpr std::array<Kind, 3> kKinds = {
      {fe_modal::kModalBodyFormat.name,
       [](const fs::path& from, const fs::path& to) {
         fe_modal::write_modal_body(to, fe_modal::read_modal_body(from));
+      }},
+     {fe_modal::kStaticSolutionFormat.name,
+      [](const fs::path& from, const fs::path& to) {
+        fe_modal::write_static_solution(to, fe_modal::read_static_solution(from));
       }},
      {multibody::kHistoryFormat.name, [](const fs::path& from, const fs::path& to) {
         multibody::write_history(to, multibody::read_history(from));
@@ -71,6 +75,11 @@ mesher::MeshFile read_mesh(const fs::path& path) {
 
 fe_modal::ModalBodyFile read_modal_body(const fs::path& path) {
   return fe_modal::read_modal_body(ReadableFile(path, fe_modal::kModalBodyFormat.name).path());
+}
+
+fe_modal::StaticSolutionFile read_static_solution(const fs::path& path) {
+  return fe_modal::read_static_solution(
+      ReadableFile(path, fe_modal::kStaticSolutionFormat.name).path());
 }
 
 multibody::HistoryFile read_history(const fs::path& path) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fe_modal/body/modal_body_file.h"
+#include "fe_modal/body/static_solution_file.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/mesh/mesh_file.h"
 #include "multibody/files/history_file.h"
@@ -22,6 +23,7 @@ namespace flexneck::pipeline {
 /// @throws InputError as the readers of the rooms do; in one line if the child dies.
 mesher::MeshFile read_mesh(const std::filesystem::path& path);
 fe_modal::ModalBodyFile read_modal_body(const std::filesystem::path& path);
+fe_modal::StaticSolutionFile read_static_solution(const std::filesystem::path& path);
 multibody::HistoryFile read_history(const std::filesystem::path& path);
 
 /// Refuses a run that has ended early, of which the file holds the first part only.

@@ -26,6 +26,8 @@ body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto
 table { border-collapse: collapse; display: block; overflow-x: auto; margin: 1rem 0 }
 th, td { border: 1px solid #d0d7de; padding: .25rem .6rem; text-align: left; vertical-align: top }
 pre { background: #f6f8fa; padding: .8rem; overflow-x: auto; font-size: .85rem; line-height: 1.35 }
+math mtd { text-align: left; padding: .25rem 1.2rem .25rem 0 } math mtable mtable mtd { text-align: center; padding: .1rem .4rem }
+div:has(> math) { overflow-x: auto; overflow-y: hidden; padding: .2rem 1rem } td math { white-space: nowrap }
 code { font-size: .9em } img { max-width: 100% } a { color: #0550ae }
 h1 { border-bottom: 1px solid #d0d7de; margin-top: 3rem }
 .sphinxsidebar, .related, .footer { display: none }

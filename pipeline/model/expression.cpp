@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/model/expression.h"
 
+#include <algorithm>
 #include <cctype>
 #include <muParser.h>
 #include <numbers>
@@ -14,7 +15,7 @@
 namespace flexneck::pipeline {
 
 struct Expression::Impl {
-  double time_s = 0;
+  std::vector<double> values;  ///< of the variables, where the parser finds them
   mu::Parser parser;
 };
 
@@ -72,12 +73,15 @@ class Grammar {
 
 }  // namespace
 
-Expression::Expression(const std::string& text) : impl_(std::make_shared<Impl>()) {
+Expression::Expression(const std::string& text, const std::vector<std::string>& variables)
+    : impl_(std::make_shared<Impl>()) {
   Grammar(text).check();
+  impl_->values.resize(variables.size());
   try {
     impl_->parser.DefineConst("pi", std::numbers::pi);
     impl_->parser.DefineConst("gn", kStandardGravity_m_s2);
-    impl_->parser.DefineVar("t", &impl_->time_s);
+    for (std::size_t k = 0; k < variables.size(); ++k)
+      impl_->parser.DefineVar(variables[k], &impl_->values[k]);
     impl_->parser.SetExpr(text);
     impl_->parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
@@ -85,9 +89,13 @@ Expression::Expression(const std::string& text) : impl_(std::make_shared<Impl>()
   }
 }
 
-double Expression::operator()(double time_s) const {
-  impl_->time_s = time_s;
+double Expression::operator()(std::span<const double> values) const {
+  std::copy(values.begin(), values.end(), impl_->values.begin());
   return impl_->parser.Eval();
+}
+
+bool Expression::has(const std::string& variable) const {
+  return impl_->parser.GetUsedVar().count(variable) > 0;
 }
 
 }  // namespace flexneck::pipeline

@@ -2,17 +2,24 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace flexneck::pipeline {
 
-/// A function of time written as a text, such as "0.05 * sin(2 * pi * 3 * t)": t in s, the
-/// constants pi and gn, the functions of muParser and its operators but assignment and sequence.
+/// A function of named variables written as a text, such as "0.05 * sin(2 * pi * 3 * t)" of the
+/// time t in s: with the constants pi and gn, the functions of muParser and its operators but
+/// assignment and sequence. Copies share the parser, which one thread at a time uses.
 class Expression {
  public:
-  /// @throws InputError for what cannot be read: where, and what is wrong.
-  explicit Expression(const std::string& text);
-  double operator()(double time_s) const;
+  /// @throws InputError for what cannot be read: where, and what is wrong; for a variable that no
+  /// expression could name, or that is a constant.
+  explicit Expression(const std::string& text, const std::vector<std::string>& variables = {"t"});
+  /// @param values  of the variables, in their order
+  double operator()(std::span<const double> values) const;
+  double operator()(double time_s) const { return (*this)(std::span(&time_s, 1)); }
+  bool has(const std::string& variable) const;
 
  private:
   struct Impl;

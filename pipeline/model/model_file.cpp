@@ -8,6 +8,7 @@
 #include "pipeline/model/channel_section.h"
 #include "pipeline/model/model_check.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/restart.h"
 #include "pipeline/model/solver_steps.h"
 #include "pipeline/model/start_check.h"
 
@@ -44,6 +45,8 @@ constexpr Key kOutputKeys[] = {
     Key::texts("markers", kNone,
                "Markers whose histories are written; all if the key is not there"),
     Key::texts("joints", kNone, "Joints whose histories are written; all if the key is not there"),
+    Key::flag("states", "false",
+              "Whether the states of all bodies are written, for a run that goes on from them"),
 };
 
 void read_solver(const StudyTable& table, ModelFile& file) {
@@ -89,6 +92,9 @@ void read_output(const StudyTable& root, ModelFile& file) {
   output.interval_s = table.quantity("interval");
   output.markers = chosen(table, "markers", names_of(file.model.markers), "marker");
   output.joints = chosen(table, "joints", names_of(file.model.joints), "joint");
+  output.states = table.flag("states");
+  if (output.states && file.analysis == ModelFile::Analysis::quasi_static)
+    table.refuse("states", "a quasi-static analysis has none; leave this key out");
   table.finish();
   for (const StudyTable& channel : root.tables("channel"))
     output.channels.push_back(read_channel(channel, file.model, output.interval_s));
@@ -100,6 +106,18 @@ std::string rest_of(const ModelFile& file) {
   if (file.analysis == ModelFile::Analysis::quasi_static)
     return "[solver] has analysis = \"quasi_static\"";
   return file.start == ModelFile::Start::equilibrium ? "[solver] has start = \"equilibrium\"" : "";
+}
+
+/// The state of another run takes the place of all starts.
+void restart(const StudyTable& root, ModelFile& file) {
+  if (!root.has("restart")) return;
+  if (!rest_of(file).empty())
+    root.refuse("restart", rest_of(file) + ", but a restart begins in motion; leave one out");
+  if (file.linearised_at)
+    root.refuse("restart", "a linearisation is at time zero; leave one of them out");
+  read_restart(root.table("restart"), file.model, file.files);
+  if (!(file.model.start.time_s < file.end_time_s))
+    root.refuse("restart", "expected a time before the end_time of [solver]");
 }
 
 /// What concerns more than one table; these messages name no line.
@@ -124,6 +142,10 @@ std::span<const Key> model_keys() {
         variables_key(),
         assembly_key(),
         Key::table("solver", "Length, start and integration of the run", kSolverKeys),
+        Key::table("restart",
+                   "The state of an output of another run, from which this one goes on in place of "
+                   "all starts",
+                   kRestartKeys),
         Key::table("linearisation",
                    "Frequencies, damping ratios and shapes of small motions, besides the run",
                    kLinearisationKeys),
@@ -140,9 +162,9 @@ std::span<const Key> model_keys() {
   return keys;
 }
 
-ModelFile read_model_file(const std::filesystem::path& path,
-                          const std::vector<std::string>& settings) {
-  const StudyDocument document(path, settings, model_keys());
+ModelFile read_model_file(const DocumentSource& source, const std::vector<std::string>& settings) {
+  const std::filesystem::path& path = source.path;
+  const StudyDocument document(source, settings, model_keys());
   const StudyTable root = document.root();
   ModelFile file;
   file.file = path;
@@ -157,9 +179,10 @@ ModelFile read_model_file(const std::filesystem::path& path,
   if (assembly.model.bodies.empty())
     throw InputError(path.string() + ": expected bodies as tables [[body]], found none");
   assemble(assembly, file);
+  restart(root, file);
   read_output(root, file);
   root.finish();
-  file.files = document.files();
+  file.files.insert(file.files.begin(), document.files().begin(), document.files().end());
   file.files.insert(file.files.end(), assembly.files.begin(), assembly.files.end());
   file.parameters = document.parameters();
   file.warnings = document.warnings();

@@ -11,6 +11,7 @@
 #include "multibody/analysis/linearisation.h"
 #include "multibody/model/model.h"
 #include "multibody/simulation/simulation.h"
+#include "pipeline/document/document_source.h"
 #include "pipeline/document/key.h"
 #include "pipeline/model/channel.h"
 
@@ -21,6 +22,7 @@ struct OutputSection {
   double interval_s = 1e-3;
   std::vector<std::string> markers;  ///< whose histories are written
   std::vector<std::string> joints;   ///< likewise
+  bool states = false;               ///< of all bodies, too, for a restart
   std::vector<ChannelSpec> channels;
 };
 
@@ -58,7 +60,6 @@ std::span<const Key> model_keys();
 /// Reads a model file (pipeline/models/README.md) and what it names: modes and tables.
 /// @param settings  "dotted.key=value", as read_study()
 /// @throws InputError with file, line, column and key for everything that is not right.
-ModelFile read_model_file(const std::filesystem::path& path,
-                          const std::vector<std::string>& settings);
+ModelFile read_model_file(const DocumentSource& source, const std::vector<std::string>& settings);
 
 }  // namespace flexneck::pipeline

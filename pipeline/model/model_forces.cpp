@@ -4,6 +4,7 @@
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/resistance_law.h"
+#include "pipeline/model/state_expression.h"
 
 namespace flexneck::pipeline {
 
@@ -29,13 +30,30 @@ constexpr auto kMagnitudeKeys =
            kCsvKeys);
 
 /// Of a force and a torque.
-constexpr auto kLoadKeys =
-    joined(std::to_array<Key>({
-               Key::text("name", kRequired, "Name of the load"),
-               Key::text("marker", kRequired, "Marker that it acts at"),
-               Key::numbers("direction", kRequired, "Direction in the world", {.size = 3}),
-           }),
-           kMagnitudeKeys);
+constexpr auto kLoadKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the load"),
+        Key::text("marker", kRequired, "Marker that it acts at"),
+        Key::numbers("direction", kRequired,
+                     "Direction in the world; of a follower in the marker's axes", {.size = 3}),
+        Key::flag("follows", "false", "Whether its direction turns with the marker"),
+    }),
+    kMagnitudeKeys);
+
+constexpr Key kFunctionForceKeys[] = {
+    Key::text("name", kRequired, "Name of the force"),
+    Key::text("lower", kRequired, "Marker whose moving axes and origin the motion is seen from"),
+    Key::text("upper", kRequired, "Marker that the load acts at; the opposite acts on the other"),
+    Key::text("Fx", kNone,
+              "Force in N along the lower marker's x axis: a formula of t in s, of the upper "
+              "marker's place x, y, z in m, velocity vx, vy, vz in m/s, rotation vector rx, ry, rz "
+              "in rad and angular velocity wx, wy, wz in rad/s"),
+    Key::text("Fy", kNone, "Along y"),
+    Key::text("Fz", kNone, "Along z"),
+    Key::text("Mx", kNone, "Moment in N m about x at the upper marker, likewise"),
+    Key::text("My", kNone, "About y"),
+    Key::text("Mz", kNone, "About z"),
+};
 
 constexpr auto kLineForceKeys = joined(
     std::to_array<Key>({
@@ -92,6 +110,7 @@ void read_force(const StudyTable& table, Assembly& assembly) {
   force.name = table.text("name");
   force.marker = marker_named(table, "marker", assembly);
   force.direction = unit_vector(table, "direction");
+  force.follows = table.flag("follows");
   force.magnitude_N =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
   assembly.model.forces.add(std::move(force));
@@ -103,6 +122,7 @@ void read_torque(const StudyTable& table, Assembly& assembly) {
   torque.name = table.text("name");
   torque.marker = marker_named(table, "marker", assembly);
   torque.direction = unit_vector(table, "direction");
+  torque.follows = table.flag("follows");
   torque.magnitude_Nm =
       load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N*m"}, assembly);
   assembly.model.forces.add(std::move(torque));
@@ -178,6 +198,31 @@ void read_cable(const StudyTable& table, Assembly& assembly) {
   table.finish();
 }
 
+void read_function_force(const StudyTable& table, Assembly& assembly) {
+  multibody::FunctionForce force;
+  force.name = table.text("name");
+  force.marker_i = marker_named(table, "lower", assembly);
+  force.marker_j = marker_named(table, "upper", assembly);
+  StateExpression::Texts texts;
+  bool is_any = false;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    texts[k] = table.text(StateExpression::kNames[k]);
+    if (texts[k].empty()) continue;
+    is_any = true;
+    at_key(table, StateExpression::kNames[k], [&] {
+      StateExpression::Texts one;
+      one[k] = texts[k];
+      return StateExpression(one);
+    });
+  }
+  if (!is_any) table.refuse("Fx", "expected a formula of at least one of Fx to Mz, found none");
+  const StateExpression expression(texts);
+  force.load = expression;
+  force.takes_rotation_vector = expression.takes_rotation_vector();
+  assembly.model.forces.add(std::move(force));
+  table.finish();
+}
+
 }  // namespace
 
 std::vector<ModelSection> force_sections() {
@@ -196,6 +241,10 @@ std::vector<ModelSection> force_sections() {
       elastic_section(),
       {Key::tables("resistance", "Resistances to the motion of joints", kJointResistanceKeys),
        read_resistance},
+      {Key::tables("function_force",
+                   "Loads between two markers by formulas of time and of their motion",
+                   kFunctionForceKeys),
+       read_function_force},
   };
 }
 

@@ -24,6 +24,10 @@ constexpr Key kKeys[] = {
     Key::quantity("damping_time", "s", kNone,
                   "Besides or in its place: damping is this time multiplied by the stiffness"),
     Key::numbers("offset", kNone, "Permanent set of the modal coordinates, in kg^(1/2) m"),
+    Key::numbers(
+        "modal_coordinates", kNone,
+        "Modal coordinates at the start, in kg^(1/2) m; the offset if the key is not there"),
+    Key::numbers("modal_rates", kNone, "Their rates at the start, in kg^(1/2) m/s; zero if not"),
     Key::flag("stress_stiffening", "false", "Whether the body's loads stiffen and soften it"),
 };
 
@@ -69,6 +73,8 @@ ModesUse read_modes_use(const StudyTable& body) {
     use.correction_damping_ratio = body.number("correction_damping_ratio");
   }
   if (body.has("offset")) use.offset = body.numbers("offset");
+  if (body.has("modal_coordinates")) use.initial_modal = body.numbers("modal_coordinates");
+  if (body.has("modal_rates")) use.initial_modal_rate = body.numbers("modal_rates");
   use.stress_stiffening = body.flag("stress_stiffening");
   return use;
 }
@@ -80,10 +86,15 @@ multibody::DeformableBody use_modes(const ModesUse& use, const fe_modal::ModalBo
                                   [&] { return fe_modal::select_modes(all, *use.modes); })
                          : all;
   body.damping_ratio = damping_ratios(use, body.modes);
-  if (!use.offset.empty()) {
-    require_size(use, "offset", use.offset.size(), body.modes.mode_count());
-    body.offset = vector_of(use.offset);
-  }
+  const auto take = [&](const std::string& key, const std::vector<double>& values,
+                        Eigen::VectorXd& into) {
+    if (values.empty()) return;
+    require_size(use, key, values.size(), body.modes.mode_count());
+    into = vector_of(values);
+  };
+  take("offset", use.offset, body.offset);
+  take("modal_coordinates", use.initial_modal, body.initial_modal);
+  take("modal_rates", use.initial_modal_rate, body.initial_modal_rate);
   body.stress_stiffening = use.stress_stiffening;
   if (body.stress_stiffening && !body.modes.geometric_stiffness)
     use.table.refuse("stress_stiffening",

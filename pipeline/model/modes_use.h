@@ -19,7 +19,8 @@ struct ModesUse {
   double correction_damping_ratio = 0;            ///< … those that are fe_modal::is_correction()
   std::vector<double> damping_ratios;             ///< or of each mode; empty: none
   double damping_time_s = 0;                      ///< besides: damping over stiffness
-  std::vector<double> offset;                     ///< of the modal coordinates; empty: none
+  std::vector<double> initial_modal, initial_modal_rate;
+  std::vector<double> offset;  ///< of the modal coordinates; empty: none
   bool stress_stiffening = false;
   StudyTable table;  ///< that says so; for messages
 

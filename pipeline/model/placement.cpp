@@ -32,10 +32,11 @@ Pose marker_pose(const Model& model, const Marker& marker) {
   const auto* const deformable = std::get_if<DeformableBody>(&model.bodies[marker.body].kind);
   if (deformable == nullptr) return {marker.position_m, marker.rotation};
   const fe_modal::Interface& place = deformable->modes.interface(marker.interface);
-  if (deformable->offset.size() == 0) return {place.position_m, marker.rotation};
-  const Vector3d theta = place.rotation * deformable->offset;
-  return {place.position_m + place.translation * deformable->offset,
-          Quaterniond(multibody::rotation_exp(theta)) * marker.rotation};
+  if (deformable->offset.size() == 0 && deformable->initial_modal.size() == 0)
+    return {place.position_m, marker.rotation};
+  const Eigen::VectorXd a = multibody::initial_modal(*deformable);
+  return {place.position_m + place.translation * a,
+          Quaterniond(multibody::rotation_exp(place.rotation * a)) * marker.rotation};
 }
 
 Pose pose_of(const Body& body) {

@@ -118,6 +118,14 @@ void check_rest(const Assembly& assembly, const std::string& rest) {
     if (start.speed_m_s.value_or(0) != 0)
       throw InputError(joint + fmt::format("speed = {:.6g} m/s", *start.speed_m_s) + but);
   }
+  for (const Body& body : assembly.model.bodies) {
+    const auto* const deformable = std::get_if<multibody::DeformableBody>(&body.kind);
+    if (deformable == nullptr) continue;
+    if (deformable->initial_modal.size() > 0)
+      throw InputError("body '" + body.name + "': modal_coordinates are given" + but);
+    if (deformable->initial_modal_rate.size() > 0)
+      throw InputError("body '" + body.name + "': modal_rates are given" + but);
+  }
   // As all bodies move if none is said to.
   Model carried = assembly.model;
   carry_bodies(carried, assembly.starts, std::vector<bool>(carried.bodies.size(), false));

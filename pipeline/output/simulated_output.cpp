@@ -34,12 +34,9 @@ Index rows_of(const std::vector<Channel>& channels) {
 
 SimulatedOutput::SimulatedOutput(const ModelFile& model, std::filesystem::path history,
                                  const std::filesystem::path& table, Index outputs)
-    : model_(model),
-      path_(std::move(history)),
-      outputs_(outputs),
-      history_(path_),
-      table_(table),
-      specs_(model.output.channels) {
+    : model_(model), path_(std::move(history)), outputs_(outputs), specs_(model.output.channels) {
+  if (!path_.empty()) history_.emplace(path_);
+  if (!table.empty()) table_.emplace(table);
   has_filters_ = std::any_of(specs_.begin(), specs_.end(),
                              [](const ChannelSpec& spec) { return spec.filter.has_value(); });
 }
@@ -82,10 +79,10 @@ void SimulatedOutput::append(const History& outputs) {
   if (outputs.handed_on == 0) require_room(block);
   if (has_filters_) {
     keep(block);
-    history_.append(block.history, {});
+    history_->append(block.history, {});
   } else {
     show(block.history.time_s, block.channels);
-    history_.append(block.history, block.channels);
+    history_->append(block.history, block.channels);
   }
 }
 
@@ -111,7 +108,7 @@ std::vector<Channel> SimulatedOutput::take_kept() {
 }
 
 void SimulatedOutput::show(const Eigen::VectorXd& time_s, const std::vector<Channel>& channels) {
-  table_.append(time_s, channels);
+  if (table_) table_->append(time_s, channels);
   peaks_.append(time_s, channels);
 }
 
@@ -131,8 +128,8 @@ multibody::HistoryFile SimulatedOutput::finish(
   file.history = std::move(block.history);
   file.provenance = provenance_of(model_.files, model_.parameters);
   file.linearisation = std::move(linearisation);
-  history_.finish(file);
-  table_.commit();
+  if (history_) history_->finish(file);
+  if (table_) table_->commit();
   return file;
 }
 

@@ -18,6 +18,7 @@ namespace flexneck::pipeline {
 /// the channels are kept to the end, for the filter runs over all times in both directions.
 class SimulatedOutput {
  public:
+  /// @param history, table  the files; without any, empty, what finish() returns is all there is
   /// @param outputs how many there will be
   /// @throws InputError if the folder cannot be written.
   SimulatedOutput(const ModelFile& model, std::filesystem::path history,
@@ -52,8 +53,8 @@ class SimulatedOutput {
   const ModelFile& model_;
   std::filesystem::path path_;
   Eigen::Index outputs_;
-  multibody::HistoryWriter history_;
-  CsvWriter table_;
+  std::optional<multibody::HistoryWriter> history_;
+  std::optional<CsvWriter> table_;
   PeakTable peaks_;
   std::vector<ChannelSpec> specs_;  ///< of the channels, once the first block has come
   bool has_filters_ = false;

@@ -2,6 +2,7 @@
 #include "pipeline/report/comparison.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 
 #include <fmt/core.h>
@@ -12,10 +13,13 @@
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/curves.h"
 #include "pipeline/report/html_table.h"
+#include "pipeline/report/neck_scene.h"
 #include "pipeline/report/page_sections.h"
 #include "pipeline/report/web_library.h"
 
 namespace flexneck::pipeline {
+
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -198,19 +202,38 @@ std::vector<ResultTable> compared_tables(const std::vector<ComparedStudy>& studi
 void write_comparison(const std::filesystem::path& path,
                       const std::vector<ComparedStudy>& studies) {
   std::string names;
-  for (const ComparedStudy& study : studies) names += (names.empty() ? "" : ", ") + study.label;
-  const nlohmann::ordered_json curves = curves_of(all_runs(studies), {});
+  Json scenes = Json::array();
+  for (const ComparedStudy& study : studies) {
+    names += (names.empty() ? "" : ", ") + study.label;
+    Json scene = scene_of(study.results, study.study);
+    if (!scene.is_null()) scenes.push_back({{"label", study.label}, {"scene", std::move(scene)}});
+  }
+  Json curves = curves_of(all_runs(studies), {});
+  if (!curves.is_null())
+    for (const ComparedStudy& study : studies) curves["folders"].push_back(study.label);
   std::map<std::string, std::string> texts = {{"head", page_head(html_text(names))},
+                                              {"units", page_part("units.html")},
                                               {"studies", html_text(names)},
-                                              {"warnings", warnings_of(studies)},
-                                              {"scripts", ""}};
-  for (const ResultTable& table : compared_tables(studies))
-    texts["tables"] += html_of(html_table_of(table)) + html_list(table.notes);
-  texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
-  texts["data"] = script_json({{"curves", curves}});
-  if (!curves.is_null()) texts["scripts"] = script_element(source_of(WebLibrary::d3));
-  for (const char* const name : {"data.js", "plots.js"})
-    texts["scripts"] += script_element(page_part(name));
+                                              {"warnings", warnings_of(studies)}};
+  if (!scenes.empty())
+    add_section("view", "In motion", "Modes and motion",
+                "<div class=\"viewer\">\n" + page_part("scene.html") + "</div>\n", texts);
+  std::vector<ResultTable> tables = compared_tables(studies);
+  // What differs comes before all curves.
+  const auto add_table = [&](const ResultTable& table) {
+    std::string id = "table-" + table.name;
+    std::replace_if(
+        id.begin(), id.end(),
+        [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '-');
+    add_section(id, html_text(table.name), html_text(table.title),
+                html_of(html_table_of(table)) + html_list(table.notes), texts);
+  };
+  const std::size_t first = std::min<std::size_t>(3, tables.size());
+  std::for_each_n(tables.begin(), first, add_table);
+  if (!curves.is_null()) add_section("curves", "Curves", "Curves", page_part("plots.html"), texts);
+  std::for_each(tables.begin() + static_cast<std::ptrdiff_t>(first), tables.end(), add_table);
+  texts["data"] = page_data(scenes, curves);
+  texts["scripts"] = page_scripts(!scenes.empty(), !curves.is_null());
   write_text(path, filled(page_part("comparison.html"), texts), Durability::none);
 }
 

@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/foundation/units.h"
 #include "pipeline/output/customary_units.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/rating/measured_tables.h"
 #include "pipeline/report/corridors.h"
+#include "pipeline/report/display_units.h"
 
 namespace flexneck::pipeline {
 
@@ -52,16 +52,13 @@ Json run_json(const Experiment& experiment) {
           {"channels", channels_json(experiment, stride)}};
 }
 
-/// For each kind of experiment and SI unit: the unit shown and the factor to it.
+/// For each kind of experiment and SI unit: what both systems show it as.
 Json units_json(const Results& results) {
   Json units = {{"pendulum", Json::object()}, {"static", Json::object()}};
-  for (const Experiment& experiment : results.experiments) {
-    for (const multibody::Channel& channel : experiment.file.channels) {
-      const std::string shown = shown_unit(channel.unit, experiment.kind);
-      const double factor = shown == channel.unit ? 1.0 : factor_from_si(channel.unit, shown);
-      units[name_of(experiment.kind)][channel.unit] = {{"name", shown}, {"factor", factor}};
-    }
-  }
+  for (const Experiment& experiment : results.experiments)
+    for (const multibody::Channel& channel : experiment.file.channels)
+      units[name_of(experiment.kind)][channel.unit] =
+          display_unit(channel.unit, shown_unit(channel.unit, experiment.kind));
   return units;
 }
 

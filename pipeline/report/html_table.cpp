@@ -2,10 +2,22 @@
 #include "pipeline/report/html_table.h"
 
 #include "pipeline/plotting/embedding.h"
+#include "pipeline/report/display_units.h"
 
 namespace flexneck::pipeline {
 
 namespace {
+
+std::string head_of(const HtmlTable::Column& column) {
+  std::string html =
+      std::string("<th scope=\"col\"") + (column.is_number ? " class=\"number\"" : "");
+  if (!column.unit.empty()) html += " data-unit=\"" + html_text(column.unit) + "\"";
+  if (column.names_unit) html += " data-names-unit";
+  html += ">" + html_text(column.title);
+  if (!column.unit.empty() && column.unit != kOfRow)
+    html += " (<span class=\"unit\">" + html_text(unit_label(column.unit)) + "</span>)";
+  return html + "</th>";
+}
 
 std::string cell_of(const HtmlTable& table, const HtmlTable::Row& row, std::size_t c) {
   const std::string kind = table.columns[c].is_number ? " class=\"number\"" : "";
@@ -20,10 +32,7 @@ std::string html_of(const HtmlTable& table) {
   std::string html = "<div class=\"table\" tabindex=\"0\" role=\"region\" aria-label=\"" + caption +
                      "\">\n<table data-table=\"" + html_text(table.name) + "\">\n<caption>" +
                      caption + "</caption>\n<thead><tr>";
-  for (const HtmlTable::Column& column : table.columns) {
-    html += std::string("<th scope=\"col\"") + (column.is_number ? " class=\"number\"" : "") + ">" +
-            html_text(column.title) + "</th>";
-  }
+  for (const HtmlTable::Column& column : table.columns) html += head_of(column);
   html += "</tr></thead>\n<tbody>\n";
   for (const HtmlTable::Row& row : table.rows) {
     html += "<tr" + (row.attributes.empty() ? "" : " " + row.attributes) + ">";

@@ -11,6 +11,10 @@ struct HtmlTable {
   struct Column {
     std::string title;       ///< plain text
     bool is_number = false;  ///< set to the right
+    /// Of its numbers, which the page shows in either system of units: kOfRow where another column
+    /// of the row names it; empty for none.
+    std::string unit = {};
+    bool names_unit = false;  ///< of the row
   };
   /// Cells are HTML: plain text has gone through html_text().
   struct Row {
@@ -22,6 +26,9 @@ struct HtmlTable {
   std::vector<Row> rows;
   std::string name = {};  ///< for data-table, by which tests and scripts find it
 };
+
+/// For HtmlTable::Column::unit.
+inline constexpr const char* kOfRow = "row";
 
 /// In a box of its own that scrolls where the page is narrow.
 std::string html_of(const HtmlTable& table);

@@ -2,7 +2,6 @@
 #include "pipeline/report/page_sections.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/core.h>
 
@@ -10,6 +9,8 @@
 #include "pipeline/output/sensitivity_tables.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/corridors.h"
+#include "pipeline/report/html_badges.h"
+#include "pipeline/report/page_summary.h"
 
 namespace flexneck::pipeline {
 
@@ -19,50 +20,12 @@ using Status = VerificationRow::Status;
 
 std::string note(const std::string& html) { return "<p class=\"note\">" + html + "</p>\n"; }
 
-/// A word in a frame with a sign of its own, so that it does not need its colour.
-std::string badge(const std::string& kind, const std::string& sign, const std::string& word) {
-  return "<span class=\"badge " + kind + "\"><span aria-hidden=\"true\">" + sign + "</span> " +
-         word + "</span>";
-}
-
-std::string origin_badge(Origin origin) {
-  static constexpr std::array<const char*, 4> kSigns = {"■", "◇", "◆", "○"};
-  const std::string name(name_of(origin));
-  return badge(name, kSigns[static_cast<std::size_t>(origin)], name);
-}
-
-std::string passed_badge() { return badge("passed", "✓", "pass"); }
-std::string failed_badge() { return badge("failed", "✗", "FAIL"); }
-
 std::string verdict(const VerificationRow& row) {
   std::string html = row.status == Status::passed   ? passed_badge()
                      : row.status == Status::failed ? failed_badge()
                                                     : "";
   if (row.fitted) html += (html.empty() ? "" : " ") + badge("calibrated", "◆", "fitted");
   return html;
-}
-
-/// "All 6 published frequencies are met within the tolerance; …"
-std::string verification_summary(const VerificationTable& table) {
-  const auto count = [&](Status status) {
-    return std::count_if(table.rows.begin(), table.rows.end(),
-                         [&](const VerificationRow& row) { return row.status == status; });
-  };
-  const auto passed = count(Status::passed);
-  const auto failed = count(Status::failed);
-  const bool is_fitted = std::any_of(table.rows.begin(), table.rows.end(),
-                                     [](const VerificationRow& row) { return row.fitted; });
-  if (passed + failed == 0)
-    return "Nothing is judged: dimensions or materials are the user's own (synthetic).";
-  std::string text = failed == 0 ? fmt::format("All {} figures that are judged agree.", passed)
-                                 : fmt::format("{} of the {} figures that are judged do not agree.",
-                                               failed, passed + failed);
-  if (is_fitted) {
-    text +=
-        " Where it says fitted, the dimensions were fitted to that figure: agreement there shows "
-        "that the fit was done well, not that the model predicts.";
-  }
-  return text;
 }
 
 std::string verification_html(const Results& results, const Study& study) {
@@ -72,8 +35,13 @@ std::string verification_html(const Results& results, const Study& study) {
   table.name = "verification";
   const std::string& reference = results.verification->reference_origins;
   table.caption = "Computed vs. " + reference;
-  table.columns = {{"quantity"}, {"how"},           {"computed", true}, {reference, true},
-                   {"unit"},     {"error %", true}, {"verdict"}};
+  table.columns = {{"quantity"},
+                   {"how"},
+                   {"computed", true, kOfRow},
+                   {reference, true, kOfRow},
+                   {"unit", false, "", true},
+                   {"error %", true},
+                   {"verdict"}};
   for (const VerificationRow& row : results.verification->rows) {
     table.rows.push_back(
         {{html_text(row.quantity), html_text(row.detail), html_text(row.value),
@@ -83,10 +51,11 @@ std::string verification_html(const Results& results, const Study& study) {
   return note(html_text(verification_summary(*results.verification))) + html_of(table);
 }
 
-/// Numbers begin with a digit or a sign before one.
+/// Numbers begin with a digit or a sign before one, and no word follows.
 bool looks_like_number(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+- ");
-  return first != std::string::npos && text[first] >= '0' && text[first] <= '9';
+  return first != std::string::npos && text[first] >= '0' && text[first] <= '9' &&
+         text.find(' ', first) == std::string::npos;
 }
 
 /// This one has a section of its own.
@@ -227,13 +196,6 @@ std::string provenance_html(const Results& results, const Study& study) {
          (libraries.empty() ? "" : note("Libraries: " + html_text(libraries) + "."));
 }
 
-std::string warnings_html(const Results& results) {
-  if (results.warnings.empty()) return "";
-  return "<section class=\"warning\" id=\"warnings\" aria-labelledby=\"warnings-title\">\n"
-         "<h2 id=\"warnings-title\">⚠ Do not trust without a look</h2>\n" +
-         html_list(results.warnings) + "</section>\n";
-}
-
 std::string missing_html(const Results& results) {
   if (results.missing.empty()) return note("Nothing that the study asks for is missing.");
   return "<p>Not on this page:</p>\n" + html_list(results.missing);
@@ -245,13 +207,19 @@ HtmlTable html_table_of(const ResultTable& result) {
   HtmlTable table;
   table.name = result.name;
   table.caption = result.title;
+  const auto names_unit = [](const ResultTable::Column& column) { return column.name == "unit"; };
+  const auto row_unit = std::find_if(result.columns.begin(), result.columns.end(), names_unit) -
+                        result.columns.begin();
+  const bool has_row_unit = row_unit < static_cast<std::ptrdiff_t>(result.columns.size());
   for (std::size_t c = 0; c < result.columns.size(); ++c) {
     const auto& [name, unit] = result.columns[c];
     const bool is_number =
         c > 0 && std::any_of(result.rows.begin(), result.rows.end(), [&](const auto& row) {
           return c < row.size() && looks_like_number(row[c]);
         });
-    table.columns.push_back({unit.empty() ? name : name + " (" + unit + ")", is_number});
+    const bool is_of_row = has_row_unit && is_number && static_cast<std::ptrdiff_t>(c) < row_unit;
+    table.columns.push_back(
+        {name, is_number, is_of_row ? kOfRow : unit, names_unit(result.columns[c])});
   }
   for (const auto& cells : result.rows) {
     HtmlTable::Row row;
@@ -267,12 +235,13 @@ std::map<std::string, std::string> page_sections(const Results& results, const S
   const std::vector<std::string> on_pulses = pulse_remarks(study);
   if (!remarks.empty()) remarks.insert(remarks.end(), on_pulses.begin(), on_pulses.end());
   return {{"study", html_text(study.file.filename().string())},
-          {"warnings", warnings_html(results)},
+          {"warnings", html_list(results.warnings)},
           {"subject", study.neck() != nullptr
                           ? "From the geometry of a crash-test dummy's neck to its motion: "
                             "modes by finite elements, the static neck tester and the "
                             "head/neck pendulum."
                           : "From a geometry to its modes by finite elements."},
+          {"summary", summary_html(results, study)},
           {"certification", certification_html(results, study)},
           {"verification", verification_html(results, study)},
           {"tables", tables_html(results, study)},

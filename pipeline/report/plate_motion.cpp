@@ -13,20 +13,23 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-/// Where the softest part of a piece begins and ends along z.
+/// Between which heights a piece changes its shape.
 struct Rubber {
   double low_m = std::numeric_limits<double>::infinity();
   double high_m = -std::numeric_limits<double>::infinity();
 };
 
+bool holds(const PieceSection& piece, const std::string& part) {
+  return std::find(piece.parts.begin(), piece.parts.end(), part) != piece.parts.end();
+}
+
+/// Where the softest part of a piece begins and ends along z.
 Rubber rubber_of(const PieceSection& piece, const mesher::Mesh& mesh) {
   Rubber rubber;
   double softest_Pa = std::numeric_limits<double>::infinity();
   for (const mesher::ElementBlock& block : mesh.blocks) {
     const double modulus_Pa = mesh.materials[block.material].youngs_modulus_Pa;
-    const bool is_ours =
-        std::find(piece.parts.begin(), piece.parts.end(), block.part) != piece.parts.end();
-    if (!is_ours || modulus_Pa >= softest_Pa) continue;
+    if (!holds(piece, block.part) || modulus_Pa >= softest_Pa) continue;
     softest_Pa = modulus_Pa;
     rubber = {};
     for (const std::int32_t node : block.nodes) {
@@ -36,6 +39,40 @@ Rubber rubber_of(const PieceSection& piece, const mesher::Mesh& mesh) {
     }
   }
   return rubber;
+}
+
+/// Each piece is made of parts: which vertex rides between which two markers, and how far up.
+Plates plates_at(std::vector<std::string> markers, const std::vector<PieceSection>& pieces,
+                 const mesher::Mesh& mesh, const mesher::Surface& surface) {
+  Plates plates{std::move(markers), {}, {}};
+  std::vector<Rubber> rubbers;
+  rubbers.reserve(pieces.size());
+  for (const PieceSection& piece : pieces) rubbers.push_back(rubber_of(piece, mesh));
+  const auto count = static_cast<Index>(surface.block_of_vertex.size());
+  Eigen::VectorXd z(static_cast<Index>(mesh.nodes.size()));
+  for (Index n = 0; n < z.size(); ++n) z[n] = mesh.nodes[static_cast<std::size_t>(n)][2];
+  const Eigen::VectorXd heights = surface.value * z;
+  plates.share.resize(count);
+  for (Index v = 0; v < count; ++v) {
+    const std::string& part =
+        mesh.blocks[surface.block_of_vertex[static_cast<std::size_t>(v)]].part;
+    const auto piece = std::find_if(pieces.begin(), pieces.end(),
+                                    [&](const PieceSection& each) { return holds(each, part); });
+    const auto section = static_cast<std::size_t>(piece - pieces.begin());
+    const Rubber& rubber = rubbers[section];
+    plates.section.push_back(static_cast<std::uint8_t>(section));
+    plates.share[v] = static_cast<float>(
+        std::clamp((heights[v] - rubber.low_m) / (rubber.high_m - rubber.low_m), 0.0, 1.0));
+  }
+  return plates;
+}
+
+/// Whether every block of the mesh belongs to a piece.
+bool cover(const std::vector<PieceSection>& pieces, const mesher::Mesh& mesh) {
+  return std::all_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const auto& block) {
+    return std::any_of(pieces.begin(), pieces.end(),
+                       [&](const PieceSection& piece) { return holds(piece, block.part); });
+  });
 }
 
 Eigen::Isometry3d pose_of(const multibody::History& history, const std::string& marker, Index k) {
@@ -53,35 +90,29 @@ std::optional<Plates> plates_of(const Study& study, const CaseSection& experimen
                                 const mesher::Mesh& mesh, const mesher::Surface& surface) {
   const std::vector<PieceUse>& uses = experiment.model.of_pieces;
   const std::vector<PieceSection>& pieces = study.substructures.pieces;
-  if (uses.empty() || uses.size() != pieces.size() || study.substructures.by_planes) return {};
+  if (uses.empty() || uses.size() != pieces.size() || study.substructures.by_planes ||
+      !cover(pieces, mesh))
+    return {};
   const multibody::Model& model = experiment.model.model;
-  Plates plates;
-  std::vector<Rubber> rubbers;
+  std::vector<std::string> markers;
   for (std::size_t k = 0; k < uses.size(); ++k) {
     if (uses[k].piece != pieces[k].name) return {};
     const multibody::Section& section = model.forces.of<multibody::Section>()[uses[k].section];
-    if (k == 0) plates.markers.push_back(model.markers[section.marker_i].name);
-    plates.markers.push_back(model.markers[section.marker_j].name);
-    rubbers.push_back(rubber_of(pieces[k], mesh));
+    if (k == 0) markers.push_back(model.markers[section.marker_i].name);
+    markers.push_back(model.markers[section.marker_j].name);
   }
-  const auto count = static_cast<Index>(surface.block_of_vertex.size());
-  Eigen::VectorXd z(static_cast<Index>(mesh.nodes.size()));
-  for (Index n = 0; n < z.size(); ++n) z[n] = mesh.nodes[static_cast<std::size_t>(n)][2];
-  const Eigen::VectorXd heights = surface.value * z;
-  plates.share.resize(count);
-  for (Index v = 0; v < count; ++v) {
-    const std::string& part =
-        mesh.blocks[surface.block_of_vertex[static_cast<std::size_t>(v)]].part;
-    const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const PieceSection& each) {
-      return std::find(each.parts.begin(), each.parts.end(), part) != each.parts.end();
-    });
-    const auto section = static_cast<std::size_t>(piece - pieces.begin());
-    const Rubber& rubber = rubbers[section];
-    plates.section.push_back(static_cast<std::uint8_t>(section));
-    plates.share[v] = static_cast<float>(
-        std::clamp((heights[v] - rubber.low_m) / (rubber.high_m - rubber.low_m), 0.0, 1.0));
-  }
-  return plates;
+  return plates_at(std::move(markers), pieces, mesh, surface);
+}
+
+std::optional<Plates> links_of(const Study& study, const mesher::Mesh& mesh,
+                               const mesher::Surface& surface) {
+  const std::vector<PieceSection>& pieces = study.substructures.pieces;
+  if (pieces.empty() || study.substructures.by_planes || !cover(pieces, mesh)) return {};
+  std::vector<std::string> markers = {"neck.base"};
+  for (std::size_t k = 0; k + 1 < pieces.size(); ++k)
+    markers.push_back(pieces[k].name + ".to_" + pieces[k + 1].name);
+  markers.emplace_back("neck.top");
+  return plates_at(std::move(markers), pieces, mesh, surface);
 }
 
 Eigen::MatrixXd plate_motion(const Plates& plates, const multibody::History& history) {

@@ -25,6 +25,11 @@ struct Plates {
 std::optional<Plates> plates_of(const Study& study, const CaseSection& experiment,
                                 const mesher::Mesh& mesh, const mesher::Surface& surface);
 
+/// Of a run of the structure cut into a chain of bodies, which are joined at the markers; none of a
+/// study without pieces, or with pieces that are not stacked along z.
+std::optional<Plates> links_of(const Study& study, const mesher::Mesh& mesh,
+                               const mesher::Surface& surface);
+
 /// The plates' motion against the first: rotation matrix and translation that take a point from
 /// where it is without load, both in the frame of the mesh. Twelve numbers a plate (rows of R, then
 /// t), a column for each output time.

@@ -18,20 +18,22 @@
 namespace flexneck::pipeline {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// A section of the page. One without content is left out.
+/// A section of the page.
 struct PageSection {
   const char* id;
   const char* link;  ///< in the navigation
   const char* title;
   const char* content;  ///< name of its text
 };
-constexpr std::array<PageSection, 13> kSections = {
-    {{"certification", "Certification", "Certification tests", "certification"},
+constexpr std::array<PageSection, 14> kSections = {
+    {{"view", "Overview", "Overview", "overview"},
+     {"warnings", "Warnings", "⚠ Do not trust without a look", "warnings"},
+     {"certification", "Certification", "Certification tests", "certification"},
      {"verification", "Verification", "Verification", "verification"},
-     {"view", "In motion", "Modes and motion", "scene"},
      {"curves", "Curves", "Curves", "plots"},
      {"results", "Results", "Results of the experiments", "tables"},
      {"sweep", "Parameters varied", "Parameters varied", "sweep"},
@@ -44,15 +46,8 @@ constexpr std::array<PageSection, 13> kSections = {
      {"provenance", "Provenance", "Provenance", "provenance"}}};
 
 void add_sections(std::map<std::string, std::string>& texts) {
-  for (const PageSection& section : kSections) {
-    const std::string& content = texts.at(section.content);
-    if (content.empty()) continue;
-    const std::string id = section.id;
-    texts["navigation"] += "<a href=\"#" + id + "\">" + section.link + "</a>\n";
-    texts["sections"] += "<section id=\"" + id + "\" aria-labelledby=\"" + id +
-                         "-title\">\n<h2 id=\"" + id + "-title\">" + section.title + "</h2>\n" +
-                         content + "</section>\n";
-  }
+  for (const PageSection& section : kSections)
+    add_section(section.id, section.link, section.title, texts.at(section.content), texts);
 }
 
 std::vector<std::string> paper_remarks(const Study& study) {
@@ -65,8 +60,8 @@ std::vector<std::string> paper_remarks(const Study& study) {
 }  // namespace
 
 void write_report(const fs::path& path, const Results& results, const Study& study) {
-  const nlohmann::ordered_json scene = scene_of(results, study);
-  const nlohmann::ordered_json curves = curves_of(results, study);
+  const Json scene = scene_of(results, study);
+  const Json curves = curves_of(results, study);
   std::map<std::string, std::string> texts = page_sections(results, study, paper_remarks(study));
   const std::vector<DrawnFigure> figures =
       draw_figures(results, study, path.parent_path() / "figures");
@@ -74,17 +69,17 @@ void write_report(const fs::path& path, const Results& results, const Study& stu
   texts["sensitivities"] = tornado_html(figures) + texts["sensitivities"];
   texts["sweep"] = sweep_pictures_html(path.parent_path());
   texts["fit"] = fit_pictures_html(path.parent_path());
+  texts["units"] = page_part("units.html");
   texts["head"] = page_head(texts["study"]);
-  texts["scene"] = scene.is_null() ? "" : page_part("scene.html");
+  texts["overview"] = filled(
+      page_part("overview.html"),
+      {{"summary", texts["summary"]}, {"scene", scene.is_null() ? "" : page_part("scene.html")}});
   texts["plots"] = curves.is_null() ? "" : page_part("plots.html");
   add_sections(texts);
-  texts["data"] = script_json({{"scene", scene}, {"curves", curves}});
-  std::string& scripts = texts["scripts"];
-  if (!curves.is_null()) scripts += script_element(source_of(WebLibrary::d3));
-  if (!scene.is_null()) scripts += script_element(source_of(WebLibrary::three));
-  for (const char* name : {"data.js", "page.js", "plots.js", "orbit.js", "stage.js", "scene.js"}) {
-    scripts += script_element(page_part(name));
-  }
+  Json scenes = Json::array();
+  if (!scene.is_null()) scenes.push_back({{"label", ""}, {"scene", scene}});
+  texts["data"] = page_data(scenes, curves);
+  texts["scripts"] = page_scripts(!scene.is_null(), !curves.is_null());
   write_text(path, filled(page_part("report.html"), texts), Durability::none);
 }
 

@@ -4,10 +4,13 @@
 #include <filesystem>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "pipeline/document/shipped_files.h"
 #include "pipeline/plotting/embedding.h"
+#include "pipeline/report/display_units.h"
 
 namespace flexneck::pipeline {
 
@@ -48,6 +51,29 @@ std::string page_part(const std::string& name) {
 
 std::string page_head(const std::string& title) {
   return filled(page_part("head.html"), {{"title", title}, {"style", page_part("report.css")}});
+}
+
+void add_section(const std::string& id, const std::string& link, const std::string& title,
+                 const std::string& content, std::map<std::string, std::string>& texts) {
+  if (content.empty()) return;
+  texts["navigation"] += "<a href=\"#" + id + "\">" + link + "</a>\n";
+  texts["sections"] += "<section id=\"" + id + "\" aria-labelledby=\"" + id +
+                       "-title\">\n<h2 id=\"" + id + "-title\">" + title + "</h2>\n" + content +
+                       "</section>\n";
+}
+
+std::string page_data(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& curves) {
+  return script_json({{"units", display_units()}, {"scenes", scenes}, {"curves", curves}});
+}
+
+std::string page_scripts(bool with_scenes, bool with_curves) {
+  std::string scripts;
+  if (with_curves) scripts += script_element(source_of(WebLibrary::d3));
+  if (with_scenes) scripts += script_element(source_of(WebLibrary::three));
+  for (const char* const name : {"data.js", "units.js", "download.js", "page.js", "plots.js",
+                                 "orbit.js", "body.js", "stage.js", "clock.js", "scene.js"})
+    scripts += script_element(page_part(name));
+  return scripts;
 }
 
 std::string script_element(const std::string& source) {

@@ -36,6 +36,9 @@ constexpr auto kTargetKeys = joined(
         Key::text("name", kNone, "What tables call it; the output if it is not there"),
         Key::text("output", kNone, "A figure, such as modes.mass; or a curve:"),
         Key::text("curve", kNone, "A curve, such as pendulum.flexion-60.head rotation"),
+        Key::text("expression", kNone,
+                  "Of the parameters by their names, each a number in its unit, such as \"top - "
+                  "base\": with low = \"0\" and must_hold an inequality between them"),
         Key::text("value", kNone, "What the figure should be, with its unit, such as \"36.1 Hz\""),
         Key::text("standard_deviation", kNone,
                   "Of the value or of each point of the curve, with unit"),
@@ -185,6 +188,7 @@ void read_wanted(const StudyTable& table, FitTarget& target) {
 FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
   FitTarget target{.name = table.text("name"),
                    .output = table.text("output"),
+                   .expression = table.text("expression"),
                    .curve = {},
                    .value = {},
                    .standard_deviation = {},
@@ -195,8 +199,8 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
                    .is_held_out = table.flag("held_out"),
                    .must_hold = table.flag("must_hold"),
                    .table = table};
-  if (table.has("output") == table.has("curve"))
-    table.refuse("output", "expected one of output and curve");
+  if (table.has("output") + table.has("curve") + table.has("expression") != 1)
+    table.refuse("output", "expected one of output, curve and expression");
   if (table.has("curve")) {
     target.curve = read_fit_curve(table, files);
   } else {
@@ -204,7 +208,10 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
                         "points", "rating"},
                        "expected of a curve only");
   }
-  if (target.name.empty()) target.name = target.curve ? target.curve->output : target.output;
+  if (target.name.empty()) {
+    if (!target.expression.empty()) table.refuse("name", "expected one beside an expression");
+    target.name = target.curve ? target.curve->output : target.output;
+  }
   read_wanted(table, target);
   const bool is_window = target.is_window() || (target.curve && target.curve->corridor);
   if (target.must_hold && (!is_window || target.is_held_out))

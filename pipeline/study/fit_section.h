@@ -42,7 +42,8 @@ struct FitCurve {
 /// the output's kind decides.
 struct FitTarget {
   std::string name;
-  std::string output;             ///< a figure; empty of a curve
+  std::string output;             ///< a figure; empty of a curve or an expression
+  std::string expression;         ///< of the parameters by name, each in its unit
   std::optional<FitCurve> curve;  ///< none of a figure
   std::string value;
   std::string standard_deviation;            ///< absolute, or …

@@ -24,6 +24,7 @@ namespace flexneck::pipeline {
 namespace {
 
 std::vector<std::string> stiffenings() { return {"none", "unit-loads"}; }
+std::vector<std::string> prestresses() { return {"none", "loads"}; }
 std::vector<std::string> solvers() { return {"direct", "iterative"}; }
 
 constexpr Key kFixedKeys[] = {
@@ -46,6 +47,10 @@ constexpr Key kModesKeys[] = {
     Key::text("stress_stiffening", "none",
               "Geometric stiffness of the modes under unit loads at the interfaces",
               {.choices = stiffenings}),
+    Key::text("prestress", "none",
+              "Stresses that the modes are about: none, or those of a linear static step under all "
+              "[[load]]",
+              {.choices = prestresses}),
     Key::text("solver", "direct", "How the eigenproblem is solved",
               {.choices = solvers, .changes_results = false}),
     Key::texts("fixed", kNone, "Node sets that are fixed in all directions", {.formerly = "held"}),
@@ -105,6 +110,8 @@ std::vector<Key> all_study_keys() {
                  UsedBy::modes),
       Key::tables("interface", "Where other bodies attach to a structure", interface_keys(),
                   UsedBy::modes),
+      Key::tables("load", "Loads of a linear static step: 'flexneck stress', modes.prestress",
+                  load_keys(), UsedBy::modes),
   };
   const std::vector<Key> shared = shared_model_keys();
   keys.insert(keys.end(), shared.begin(), shared.end());
@@ -192,6 +199,7 @@ ModesSection read_modes(const StudyTable& table) {
   modes.rigid_interfaces = table.texts("rigid_interfaces");
   modes.basis_interfaces = table.texts("basis_interfaces");
   modes.stress_stiffening = table.choice("stress_stiffening") == 1;
+  modes.prestress = table.choice("prestress") == 1;
   modes.solver =
       table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;
   modes.fixed = table.texts("fixed");
@@ -236,6 +244,14 @@ void check_sections(const StudyTable& root, const Study& study) {
   } catch (const InputError& error) {
     throw InputError(study.file.string() + ": " + error.what());
   }
+}
+
+/// Loads act on a mesh, and a prestress is of loads.
+void check_loads(const StudyTable& root, const Study& study) {
+  if (!study.loads.empty() && !study.structure)
+    root.refuse("load", "acts on a mesh, but there is no [geometry]");
+  if (study.modes.prestress && study.loads.empty())
+    root.table("modes").refuse("prestress", "there is no [[load]]");
 }
 
 /// Names that one part of the study uses and another must define.
@@ -331,6 +347,8 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   study.modes = read_modes(root.table("modes"));
   study.substructures = read_substructures(root.table("substructures"));
   study.interfaces = read_all(root, "interface", read_interface);
+  study.loads = read_all(root, "load", read_load);
+  check_loads(root, study);
   read_experiments(root, known, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);

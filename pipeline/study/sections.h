@@ -15,6 +15,7 @@ std::span<const Key> materials_keys();
 std::span<const Key> mesh_keys();
 std::span<const Key> matrices_keys();
 std::span<const Key> interface_keys();
+std::span<const Key> load_keys();
 std::span<const Key> pulse_keys();
 std::span<const Key> case_keys();
 std::span<const Key> variant_keys();
@@ -24,6 +25,7 @@ std::span<const Key> test_keys();
 StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh);
 MatricesSection read_matrices(const StudyTable& matrices);
 InterfaceSection read_interface(const StudyTable& interface);
+fe_modal::Load read_load(const StudyTable& load);
 /// The key slits. @throws InputError if there is none of that name.
 geometry::SlitState read_slit_state(const StudyTable& geometry);
 /// [geometry.materials]

@@ -13,6 +13,7 @@
 
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/element/formulation.h"
+#include "fe_modal/system/loads.h"
 #include "fe_modal/system/solver.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/foundation/units.h"
@@ -40,6 +41,7 @@ struct ModesSection {
   fe_modal::Formulation formulation = fe_modal::Formulation::mixed_pressure;
   fe_modal::Solver solver = fe_modal::Solver::direct;
   fe_modal::BasisKind basis = fe_modal::BasisKind::normal;
+  bool prestress = false;                     ///< about the stresses of the study's loads
   bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
   std::vector<std::string> rigid_interfaces;  ///< whose nodes are tied to move rigidly
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
@@ -107,6 +109,7 @@ struct Study {
   std::optional<StructureSection> structure;  ///< what is meshed, or …
   std::optional<MatricesSection> matrices;    ///< … matrices from elsewhere
   std::vector<InterfaceSection> interfaces;
+  std::vector<fe_modal::Load> loads;  ///< of a linear static step
   MeshOrders mesh_orders;
   ModesSection modes;
   SubstructuresSection substructures;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fails as a library or a rank may fail, for tests of what is left behind:
 //   failing_ranks start   PETSc starts, and what comes after that in the session fails
-//   failing_ranks rank    under mpirun: rank 0 runs out of memory while the others wait for it
+//   failing_ranks rank    under mpirun: rank 0 ends for want of memory, the others wait for it in a
+//   sum
 #include <cstdio>
-#include <new>
+#include <string>
 #include <string_view>
 
 #include <slepceps.h>
 
 #include "fe_modal/algebra/petsc_session.h"
-#include "fe_modal/solve/distributed/ranks.h"
+#include "fe_modal/algebra/rank_session.h"
 #include "geometry/foundation/error.h"
 
 namespace {
@@ -31,14 +32,15 @@ int fail_at_start() {
 }
 
 int fail_on_a_rank() {
-  const flexneck::fe_modal::Ranks ranks(
-      [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
-  if (!ranks.is_leader()) {
-    ranks.serve();
-    return 0;
+  const flexneck::fe_modal::RankSession session;
+  flexneck::fe_modal::RankOutcome outcome;
+  if (session.ranks().is_first()) {
+    outcome = {3, "out of memory"};
+  } else {
+    session.ranks().sum(1.0);
   }
-  ranks.in_step([] { throw std::bad_alloc(); });
-  return 0;
+  return session.end(outcome,
+                     [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); });
 }
 
 }  // namespace

@@ -16,7 +16,6 @@ class DiagonalInverse : public ShiftInverse {
   explicit DiagonalInverse(Eigen::VectorXd stiffness)
       : ShiftInverse(0), stiffness_(std::move(stiffness)) {}
 
-  void solve(Vec /*right_hand_side*/, Vec /*solution*/) const override { FAIL("not used"); }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& loads) const override {
     return stiffness_.cwiseInverse().asDiagonal() * loads;
   }

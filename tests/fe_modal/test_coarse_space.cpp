@@ -7,6 +7,8 @@
 #include "fe_modal/solve/iterative/coarse_space.h"
 #include "fe_modal/solve/iterative/interface_pieces.h"
 #include "fe_modal/system/assembly.h"
+#include "fe_modal/system/rank_part.h"
+#include "mesher/mesh/positions.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 
@@ -18,14 +20,16 @@ struct FourSubdomains {
   mesher::Mesh mesh =
       testing::box({2, 2, 1}, {0.05, 0.05, 0.03}, {"rubber", 1e6, 0.4995, 1100}).make();
   DofMap dof_map{mesh, {}};
-  NodeLists nodes;
-  Eigen::Matrix3Xd positions_m = free_positions(mesh, dof_map);
+  FieldMap fields{dof_map};
+  Subdomains subdomains;
+  Eigen::MatrixXd rigid = rigid_motions(mesh, dof_map);
 
   FourSubdomains() {
     const std::vector<std::int32_t>& all = mesh.blocks.front().nodes;
     for (auto first = all.begin(); first != all.end(); first += 27) {
-      nodes.emplace_back(first, first + 27);
-      std::sort(nodes.back().begin(), nodes.back().end());
+      subdomains.of_element.push_back(subdomains.count());
+      subdomains.blocks.emplace_back(first, first + 27);
+      std::sort(subdomains.blocks.back().begin(), subdomains.blocks.back().end());
     }
   }
 };
@@ -34,10 +38,11 @@ struct FourSubdomains {
 
 TEST_CASE("the interface of four subdomains around a line is four faces and the line") {
   const FourSubdomains body;
-  const InterfacePieces pieces = interface_pieces(NodeGraph(body.mesh), body.nodes);
-  REQUIRE(pieces.nodes.size() == 5);
-  for (const std::vector<std::int32_t>& nodes : pieces.nodes) {
-    const Eigen::MatrixXd motions = rigid_motions(nodes, body.positions_m);
+  const InterfacePieces pieces = interface_pieces(body.mesh, body.dof_map, body.subdomains);
+  const Eigen::Matrix3Xd positions_m = mesher::positions_of(body.mesh);
+  REQUIRE(pieces.blocks.size() == 5);
+  for (const std::vector<std::int32_t>& nodes : pieces.blocks) {
+    const Eigen::MatrixXd motions = rigid_motions_of(nodes, body.rigid);
     // Of the nodes on a line one rotation moves none.
     CHECK((nodes.size() == 3 ? motions.cols() == 5 : nodes.size() == 6 && motions.cols() == 6));
     CHECK((motions.transpose() * motions).isIdentity(1e-12));
@@ -45,7 +50,7 @@ TEST_CASE("the interface of four subdomains around a line is four faces and the 
     Eigen::VectorXd rotation(motions.rows());
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       rotation.segment<3>(static_cast<Eigen::Index>(3 * k)) =
-          axis.cross(body.positions_m.col(nodes[k]).eval());
+          axis.cross(positions_m.col(nodes[k]).eval());
     }
     CHECK((motions * (motions.transpose() * rotation)).isApprox(rotation, 1e-12));
   }
@@ -56,7 +61,9 @@ TEST_CASE("the coarse correction is a projection onto fields without force insid
   SystemMatrices system = assemble(body.mesh, body.dof_map);
   const SymmetricMatrix shifted = shifted_stiffness(system, -1e5);
   const Eigen::MatrixXd matrix = dense(shifted.get());
-  const CoarseSpace coarse(shifted, system.graph, body.nodes, body.positions_m);
+  const RankPart all(body.mesh, body.dof_map);
+  const CoarseSpace coarse({body.mesh, body.fields, body.subdomains, {0, 0, 0, 0}},
+                           {shifted, system.graph, all.blocks()});
   CHECK(coarse.size() == 4 * 6 + 5);
   const auto corrected = [&](const Eigen::MatrixXd& loads) {
     Eigen::MatrixXf result = Eigen::MatrixXf::Zero(loads.rows(), loads.cols());
@@ -71,7 +78,7 @@ TEST_CASE("the coarse correction is a projection onto fields without force insid
   const Eigen::MatrixXd forces = matrix * field;
   const Eigen::MatrixXd summands = matrix.cwiseAbs() * field.cwiseAbs();
   CHECK(corrected(forces).isApprox(field, kRounding));
-  const InterfacePieces pieces = interface_pieces(system.graph, body.nodes);
+  const InterfacePieces pieces = interface_pieces(body.mesh, body.dof_map, body.subdomains);
   for (std::size_t node = 0; node < pieces.piece_of.size(); ++node) {
     if (pieces.piece_of[node] >= 0) continue;
     const auto rows = static_cast<Eigen::Index>(3 * node);

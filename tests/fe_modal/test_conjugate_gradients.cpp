@@ -40,13 +40,13 @@ TEST_CASE("conjugate gradients solve for dependent columns and for none at all a
     return diagonal.cwiseInverse().asDiagonal() * r;
   };
   const Eigen::MatrixXd exact = matrix.llt().solve(loads);
-  const Eigen::MatrixXd found = conjugate_gradients(multiply_by, divide, loads);
+  const Eigen::MatrixXd found = conjugate_gradients({}, multiply_by, divide, loads);
   for (Eigen::Index k = 0; k < 3; ++k) {
     const Eigen::VectorXd error = found.col(k) - exact.col(k);
     CHECK(error.dot(matrix * error) < 1e-18 * exact.col(k).dot(loads.col(k)));
   }
   CHECK(found.col(3).isZero(0));
-  CHECK(conjugate_gradients(multiply_by, divide, Eigen::MatrixXd::Zero(kSize, 2)).isZero(0));
+  CHECK(conjugate_gradients({}, multiply_by, divide, Eigen::MatrixXd::Zero(kSize, 2)).isZero(0));
 }
 
 TEST_CASE("conjugate gradients with the inverse itself take it twice, to solve and to know") {
@@ -54,13 +54,13 @@ TEST_CASE("conjugate gradients with the inverse itself take it twice, to solve a
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
   const Eigen::MatrixXd loads = dependent_columns(30);
   int solves = 0;
-  const Eigen::MatrixXd found =
-      conjugate_gradients([&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd { return matrix * x; },
-                          [&](const Eigen::MatrixXd& r) -> Eigen::MatrixXd {
-                            ++solves;
-                            return factor.solve(r);
-                          },
-                          loads);
+  const Eigen::MatrixXd found = conjugate_gradients(
+      {}, [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd { return matrix * x; },
+      [&](const Eigen::MatrixXd& r) -> Eigen::MatrixXd {
+        ++solves;
+        return factor.solve(r);
+      },
+      loads);
   CHECK(solves == 2);
   CHECK(found.isApprox(factor.solve(loads), 1e-12));
 }
@@ -71,6 +71,7 @@ TEST_CASE("conjugate gradients end sooner where most of the energy is known befo
   const auto steps = [&](const Eigen::VectorXd& known_energies) {
     int count = 0;
     conjugate_gradients(
+        {},
         [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd {
           ++count;
           return matrix * x;

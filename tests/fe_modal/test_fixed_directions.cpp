@@ -132,9 +132,6 @@ TEST_CASE("fixed directions that cannot be are refused") {
   options.interfaces = {{"tip", "bottom", kTip, true}};
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
                     "rigid interface 'tip' has nodes that are fixed");
-  options = on_rollers(BasisKind::normal, 6);
-  options.solver = Solver::iterative;
-  CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("direct solver in one process"));
 }
 
 }  // namespace flexneck::fe_modal

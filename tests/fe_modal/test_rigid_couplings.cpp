@@ -149,9 +149,6 @@ TEST_CASE("rigid interfaces that cannot be are refused by name") {
   options.interfaces.push_back({"again", "top", kTip, true});
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
                     "rigid interfaces 'tip' and 'again' share nodes");
-  options = fixed_with_rigid_tip(BasisKind::normal, 2);
-  options.solver = Solver::iterative;
-  CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("direct solver in one process"));
 }
 
 }  // namespace flexneck::fe_modal

@@ -8,9 +8,8 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/analysis/modal_analysis.h"
-#include "fe_modal/solve/local_system.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/sturm_check.h"
-#include "fe_modal/solve/sturm_count.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
@@ -23,17 +22,18 @@ TEST_CASE("inertia counts the eigenvalues of a dense solution, double ones twice
   for (const bool fixed : {true, false}) {
     const mesher::Mesh mesh = testing::box({2, 2, 2}, {0.1, 0.1, 0.3}, steel).make();
     const DofMap dof_map(mesh, fixed ? mesh.node_set("bottom").nodes : std::vector<std::int32_t>{});
-    const SystemMatrices system = assemble(mesh, dof_map);
+    const SystemMatrices matrices = assemble(mesh, dof_map);
+    const AssembledSystem system(mesh, dof_map, {});
     const Eigen::VectorXd values =
-        testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get())).values;
+        testing::dense_pairs(dense(matrices.stiffness.get()), dense(matrices.mass.get())).values;
     if (fixed) REQUIRE(values[1] < values[0] * (1 + 1e-8));  // bending in both directions
     for (const Eigen::Index k : {2, 7, 12, 50}) {
       if (values[k] < values[k - 1] * (1 + 1e-6)) continue;
       if (values[k - 1] < 1e-6 * values[50] && !fixed && k < 6) continue;
-      CHECK(eigenvalues_below(system, (values[k - 1] + values[k]) / 2) == k);
+      CHECK(system.eigenvalues_below((values[k - 1] + values[k]) / 2) == k);
     }
-    if (fixed) CHECK(eigenvalues_below(system, values[0] / 2) == 0);
-    if (!fixed) CHECK(eigenvalues_below(system, values[6] / 2) == 6);
+    if (fixed) CHECK(system.eigenvalues_below(values[0] / 2) == 0);
+    if (!fixed) CHECK(system.eigenvalues_below(values[6] / 2) == 6);
   }
 }
 
@@ -41,7 +41,7 @@ TEST_CASE("a mode withheld is missed, wherever it stood") {
   const mesher::Mesh mesh =
       testing::box({2, 2, 4}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
-  const LocalSystem system(assemble(mesh, dof_map));
+  const AssembledSystem system(mesh, dof_map, {});
   const Eigen::VectorXd values =
       lowest_eigenpairs(system.stiffness(), system.mass(), *system.shift_inverse(0), 7).values;
   CHECK(prove_complete(system, values, 5, 0).has_value());

@@ -39,6 +39,22 @@ inside sh -c 'cd /tmp && flexneck run cantilever -q -o bar && test -s bar/report
 test -s "$root/usr/share/man/man1/flexneck.1"
 test -s "$root/usr/share/bash-completion/completions/flexneck"
 
+echo '== Python'
+cp -r "$sources/pipeline/python/examples" "$root/tmp/examples"
+cp "$sources/tests/pipeline/python/documented_test.py" "$root/tmp"
+mkdir -p "$root/tmp/sources/pipeline/python"
+cp -r "$sources/pipeline/python/flexneck" "$root/tmp/sources/pipeline/python"
+inside sh -c 'apt-get install -y --no-install-recommends /tmp/python3-flexneck_*.deb' >"$out/apt-python.log" 2>&1
+inside sh -c 'cd /tmp/examples && for each in [!p]*.py p[!l]*.py; do python3 -B "$each" /tmp/drawn || exit 1; done' \
+  >"$out/python.log" 2>&1
+tail -3 "$out/python.log"
+inside python3 -B /tmp/documented_test.py none /tmp/sources
+inside sh -c 'cd /tmp && python3 -c "import flexneck as fn; \
+fn.Study(\"hybrid3\").mesh(\"py\").modes().pendulum(\"flexion-20\")" && \
+  flexneck mesh hybrid3 -q -o cmd && flexneck modes hybrid3 -q -o cmd && \
+  flexneck pendulum hybrid3 -q --case flexion-20 -o cmd && \
+  cmp py/pendulum-flexion-20.h5 cmd/pendulum-flexion-20.h5'
+
 echo '== the consumer'
 inside sh -c 'apt-get install -y --no-install-recommends /tmp/libflexneck-dev_*.deb cmake g++ make' \
   >"$out/apt-dev.log" 2>&1

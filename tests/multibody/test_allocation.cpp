@@ -175,7 +175,7 @@ TEST_CASE("steps that end at events allocate nothing in either form") {
     CAPTURE(recursive);
     const auto equations =
         recursive ? recursive_equations(model, solver) : descriptor_equations(model, solver);
-    const auto integrator = time_integrator(*equations, equations->given_state(), solver);
+    const auto integrator = time_integrator(*equations, 0, equations->given_state(), solver);
     int events = 0;
     check_no_allocation(*integrator, [&](double, VectorXd&) {
       if (integrator->reason() == StepReason::event) ++events;

@@ -162,7 +162,7 @@ Momentum momentum_of(const Model& model, Formulation formulation, const VectorXd
 }
 
 VectorXd state_at_end(Equations& equations, const VectorXd& start, const SolverOptions& solver) {
-  const auto integrator = time_integrator(equations, start, solver);
+  const auto integrator = time_integrator(equations, 0, start, solver);
   while (integrator->time_s() < kEnd_s) integrator->step(kEnd_s);
   return integrator->state();
 }

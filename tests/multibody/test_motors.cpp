@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kEnd_s = 0.5;
-constexpr SolverOptions kSolver{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-12};
+const SolverOptions kSolver{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-12};
 const Vector3d kAxis(0.6, 0, 0.8);
 
 /// Four turns and back a little.

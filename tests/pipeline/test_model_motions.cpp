@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -64,6 +65,8 @@ TEST_CASE("an expression is one value: no sequence, no assignment, no chain of c
   CHECK(sine(0.1) == Approx(0.05 * std::sin(0.6 * std::numbers::pi) + 1).epsilon(1e-15));
   CHECK(Expression("(0 < t) && (t <= 1) ? t == 0.5 ? 7 : 2 : t != 3")(0.5) == 7);
   CHECK(Expression("-t^2")(3) == -9);
+  CHECK(Expression("a / b - a", {"a", "b"})(std::array{6.0, 3.0}) == -4);
+  CHECK_THROWS_WITH(Expression("t", {"a"}), Contains("cannot be read"));
   // muParser alone takes all of them: 81, 5 t, 4, 0, t, 2, and 1 for any time.
   for (const char* const text : {"9,81", "0,5*t", "1 ? 2 : 3, 4", "t = 0", "(t = 1) + t",
                                  "max(t = 1, 2)", "0 < t < 0.1", "t == 1 == 1"}) {

@@ -144,8 +144,11 @@ class Session:
 
     def python(self, text, folder):
         self.count += 1
+        # matplotlib is 188 packages: a stand-in checks that what is drawn can be.
+        path = f"{BUILD}/python:{Path(__file__).resolve().parent / 'stand_in'}"
         outcome = subprocess.run(["/usr/bin/python3", "-c", text], cwd=folder, stdout=subprocess.PIPE,
-                                 stderr=subprocess.STDOUT, text=True, check=False)
+                                 stderr=subprocess.STDOUT, text=True, check=False,
+                                 env={**ENVIRONMENT, "PYTHONPATH": path})
         if outcome.returncode != 0:
             self.problems.append(f"{folder.name}: {text}\n{outcome.stdout}")
 

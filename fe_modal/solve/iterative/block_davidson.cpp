@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include <Eigen/QR>
 
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/algebra/random_block.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -20,6 +20,7 @@ namespace {
 constexpr Eigen::Index kGuards = 4;         ///< columns beyond those wanted
 constexpr Eigen::Index kBlocksOfBasis = 4;  ///< when the basis is that wide, it is cut back
 constexpr int kMaxIterations = 500;
+constexpr std::uint64_t kSeed = 1;
 /// Of r^T P r / lambda, which estimates the relative error of lambda if P is near K^-1. That of
 /// shapes is its root, and static compliances, which are asked for to 1e-8, take shapes as exact.
 constexpr double kTolerance = 1e-15;
@@ -37,8 +38,10 @@ Eigen::MatrixXd product(const MatrixView& columns, const MatrixView& combination
 /// not do to copy it.
 class Basis {
  public:
-  Basis(Eigen::Index size, Eigen::Index capacity)
-      : vectors_(size, capacity), projected_(Eigen::MatrixXd::Zero(capacity, capacity)) {}
+  Basis(const Ranks& ranks, Eigen::Index own_size, Eigen::Index capacity)
+      : ranks_(ranks),
+        vectors_(own_size, capacity),
+        projected_(Eigen::MatrixXd::Zero(capacity, capacity)) {}
 
   Eigen::Index count() const { return count_; }
   Eigen::Index capacity() const { return vectors_.cols(); }
@@ -50,7 +53,7 @@ class Basis {
     const Eigen::Index columns = block.cols();
     vectors_.middleCols(count_, columns) = block;
     count_ += columns;
-    const Eigen::MatrixXd shares = inner_products(vectors(), forces);
+    const Eigen::MatrixXd shares = inner_products(ranks_, vectors(), forces);
     projected_.block(0, count_ - columns, count_, columns) = shares;
     projected_.block(count_ - columns, 0, columns, count_) = shares.transpose();
   }
@@ -69,30 +72,22 @@ class Basis {
   }
 
  private:
+  Ranks ranks_;
   Eigen::MatrixXd vectors_;
   Eigen::MatrixXd projected_;
   Eigen::Index count_ = 0;
 };
 
-Eigen::MatrixXd random_block(Eigen::Index size, Eigen::Index columns) {
-  std::mt19937_64 generator(1);
-  Eigen::MatrixXd block(size, columns);
-  // Not std::uniform_real_distribution, whose numbers differ from library to library.
-  for (double& x : block.reshaped()) {
-    x = std::ldexp(static_cast<double>(generator() >> 11U), -53) - 0.5;
-  }
-  return block;
-}
-
 /// What of the columns is M-orthogonal to the basis, M-orthonormal among themselves.
-Eigen::MatrixXd orthonormal(const Basis& basis, Eigen::MatrixXd block, const BlockOperator& mass) {
-  Eigen::MatrixXd momenta = mass(block);
+Eigen::MatrixXd orthonormal(const Ranks& ranks, const Basis& basis, Eigen::MatrixXd block,
+                            Mat mass) {
+  Eigen::MatrixXd momenta = block_product(mass, block);
   for (int pass = 0; pass < 2; ++pass) {
     if (basis.count() > 0) {
-      multiply(-1, basis.vectors(), inner_products(basis.vectors(), momenta), 1, block);
-      momenta = mass(block);
+      multiply(-1, basis.vectors(), inner_products(ranks, basis.vectors(), momenta), 1, block);
+      momenta = block_product(mass, block);
     }
-    Eigen::MatrixXd gram = inner_products(block, momenta);
+    Eigen::MatrixXd gram = inner_products(ranks, block, momenta);
     const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
@@ -120,16 +115,17 @@ Eigen::MatrixXd restart_combination(const Eigen::MatrixXd& best, const Eigen::Ma
 
 }  // namespace
 
-DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperator& mass,
-                              const BlockOperator& preconditioner, Eigen::Index size,
-                              Eigen::Index count) {
+DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness, Mat mass,
+                              const BlockOperator& preconditioner, Eigen::Index count) {
+  const Eigen::Index size = size_of(mass);
   const Eigen::Index width = std::min(count + kGuards, size);
+  Eigen::MatrixXd block = random_block(mass, width, kSeed);
   // Of a small body a block may be added when little is left to find.
-  Basis basis(size, std::min(kBlocksOfBasis * width, size + width));
-  Eigen::MatrixXd block = preconditioner(mass(random_block(size, width)));
+  Basis basis(ranks, block.rows(), std::min(kBlocksOfBasis * width, size + width));
+  block = preconditioner(block_product(mass, block));
   Eigen::MatrixXd before;
   for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
-    block = orthonormal(basis, std::move(block), mass);
+    block = orthonormal(ranks, basis, std::move(block), mass);
     if (block.cols() == 0) break;
     basis.append(block, stiffness(block));
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());
@@ -137,10 +133,9 @@ DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperato
     const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
     EigenPairs pairs{values, product(basis.vectors(), best)};
     Eigen::MatrixXd residuals = stiffness(pairs.vectors);
-    residuals -= mass(pairs.vectors) * values.asDiagonal();
+    residuals -= block_product(mass, pairs.vectors) * values.asDiagonal();
     block = preconditioner(residuals);
-    const Eigen::VectorXd errors =
-        block.cwiseProduct(residuals).colwise().sum().transpose().cwiseQuotient(values);
+    const Eigen::VectorXd errors = column_products(ranks, block, residuals).cwiseQuotient(values);
     if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
       EigenPairs lowest{values.head(count), pairs.vectors.leftCols(count)};
       if (values.size() > count) lowest.next = values[count];

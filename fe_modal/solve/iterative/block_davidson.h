@@ -19,8 +19,7 @@ struct DavidsonResult {
 /// block wider than `count`.
 /// @param preconditioner symmetric positive definite, near K^-1
 /// @throws ComputationError if it does not converge.
-DavidsonResult block_davidson(const BlockOperator& stiffness, const BlockOperator& mass,
-                              const BlockOperator& preconditioner, Eigen::Index size,
-                              Eigen::Index count);
+DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness, Mat mass,
+                              const BlockOperator& preconditioner, Eigen::Index count);
 
 }  // namespace flexneck::fe_modal

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include <Eigen/SparseCore>
 
+#include "fe_modal/algebra/communicator.h"
 #include "fe_modal/solve/iterative/interface_pieces.h"
 #include "fe_modal/solve/iterative/submatrix.h"
 #include "mesher/partition/node_order.h"
@@ -17,8 +20,37 @@ namespace {
 /// The upper half, by rows.
 using Upper = Eigen::SparseMatrix<double, Eigen::RowMajor, PetscInt>;
 
-std::unique_ptr<CholeskyFactor> factorise(Upper& matrix) {
-  const auto size = static_cast<PetscInt>(matrix.rows());
+/// An entry of C^T K C in its upper half.
+struct CoarseEntry {
+  PetscInt row_;
+  PetscInt column_;
+  double value_;
+
+  PetscInt row() const { return row_; }
+  PetscInt col() const { return column_; }
+  double value() const { return value_; }
+};
+
+/// Those of all ranks, on each. Collective.
+std::vector<CoarseEntry> all_entries(const Ranks& ranks, const std::vector<CoarseEntry>& own) {
+  if (!ranks.are_many()) return own;
+  const MPI_Comm communicator = fe_modal::communicator(ranks);
+  const int bytes = static_cast<int>(own.size() * sizeof(CoarseEntry));
+  std::vector<int> counts(static_cast<std::size_t>(ranks.count()));
+  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
+  std::vector<int> offsets(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), offsets.begin() + 1);
+  std::vector<CoarseEntry> all(static_cast<std::size_t>(offsets.back()) / sizeof(CoarseEntry));
+  MPI_Allgatherv(own.data(), bytes, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE,
+                 communicator);
+  return all;
+}
+
+std::unique_ptr<CholeskyFactor> factorise(const std::vector<CoarseEntry>& entries,
+                                          Eigen::Index count) {
+  Upper matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const auto size = static_cast<PetscInt>(count);
   MatHandle handle;
   require(MatCreateSeqSBAIJWithArrays(PETSC_COMM_SELF, 1, size, size, matrix.outerIndexPtr(),
                                       matrix.innerIndexPtr(), matrix.valuePtr(), handle.out()),
@@ -27,77 +59,118 @@ std::unique_ptr<CholeskyFactor> factorise(Upper& matrix) {
   return std::make_unique<CholeskyFactor>(handle.get(), 0);
 }
 
-Eigen::MatrixXf take(const Eigen::MatrixXf& field, const std::vector<std::int32_t>& nodes) {
-  Eigen::MatrixXf result(3 * static_cast<Eigen::Index>(nodes.size()), field.cols());
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    result.middleRows<3>(static_cast<Eigen::Index>(3 * k)) = field.middleRows<3>(3 * nodes[k]);
+Eigen::MatrixXf take(const Eigen::MatrixXf& field, const std::vector<std::int32_t>& places) {
+  Eigen::MatrixXf result(3 * static_cast<Eigen::Index>(places.size()), field.cols());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    result.middleRows<3>(static_cast<Eigen::Index>(3 * k)) = field.middleRows<3>(3 * places[k]);
   }
   return result;
 }
 
-void add(const Eigen::MatrixXf& part, const std::vector<std::int32_t>& nodes,
+void add(const Eigen::MatrixXf& part, const std::vector<std::int32_t>& places,
          Eigen::MatrixXf& field) {
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    field.middleRows<3>(3 * nodes[k]) += part.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    field.middleRows<3>(3 * places[k]) += part.middleRows<3>(static_cast<Eigen::Index>(3 * k));
   }
 }
 
 }  // namespace
 
-/// Makes the functions and C^T K C.
+/// Makes the functions and C^T K C. Of the pieces of the interface that this rank's elements meet
+/// all blocks are in its part.
 class CoarseSpace::Builder {
  public:
-  Builder(const SymmetricMatrix& stiffness, const NodeGraph& graph, const NodeLists& subdomains,
-          const Eigen::Matrix3Xd& positions_m)
-      : stiffness_(stiffness),
-        graph_(graph),
-        interface_(interface_pieces(graph, subdomains)),
-        place_in_piece_(interface_.piece_of.size()) {
-    for (const std::vector<std::int32_t>& nodes : interface_.nodes) {
-      pieces.push_back({nodes, rigid_motions(nodes, positions_m), size});
-      size += pieces.back().motions.cols();
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        place_in_piece_[static_cast<std::size_t>(nodes[k])] = static_cast<Eigen::Index>(k);
-      }
+  Builder(const CutBody& body, const PartMatrix& part)
+      : layout_(body.fields.layout()),
+        stiffness_(part.matrix),
+        graph_(part.graph),
+        blocks_(part.blocks),
+        piece_of_(part.blocks.size(), -1),
+        place_in_piece_(part.blocks.size(), 0) {
+    const DofMap& dof_map = body.fields.dof_map();
+    const InterfacePieces interface = interface_pieces(body.mesh, dof_map, body.subdomains);
+    const Eigen::MatrixXd rigid = rigid_motions(body.mesh, dof_map);
+    for (const std::vector<std::int32_t>& blocks : interface.blocks) {
+      pieces_.push_back({blocks, rigid_motions_of(blocks, rigid), size});
+      size += pieces_.back().motions.cols();
     }
-    for (const Piece& piece : pieces) couple_on_interface(piece);
-    for (const std::vector<std::int32_t>& nodes : subdomains) follow_inside(nodes);
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      const std::int32_t number = interface.piece_of[static_cast<std::size_t>(blocks_[k])];
+      if (number < 0) continue;
+      const std::vector<std::int32_t>& all = interface.blocks[static_cast<std::size_t>(number)];
+      piece_of_[k] = number;
+      place_in_piece_[k] = std::lower_bound(all.begin(), all.end(), blocks_[k]) - all.begin();
+    }
+    const NodeLists local = local_pieces();
+    for (std::size_t p = 0; p < local.size(); ++p) couple_on_interface(p, local[p]);
+    for (std::size_t s = 0; s < body.subdomains.blocks.size(); ++s) {
+      if (body.rank_of_subdomain[s] == layout_.ranks().own())
+        follow_inside(places_in(blocks_, body.subdomains.blocks[s]));
+    }
   }
 
-  Upper matrix() const {
-    Upper result(size, size);
-    result.setFromTriplets(entries_.begin(), entries_.end());
-    return result;
-  }
-
-  std::vector<Piece> pieces;
+  /// C^T K C of this rank's elements.
+  std::vector<CoarseEntry> entries;
   std::vector<Inside> insides;
   Eigen::Index size = 0;
 
- private:
-  std::int32_t piece_of(std::int32_t node) const {
-    return interface_.piece_of[static_cast<std::size_t>(node)];
+  /// Those whose blocks this rank owns.
+  std::vector<Piece> own_pieces() {
+    std::vector<Piece> own;
+    for (WholePiece& piece : pieces_) {
+      if (layout_.owner(piece.blocks.front()) != layout_.ranks().own()) continue;
+      own.push_back({places(piece.blocks), std::move(piece.motions), piece.first});
+    }
+    return own;
   }
-  /// Motions of one node of a piece, (3, r).
+
+ private:
+  struct WholePiece {
+    std::vector<std::int32_t> blocks;
+    Eigen::MatrixXd motions;
+    Eigen::Index first;
+  };
+
+  std::vector<std::int32_t> places(const std::vector<std::int32_t>& blocks) const {
+    std::vector<std::int32_t> result;
+    result.reserve(blocks.size());
+    for (const std::int32_t block : blocks) result.push_back(layout_.place(block));
+    return result;
+  }
+  /// Blocks of each piece in the part, none of those that it does not meet.
+  NodeLists local_pieces() const {
+    NodeLists result(pieces_.size());
+    for (std::size_t k = 0; k < piece_of_.size(); ++k) {
+      if (piece_of_[k] < 0) continue;
+      result[static_cast<std::size_t>(piece_of_[k])].push_back(static_cast<std::int32_t>(k));
+    }
+    return result;
+  }
+
+  std::int32_t piece_of(std::int32_t node) const {
+    return piece_of_[static_cast<std::size_t>(node)];
+  }
+  /// Motions of one block of a piece, (3, r).
   auto motions_of(std::int32_t node) const {
-    return pieces[static_cast<std::size_t>(piece_of(node))].motions.middleRows<3>(
+    return pieces_[static_cast<std::size_t>(piece_of(node))].motions.middleRows<3>(
         3 * place_in_piece_[static_cast<std::size_t>(node)]);
   }
 
   void add_entry(Eigen::Index row, Eigen::Index column, double value) {
     if (row <= column) {
-      entries_.emplace_back(static_cast<PetscInt>(row), static_cast<PetscInt>(column), value);
+      entries.push_back({static_cast<PetscInt>(row), static_cast<PetscInt>(column), value});
     }
   }
 
   /// What a piece takes to move while everything else stands still.
-  void couple_on_interface(const Piece& piece) {
+  void couple_on_interface(std::size_t p, const std::vector<std::int32_t>& local) {
+    const WholePiece& piece = pieces_[p];
     std::map<std::int32_t, Eigen::MatrixXd> row;
-    for (const std::int32_t node : piece.nodes) {
+    for (const std::int32_t node : local) {
       for (const std::int32_t other : graph_.neighbours(node)) {
         const std::int32_t number = piece_of(other);
         if (number < 0) continue;
-        const auto& motions = pieces[static_cast<std::size_t>(number)];
+        const auto& motions = pieces_[static_cast<std::size_t>(number)];
         if (motions.first < piece.first) continue;
         Eigen::MatrixXd& block =
             row.try_emplace(number,
@@ -108,7 +181,7 @@ class CoarseSpace::Builder {
       }
     }
     for (const auto& [number, block] : row) {
-      const Eigen::Index first = pieces[static_cast<std::size_t>(number)].first;
+      const Eigen::Index first = pieces_[static_cast<std::size_t>(number)].first;
       for (Eigen::Index i = 0; i < block.rows(); ++i) {
         for (Eigen::Index j = 0; j < block.cols(); ++j) {
           add_entry(piece.first + i, first + j, block(i, j));
@@ -127,7 +200,7 @@ class CoarseSpace::Builder {
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
     for (const std::int32_t number : around) {
-      const Piece& piece = pieces[static_cast<std::size_t>(number)];
+      const WholePiece& piece = pieces_[static_cast<std::size_t>(number)];
       for (Eigen::Index k = 0; k < piece.motions.cols(); ++k) {
         functions.push_back(static_cast<std::int32_t>(piece.first + k));
       }
@@ -137,28 +210,32 @@ class CoarseSpace::Builder {
 
   void follow_inside(const std::vector<std::int32_t>& subdomain) {
     Inside inside;
-    std::copy_if(subdomain.begin(), subdomain.end(), std::back_inserter(inside.nodes),
+    std::vector<std::int32_t> nodes;
+    std::copy_if(subdomain.begin(), subdomain.end(), std::back_inserter(nodes),
                  [&](std::int32_t node) { return piece_of(node) < 0; });
     inside.functions = functions_around(subdomain);
-    if (inside.nodes.empty() || inside.functions.empty()) return;
+    if (nodes.empty() || inside.functions.empty()) return;
+    for (const std::int32_t node : nodes) {
+      inside.places.push_back(layout_.place(blocks_[static_cast<std::size_t>(node)]));
+    }
     Eigen::MatrixXd forces =
-        Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(inside.nodes.size()),
+        Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(nodes.size()),
                               static_cast<Eigen::Index>(inside.functions.size()));
-    for (std::size_t k = 0; k < inside.nodes.size(); ++k) {
-      for (const std::int32_t other : graph_.neighbours(inside.nodes[k])) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      for (const std::int32_t other : graph_.neighbours(nodes[k])) {
         if (piece_of(other) < 0) continue;
         const auto first =
-            static_cast<std::int32_t>(pieces[static_cast<std::size_t>(piece_of(other))].first);
+            static_cast<std::int32_t>(pieces_[static_cast<std::size_t>(piece_of(other))].first);
         const auto place =
             std::lower_bound(inside.functions.begin(), inside.functions.end(), first) -
             inside.functions.begin();
         const auto motions = motions_of(other);
         forces.block(static_cast<Eigen::Index>(3 * k), place, 3, motions.cols()) +=
-            coupling(stiffness_, inside.nodes[k], other) * motions;
+            coupling(stiffness_, nodes[k], other) * motions;
       }
     }
-    const NodeGraph part = restrict_to(graph_, inside.nodes);
-    const SymmetricMatrix matrix = principal_part(stiffness_, part, inside.nodes);
+    const NodeGraph part = restrict_to(graph_, nodes);
+    const SymmetricMatrix matrix = principal_part(stiffness_, part, nodes);
     const Eigen::MatrixXd motions =
         -CholeskyFactor(matrix.get(), 0, mesher::nested_dissection(part.offsets(), part.columns()))
              .solve(forces);
@@ -173,22 +250,26 @@ class CoarseSpace::Builder {
     insides.push_back(std::move(inside));
   }
 
+  const DofLayout& layout_;
   const SymmetricMatrix& stiffness_;
   const NodeGraph& graph_;
-  InterfacePieces interface_;
+  const std::vector<std::int32_t>& blocks_;
+  std::vector<WholePiece> pieces_;      ///< of the body
+  std::vector<std::int32_t> piece_of_;  ///< of each block of the part, -1 inside
   std::vector<Eigen::Index> place_in_piece_;
-  std::vector<Eigen::Triplet<double, PetscInt>> entries_;
 };
 
-CoarseSpace::CoarseSpace(const SymmetricMatrix& stiffness, const NodeGraph& graph,
-                         const NodeLists& subdomains, const Eigen::Matrix3Xd& positions_m) {
-  Builder builder(stiffness, graph, subdomains, positions_m);
-  pieces_ = std::move(builder.pieces);
-  insides_ = std::move(builder.insides);
-  size_ = builder.size;
-  if (size_ == 0) return;
-  Upper matrix = builder.matrix();
-  factor_ = factorise(matrix);
+CoarseSpace::CoarseSpace(const CutBody& body, const PartMatrix& part)
+    : ranks_(body.fields.ranks()) {
+  std::optional<Builder> builder;
+  ranks_.together([&] { builder.emplace(body, part); });
+  size_ = builder->size;
+  insides_ = std::move(builder->insides);
+  if (size_ > 0) {
+    const std::vector<CoarseEntry> entries = all_entries(ranks_, builder->entries);
+    ranks_.together([&] { factor_ = factorise(entries, size_); });
+  }
+  pieces_ = builder->own_pieces();
 }
 
 void CoarseSpace::add_correction(const Eigen::MatrixXf& residuals, Eigen::MatrixXf& result) const {
@@ -196,21 +277,22 @@ void CoarseSpace::add_correction(const Eigen::MatrixXf& residuals, Eigen::Matrix
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(size_, residuals.cols());
   for (const Piece& piece : pieces_) {
     loads.middleRows(piece.first, piece.motions.cols()) +=
-        piece.motions.transpose() * take(residuals, piece.nodes).cast<double>();
+        piece.motions.transpose() * take(residuals, piece.places).cast<double>();
   }
   for (const Inside& inside : insides_) {
-    const Eigen::MatrixXf own = inside.motions.transpose() * take(residuals, inside.nodes);
+    const Eigen::MatrixXf own = inside.motions.transpose() * take(residuals, inside.places);
     loads(inside.functions, Eigen::all) += own.cast<double>();
   }
+  ranks_.sum(loads);
   const Eigen::MatrixXd shares = factor_->solve(loads);
   for (const Piece& piece : pieces_) {
     const Eigen::MatrixXd motion =
         piece.motions * shares.middleRows(piece.first, piece.motions.cols());
-    add(motion.cast<float>(), piece.nodes, result);
+    add(motion.cast<float>(), piece.places, result);
   }
   for (const Inside& inside : insides_) {
     const Eigen::MatrixXf own = shares(inside.functions, Eigen::all).cast<float>();
-    add(inside.motions * own, inside.nodes, result);
+    add(inside.motions * own, inside.places, result);
   }
 }
 

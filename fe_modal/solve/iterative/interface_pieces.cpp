@@ -2,61 +2,115 @@
 #include "fe_modal/solve/iterative/interface_pieces.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
+#include "fe_modal/algebra/ghost_exchange.h"
 #include "fe_modal/body/skew.h"
+#include "fe_modal/system/rank_part.h"
+#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-/// The subdomains of each node.
-NodeLists subdomains_of_nodes(std::int32_t node_count, const NodeLists& subdomains) {
-  NodeLists result(static_cast<std::size_t>(node_count));
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    for (const std::int32_t node : subdomains[s]) {
-      result[static_cast<std::size_t>(node)].push_back(static_cast<std::int32_t>(s));
+/// The subdomains of each block.
+NodeLists subdomains_of_blocks(std::size_t block_count, const Subdomains& subdomains) {
+  NodeLists result(block_count);
+  for (std::size_t s = 0; s < subdomains.blocks.size(); ++s) {
+    for (const std::int32_t block : subdomains.blocks[s]) {
+      result[static_cast<std::size_t>(block)].push_back(static_cast<std::int32_t>(s));
     }
   }
   return result;
 }
+
+/// Sets of blocks that hang together, each known by its lowest one.
+class Components {
+ public:
+  explicit Components(std::size_t count) : lower_(count) {
+    std::iota(lower_.begin(), lower_.end(), 0);
+  }
+  std::int32_t lowest(std::int32_t block) {
+    std::int32_t& lower = lower_[static_cast<std::size_t>(block)];
+    if (lower != block) lower = lowest(lower);
+    return lower;
+  }
+  void unite(std::int32_t one, std::int32_t other) {
+    const std::int32_t a = lowest(one);
+    const std::int32_t b = lowest(other);
+    lower_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::int32_t> lower_;
+};
 
 }  // namespace
 
-InterfacePieces interface_pieces(const NodeGraph& graph, const NodeLists& subdomains) {
-  const NodeLists owners = subdomains_of_nodes(graph.node_count(), subdomains);
-  InterfacePieces result{std::vector<std::int32_t>(owners.size(), -1), {}};
-  for (std::int32_t start = 0; start < graph.node_count(); ++start) {
-    const auto& shared = owners[static_cast<std::size_t>(start)];
-    if (shared.size() < 2 || result.piece_of[static_cast<std::size_t>(start)] >= 0) continue;
-    const auto piece = static_cast<std::int32_t>(result.nodes.size());
-    std::vector<std::int32_t> nodes = {start};
-    result.piece_of[static_cast<std::size_t>(start)] = piece;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      for (const std::int32_t other : graph.neighbours(nodes[k])) {
-        const auto place = static_cast<std::size_t>(other);
-        if (result.piece_of[place] >= 0 || owners[place] != shared) continue;
-        result.piece_of[place] = piece;
-        nodes.push_back(other);
+InterfacePieces interface_pieces(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                 const Subdomains& subdomains) {
+  const auto count = static_cast<std::size_t>(dof_map.free_count());
+  const NodeLists owners = subdomains_of_blocks(count, subdomains);
+  Components components(count);
+  std::vector<std::int32_t> shared;
+  for_each_element(mesh, [&](std::size_t /*element*/, std::span<const std::int32_t> nodes) {
+    shared.clear();
+    for (const std::int32_t node : nodes) {
+      dof_map.for_each_number(node, [&](std::int32_t block) {
+        if (owners[static_cast<std::size_t>(block)].size() > 1) shared.push_back(block);
+      });
+    }
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+      for (std::size_t j = i + 1; j < shared.size(); ++j) {
+        if (owners[static_cast<std::size_t>(shared[i])] ==
+            owners[static_cast<std::size_t>(shared[j])]) {
+          components.unite(shared[i], shared[j]);
+        }
       }
     }
-    std::sort(nodes.begin(), nodes.end());
-    result.nodes.push_back(std::move(nodes));
+  });
+  InterfacePieces result{std::vector<std::int32_t>(count, -1), {}};
+  for (std::size_t block = 0; block < count; ++block) {
+    if (owners[block].size() < 2) continue;
+    const auto number = static_cast<std::int32_t>(block);
+    const std::int32_t lowest = components.lowest(number);
+    if (lowest == number) {
+      result.piece_of[block] = static_cast<std::int32_t>(result.blocks.size());
+      result.blocks.emplace_back();
+    }
+    result.piece_of[block] = result.piece_of[static_cast<std::size_t>(lowest)];
+    result.blocks[static_cast<std::size_t>(result.piece_of[block])].push_back(number);
   }
   return result;
 }
 
-Eigen::MatrixXd rigid_motions(const std::vector<std::int32_t>& nodes,
-                              const Eigen::Matrix3Xd& positions_m) {
+Eigen::MatrixXd rigid_motions(const mesher::Mesh& mesh, const DofMap& dof_map) {
+  const Eigen::Matrix3Xd positions = mesher::positions_of(mesh);
+  Eigen::MatrixXd motions(dof_map.dof_count(), 6);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    Eigen::Matrix3Xd field(3, positions.cols());
+    for (Eigen::Index k = 0; k < positions.cols(); ++k) {
+      field.col(k) = rigid_motions_at(positions.col(k)).col(i);
+    }
+    motions.col(i) = dof_map.restrict(field);
+  }
+  return motions;
+}
+
+Eigen::MatrixXd rigid_motions_of(const std::vector<std::int32_t>& blocks,
+                                 const Eigen::MatrixXd& rigid) {
   /// Of the squares of lengths: less is rounding, or a line that is hardly bent.
   constexpr double kNoMotion = 1e-6;
-  const Eigen::Matrix3Xd positions = positions_m(Eigen::all, nodes);
-  Eigen::Matrix3Xd arms = positions.colwise() - positions.rowwise().mean();
-  const double extent = arms.colwise().norm().maxCoeff();
-  if (extent > 0) arms /= extent;
-  Eigen::MatrixXd motions(3 * arms.cols(), 6);
-  for (Eigen::Index k = 0; k < arms.cols(); ++k)
-    motions.middleRows<3>(3 * k) = rigid_motions_at(arms.col(k));
+  Eigen::MatrixXd motions = rigid(rows_of(blocks), Eigen::all);
+  // Rotations about the middle of the blocks, as large as translations.
+  auto rotations = motions.rightCols<3>();
+  rotations -= (motions.leftCols<3>() *
+                motions.leftCols<3>().completeOrthogonalDecomposition().solve(rotations))
+                   .eval();
+  const double largest = rotations.rowwise().norm().maxCoeff();
+  if (largest > 0) rotations /= largest;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motions.transpose() * motions);
   const Eigen::VectorXd& squares = gram.eigenvalues();
   const Eigen::Index rank = (squares.array() > kNoMotion * squares[5]).count();

@@ -6,22 +6,27 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/dofs/node_graph.h"
+#include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/solve/iterative/subdomains.h"
 
 namespace flexneck::fe_modal {
 
-/// The interface of subdomains, cut into faces, edges and corners: nodes that the same subdomains
-/// share and that hang together.
+/// The interface of subdomains, cut into faces, edges and corners: blocks of degrees of freedom
+/// that the same subdomains share and that hang together by elements. The same on all ranks.
 struct InterfacePieces {
-  std::vector<std::int32_t> piece_of;  ///< of each node; -1 inside of a subdomain
-  NodeLists nodes;                     ///< of each piece
+  std::vector<std::int32_t> piece_of;  ///< of each block; -1 inside of a subdomain
+  NodeLists blocks;                    ///< of each piece
 };
-InterfacePieces interface_pieces(const NodeGraph& graph, const NodeLists& subdomains);
+InterfacePieces interface_pieces(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                 const Subdomains& subdomains);
 
-/// Rigid motions of some nodes, orthonormal columns (3 nodes, r): six, five where the nodes are on
-/// a line, three of one node.
-Eigen::MatrixXd rigid_motions(const std::vector<std::int32_t>& nodes,
-                              const Eigen::Matrix3Xd& positions_m);
+/// The body's six rigid motions, (dofs, 6): three translations and three rotations.
+Eigen::MatrixXd rigid_motions(const mesher::Mesh& mesh, const DofMap& dof_map);
+
+/// Rigid motions of some blocks, orthonormal columns (3 blocks, r): six of most, five of nodes on a
+/// line, three of one node.
+/// @param rigid those of the body
+Eigen::MatrixXd rigid_motions_of(const std::vector<std::int32_t>& blocks,
+                                 const Eigen::MatrixXd& rigid);
 
 }  // namespace flexneck::fe_modal

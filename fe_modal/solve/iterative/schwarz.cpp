@@ -9,36 +9,47 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Largest entry of each column, 1 where all are zero: single precision knows smaller numbers only
-/// down to 1e-38.
-Eigen::VectorXd scales_of(const Eigen::MatrixXd& columns) {
-  const Eigen::VectorXd largest = columns.cwiseAbs().colwise().maxCoeff().transpose();
+/// Largest entry of each column on all ranks, 1 where all are zero: single precision knows smaller
+/// numbers only down to 1e-38.
+Eigen::VectorXd scales_of(const Ranks& ranks, const Eigen::MatrixXd& columns) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(columns.cols());
+  if (columns.rows() > 0) largest = columns.cwiseAbs().colwise().maxCoeff().transpose();
+  ranks.max(largest);
   return (largest.array() > 0).select(largest, 1.0);
 }
 
 }  // namespace
 
-SchwarzPreconditioner::SchwarzPreconditioner(const SymmetricMatrix& stiffness,
-                                             const NodeGraph& graph, const NodeLists& subdomains,
-                                             const Eigen::Matrix3Xd& positions_m)
-    : coarse_(stiffness, graph, subdomains, positions_m) {
-  for (const std::vector<std::int32_t>& subdomain : subdomains) {
-    std::vector<std::int32_t> nodes = extended(graph, subdomain);
-    const NodeGraph part = restrict_to(graph, nodes);
-    SubdomainFactor factor(principal_part(stiffness, part, nodes),
-                           mesher::nested_dissection(part.offsets(), part.columns()));
-    nonzeros_ += factor.nonzeros();
-    regions_.push_back({std::move(nodes), std::move(factor)});
-  }
+SchwarzPreconditioner::SchwarzPreconditioner(const CutBody& body, const PartMatrix& part,
+                                             const PartMatrix& around)
+    : ranks_(body.fields.ranks()),
+      coarse_(body, part),
+      exchange_(body.fields.layout(), rows_of(around.blocks)),
+      subdomain_count_(body.subdomains.blocks.size()) {
+  ranks_.together([&] {
+    for (std::size_t s = 0; s < body.subdomains.blocks.size(); ++s) {
+      const std::vector<std::int32_t>& subdomain = body.subdomains.blocks[s];
+      if (body.rank_of_subdomain[s] != ranks_.own() || subdomain.empty()) continue;
+      std::vector<std::int32_t> nodes = extended(around.graph, places_in(around.blocks, subdomain));
+      const NodeGraph graph = restrict_to(around.graph, nodes);
+      SubdomainFactor factor(principal_part(around.matrix, graph, nodes),
+                             mesher::nested_dissection(graph.offsets(), graph.columns()));
+      nonzeros_ += factor.nonzeros();
+      regions_.push_back({std::move(nodes), std::move(factor)});
+    }
+  });
+  nonzeros_ = ranks_.sum(nonzeros_);
 }
 
 Eigen::MatrixXd SchwarzPreconditioner::apply(const Eigen::MatrixXd& residuals) const {
-  const Eigen::VectorXd scales = scales_of(residuals);
-  const Eigen::MatrixXf scaled = (residuals * scales.cwiseInverse().asDiagonal()).cast<float>();
-  Eigen::MatrixXf result = Eigen::MatrixXf::Zero(residuals.rows(), residuals.cols());
-  coarse_.add_correction(scaled, result);
-  for (const Region& region : regions_) region.factor.add_solution(scaled, region.nodes, result);
-  return result.cast<double>() * scales.asDiagonal();
+  const Eigen::VectorXd scales = scales_of(ranks_, residuals);
+  const Eigen::MatrixXd scaled = residuals * scales.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXf local = exchange_.to_local(scaled).cast<float>();
+  Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(local.rows(), local.cols());
+  for (const Region& region : regions_) region.factor.add_solution(local, region.nodes, sums);
+  Eigen::MatrixXf coarse = Eigen::MatrixXf::Zero(residuals.rows(), residuals.cols());
+  coarse_.add_correction(scaled.cast<float>(), coarse);
+  return (exchange_.sum_to_own(sums.cast<double>()) + coarse.cast<double>()) * scales.asDiagonal();
 }
 
 }  // namespace flexneck::fe_modal

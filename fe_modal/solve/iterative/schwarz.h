@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/ghost_exchange.h"
 #include "fe_modal/algebra/symmetric_matrix.h"
 #include "fe_modal/dofs/node_graph.h"
 #include "fe_modal/solve/iterative/coarse_space.h"
@@ -20,27 +21,31 @@ namespace flexneck::fe_modal {
 /// of the body, and half the time.
 class SchwarzPreconditioner {
  public:
-  /// @param stiffness positive definite
-  /// @param graph its sparsity
-  /// @param subdomains before they are extended; together they have all nodes
-  /// @param positions_m (3, nodes)
-  SchwarzPreconditioner(const SymmetricMatrix& stiffness, const NodeGraph& graph,
-                        const NodeLists& subdomains, const Eigen::Matrix3Xd& positions_m);
+  /// @param body all of it, and how it is cut; the same on all ranks
+  /// @param part the matrix of this rank's elements
+  /// @param around the whole matrix, positive definite, in the rows of this rank's subdomains and
+  /// the
+  ///     blocks next to them
+  /// Collective.
+  SchwarzPreconditioner(const CutBody& body, const PartMatrix& part, const PartMatrix& around);
 
-  /// For each column, (dofs, k), to some six digits.
+  /// For each column, (own dofs, k), to some six digits. Collective.
   Eigen::MatrixXd apply(const Eigen::MatrixXd& residuals) const;
-  double nonzeros() const { return nonzeros_; }
-  std::size_t subdomain_count() const { return regions_.size(); }
+  double nonzeros() const { return nonzeros_; }  ///< of the factors of all ranks
+  std::size_t subdomain_count() const { return subdomain_count_; }
   Eigen::Index coarse_size() const { return coarse_.size(); }
 
  private:
   struct Region {
-    std::vector<std::int32_t> nodes;
+    std::vector<std::int32_t> nodes;  ///< by their numbers in `around`
     SubdomainFactor factor;
   };
 
+  Ranks ranks_;
   CoarseSpace coarse_;
+  GhostExchange exchange_;  ///< of the rows of `around`
   std::vector<Region> regions_;
+  std::size_t subdomain_count_;
   double nonzeros_ = 0;
 };
 

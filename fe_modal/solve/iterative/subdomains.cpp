@@ -2,10 +2,12 @@
 #include "fe_modal/solve/iterative/subdomains.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <string>
 
-#include "mesher/mesh/positions.h"
+#include "fe_modal/system/rank_part.h"
+#include "mesher/mesh/bounding_box.h"
 #include "mesher/partition/element_partition.h"
 
 namespace flexneck::fe_modal {
@@ -21,12 +23,6 @@ void sort_out_copies(std::vector<std::int32_t>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// Of nodes that are known by their elements, with copies.
-void sort_out_copies_and_fixed(std::vector<std::int32_t>& list) {
-  sort_out_copies(list);
-  if (!list.empty() && list.front() < 0) list.erase(list.begin());
-}
-
 /// Elements of one part alone.
 mesher::Mesh part_of(const mesher::Mesh& mesh, const std::string& name) {
   mesher::Mesh result;
@@ -37,47 +33,144 @@ mesher::Mesh part_of(const mesher::Mesh& mesh, const std::string& name) {
   return result;
 }
 
-/// Free nodes of the elements of one part by subdomains.
-NodeLists cut(const mesher::Mesh& part, const DofMap& dof_map, std::size_t least_count) {
-  std::vector<std::int32_t> all;
+struct PartSize {
   std::size_t elements = 0;
-  for (const mesher::ElementBlock& block : part.blocks) {
-    for (const std::int32_t node : block.nodes) all.push_back(dof_map.index(node));
-    elements += block.size();
-  }
-  sort_out_copies_and_fixed(all);
-  const std::size_t count =
-      std::min(elements, std::max(least_count, all.size() / kNodesOfSubdomain));
-  const mesher::ElementPartition partition =
-      mesher::partition_elements(part, static_cast<int>(count));
-  NodeLists subdomains(count);
-  std::size_t element = 0;
-  for (const mesher::ElementBlock& block : part.blocks) {
-    const std::size_t width = mesher::nodes_per_element(block.kind);
-    for (std::size_t first = 0; first < block.nodes.size(); first += width, ++element) {
-      auto& own = subdomains[static_cast<std::size_t>(partition.processes[element])];
-      for (const std::int32_t node : std::span(block.nodes).subspan(first, width)) {
-        own.push_back(dof_map.index(node));
-      }
+  std::size_t blocks = 0;
+};
+
+PartSize size_of(const mesher::Mesh& part, const DofMap& dof_map) {
+  PartSize size;
+  std::vector<std::int32_t> all;
+  for_each_element(part, [&](std::size_t /*element*/, std::span<const std::int32_t> nodes) {
+    ++size.elements;
+    for (const std::int32_t node : nodes) {
+      dof_map.for_each_number(node, [&](std::int32_t block) { all.push_back(block); });
     }
+  });
+  sort_out_copies(all);
+  size.blocks = all.size();
+  return size;
+}
+
+/// How many subdomains each part is cut into.
+std::vector<std::size_t> counts_of(const std::vector<PartSize>& sizes, std::size_t least_count) {
+  std::vector<std::size_t> counts;
+  for (const PartSize& size : sizes) {
+    counts.push_back(
+        std::min(size.elements, std::max<std::size_t>(1, size.blocks / kNodesOfSubdomain)));
   }
-  for (std::vector<std::int32_t>& nodes : subdomains) sort_out_copies_and_fixed(nodes);
-  return subdomains;
+  // One alone would be the whole. The largest pieces are cut further.
+  least_count = std::max<std::size_t>(2, least_count);
+  const auto weight = [&](std::size_t p) {
+    return counts[p] < sizes[p].elements
+               ? static_cast<double>(sizes[p].blocks) / static_cast<double>(counts[p])
+               : 0.0;
+  };
+  for (std::size_t count = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+       count < least_count; ++count) {
+    std::size_t largest = 0;
+    for (std::size_t p = 1; p < counts.size(); ++p) {
+      if (weight(p) > weight(largest)) largest = p;
+    }
+    if (weight(largest) == 0) break;
+    ++counts[largest];
+  }
+  return counts;
 }
 
 }  // namespace
 
-NodeLists find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map) {
-  const std::vector<std::string> parts = mesher::parts_of(mesh);
-  NodeLists subdomains;
-  for (const std::string& part : parts) {
-    // One alone would be the whole.
-    const std::size_t least_count = parts.size() == 1 ? 2 : 1;
-    for (std::vector<std::int32_t>& nodes : cut(part_of(mesh, part), dof_map, least_count)) {
-      if (!nodes.empty()) subdomains.push_back(std::move(nodes));
+Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int least_count) {
+  const std::vector<std::string> names = mesher::parts_of(mesh);
+  std::vector<mesher::Mesh> parts;
+  std::vector<PartSize> sizes;
+  for (const std::string& name : names) {
+    parts.push_back(part_of(mesh, name));
+    sizes.push_back(size_of(parts.back(), dof_map));
+  }
+  const std::vector<std::size_t> counts =
+      counts_of(sizes, static_cast<std::size_t>(std::max(1, least_count)));
+  std::vector<std::vector<std::int32_t>> of_element_of_part;
+  std::int32_t first = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    of_element_of_part.push_back(
+        mesher::partition_elements(parts[p], static_cast<int>(counts[p])).processes);
+    for (std::int32_t& number : of_element_of_part.back()) number += first;
+    first += static_cast<std::int32_t>(counts[p]);
+  }
+
+  Subdomains result;
+  std::vector<std::size_t> next(parts.size(), 0);
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    const auto p =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), block.part) - names.begin());
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      result.of_element.push_back(of_element_of_part[p][next[p]++]);
     }
   }
-  return subdomains;
+  result.blocks.resize(static_cast<std::size_t>(first));
+  for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
+    auto& own = result.blocks[static_cast<std::size_t>(result.of_element[element])];
+    for (const std::int32_t node : nodes) {
+      dof_map.for_each_number(node, [&](std::int32_t block) { own.push_back(block); });
+    }
+  });
+  for (std::vector<std::int32_t>& blocks : result.blocks) sort_out_copies(blocks);
+  return result;
+}
+
+std::vector<std::int32_t> ranks_of_subdomains(const mesher::Mesh& mesh,
+                                              const Subdomains& subdomains, int rank_count) {
+  const auto count = static_cast<std::size_t>(subdomains.count());
+  Eigen::Index longest = 0;
+  mesher::bounding_box(mesh).extent_m().maxCoeff(&longest);
+  std::vector<double> places(count, 0.0);
+  std::vector<double> elements(count, 0.0);
+  for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
+    const auto subdomain = static_cast<std::size_t>(subdomains.of_element[element]);
+    places[subdomain] +=
+        mesh.nodes[static_cast<std::size_t>(nodes.front())][static_cast<std::size_t>(longest)];
+    elements[subdomain] += 1;
+  });
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t s) { return places[s] / std::max(1.0, elements[s]); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t one, std::size_t other) { return place(one) < place(other); });
+
+  double left = 0;
+  for (const std::vector<std::int32_t>& blocks : subdomains.blocks) {
+    left += static_cast<double>(blocks.size());
+  }
+  std::vector<std::int32_t> ranks(count, 0);
+  std::int32_t rank = 0;
+  double taken = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto size = static_cast<double>(subdomains.blocks[order[k]].size());
+    const auto ranks_left = static_cast<double>(rank_count - rank);
+    const bool is_full = taken > 0 && taken + size / 2 > left / ranks_left;
+    const bool must_spare =
+        taken > 0 && count - k <= static_cast<std::size_t>(rank_count - rank - 1);
+    if (rank + 1 < rank_count && (is_full || must_spare)) {
+      left -= taken;
+      taken = 0;
+      ++rank;
+    }
+    ranks[order[k]] = rank;
+    taken += size;
+  }
+  return ranks;
+}
+
+std::vector<std::int32_t> ranks_of_elements(const mesher::Mesh& mesh, const Subdomains& subdomains,
+                                            int rank_count) {
+  const std::vector<std::int32_t> ranks = ranks_of_subdomains(mesh, subdomains, rank_count);
+  std::vector<std::int32_t> result;
+  result.reserve(subdomains.of_element.size());
+  for (const std::int32_t subdomain : subdomains.of_element) {
+    result.push_back(ranks[static_cast<std::size_t>(subdomain)]);
+  }
+  return result;
 }
 
 std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes) {
@@ -93,16 +186,6 @@ std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std
     return std::includes(layer.begin(), layer.end(), neighbours.begin(), neighbours.end());
   });
   return result;
-}
-
-Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const DofMap& dof_map) {
-  const auto all = mesher::positions_of(mesh);
-  Eigen::Matrix3Xd positions(3, dof_map.free_count());
-  for (std::int32_t node = 0; node < dof_map.node_count(); ++node) {
-    if (dof_map.index(node) < 0) continue;
-    positions.col(dof_map.index(node)) = all.col(node);
-  }
-  return positions;
 }
 
 }  // namespace flexneck::fe_modal

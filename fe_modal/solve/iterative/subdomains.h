@@ -12,20 +12,34 @@
 
 namespace flexneck::fe_modal {
 
-/// Lists of free nodes, ascending.
+/// Lists of blocks of degrees of freedom, ascending.
 using NodeLists = std::vector<std::vector<std::int32_t>>;
 
-/// The nodes of subdomains of some ten thousand nodes whatever the size of the body, at least two
-/// where there are two elements. Elements belong to one each, nodes between them to several. None
-/// goes across parts: the stiffness may jump by thousands there, and a coarse space follows a jump
-/// only along the interface of subdomains.
-NodeLists find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map);
+/// Subdomains of a mesh. Elements belong to one each, blocks between them to several.
+struct Subdomains {
+  std::vector<std::int32_t> of_element;  ///< the mesh's blocks in their order
+  NodeLists blocks;                      ///< of each; together they are all
+
+  std::int32_t count() const { return static_cast<std::int32_t>(blocks.size()); }
+};
+
+/// Subdomains of some ten thousand nodes whatever the size of the body, at least two where there
+/// are two elements. None goes across parts: the stiffness may jump by thousands there, and a
+/// coarse space follows a jump only along the interface of subdomains.
+/// @param least_count of subdomains, if there are as many elements
+Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int least_count = 1);
+
+/// The rank that has each subdomain: they are taken in the order of their places along the longest
+/// side of the body, about as many blocks for each rank, at least one subdomain if there are
+/// enough.
+std::vector<std::int32_t> ranks_of_subdomains(const mesher::Mesh& mesh,
+                                              const Subdomains& subdomains, int rank_count);
+/// The same of each element.
+std::vector<std::int32_t> ranks_of_elements(const mesher::Mesh& mesh, const Subdomains& subdomains,
+                                            int rank_count);
 
 /// An overlap extended by one layer of elements: of the nodes and their neighbours, those all of
 /// whose neighbours are among these.
 std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes);
-
-/// m, (3, free nodes)
-Eigen::Matrix3Xd free_positions(const mesher::Mesh& mesh, const DofMap& dof_map);
 
 }  // namespace flexneck::fe_modal

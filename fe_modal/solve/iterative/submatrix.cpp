@@ -62,4 +62,16 @@ Eigen::Matrix3d coupling(const SymmetricMatrix& matrix, std::int32_t row, std::i
   return result;
 }
 
+std::vector<std::int32_t> places_in(const std::vector<std::int32_t>& list,
+                                    const std::vector<std::int32_t>& values) {
+  std::vector<std::int32_t> places;
+  places.reserve(values.size());
+  auto place = list.begin();
+  for (const std::int32_t value : values) {
+    place = std::lower_bound(place, list.end(), value);
+    places.push_back(static_cast<std::int32_t>(place - list.begin()));
+  }
+  return places;
+}
+
 }  // namespace flexneck::fe_modal

@@ -24,4 +24,8 @@ SymmetricMatrix principal_part(const SymmetricMatrix& matrix, const NodeGraph& p
 /// @pre they are neighbours, or the same
 Eigen::Matrix3d coupling(const SymmetricMatrix& matrix, std::int32_t row, std::int32_t column);
 
+/// Where values are in a list that has them; both ascend.
+std::vector<std::int32_t> places_in(const std::vector<std::int32_t>& list,
+                                    const std::vector<std::int32_t>& values);
+
 }  // namespace flexneck::fe_modal

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
+
 #include <fmt/core.h>
 
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/static_analysis.h"
+#include "fe_modal/system/supports.h"
 #include "mesher/exchange/inp_writer.h"
 #include "pipeline/commands/exports/export_formats.h"
 #include "pipeline/evaluation/modes_options.h"
@@ -24,6 +29,23 @@ std::string mixed_materials(const mesher::Mesh& mesh, const fe_modal::Formulatio
          materials;
 }
 
+std::vector<std::array<double, 3>> rows_of(const Eigen::Matrix3Xd& columns) {
+  std::vector<std::array<double, 3>> rows;
+  for (const auto& column : columns.colwise()) rows.push_back({column[0], column[1], column[2]});
+  return rows;
+}
+
+/// The study's loads as forces and displacements of nodes.
+mesher::InpStaticStep static_step_of(const CommandInput& input, mesher::Mesh mesh) {
+  const Study& study = input.study;
+  const fe_modal::ModalOptions options = modes_options(study, mesh);
+  std::optional<fe_modal::PetscSession> session;
+  if (input.ranks == nullptr) session.emplace();
+  return {rows_of(fe_modal::consistent_forces(mesh, options, study.loads)),
+          rows_of(fe_modal::support_displacements(mesh, options, study.loads)),
+          study.modes.prestress};
+}
+
 }  // namespace
 
 void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
@@ -38,6 +60,7 @@ void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
       options.reduced.insert(material.name);
     }
   }
+  if (!study.loads.empty()) options.static_step = static_step_of(input, mesh);
   mesher::write_inp(input.target, mesh, options);
   const std::string line = mixed_materials(mesh, choice);
   if (!line.empty()) input.console.warning(input.target.string() + ": " + line);

@@ -16,6 +16,10 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
         "matrices are written with three directions a node: leave out modes.fixed_directions and "
         "modes.rigid_interfaces");
   }
+  if (study.modes.prestress)
+    throw InputError(
+        "matrices are written without the stiffness of a prestress: leave out "
+        "modes.prestress");
   const std::string fixed = modes_options(study, mesh).fixed_set;
   const fe_modal::DofMap dof_map(
       mesh, fixed.empty() ? std::vector<std::int32_t>{} : mesh.node_set(fixed).nodes);

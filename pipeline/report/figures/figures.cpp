@@ -2,6 +2,7 @@
 #include "pipeline/report/figures/figures.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/core.h>
 
@@ -60,11 +61,18 @@ std::string whole_svg(const fs::path& path) {
   return text;
 }
 
+/// Pictures that stand in for the moving neck where a browser has no WebGL.
+bool shows_neck(const Figure& figure) {
+  static constexpr std::array kNumbers = {3, 4, 5, 7};
+  return std::find(kNumbers.begin(), kNumbers.end(), figure.number) != kNumbers.end();
+}
+
 std::string html_of(const DrawnFigure& drawn) {
   const Figure& figure = drawn.figure;
   const bool is_of_paper = figure.number > 0;
   const std::string name = is_of_paper ? fmt::format("Figure {}", figure.number) : "Picture";
-  std::string html = "<figure id=\"" + stem_of(figure) + "\">\n";
+  std::string html = "<figure id=\"" + stem_of(figure) + "\"" +
+                     (shows_neck(figure) ? " data-shows=\"neck\"" : "") + ">\n";
   if (!drawn.svg.empty()) {
     html += "<img loading=\"lazy\" alt=\"" + name + ": " + html_text(figure.caption) +
             "\" src=\"data:image/svg+xml;base64," + base64(std::as_bytes(std::span(drawn.svg))) +

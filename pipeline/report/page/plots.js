@@ -43,9 +43,9 @@
     return base ? [base.name, run.name.slice(base.name.length + 1)] : [run.name, ''];
   };
 
-  let isSi = false;
-  const shown = (unit, kind) =>
-      isSi ? {name: unit, factor: 1} : data.units[kind][unit] || {name: unit, factor: 1};
+  const {units} = flexneck;
+  const shown = (unit, kind) => units.of(unit, data.units[kind]);
+  const kMs = 1000;  // time is in ms in both systems
 
   class Plot {
     constructor(container) {
@@ -73,6 +73,11 @@
         button.addEventListener('click', () => this.press(key, 1));
         controls.append(button);
       }
+      controls.append(flexneck.saveButtons(`the curves: ${title}`, {
+        CSV: () => flexneck.save(`${this.name()}.csv`, this.csv(), 'text/csv'),
+        SVG: () => flexneck.saveSvg(this.name(), this.picture()),
+        PNG: () => flexneck.savePng(this.name(), this.picture()),
+      }));
       this.makeChoices();
       this.drawing = element('div', {class: 'drawing'});
       this.reading = element('output', {class: 'note'});
@@ -93,7 +98,7 @@
       this.shownCases = new Set(cases.slice(0, 5));
       const measured = new Set(data.measured.map((run) => run.name));
       this.shownVariants = new Set(
-          ['', ...pairs.filter((_, k) => measured.has(this.runs[k].name)).map(([, name]) => name)]);
+          ['', ...(data.folders || []), ...pairs.filter((_, k) => measured.has(this.runs[k].name)).map(([, name]) => name)]);
       this.curves = this.runs.map((run, k) => {
         const [place, variant] = [cases.indexOf(pairs[k][0]), variants.indexOf(pairs[k][1])];
         return {run, case: pairs[k][0], variant: pairs[k][1],
@@ -134,10 +139,36 @@
       }));
     }
 
+    name() { return flexneck.fileName(`${this.kind} ${this.y.value} over ${this.x.value}`); }
+
+    picture() { return flexneck.standaloneSvg(this.svg, this.drawn.map((curve) => ({...curve, name: curve.run.name}))); }
+
+    /** All points of the curves drawn: curves over the same x share its column, others have their own. */
+    csv() {
+      const head = [];
+      const columns = [];
+      const add = (title, values) => {
+        head.push(title);
+        columns.push(values);
+      };
+      const title = (name) => this.label(name).replace(/ \((.*)\)$/, ' [$1]')
+          .replaceAll('·', '*').replaceAll('²', '^2').replaceAll('³', '^3');
+      let before = null;
+      for (const {run, points} of this.drawn) {
+        const x = points.map((point) => point[0]);
+        if (String(x) !== String(before)) add(title(this.x.value), x);
+        before = x;
+        add(`${run.name}: ${title(this.y.value)}`, points.map((point) => point[1]));
+      }
+      const rows = Array.from({length: Math.max(0, ...columns.map((values) => values.length))},
+                              (_, k) => columns.map((values) => k < values.length ? Number(values[k].toPrecision(7)) : ''));
+      return flexneck.csv([head, ...rows]);
+    }
+
     /** The points of a case in the units shown; none if it has not the channels. */
     points(run) {
       const read = (name) => {
-        if (name === 'time') return {values: run.times, factor: isSi ? 1 : 1000};
+        if (name === 'time') return {values: run.times, factor: kMs};
         const channel = run.channels.get(name);
         return channel && {values: valuesOf(channel), ...shown(channel.unit, this.kind)};
       };
@@ -147,7 +178,7 @@
     }
 
     label(name) {
-      if (name === 'time') return isSi ? 'time (s)' : 'time (ms)';
+      if (name === 'time') return 'time (ms)';
       const channel = this.runs.map((run) => run.channels.get(name)).find(Boolean);
       return `${name} (${shown(channel.unit, this.kind).name})`;
     }
@@ -182,6 +213,7 @@
           .range([height - margin.bottom, margin.top]);
       const svg = d3.select(this.svg).attr({width});
       svg.selectAll('*').remove();
+      svg.attr('viewBox', `0 0 ${width} ${height}`);  // paper is of another width
       svg.attr('aria-label', `${this.label(this.y.value)} over ${this.label(this.x.value)}: ` +
                              (drawn.map((curve) => curve.run.name).join(', ') || 'no case chosen'));
       if (drawn.length === 0) return;
@@ -226,7 +258,7 @@
           .filter((each) => each.channel === this.y.value && names.includes(each.case))
           .map((each) => {
             const {factor} = shown(each.unit, this.kind);
-            return {what: each.what, times: each.times.map((time) => time * (isSi ? 1 : 1000)),
+            return {what: each.what, times: each.times.map((time) => time * kMs),
                     values: each.values.map((value) => value * factor)};
           });
     }
@@ -240,7 +272,7 @@
           .map(({what, unit, times, lower, upper}) => {
             const {factor} = shown(unit, this.kind);
             const edge = (values) => Array.from(
-                values, (value, k) => [times[k] * (isSi ? 1 : 1000), value * factor]);
+                values, (value, k) => [times[k] * kMs, value * factor]);
             return {what, points: [...edge(lower), ...edge(upper).reverse()]};
           });
     }
@@ -353,9 +385,7 @@
 
   const plots = [...document.querySelectorAll('.plot')].map((container) => new Plot(container))
       .filter((plot) => !plot.container.hidden);
-  document.getElementById('units')?.addEventListener('click', (event) => {
-    isSi = !isSi;
-    event.target.setAttribute('aria-pressed', isSi);
+  units.follow(() => {
     for (const plot of plots) plot.reset();
   });
 })();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // 'flexneck fit' as users run it, on a study whose runs take milliseconds.
+#include <cmath>
 #include <fstream>
 
 #include <catch2/catch.hpp>
@@ -96,6 +97,43 @@ TEST_CASE("what no target fixes makes a fit not unique in its first line") {
   INFO(outcome.text);
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.text, Contains("Not unique: ") && Contains("no target fixes how"));
+  CHECK_THAT(outcome.text, Contains("The study states no choices"));
+}
+
+TEST_CASE("an expression of the parameters is a target, and an inequality between them holds") {
+  const TemporaryFolder folder;
+  const auto fitted = [&](const std::string& targets) {
+    const fs::path study =
+        write_beam_study(folder.path(), kRubber + "[fit]\nstarts = 1\nprofiles = false\n" +
+                                            kModulus + kMass + targets);
+    fs::remove_all(folder / "out");
+    require_done(fit(study, folder / "out"));
+    const nlohmann::json parameters = table_in(folder / "out", "fit parameters");
+    return std::pair(cell(parameters, 0, 2), cell(parameters, 1, 2));
+  };
+  const auto expression = [](const std::string& text, const std::string& wanted) {
+    return "[[fit.target]]\nname = \"of " + std::to_string(text.size()) + "\"\nexpression = \"" +
+           text + "\"\n" + wanted;
+  };
+  // One frequency and a product fix both, and both are met.
+  const auto [modulus, mass] =
+      fitted(target("pendulum.flexion.system_frequency", "2.5 Hz") +
+             expression("sqrt(E * head)", "value = \"20\"\nstandard_deviation = \"0.01\"\n"));
+  CHECK(std::sqrt(modulus * mass) == Approx(20).margin(1e-3));
+  CHECK(cell(table_in(folder / "out", "fit targets"), 0, 2) == Approx(2.5).epsilon(1e-4));
+  // Drawn to 90 and 5, kept to E <= 15 head: the nearest point of that half-plane by the
+  // deviations, 1 and 0.1, is 90 - a, 5 + 0.15 a with a = 15 / (1 + 2.25).
+  const auto [nearest, heavier] =
+      fitted(expression("E", "value = \"90\"\nstandard_deviation = \"1\"\n") +
+             expression("head", "value = \"5\"\nstandard_deviation = \"0.1\"\n") +
+             expression("E - 15 * head", "high = \"0\"\nsmoothing = \"1\"\nmust_hold = true\n") +
+             target("modes.mass", "1 kg", "relative_deviation = 0.001\nheld_out = true\n") +
+             target("pendulum.flexion.system_frequency", "5 Hz",
+                    "relative_deviation = 0.001\nheld_out = true\n"));
+  constexpr double kMoved = 15 / (1 + 2.25);
+  CHECK(nearest == Approx(90 - kMoved).margin(0.01));
+  CHECK(heavier == Approx(5 + 0.15 * kMoved).margin(0.002));
+  CHECK(nearest <= 15 * heavier);
 }
 
 TEST_CASE("a fit is the same for any threads, and goes on with what is there") {
@@ -113,6 +151,7 @@ TEST_CASE("a fit is the same for any threads, and goes on with what is there") {
   CHECK(bytes_of(folder / "one/fit.json") == bytes_of(folder / "two/fit.json"));
   CHECK_THAT(two.text, Contains("Share of the prior that meets the targets"));
   CHECK(table_in(folder / "one", "fit choices").at("rows").at(0).at(0) == "The case was picked.");
+  CHECK_THAT(two.text, Contains("Chosen with the targets in sight: (1) The case was picked."));
   for (const char* const name : {"fit-targets.svg", "fit-profiles.svg", "fit-history.svg"})
     CHECK_THAT(bytes_of(folder / "one" / name), Contains("</svg>"));
   // A row that is gone is computed again, and nothing changes.
@@ -175,6 +214,17 @@ TEST_CASE("what is wrong with a fit is told in one line") {
                 "the window crosses itself");
   check_refused(outcome_of("[fit]\n" + kMass + target("pendulum.flexion.head_rotation", "17 Hz")),
                 "rad");
+  check_refused(
+      outcome_of("[fit]\n" + kMass + rotation +
+                 "[[fit.target]]\nname = \"less\"\nexpression = \"head - tail\"\nlow = \"0\"\n"
+                 "smoothing = \"1\"\n"),
+      "parameters whose names are single words: head");
+  check_refused(outcome_of("[fit]\n" + kMass +
+                           "[[fit.target]]\nexpression = \"head\"\noutput = \"modes.mass\"\n"),
+                "expected one of output, curve and expression");
+  check_refused(outcome_of("[fit]\n" + kMass + rotation +
+                           "[[fit.target]]\nexpression = \"head\"\nvalue = \"5\"\n"),
+                "expected one beside an expression");
   check_refused(
       outcome_of("[fit]\n" + kMass + target("pendulum.flexion.head_rotation", "17 deg", "")),
       "expected one of standard_deviation and relative_deviation");

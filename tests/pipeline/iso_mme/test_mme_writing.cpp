@@ -203,12 +203,13 @@ TEST_CASE("'flexneck export' writes a run, and a rating reads it again") {
   check_refused(run_flexneck("export -q " + run + " --to " + in + "/swing.mme"),
                 "a folder of its own");
   check_refused(run_flexneck("export -q " + run + " --to " + in + "/swing.msh"),
-                "expected an ending of .mme");
-  check_refused(run_flexneck("export -q --to " + in + "/swing/swing.mme"), "name the run");
+                ".mme (the channels of a run as ISO-MME)");
+  check_refused(run_flexneck("export -q --to " + in + "/swing/swing.mme"),
+                "name the file that holds it");
   check_refused(run_flexneck("export -q " + run), "name the file to write");
   check_refused(run_flexneck("export -q " + run + " --set a=1 --to " + in + "/b/b.mme"), "--set");
   check_refused(run_flexneck("export -q " + run + " " + run + " --to " + in + "/b/b.mme"),
-                "one run");
+                "expected one file");
   check_refused(run_flexneck("export -q " + in + "/no.h5 --to " + in + "/b/b.mme"), "no.h5");
   CHECK_FALSE(fs::exists(folder / "b"));
 }

@@ -1,10 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Opens the report of a small run in a real browser and uses it as a reader would.
+"""Opens the report of a small run, and a comparison, in a real browser and uses them as a reader would.
 
-Usage: browser_test.py FLEXNECK      (77: skipped, for want of a browser)
+Usage: browser_test.py FLEXNECK FOLDER      (77: skipped, for want of a browser)
+FOLDER keeps axe-core, which npm installs there in the version that axe/package-lock.json names.
 """
 
+import base64
+import csv
 import json
 import math
 import shutil
@@ -13,6 +16,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 
 SKIPPED = 77
@@ -33,31 +37,48 @@ COARSE = ["mesh.quadrant=2", "mesh.inner_ring=2", "mesh.outer_ring=1", "mesh.rub
 WAIT_S = 60  # a busy machine draws slowly; nothing depends on the time taken
 
 
-def open_browser():
+def open_browser(*more):
     options = webdriver.ChromeOptions()
     options.binary_location = shutil.which("chromium")
-    for argument in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "use-angle=swiftshader",
-                     "enable-unsafe-swiftshader", "force-prefers-reduced-motion",
-                     "window-size=1200,900"):
+    for argument in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "force-prefers-reduced-motion",
+                     "window-size=1200,900", *(more or ("use-angle=swiftshader", "enable-unsafe-swiftshader"))):
         options.add_argument(f"--{argument}")
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     service = webdriver.chrome.service.Service(shutil.which("chromedriver"))
-    return webdriver.Chrome(service=service, options=options)
+    browser = webdriver.Chrome(service=service, options=options)
+    browser.set_script_timeout(5 * WAIT_S)
+    return browser
 
 
-class Report(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.workshop = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.workshop.cleanup)
-        cls.folder = Path(cls.workshop.name)
-        settings = [word for setting in COARSE for word in ("--set", setting)]
-        run = subprocess.run([FLEXNECK, "run", "-q", "-o", cls.folder, *settings], check=False)
-        assert run.returncode in (0, 1)  # so coarse a neck may miss a published frequency
-        cls.browser = open_browser()
-        cls.addClassCleanup(cls.browser.quit)
-        cls.browser.get((cls.folder / "report.html").as_uri())
-        cls.wait(lambda _: cls.find("#scene-canvas").get_attribute("data-drawn"))
+def axe_source():
+    """None where npm, or its registry, is not to be had."""
+    here = Path(__file__).resolve().parent / "axe"
+    source = AXE_FOLDER / "node_modules/axe-core/axe.min.js"
+    wanted = json.loads((here / "package.json").read_text())["dependencies"]["axe-core"]
+    package = source.with_name("package.json")
+    if not package.exists() or json.loads(package.read_text())["version"] != wanted:
+        AXE_FOLDER.mkdir(parents=True, exist_ok=True)
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(here / name, AXE_FOLDER)
+        npm = shutil.which("npm")
+        if not npm or subprocess.run([npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=AXE_FOLDER,
+                                     check=False).returncode != 0:
+            return None
+    return source.read_text()
+
+
+def setUpModule():
+    """One run for all tests, which do not write into it."""
+    workshop = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(workshop.cleanup)
+    Page.folder = Path(workshop.name) / "out"
+    settings = [word for setting in COARSE for word in ("--set", setting)]
+    run = subprocess.run([FLEXNECK, "run", "-q", "-o", Page.folder, *settings], check=False)
+    assert run.returncode in (0, 1)  # so coarse a neck may miss a published frequency
+
+
+class Page:
+    """What tests of any page of ours do."""
 
     @classmethod
     def wait(cls, condition):
@@ -69,6 +90,41 @@ class Report(unittest.TestCase):
 
     def run_script(self, script, *arguments):
         return self.browser.execute_script(script, *arguments)
+
+    def saved(self, button, suffix):
+        """What a button saves, as a path."""
+        target = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.browser.execute_cdp_cmd("Browser.setDownloadBehavior",
+                                     {"behavior": "allow", "downloadPath": str(target)})
+        self.run_script("arguments[0].click()", button)
+        self.wait(lambda _: list(target.glob(f"*.{suffix}")))
+        return next(target.glob(f"*.{suffix}"))
+
+    def check_by_axe(self):
+        """WCAG 2.1 AA as far as axe-core sees it, in light and dark."""
+        axe = axe_source()
+        if axe is None:
+            self.skipTest("axe-core cannot be installed: npm and its registry are wanted")
+        for scheme in ("light", "dark"):
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+                "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+            self.run_script(axe + "; window.axe = axe;")
+            violations = self.browser.execute_async_script("""
+                const done = arguments[0];
+                axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa'], resultTypes: ['violations']})
+                    .then(({violations}) => done(violations.map(({id, nodes}) => [id, nodes.slice(0, 3).map(
+                        (node) => [node.target.join(' '), node.failureSummary])])));""")
+            self.assertEqual(violations, [], scheme)
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
+class Report(Page, unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = open_browser()
+        cls.addClassCleanup(cls.browser.quit)
+        cls.browser.get((cls.folder / "report.html").as_uri())
+        cls.wait(lambda _: cls.find("#scene-canvas").get_attribute("data-drawn"))
 
     def picture_after(self, act):
         """The canvas once it has been drawn anew after an action: a hash, and its many colours."""
@@ -116,6 +172,9 @@ class Report(unittest.TestCase):
 
     def sources(self):
         return [option.text for option in Select(self.find("#scene-source")).options]
+
+    def first_mode(self):
+        return next(name for name in self.sources() if name.startswith("Mode 1"))
 
     # --- the page -------------------------------------------------------------------------------
 
@@ -171,7 +230,7 @@ class Report(unittest.TestCase):
     # --- three dimensions -----------------------------------------------------------------------
 
     def test_the_neck_turns_by_mouse_and_keyboard(self):
-        self.show(self.sources()[0])
+        self.show(self.first_mode())
         before = self.picture_after(lambda: self.set_clock(0.25))
         self.assertGreater(before["colours"], 50)  # a blank canvas has one
         canvas = self.find("#scene-canvas")
@@ -186,16 +245,56 @@ class Report(unittest.TestCase):
 
     def test_modes_and_motions_move(self):
         motion = next(name for name in self.sources() if name.startswith("Pendulum"))
-        for source, late in ((self.sources()[0], 0.25), (motion, 0.06)):
+        for source, late in ((self.first_mode(), 0.25), (motion, 0.06)):
             self.show(source)
             still = self.picture_after(lambda: self.set_clock(0))
             moved = self.picture_after(lambda: self.set_clock(late))
             self.assertNotEqual(still["hash"], moved["hash"], source)
             self.assertGreater(moved["colours"], 50)
 
+    def pixels_like(self, colour):
+        """How many pixels of the canvas are near a colour."""
+        return self.run_script("""
+            const canvas = document.getElementById('scene-canvas');
+            const copy = document.createElement('canvas');
+            [copy.width, copy.height] = [canvas.width, canvas.height];
+            const context = copy.getContext('2d');
+            context.drawImage(canvas, 0, 0);
+            const {data} = context.getImageData(0, 0, copy.width, copy.height);
+            let count = 0;
+            for (let i = 0; i < data.length; i += 4) {
+              if (arguments[0].every((part, k) => Math.abs(part - data[i + k]) < 40) && data[i + 3] > 250) ++count;
+            }
+            return count;""", colour)
+
+    def test_loads_of_a_static_test_are_drawn(self):
+        self.show("Static test: flexion")
+        orange = (0xd5, 0x5e, 0x00)
+        self.picture_after(lambda: self.set_clock(0))
+        without = self.pixels_like(orange)  # the axis x
+        self.picture_after(lambda: self.set_clock(2))
+        self.assertGreater(self.pixels_like(orange), without + 100)
+        with h5py.File(self.folder / "static-flexion.h5") as file:
+            newton = file["channels/load/values"][-1, 0]
+        self.assertAlmostEqual(float(self.find("#scene-time").text.split(", ")[1].split()[0]), newton / 4.4482216,
+                               delta=0.1)
+
+    def test_rigid_variants_move_and_two_cases_stand_side_by_side(self):
+        names = [f"Pendulum: {path.stem.removeprefix('pendulum-')}" for path in self.folder.glob("pendulum-*.h5")]
+        self.assertEqual(set(names) - set(self.sources()), set())
+        self.show("Pendulum: flexion-120-rigid")
+        alone = self.picture_after(lambda: self.set_clock(0.05))
+        beside = self.picture_after(lambda: Select(self.find("#scene-second")).select_by_visible_text(
+            "Pendulum: flexion-120"))
+        self.assertNotEqual(alone["hash"], beside["hash"])
+        self.assertIn("Right: Pendulum: flexion-120.", self.find("#scene-note").text)
+        options = [option.text for option in Select(self.find("#scene-second")).options]
+        self.assertFalse([name for name in options if name.startswith(("Mode", "Static"))])
+        Select(self.find("#scene-second")).select_by_visible_text("nothing")
+
     def test_a_mode_has_its_brightest_colour_at_its_largest_displacement_only(self):
         """Viridis' upper end on a few pixels, its lower at the clamped base, much in between."""
-        self.show(self.sources()[0])
+        self.show(self.first_mode())
         self.picture_after(lambda: self.set_clock(0.25))
         shares = self.run_script("""
             const canvas = document.getElementById('scene-canvas');
@@ -221,7 +320,7 @@ class Report(unittest.TestCase):
         self.assertGreater(shares["violet"], 0.05 * shares["all"], shares)
 
     def test_play_runs_and_stops(self):
-        self.show(self.sources()[0])
+        self.show(self.first_mode())
         self.centre(self.find("#scene-play")).click()
         first = self.find("#scene-time").text
         self.wait(lambda _: self.find("#scene-time").text != first)
@@ -295,15 +394,81 @@ class Report(unittest.TestCase):
             self.assertEqual(len(set(styles)), runs)
             self.assertEqual(legend, styles)
 
-    def test_si_units_are_a_button_away(self):
-        units = self.find("#units")
-        label = lambda: self.plot().find_element(By.CSS_SELECTOR, "svg[role=img]") \
-            .get_attribute("aria-label")
-        self.assertIn("(deg)", label())
-        self.run_script("arguments[0].click()", units)
-        self.assertIn("(rad)", label())
-        self.run_script("arguments[0].click()", units)
-        self.assertIn("(deg)", label())
+    def choose_units(self, system):
+        self.run_script("""
+            const units = document.getElementById('units');
+            units.value = arguments[0];
+            units.dispatchEvent(new Event('change'));""", system)
+
+    def test_units_change_in_curves_tables_and_inputs(self):
+        label = lambda: self.find(".plot[data-kind=static] svg[role=img]").get_attribute("aria-label")
+        head = lambda: self.run_script("""
+            return document.querySelector("[data-table='peaks'] th[data-unit='lbf*ft']").textContent;""")
+        inputs = dict(row[:2] for row in self.cells("parameters"))
+        thickness = inputs["geometry.plate_thickness"]
+        inches = float(thickness.split()[0])
+        self.assertIn("(in·lbf)", label())
+        before = self.cells("peaks")
+        self.choose_units("metric")
+        try:
+            self.assertIn("(N·m)", label())
+            self.assertIn("(deg)", label())
+            self.assertIn("N·m", head())
+            column = self.run_script("""
+                const head = document.querySelector("[data-table='peaks'] th[data-unit='lbf*ft']");
+                return [...head.parentElement.cells].indexOf(head);""")
+            for customary, metric in zip(before, self.cells("peaks")):
+                number = lambda text: float(text.replace("−", "-"))
+                self.assertAlmostEqual(number(metric[column]), 1.3558179483 * number(customary[column]), delta=0.06)
+                self.assertEqual(metric[1], customary[1])  # degrees stay degrees
+            shown = dict(row[:2] for row in self.cells("parameters"))["geometry.plate_thickness"]
+            self.assertEqual(shown, f"{thickness} ({float(f'{25.4 * inches:.5g}'):g} mm)")
+        finally:
+            self.choose_units("customary")
+        self.assertEqual(self.cells("peaks"), before)
+
+    # --- what can be taken along ------------------------------------------------------------------
+
+    def test_curves_are_saved_as_they_are_drawn(self):
+        path = self.saved(self.plot().find_element(By.CSS_SELECTOR, "[data-save=csv]"), "csv")
+        with open(path, newline="", encoding="utf-8") as text:
+            head, *rows = csv.reader(text)
+        self.assertEqual(head[0], "time [ms]")
+        case = "flexion-60"
+        column = head.index(f"{case}: head rotation [deg]")
+        with h5py.File(self.folder / f"pendulum-{case}.h5") as file:
+            values = dict(zip(file["time"][:], file["channels/head rotation/values"][:, 0]))
+        self.assertGreater(len(rows), 500)
+        times = sorted(values)
+        for row in rows[::50]:
+            nearest = min(times, key=lambda time_s: abs(1000 * time_s - float(row[0])))
+            self.assertAlmostEqual(float(row[column]), math.degrees(values[nearest]), delta=1e-4)
+
+    def test_pictures_are_saved_as_svg_and_png(self):
+        svg = self.saved(self.plot().find_element(By.CSS_SELECTOR, "[data-save=svg]"), "svg").read_text()
+        texts = [each.text for each in xml.etree.ElementTree.fromstring(svg).iter("{http://www.w3.org/2000/svg}text")]
+        self.assertIn("flexion-60", texts)  # the legend goes along
+        self.assertIn("time (ms)", texts)
+        for selector in ("#scene-turn [data-save=png]", ".plot [data-save=png]", "#figure-11 [data-save=png]"):
+            data = self.saved(self.find(selector), "png").read_bytes()
+            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n", selector)
+            self.assertGreater(int.from_bytes(data[16:20], "big"), 600, selector)
+        figure = self.saved(self.find("#figure-11 [data-save=svg]"), "svg").read_text()
+        self.assertEqual(figure, (self.folder / "figures/figure-11.svg").read_text())
+
+    def test_inputs_are_searched(self):
+        field = self.find("input[aria-label^='Search: Every input']")
+        shown = lambda: self.run_script("""
+            return [...document.querySelectorAll('[data-table=parameters] tbody tr')]
+                .filter((row) => row.offsetParent).map((row) => row.textContent);""")
+        everything = len(shown())
+        self.run_script("arguments[0].scrollIntoView({block: 'center'})", field)
+        field.send_keys("plate inferred")
+        some = shown()
+        self.assertTrue(0 < len(some) < everything / 4, some)
+        self.assertEqual([row for row in some if "plate" not in row or "inferred" not in row], [])
+        field.send_keys(Keys.CONTROL + "a", Keys.DELETE)
+        self.assertEqual(len(shown()), everything)
 
     # --- readers --------------------------------------------------------------------------------
 
@@ -319,6 +484,25 @@ class Report(unittest.TestCase):
             self.wait(lambda _: self.run_script(
                 "return document.documentElement.clientWidth") == width)
 
+    def test_prints_within_the_margins(self):
+        """A4 less margins of a centimetre is 718 pixels wide."""
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": 718, "height": 1000, "deviceScaleFactor": 1, "mobile": False})
+        try:
+            wide = self.run_script("""
+                return [...document.querySelectorAll('body *')]
+                    .filter((each) => each.getBoundingClientRect().right > 719 && each.getClientRects().length > 0)
+                    .map((each) => each.tagName + ' ' + each.textContent.trim().slice(0, 40));""")
+            self.assertEqual(wide[:5], [])
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertGreater(len(base64.b64decode(self.browser.execute_cdp_cmd("Page.printToPDF", {})["data"])), 1e5)
+
+    def test_axe_finds_nothing(self):
+        self.check_by_axe()
+
     def test_every_control_has_a_name(self):
         nameless = self.run_script("""
             return [...document.querySelectorAll('button, select, input')]
@@ -331,10 +515,54 @@ class Report(unittest.TestCase):
         self.assertEqual(self.browser.get_log("browser"), [])
 
 
+class Comparison(Page, unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.workshop = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.workshop.cleanup)
+        folders = [Path(cls.workshop.name) / name for name in ("one", "two")]
+        for folder in folders:
+            shutil.copytree(cls.folder, folder)
+        subprocess.run([FLEXNECK, "compare", "-q", "-o", cls.workshop.name, *folders], check=True)
+        cls.browser = open_browser()
+        cls.addClassCleanup(cls.browser.quit)
+        cls.browser.get((Path(cls.workshop.name) / "comparison.html").as_uri())
+        cls.wait(lambda _: cls.find("#scene-canvas").get_attribute("data-drawn"))
+
+    def test_all_folders_are_shown_at_once(self):
+        curves = [each.get_attribute("data-curve") for each in self.browser.find_elements(
+            By.CSS_SELECTOR, ".plot[data-kind=pendulum] .legend li")]
+        self.assertTrue({"flexion-60", "flexion-60-two"} <= set(curves), curves)
+        first, second = (Select(self.find(f"#scene-{menu}")).first_selected_option.text
+                         for menu in ("source", "second"))
+        self.assertEqual((first.replace("one: ", ""), first[:3]), (second.replace("two: ", ""), "one"))
+        links = [each.get_attribute("href").partition("#")[2] for each in self.browser.find_elements(
+            By.CSS_SELECTOR, "nav a")]
+        self.assertGreater(len(links), 5)
+        self.assertEqual([link for link in links if not self.find(f"#{link}")], [])
+        self.assertEqual(self.browser.get_log("browser"), [])
+
+    def test_axe_finds_nothing(self):
+        self.check_by_axe()
+
+
+class WithoutWebGL(Page, unittest.TestCase):
+    def test_pictures_stand_in(self):
+        type(self).browser = open_browser("disable-3d-apis", "disable-gpu")
+        self.addCleanup(self.browser.quit)
+        self.browser.get((self.folder / "report.html").as_uri())
+        self.wait(lambda _: self.browser.find_elements(By.CSS_SELECTOR, ".viewer figure img"))
+        sizes = self.wait(lambda _: self.run_script("""
+            const images = [...document.querySelectorAll('.viewer figure img')];
+            return images.every((image) => image.complete) && images.map((image) => image.naturalWidth);"""))
+        self.assertGreaterEqual(len(sizes), 3)
+        self.assertGreater(min(sizes), 100)
+
+
 if __name__ == "__main__":
     for program in ("chromium", "chromedriver"):
         if not shutil.which(program):
             print(f"SKIPPED: there is no {program}; install chromium and chromium-driver")
             sys.exit(SKIPPED)
-    FLEXNECK = sys.argv.pop(1)
+    FLEXNECK, AXE_FOLDER = sys.argv.pop(1), Path(sys.argv.pop(1))
     unittest.main(verbosity=2)

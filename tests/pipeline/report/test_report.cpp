@@ -5,6 +5,7 @@
 #include <set>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
@@ -16,6 +17,7 @@
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/comparison.h"
 #include "pipeline/report/corridors.h"
+#include "pipeline/report/display_units.h"
 #include "pipeline/report/paper_context.h"
 #include "pipeline/report/report.h"
 #include "pipeline/report/results.h"
@@ -97,6 +99,26 @@ std::vector<std::string> paper_remarks() {
 }
 
 }  // namespace
+
+TEST_CASE("units are shown in two systems, by the factors of their definitions") {
+  const auto metric = [](const std::string& unit) { return display_unit(unit)["metric"]; };
+  CHECK(metric("lbf*ft")["factor"].get<double>() == Approx(4.4482216152605 * 0.3048));
+  CHECK(metric("lbf*ft")["name"] == "N·m");
+  CHECK(metric("in*lbf/deg")["factor"].get<double>() == Approx(4.4482216152605 * 0.0254));
+  CHECK(metric("m")["factor"].get<double>() == Approx(1000));
+  CHECK(metric("N")["factor"].get<double>() == Approx(1e-3));
+  CHECK(display_unit("N*m", "in*lbf")["customary"]["factor"].get<double>() ==
+        Approx(1 / (4.4482216152605 * 0.0254)));
+  CHECK(display_unit("Hz").is_null());
+  CHECK(unit_label("kg*m^2") == "kg·m²");
+  CHECK(unit_label("gn") == "g");
+  const nlohmann::ordered_json all = display_units();
+  for (const auto& [unit, shown] : all.items()) {
+    INFO(unit);
+    for (const char* const system : {"customary", "metric"})
+      CHECK(shown[system]["factor"].get<double>() > 0);
+  }
+}
 
 TEST_CASE("names come in the order in which people count") {
   CHECK(comes_before("flexion-20", "flexion-60"));
@@ -191,7 +213,11 @@ TEST_CASE("verdicts of certification tests come first, each with a sign of its o
   const std::string page = page_of(folder.path());
   const std::size_t certification = page.find("<section id=\"certification\"");
   REQUIRE(certification != std::string::npos);
-  CHECK(page.find("<section ") == certification);
+  // After the first screen, which has them in short.
+  CHECK(page.find("<section ") == page.find("<section id=\"view\""));
+  CHECK(page.find("<section ", page.find("<section ") + 1) == certification);
+  const std::string first_screen = page.substr(0, certification);
+  CHECK_THAT(first_screen, Contains("✗</span> FAIL</span>") && Contains("✓</span> pass</span>"));
   CHECK(page.find("data-table=\"verdicts\"") == page.rfind("data-table=\"verdicts\""));
   CHECK_THAT(page, Contains("✗</span> FAIL</span>") && Contains("✓</span> pass</span>") &&
                        Contains("extension &lt;b&gt;") && Contains("Warning: pulse at 10 ms"));

@@ -22,6 +22,7 @@ WORDS = {
     "results": ["pipeline/output/result_table", "pipeline/verification/", "pipeline/output/prov"],
     "matrix": ["fe_modal/exchange/matrix_market"],
     "mme": ["pipeline/iso_mme/"],
+    "body": ["fe_modal/exchange/mbdyn_fem", "fe_modal/exchange/sid_fem"],
 }
 TOML = ['"""', "'''", "[[", "]]", "[", "]", "{ value = ", ", origin = \"published\"", " }", " = ",
         "include = [\"hybrid3_c.toml\"]", "include = [\"study.toml\"]", "inf", "nan", "1979-05-27",
@@ -167,6 +168,55 @@ SETTINGS = ["modes.count=4", "body.head.mass=2 kg\nbody.base.mass={ value = \"1 
             "modes.fixed=[\"x\"]\nmodes.count=\"\"\"x\"\"\"", "body.head={ name = \"x\" }"]
 EXPRESSIONS = ["0.05 * sin(2 * pi * 3 * t)", "t < 1 ? gn * t^2 : max(1, t, 3)", "(t > 0) && (t < 1)",
                "1e-3 * exp(-t / 0.01)", "-t^-2", "rint(t) % 2"]
+# Two lumps along x, the second of which moves along y in the only mode.
+MBDYN = """** RECORD GROUP 1, HEADER
+ REV0 2 1 0 0 0
+** RECORD GROUP 2
+ 1 2
+** INTERFACE 2 tip
+** RECORD GROUP 5
+ 0. 1.
+** RECORD GROUP 6
+ 0. 0.
+** RECORD GROUP 7
+ 0. 0.
+** RECORD GROUP 8
+** NORMAL MODE SHAPE # 1: bending, normal
+ 0. 0. 0. 0. 0. 0.
+ 0. 1. 0. 0. 0. 1D0
+** RECORD GROUP 9
+ 1.
+** RECORD GROUP 10
+ 2.
+** RECORD GROUP 11
+ 1. 1. 1. 0. 0. 0.
+ 1. 1. 1. 0. 0. 0.
+** END OF FILE
+"""
+
+
+def sid_block(name, order, rows, columns, structure, entries=()):
+    keys = dict(order=order, nrow=rows, ncol=columns, nq=1, nqn=0, structure=structure)
+    return [name, *(f"{key} = {value}" for key, value in keys.items()), *entries, f"end {name}"]
+
+
+def sid_body():
+    """The same as SID_FEM."""
+    node = [*sid_block("origin", 1, 3, 1, 3, ["m0( 1, 1) = 1.D+00", "m1( 2, 1, 1) = 1."]),
+            *sid_block("phi", 0, 3, 1, 3, ["m0( 2, 1) = 1."]), *sid_block("psi", 0, 3, 1, 0),
+            *sid_block("AP", 1, 3, 3, 4)]
+    return "\n".join([
+        "1 1 :text; 2 = tip", "part", "new modal =", "refmod", "mass = 2.", "nelastq = 1",
+        "ielastq ( 1) = Eigen Mode 1 : 0.2 Hz", "end refmod", "frame", "new node = 2", "rframe = body ref", *node,
+        "end node", "end frame", *sid_block("mdCM", 1, 3, 1, 3, ["m0( 1, 1) = 1.", "m1( 2, 1, 1) = 1."]),
+        *sid_block("J", 1, 6, 1, 3, ["m0( 2, 1) = 1.", "m0( 3, 1) = 1.", "m1( 4, 1, 1) = -1."]),
+        *sid_block("Ct", 0, 1, 3, 3, ["m0( 1, 2) = 1."]), *sid_block("Cr", 1, 1, 3, 3, ["m0( 1, 3) = 1."]),
+        *sid_block("Me", 0, 1, 1, 4), *sid_block("Gr", 0, 3, 3, 3, ["m0( 2, 1) = -2."]), *sid_block("Ge", 0, 1, 3, 0),
+        *sid_block("Oe", 1, 1, 6, 3, ["m0( 1, 4) = 1.", "m1( 1, 1, 1) = -1.", "m1( 1, 1, 3) = -1."]),
+        *sid_block("ksigma", 0, 1, 1, 0), *sid_block("Ke", 0, 1, 1, 1, ["m0( 1, 1) = 2."]),
+        *sid_block("De", 0, 1, 1, 0), "end modal", "end part", ""])
+
+
 MATRIX_MARKET = "%%MatrixMarket matrix coordinate real symmetric\n% two\n2 2 3\n1 1 4.\n2 1 -1\n2 2 3\n"
 ARRAY = "%%MatrixMarket matrix array real general\n2 3\n1\n2\n3\n4\n5\n6\n"
 
@@ -235,6 +285,7 @@ def inputs():
     }
     seeds = {target: [text.encode() for text in each] for target, each in texts.items()}
     seeds["quantity"] = _quantities(studies + models)
+    seeds["body"] = [b"\0" + MBDYN.encode(), b"\1" + sid_body().encode()]
     seeds["matrix"] = [b"\0" + MATRIX_MARKET.encode(), b"\1" + petsc, b"\2" + ARRAY.encode(),
                        b"\3" + struct.pack(">2i3d", 1211214, 3, 1, 2, 3)]
     begun = ["$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n$EndNodes\n$Elements\n$EndElements\n",

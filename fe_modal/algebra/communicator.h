@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include "fe_modal/algebra/ranks.h"
+
+namespace flexneck::fe_modal {
+
+/// That of the ranks; of a process alone its own.
+inline MPI_Comm communicator(const Ranks& ranks) {
+  return ranks.are_many() ? MPI_COMM_WORLD : MPI_COMM_SELF;
+}
+
+}  // namespace flexneck::fe_modal

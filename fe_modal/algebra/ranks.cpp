@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/algebra/ranks.h"
+
+#include <chrono>
+#include <exception>
+#include <limits>
+#include <new>
+#include <thread>
+
+#include "fe_modal/algebra/communicator.h"
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr std::chrono::microseconds kNap{200};
+
+struct RankFailure {
+  std::string text;  ///< empty: none
+  bool is_of_input = false;
+};
+
+RankFailure failure_of(const std::function<void()>& work) {
+  try {
+    work();
+    return {};
+  } catch (const InputError& error) {
+    return {error.what(), true};
+  } catch (...) {
+    return {current_failure(), false};
+  }
+}
+
+}  // namespace
+
+std::string current_failure() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "an unknown failure";
+  }
+}
+
+Ranks Ranks::all() {
+  Ranks ranks;
+  MPI_Comm_rank(MPI_COMM_WORLD, &ranks.own_);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks.count_);
+  return ranks;
+}
+
+void Ranks::sum(Eigen::Ref<Eigen::MatrixXd> values) const {
+  if (!are_many()) return;
+  Eigen::MatrixXd sums = values;  // without gaps between columns
+  // Not MPI_Allreduce, which need not add in the same order on all ranks.
+  const auto size = static_cast<int>(sums.size());
+  MPI_Reduce(is_first() ? MPI_IN_PLACE : sums.data(), sums.data(), size, MPI_DOUBLE, MPI_SUM, 0,
+             communicator(*this));
+  MPI_Bcast(sums.data(), size, MPI_DOUBLE, 0, communicator(*this));
+  values = sums;
+}
+
+double Ranks::sum(double value) const {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Constant(1, 1, value);
+  sum(sums);
+  return sums(0, 0);
+}
+
+void Ranks::max(Eigen::Ref<Eigen::VectorXd> values) const {
+  if (!are_many()) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                communicator(*this));
+}
+
+std::uint64_t Ranks::of_first(std::uint64_t value) const {
+  if (!are_many()) return value;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibcast(&value, 1, MPI_UINT64_T, 0, communicator(*this), &request);
+  // The first rank may have much else to do: whoever waits long looks at times only.
+  for (int is_complete = 0; is_complete == 0;) {
+    MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE);
+    if (is_complete == 0) std::this_thread::sleep_for(kNap);
+  }
+  return value;
+}
+
+void Ranks::together(const std::function<void()>& work) const {
+  if (!are_many()) {
+    work();
+    return;
+  }
+  RankFailure failure = failure_of(work);
+  const int own_failure = failure.text.empty() ? count_ : own_;
+  int first = count_;
+  MPI_Allreduce(&own_failure, &first, 1, MPI_INT, MPI_MIN, communicator(*this));
+  if (first == count_) return;
+  int head[2] = {static_cast<int>(failure.text.size()), failure.is_of_input ? 1 : 0};
+  MPI_Bcast(head, 2, MPI_INT, first, communicator(*this));
+  failure.text.resize(static_cast<std::size_t>(head[0]));
+  MPI_Bcast(failure.text.data(), head[0], MPI_CHAR, first, communicator(*this));
+  if (head[1] != 0) throw InputError(failure.text);
+  throw ComputationError(failure.text);
+}
+
+}  // namespace flexneck::fe_modal

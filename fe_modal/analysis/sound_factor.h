@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fe_modal/solve/assembled_system.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// @throws InputError always: the body is a mechanism with these motions.
+[[noreturn]] void refuse_mechanism(const std::string& motions);
+
+/// (K - shift M)^-1. A stiffness that is not definite is that of a mechanism, or of elements that
+/// are none.
+/// @throws InputError naming the parts that move without strain, and how.
+/// @throws ComputationError as ModalSystem::shift_inverse() where there is no such motion.
+std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
+                                                        const AssembledSystem& system,
+                                                        double shift);
+
+}  // namespace flexneck::fe_modal

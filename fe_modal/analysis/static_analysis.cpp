@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/analysis/static_analysis.h"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "fe_modal/analysis/sound_factor.h"
+#include "fe_modal/element/nodal_stresses.h"
+#include "fe_modal/element/stressed_elements.h"
+#include "fe_modal/reduction/operators.h"
+#include "fe_modal/reduction/static_response.h"
+#include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/solve/mechanism.h"
+#include "fe_modal/system/assembly.h"
+#include "fe_modal/system/memory_needs.h"
+#include "fe_modal/system/modal_options_check.h"
+#include "fe_modal/system/supports.h"
+#include "geometry/foundation/error.h"
+#include "mesher/mesh/positions.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Of the free nodes' forces, relative to the nodal forces of the elements: rounding makes 1e-12 of
+/// slender bodies.
+constexpr double kBalanced = 1e-6;
+
+void require_supports(const ModalOptions& options) {
+  if (options.is_fixed()) return;
+  throw InputError(
+      "a static step needs supports, but nothing is fixed: name node sets in modes.fixed or "
+      "modes.fixed_directions");
+}
+
+/// A mechanism may pass the factorisation by rounding: loads move it without strain then.
+void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
+                            const Eigen::VectorXd& response, const Eigen::VectorXd& load) {
+  const double kinetic = response.dot(block_product(system.mass(), response).col(0));
+  if (response.dot(load) > kStrainless * eigenvalue_scale(mesh) * kinetic || kinetic == 0) return;
+  if (const auto motions = describe_mechanism(mesh, system, true)) refuse_mechanism(*motions);
+}
+
+}  // namespace
+
+StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
+                       const std::vector<Load>& loads, const Progress& progress) {
+  require_supports(options);
+  const DofMap dof_map = dof_map_of(mesh, options);
+  const Eigen::Matrix3Xd moved_m = support_displacements(mesh, options, loads);
+  if (progress) {
+    progress("static step, " + std::to_string(dof_map.dof_count()) + " degrees of freedom");
+  }
+  const AssembledSystem system(mesh, dof_map, options);
+  StaticStep step;
+  step.applied_N = nodal_forces(mesh, system.nodal_mass(), loads);
+  Eigen::VectorXd load = dof_map.gather(step.applied_N);
+  if (moved_m.cwiseAbs().maxCoeff() > 0)
+    load -= dof_map.gather(internal_forces(mesh, options.formulation, moved_m));
+  const std::unique_ptr<const ShiftInverse> inverse = factorise_or_refuse(mesh, system, 0);
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(load.size());
+  if (load.norm() > 0)
+    response = static_response_beyond(operators_of(system, *inverse), {}, load).col(0);
+  refuse_moved_mechanism(mesh, system, response, load);
+  step.displacements_m = dof_map.expand(response) + moved_m;
+  step.solver = inverse->describe();
+  return step;
+}
+
+Eigen::Matrix3Xd consistent_forces(const mesher::Mesh& mesh, const ModalOptions& options,
+                                   const std::vector<Load>& loads) {
+  const SystemMatrices system = assemble(mesh, dof_map_of(mesh, options), options.formulation);
+  return nodal_forces(mesh, system.nodal_mass, loads);
+}
+
+StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& options,
+                              const std::vector<Load>& loads, const Progress& progress) {
+  require_supports(options);
+  check_options(mesh, options);
+  check_memory(mesh, options);
+  StaticStep step = static_step(mesh, options, loads, progress);
+  StaticSolution solution;
+  solution.boundary = boundary_of(options);
+  solution.solver = std::move(step.solver);
+  for (const Load& load : loads) solution.loads.push_back(describe(load));
+  solution.nodes_m = mesher::positions_of(mesh);
+
+  if (progress) progress("stresses and reactions");
+  const Eigen::Matrix3Xd internal_N =
+      internal_forces(mesh, options.formulation, step.displacements_m);
+  const Eigen::Matrix3Xd unbalanced_N = internal_N - step.applied_N;
+  const double scale = std::max(internal_N.norm(), step.applied_N.norm());
+  if (scale > 0) solution.imbalance = dof_map_of(mesh, options).gather(unbalanced_N).norm() / scale;
+  if (!(solution.imbalance < kBalanced))
+    throw ComputationError(
+        "the static step is not in equilibrium: " + std::to_string(solution.imbalance) +
+        " of the forces are left over at free nodes");
+  const std::vector<std::array<bool, 3>> fixed = fixed_directions_of(mesh, options);
+  solution.reactions_N = unbalanced_N;
+  for (std::size_t k = 0; k < fixed.size(); ++k) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (!fixed[k][a])
+        solution.reactions_N(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(k)) = 0;
+    }
+  }
+  StressFields stresses = stress_fields(mesh, options.formulation, step.displacements_m);
+  solution.at_nodes = std::move(stresses.at_nodes);
+  solution.at_points = std::move(stresses.at_points);
+  solution.displacements_m = std::move(step.displacements_m);
+  solution.applied_N = std::move(step.applied_N);
+  return solution;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/assembled_system.h"
+
+#include <utility>
+
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/mumps_factor.h"
+#include "fe_modal/dofs/node_graph.h"
+#include "fe_modal/solve/iterative/schwarz_inverse.h"
+#include "fe_modal/solve/mumps_inverse.h"
+#include "fe_modal/system/assembly.h"
+#include "geometry/foundation/error.h"
+#include "mesher/partition/element_partition.h"
+#include "mesher/partition/node_order.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+Ranks ranks_of(const ModalOptions& options) {
+  return options.ranks == nullptr ? Ranks() : *options.ranks;
+}
+
+RankPart part_of(const Ranks& ranks, const mesher::Mesh& mesh, const DofMap& dof_map,
+                 const std::vector<std::int32_t>& rank_of_element) {
+  if (!ranks.are_many()) return {mesh, dof_map};
+  return {mesh, dof_map, rank_of_element, ranks.own()};
+}
+
+/// The order of all nodes as one of the free ones; of tied nodes the first one counts.
+std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_order,
+                                        const DofMap& dof_map) {
+  std::vector<std::int32_t> order;
+  std::vector<bool> has_come(static_cast<std::size_t>(dof_map.free_count()));
+  for (const std::int32_t node : node_order) {
+    const std::int32_t index = dof_map.index(node);
+    if (index < 0 || has_come[static_cast<std::size_t>(index)]) continue;
+    has_come[static_cast<std::size_t>(index)] = true;
+    order.push_back(index);
+  }
+  // Rigid couplings last: they couple all of a face.
+  for (std::size_t k = 0; !order.empty() && k < has_come.size(); ++k) {
+    if (!has_come[k]) order.push_back(static_cast<std::int32_t>(k));
+  }
+  return order;
+}
+
+}  // namespace
+
+AssembledSystem::Sharing AssembledSystem::share_out(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                                    const ModalOptions& options) {
+  const int count = ranks_of(options).count();
+  Sharing sharing;
+  if (options.solver == Solver::iterative) {
+    sharing.subdomains = find_subdomains(mesh, dof_map, count);
+    if (count > 1) sharing.rank_of_element = ranks_of_elements(mesh, *sharing.subdomains, count);
+  } else if (count > 1) {
+    sharing.rank_of_element = options.element_ranks.empty()
+                                  ? mesher::partition_elements(mesh, count).processes
+                                  : options.element_ranks;
+  }
+  return sharing;
+}
+
+AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                 const ModalOptions& options)
+    : AssembledSystem(mesh, dof_map, options, share_out(mesh, dof_map, options)) {}
+
+AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                 const ModalOptions& options, Sharing sharing)
+    : mesh_(mesh),
+      formulation_(options.formulation),
+      prestress_m_(options.prestress_m),
+      solver_(options.solver),
+      sharing_(std::move(sharing)),
+      fields_(dof_map, layout_of(ranks_of(options), mesh, dof_map, sharing_.rank_of_element)),
+      part_(part_of(ranks(), mesh, dof_map, sharing_.rank_of_element)),
+      exchange_(fields_.layout(), rows_of(part_.blocks())),
+      order_(order_of_free(options.node_order, dof_map)),
+      has_order_(!order_.empty()) {
+  ranks().together([&] {
+    matrices_ = std::make_unique<SystemMatrices>(assemble(
+        part_.mesh(), part_.dof_map(), formulation_, part_.columns_of_nodes(prestress_m_)));
+  });
+  stiffness_.emplace(
+      fields_.own_dof_count(),
+      [this](const Eigen::MatrixXd& columns) {
+        return exchange_.sum_to_own(
+            block_product(matrices_->stiffness, exchange_.to_local(columns)));
+      },
+      ranks());
+  mass_.emplace(
+      fields_.own_dof_count(),
+      [this](const Eigen::MatrixXd& columns) {
+        return exchange_.sum_to_own(
+            block_product(matrices_->mass_operator(), exchange_.to_local(columns)));
+      },
+      ranks());
+}
+
+const std::vector<std::int32_t>& AssembledSystem::order() const {
+  if (has_order_) return order_;
+  has_order_ = true;
+  ranks().together([&] {
+    if (!ranks().is_first()) return;
+    const NodeGraph graph(mesh_, fields_.dof_map());
+    order_ = mesher::nested_dissection(graph.offsets(), graph.columns());
+  });
+  return order_;
+}
+
+std::unique_ptr<ShiftInverse> AssembledSystem::shift_inverse(double shift) const {
+  if (solver_ == Solver::iterative) {
+    const CutBody body{mesh_, fields_, *sharing_.subdomains,
+                       ranks_of_subdomains(mesh_, *sharing_.subdomains, ranks().count())};
+    return std::make_unique<SchwarzInverse>(body, formulation_, prestress_m_, part_, *matrices_,
+                                            stiffness(), mass(), shift);
+  }
+  if (ranks().are_many()) {
+    return std::make_unique<MumpsInverse>(fields_.layout(), *matrices_, shift, part_.blocks(),
+                                          order());
+  }
+  if (shift == 0) {
+    return std::make_unique<CholeskyFactor>(matrices_->stiffness.get(), shift, order());
+  }
+  return std::make_unique<CholeskyFactor>(shifted_stiffness(*matrices_, shift).get(), shift,
+                                          order());
+}
+
+std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) const {
+  try {
+    std::optional<SymmetricMatrix> shifted;
+    ranks().together([&] { shifted = shifted_stiffness(*matrices_, sigma); });
+    return MumpsFactor(fields_.layout(), MumpsFactor::Kind::indefinite, *shifted, part_.blocks(),
+                       order())
+        .negative_pivots();
+  } catch (const InputError&) {  // the memory that is free does not suffice
+    if (solver_ == Solver::direct) throw;
+    return {};
+  }
+}
+
+Eigen::MatrixXd AssembledSystem::mass_integrals(const Eigen::MatrixXd& fields) const {
+  const Eigen::MatrixXd own = part_.rows_of_nodes(fields);
+  Eigen::MatrixXd integrals = own.transpose() * (matrices_->nodal_mass * own);
+  ranks().sum(integrals);
+  return integrals;
+}
+
+Eigen::MatrixXd AssembledSystem::inertia_forces(
+    std::span<const Eigen::Matrix3Xd> accelerations) const {
+  Eigen::MatrixXd forces(part_.dof_map().dof_count(),
+                         static_cast<Eigen::Index>(accelerations.size()));
+  for (Eigen::Index k = 0; k < forces.cols(); ++k) {
+    const Eigen::MatrixXd own =
+        part_.rows_of_nodes(accelerations[static_cast<std::size_t>(k)].transpose());
+    forces.col(k) = part_.dof_map().gather((matrices_->nodal_mass * own).transpose());
+  }
+  return exchange_.sum_to_own(forces);
+}
+
+}  // namespace flexneck::fe_modal

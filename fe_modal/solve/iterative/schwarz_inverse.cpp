@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/iterative/schwarz_inverse.h"
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/conjugate_gradients.h"
+#include "fe_modal/solve/iterative/block_davidson.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// 1 for each element that has a marked block, 0 for others; marks all blocks of the former.
+std::vector<std::int32_t> touching(const CutBody& body, std::vector<bool>& is_marked) {
+  const std::vector<bool> before = is_marked;
+  const DofMap& dof_map = body.fields.dof_map();
+  std::vector<std::int32_t> touches;
+  for_each_element(body.mesh, [&](std::size_t /*element*/, std::span<const std::int32_t> nodes) {
+    bool does = false;
+    for (const std::int32_t node : nodes) {
+      dof_map.for_each_number(node, [&](std::int32_t block) {
+        does = does || before[static_cast<std::size_t>(block)];
+      });
+    }
+    touches.push_back(does ? 1 : 0);
+    for (const std::int32_t node : does ? nodes : nodes.first(0)) {
+      dof_map.for_each_number(
+          node, [&](std::int32_t block) { is_marked[static_cast<std::size_t>(block)] = true; });
+    }
+  });
+  return touches;
+}
+
+/// Elements so near to this rank's subdomains that the matrix is whole in the rows of their blocks
+/// and of the blocks next to these.
+std::vector<std::int32_t> elements_around(const CutBody& body) {
+  std::vector<bool> is_marked(static_cast<std::size_t>(body.fields.dof_map().free_count()), false);
+  for (std::size_t s = 0; s < body.subdomains.blocks.size(); ++s) {
+    if (body.rank_of_subdomain[s] != body.fields.ranks().own()) continue;
+    for (const std::int32_t block : body.subdomains.blocks[s]) {
+      is_marked[static_cast<std::size_t>(block)] = true;
+    }
+  }
+  touching(body, is_marked);
+  return touching(body, is_marked);
+}
+
+/// Collective.
+std::unique_ptr<const SchwarzPreconditioner> make_preconditioner(
+    const CutBody& body, const FormulationChoice& formulation, const Eigen::Matrix3Xd& prestress_m,
+    const RankPart& part, const SystemMatrices& matrices, double shift) {
+  const Ranks& ranks = body.fields.ranks();
+  std::optional<SymmetricMatrix> shifted;
+  ranks.together([&] {
+    if (shift != 0) shifted = shifted_stiffness(matrices, shift);
+  });
+  const PartMatrix own{shifted ? *shifted : matrices.stiffness, matrices.graph, part.blocks()};
+  if (!ranks.are_many()) return std::make_unique<const SchwarzPreconditioner>(body, own, own);
+  std::optional<RankPart> around;
+  std::optional<SystemMatrices> whole;
+  std::optional<SymmetricMatrix> shifted_whole;
+  ranks.together([&] {
+    around.emplace(body.mesh, body.fields.dof_map(), elements_around(body), 1);
+    whole.emplace(assemble(around->mesh(), around->dof_map(), formulation,
+                           around->columns_of_nodes(prestress_m)));
+    if (shift != 0) shifted_whole = shifted_stiffness(*whole, shift);
+  });
+  return std::make_unique<const SchwarzPreconditioner>(
+      body, own,
+      PartMatrix{shifted_whole ? *shifted_whole : whole->stiffness, whole->graph,
+                 around->blocks()});
+}
+
+}  // namespace
+
+SchwarzInverse::SchwarzInverse(const CutBody& body, const FormulationChoice& formulation,
+                               const Eigen::Matrix3Xd& prestress_m, const RankPart& part,
+                               const SystemMatrices& matrices, Mat stiffness, Mat mass,
+                               double shift)
+    : ShiftInverse(shift, body.fields.ranks()),
+      stiffness_(stiffness),
+      mass_(mass),
+      preconditioner_(make_preconditioner(body, formulation, prestress_m, part, matrices, shift)) {}
+
+Eigen::MatrixXd SchwarzInverse::multiply(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd forces = block_product(stiffness_, columns);
+  if (shift() != 0) forces -= shift() * block_product(mass_, columns);
+  return forces;
+}
+
+Eigen::MatrixXd SchwarzInverse::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  return conjugate_gradients(
+      ranks(), [&](const Eigen::MatrixXd& x) { return multiply(x); },
+      [&](const Eigen::MatrixXd& r) { return precondition(r); }, right_hand_sides);
+}
+
+Eigen::MatrixXd SchwarzInverse::precondition(const Eigen::MatrixXd& residuals) const {
+  ++gradient_iterations_;
+  return preconditioner_->apply(residuals);
+}
+
+std::optional<EigenPairs> SchwarzInverse::iterate(Mat mass, Eigen::Index count) const {
+  DavidsonResult result = block_davidson(
+      ranks(), [&](const Eigen::MatrixXd& x) { return multiply(x); }, mass,
+      [&](const Eigen::MatrixXd& r) { return preconditioner_->apply(r); }, count);
+  davidson_iterations_ += result.iterations;
+  result.pairs.values.array() += shift();
+  result.pairs.next += shift();
+  return std::move(result.pairs);
+}
+
+std::string SchwarzInverse::describe() const {
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "iterative%s: %zu subdomains, whose factors have %.4g million entries, and %td coarse "
+      "functions; %d block Davidson and %d conjugate gradient iterations",
+      ranks().are_many() ? (" on " + std::to_string(ranks().count()) + " ranks").c_str() : "",
+      preconditioner_->subdomain_count(), preconditioner_->nonzeros() / 1e6,
+      preconditioner_->coarse_size(), davidson_iterations_, gradient_iterations_);
+  return text.data();
+}
+
+}  // namespace flexneck::fe_modal

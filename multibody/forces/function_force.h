@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include "multibody/forces/force_element.h"
+
+namespace flexneck::multibody {
+
+/// Motion of marker j seen from the moving frame of marker i, in i's axes, SI.
+struct RelativeMotion {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< j's axes to i's
+  Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();
+};
+
+/// What acts on j's body at j's origin, in i's axes; the opposite acts on i's body at that point.
+struct FunctionLoad {
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
+};
+
+/// A load that is any smooth function of time and of the motion between two markers, such as a
+/// formula or a prototype's own code. Nothing is known of the function but its values: what it
+/// gives to the bodies counts as work from outside, it has no potential, and no step ends at a kink
+/// that it may have.
+struct FunctionForce {
+  static constexpr std::string_view kName = "function_force";
+  using Function = std::function<FunctionLoad(double time_s, const RelativeMotion& motion)>;
+
+  std::string name;
+  std::size_t marker_i = 0;
+  std::size_t marker_j = 0;
+  /// May be called by several threads at once where several run the same model.
+  Function load;
+  /// Whether it takes the rotation for a rotation vector, which jumps at half a turn.
+  bool takes_rotation_vector = false;
+
+  void check(const std::string& who, const ForceSites& sites) const {
+    check_pair(who, marker_i, marker_j, sites);
+    if (!load) refuse_force(who, "expected a function, found none");
+  }
+  std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
+    return {marker_i, marker_j};
+  }
+  bool resists_turning() const { return takes_rotation_vector; }
+  /// @throws ComputationError where the function gives no number.
+  void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
+};
+
+}  // namespace flexneck::multibody

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/execute.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/atomic_file.h"
+#include "geometry/foundation/error.h"
+#include "pipeline/commands/exports/export_formats.h"
+#include "pipeline/document/shipped_files.h"
+#include "pipeline/folder/folder_lock.h"
+#include "pipeline/folder/remembered_study.h"
+#include "pipeline/study/file_kind.h"
+
+namespace flexneck::pipeline {
+
+using fe_modal::Ranks;
+
+namespace {
+
+/// The study of a command that goes on in a folder without naming one is the folder's.
+StudyChoice choose_study(const CommandLine& line, const Console& console) {
+  StudyChoice choice;
+  if (!line.files.empty()) choice.study = named_file(line.files.front());
+  choice.settings = line.settings;
+  // The folder remembers which one; an empty name stands for that of most commands.
+  if (line.files.empty() && line.command->built_in != built_in_study)
+    choice.study = line.command->built_in();
+  if (line.command->begins || !line.files.empty()) return choice;
+  const std::optional<StudyChoice> kept = remembered_study(line.folder);
+  if (!kept) return choice;
+  const StudyChoice given = choice;
+  choice = with_settings(*kept, line.settings);
+  if (!same(choice, given))
+    console.step("Study of " + line.folder.string() + ": " + text_of(choice));
+  return choice;
+}
+
+Study read_named(const StudyChoice& choice) {
+  if (choice.study.empty()) return read_study(built_in_study(), choice.settings);
+  try {
+    Study study = read_study(choice.study, choice.settings);
+    if (!study.structure && !study.matrices) refuse_other_kind(choice.study, FileKind::study);
+    return study;
+  } catch (const InputError&) {
+    refuse_other_kind(choice.study, FileKind::study);
+    throw;
+  }
+}
+
+bool works_on_files(const CommandLine& line) {
+  if (line.command->run_on_files == nullptr) return false;
+  return line.command->run == nullptr || exports_file(line.files, line.target);
+}
+
+/// Does the command. @param take_lock is called once its arguments are known to be right
+bool do_command(const CommandLine& line, const Console& console, const Ranks* ranks,
+                const std::function<void()>& take_lock) {
+  const Command& command = *line.command;
+  const ResultsFolder folder(line.folder);
+  const bool is_first = ranks == nullptr || ranks->is_first();
+  if (works_on_files(line)) {
+    if (!is_first) return true;
+    take_lock();
+    return command.run_on_files({{line.files.begin(), line.files.end()},
+                                 line.settings,
+                                 folder,
+                                 console,
+                                 line.curves,
+                                 line.neck_loads,
+                                 line.target,
+                                 line.is_binary});
+  }
+  if (line.files.size() > 1) {
+    throw InputError(command.name + ": expected one study, found '" + line.files[1] + "' too");
+  }
+  const StudyChoice choice = choose_study(line, console);
+  Study study = read_named(choice);
+  study.solver.checkpoint = console.checkpoint();
+  for (const std::string& warning : study.warnings) console.warning(warning);
+  if (ranks != nullptr && (line.show || !command.uses_ranks)) {
+    if (!is_first) return true;
+    console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
+    ranks = nullptr;
+  }
+  if (ranks == nullptr) {
+    take_lock();
+  } else {
+    ranks->together([&] {
+      if (is_first) take_lock();
+    });
+  }
+  if (line.show) return show_command({study, folder, console});
+  const bool passed = command.run({.study = study,
+                                   .folder = folder,
+                                   .console = console,
+                                   .target = line.target,
+                                   .is_binary = line.is_binary,
+                                   .ranks = ranks,
+                                   .redo = line.redo,
+                                   .sensitivity = line.sensitivity,
+                                   .shares = line.shares});
+  if (is_first && command.writes_results && command.is_remembered)
+    remember_study(line.folder, choice);
+  return passed;
+}
+
+}  // namespace
+
+bool execute(const CommandLine& line, const Console& console, const Ranks* ranks) {
+  std::optional<FolderLock> lock;
+  const auto take_lock = [&] {
+    if (!line.locks()) return;
+    lock.emplace(line.folder, line.text,
+                 [&](const std::string& warning) { console.warning(warning); });
+  };
+  const bool passed = do_command(line, console, ranks, take_lock);
+  if (lock) sync_folder(line.folder);
+  return passed;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/stress.h"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/static_analysis.h"
+#include "fe_modal/exchange/static_xdmf.h"
+#include "geometry/foundation/error.h"
+#include "pipeline/commands/stress_text.h"
+#include "pipeline/evaluation/modes_options.h"
+#include "pipeline/isolation/result_files.h"
+
+namespace flexneck::pipeline {
+
+void write_stresses(const CommandInput& input, mesher::MeshFile mesh) {
+  const Study& study = input.study;
+  fe_modal::ModalOptions options = modes_options(study, mesh.mesh);
+  options.solver = study.modes.solver;
+  options.ranks = input.ranks;
+  options.node_order = mesh.node_order;
+  options.prestress.clear();
+  input.console.step(fmt::format("Static step with {} loads", study.loads.size()));
+  fe_modal::StaticSolutionFile file;
+  try {
+    file.solution =
+        fe_modal::analyse_static(mesh.mesh, options, study.loads, input.console.detail());
+  } catch (const InputError& error) {
+    throw InputError(study.file.string() + ": " + error.what());
+  }
+  file.provenance = modes_provenance(study);
+  file.provenance.inputs.push_back(
+      {input.folder.mesh().filename().string(), hash_of_file(input.folder.mesh().string())});
+  file.provenance.libraries = fe_modal::library_versions();
+  const std::filesystem::path path = input.folder.stress();
+  warn_of_replaced(input, path, fe_modal::kStaticSolutionFormat, file.provenance);
+  fe_modal::write_static_solution(path, file);
+  fe_modal::write_static_xdmf(path, input.folder.mesh(), mesh.mesh, file.solution);
+  input.console.result(fmt::format("\nStatic step: {}  ({})\n{}", file.solution.boundary,
+                                   path.string(), stress_text(file.solution)));
+}
+
+bool stress_command(const CommandInput& input) {
+  const Study& study = input.study;
+  if (study.loads.empty())
+    throw InputError(study.file.string() + ": there is no [[load]] for a static step");
+  mesher::MeshFile mesh = read_mesh(input.folder.mesh());
+  require_same_inputs(input.folder.mesh(), mesh.provenance, study, mesh_values(study),
+                      "flexneck mesh");
+  for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, formulation_of(study)))
+    input.console.warning(line);
+  std::optional<fe_modal::PetscSession> session;
+  if (input.ranks == nullptr) session.emplace();
+  write_stresses(input, std::move(mesh));
+  return true;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "mesher/mesh/mesh_file.h"
+#include "pipeline/commands/commands.h"
+
+namespace flexneck::pipeline {
+
+/// The linear static step under the study's [[load]]: stress.h5, stress.xdmf and its figures on the
+/// console.
+/// @pre a fe_modal::PetscSession, or input.ranks
+/// @throws as fe_modal::analyse_static() does.
+void write_stresses(const CommandInput& input, mesher::MeshFile mesh);
+
+}  // namespace flexneck::pipeline

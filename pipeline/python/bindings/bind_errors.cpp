@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exception>
+#include <new>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/python/bindings/bindings.h"
+
+namespace flexneck::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// The package's own classes (flexneck/errors.py).
+void raise(const char* name, const char* text) {
+  const py::object type = py::module_::import("flexneck.errors").attr(name);
+  PyErr_SetString(type.ptr(), text);
+}
+
+}  // namespace
+
+void bind_errors(py::module_& /*module*/) {
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 wants it so
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+      raise("InputError", error.what());
+    } catch (const ComputationError& error) {
+      raise("ComputationError", error.what());
+    }
+  });
+}
+
+}  // namespace flexneck::python

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <string>
+
+#include "geometry/foundation/units.h"
+#include "pipeline/python/bindings/bindings.h"
+#include "pipeline/rating/cora.h"
+#include "pipeline/rating/iso18571.h"
+#include "pipeline/rating/nij.h"
+
+namespace flexneck::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::dict iso18571(const Eigen::VectorXd& reference, const Eigen::VectorXd& computed) {
+  const pipeline::Iso18571Rating rating = pipeline::rate_iso18571(reference, computed);
+  py::dict found;
+  found["overall"] = rating.overall;
+  found["corridor"] = rating.corridor;
+  found["phase"] = rating.phase;
+  found["magnitude"] = rating.magnitude;
+  found["slope"] = rating.slope;
+  found["shift"] = rating.shift;
+  return found;
+}
+
+py::dict cora(const Eigen::VectorXd& reference, const Eigen::VectorXd& computed) {
+  const pipeline::CoraRating rating = pipeline::rate_cora(reference, computed);
+  py::dict found;
+  found["overall"] = rating.overall;
+  found["corridor"] = rating.corridor;
+  found["progression"] = rating.progression;
+  found["size"] = rating.size;
+  found["phase"] = rating.phase;
+  found["shift"] = rating.shift;
+  return found;
+}
+
+py::dict nij(const Eigen::VectorXd& force_z_N, const Eigen::VectorXd& moment_y_Nm,
+             double interval_s, bool is_filtered, const std::string& dummy) {
+  py::dict found;
+  for (const pipeline::NijPeak& peak : pipeline::nij(
+           {force_z_N, moment_y_Nm, interval_s, is_filtered}, pipeline::neck_intercepts(dummy)))
+    found[py::str(std::string(peak.name))] =
+        py::make_tuple(peak.value, static_cast<double>(peak.sample) * interval_s);
+  return found;
+}
+
+}  // namespace
+
+void bind_rating(py::module_& module) {
+  module.def("iso18571", iso18571, py::arg("reference"), py::arg("computed"));
+  module.def("cora", cora, py::arg("reference"), py::arg("computed"));
+  module.def("nij", nij, py::arg("force_z"), py::arg("moment_y"), py::arg("interval"),
+             py::arg("is_filtered"), py::arg("dummy"));
+  module.def(
+      "parse_quantity",
+      [](const std::string& text, const std::string& unit) { return parse_quantity(text, unit); },
+      py::arg("text"), py::arg("unit"));
+  module.def(
+      "factor_from_si",
+      [](const std::string& si, const std::string& unit) { return factor_from_si(si, unit); },
+      py::arg("si_unit"), py::arg("unit"));
+}
+
+}  // namespace flexneck::python

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "pipeline/report/results.h"
+
+namespace flexneck::pipeline {
+
+/// "All 6 figures that are judged agree. …"
+std::string verification_summary(const VerificationTable& table);
+
+/// What the page's first screen says beside the moving neck: what was run, and each verdict.
+std::string summary_html(const Results& results, const Study& study);
+
+}  // namespace flexneck::pipeline
