@@ -66,7 +66,7 @@ const std::vector<Command>& commands() {
        .files =
            {"STUDY.toml or FILE",
             "Default: the study of the folder; a run for .mme, .pvd and .csv, a modal body for "
-            ".fem, .SID_FEM and .hdf5, one of these but the last for .h5"},
+            ".fem, .SID_FEM and .hdf5, one of these but the last for .h5, a model for .fmu"},
        .options = {folder, settings, target},
        .run = export_command,
        .run_on_files = export_file_command,
