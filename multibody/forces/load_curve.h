@@ -34,6 +34,12 @@ class LoadCurve {
   /// Whether it and `other`, one for each direction, make one smooth curve through zero.
   bool continues(const LoadCurve& other) const;
 
+  /// Its fields (geometry/foundation/byte_archive.h).
+  template <class Archive>
+  void archive(Archive& all) {
+    all(c1_, c2_, c3_, L_, x_, load_, energy_);
+  }
+
  private:
   bool locks() const { return L_ > 0; }
 

@@ -50,7 +50,7 @@ bool export_file_command(const FileInput& input) {
                      "; other files are of a study's mesh");
   if (input.files.size() != 1)
     throw InputError("export: expected one file, found '" + input.files[1].string() + "' too");
-  if (!input.settings.empty())
+  if (!input.settings.empty() && !format.takes_settings)
     throw InputError("--set: has no meaning for a file, which is exported as it is");
   input.console.step("Writing " + input.target.string());
   format.write_file(input);
