@@ -34,7 +34,26 @@ struct Pull {
   int piece = 0;
 };
 
+/// The arc from one marker to the other.
+struct Path {
+  Path(const MarkerKinematics& i, const MarkerKinematics& j, const Vector3d& axis)
+      : line(j.p - i.p),
+        chord_m(line.norm()),
+        theta(rotation_log(i.R.transpose() * j.R)),
+        arc(part_across(theta, axis)) {}
+
+  Vector3d line;
+  double chord_m;
+  Vector3d theta;
+  ArcShortening arc;
+  double length_m() const { return chord_m / arc.ratio; }
+};
+
 }  // namespace
+
+double Cable::path_m(const MarkerKinematics& i, const MarkerKinematics& j) const {
+  return Path(i, j, axis).length_m();
+}
 
 void Cable::check(const std::string& who, const ForceSites& sites) const {
   check_pair(who, marker_i, marker_j, sites);
@@ -47,19 +66,16 @@ void Cable::check(const std::string& who, const ForceSites& sites) const {
 
 void Cable::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const {
   load.piece = {};
-  const Eigen::Matrix3d& R_i = input.i.R;
-  const Vector3d line = input.j.p - input.i.p;
-  const double chord_m = line.norm();
-  if (!(chord_m > kNoDirection)) return;
-  const Vector3d theta = rotation_log(R_i.transpose() * input.j.R);
-  const ArcShortening arc(part_across(theta, axis));
-  const Pull pull(*this, chord_m / arc.ratio - length_m);
+  const Path path(input.i, input.j, axis);
+  if (!(path.chord_m > kNoDirection)) return;
+  const Pull pull(*this, path.length_m() - length_m);
   sums.stored_J += pull.energy_J;
   load.piece = {pull.piece, 0};
-  load.force_N = -pull.extra_N / (arc.ratio * chord_m) * line;
+  const double ratio = path.arc.ratio;
+  load.force_N = -pull.extra_N / (ratio * path.chord_m) * path.line;
   // The path's gradient over theta is -chord / ratio^2 times that of the ratio.
-  const Vector3d by_theta = pull.extra_N * chord_m / (arc.ratio * arc.ratio) * arc.gradient;
-  load.moment_Nm = R_i * HalfTurn(theta).to_moment(by_theta);
+  const Vector3d by_theta = pull.extra_N * path.chord_m / (ratio * ratio) * path.arc.gradient;
+  load.moment_Nm = input.i.R * HalfTurn(path.theta).to_moment(by_theta);
 }
 
 }  // namespace flexneck::multibody

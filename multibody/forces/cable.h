@@ -28,6 +28,8 @@ struct Cable {
   double stiffness_N_m = 0;
   double play_m = 0;
 
+  /// Length of the path between markers at these places.
+  double path_m(const MarkerKinematics& i, const MarkerKinematics& j) const;
   void check(const std::string& who, const ForceSites& sites) const;
   std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
     return {marker_i, marker_j};

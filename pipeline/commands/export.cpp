@@ -62,8 +62,7 @@ bool export_command(const CommandInput& input) {
   const ExportFormat& format = format_of(target, input.is_binary);
   if (format.write == nullptr)
     throw InputError(target.string() +
-                     ": name the file that holds it, such as 'flexneck export "
-                     "out/pendulum-flexion-80.h5 --to " +
+                     ": name the file that holds it, as in 'flexneck export FILE --to " +
                      target.string() + "'");
   mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),

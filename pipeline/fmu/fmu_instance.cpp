@@ -2,6 +2,7 @@
 #include "pipeline/fmu/fmu_instance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -25,8 +26,10 @@ using multibody::SteppedRun;
 
 template <class A>
 void archive(A& all, FmuInstance::State& x) {
-  auto& [values, inputs, run, last] = x;
-  all(values, inputs, run, last);
+  auto& [mode, tolerance, values, inputs, run, last] = x;
+  all(mode, tolerance, values, inputs, run, last);
+  if (mode < FmuInstance::Mode::instantiated || mode > FmuInstance::Mode::terminated)
+    ByteReader::refuse();
 }
 
 FmuInstance::FmuInstance(FmuModel model)
@@ -58,20 +61,42 @@ SteppedRun& FmuInstance::run() {
   return *run_;
 }
 
-void FmuInstance::start_at(double time_s) {
+void FmuInstance::require(Mode needed) const {
+  constexpr std::array<const char*, 4> kNames = {"before initialization", "in initialization mode",
+                                                 "in step mode", "terminated"};
+  if (mode_ != needed)
+    throw InputError(std::string("expected an instance ") +
+                     kNames[static_cast<std::size_t>(needed)] + ", found one " +
+                     kNames[static_cast<std::size_t>(mode_)]);
+}
+
+void FmuInstance::begin_initialization(std::optional<double> relative_tolerance, double time_s) {
+  require(Mode::instantiated);
   if (time_s != model_.model.start.time_s)
     throw InputError("the model starts at " + std::to_string(model_.model.start.time_s) +
                      " s, not at " + std::to_string(time_s) + " s");
+  if (relative_tolerance) {
+    model_.solver.relative_tolerance = *relative_tolerance;
+    run_.reset();
+  }
+  mode_ = Mode::initialization;
 }
 
-void FmuInstance::begin() {
+void FmuInstance::end_initialization() {
+  require(Mode::initialization);
   run();
-  has_begun_ = true;
+  mode_ = Mode::step;
+}
+
+void FmuInstance::terminate() {
+  require(Mode::step);
+  mode_ = Mode::terminated;
 }
 
 double FmuInstance::time_s() { return run_ ? run_->time_s() : model_.model.start.time_s; }
 
 void FmuInstance::advance(double time_s, double length_s) {
+  require(Mode::step);
   SteppedRun& run = this->run();
   // Importers add up their steps.
   constexpr double kRounding = 1e-9;
@@ -89,17 +114,19 @@ void FmuInstance::advance(double time_s, double length_s) {
 void FmuInstance::set(std::span<const Reference> references, std::span<const double> values) {
   if (references.size() != values.size())
     throw InputError("as many values are needed as value references");
+  const bool has_begun = mode_ == Mode::step;
+  if (mode_ == Mode::terminated) require(Mode::step);
   for (std::size_t k = 0; k < values.size(); ++k) {
     const FmuVariable& each = variable(references[k]);
     if (!std::isfinite(values[k])) throw InputError(each.name + ": the value is not finite");
     if (each.causality == Causality::parameter) {
-      if (has_begun_) throw InputError(each.name + ": a parameter stays after initialization");
+      if (has_begun) throw InputError(each.name + ": a parameter stays after initialization");
       *parameters_[references[k] - 1] = values[k];
       run_.reset();
     } else if (each.causality == Causality::input) {
       const std::size_t input = references[k] - first_input_;
       inputs_[input] = values[k];
-      if (has_begun_)
+      if (has_begun)
         run().set_input(input, values[k]);
       else
         run_.reset();  // whose start is under its inputs
@@ -148,7 +175,12 @@ void FmuInstance::get(std::span<const Reference> references, std::span<double> v
 }
 
 FmuInstance::State FmuInstance::save() const {
-  State state{.values = {}, .inputs = inputs_, .run = {}, .last = last_};
+  State state{.mode = mode_,
+              .relative_tolerance = model_.solver.relative_tolerance,
+              .values = {},
+              .inputs = inputs_,
+              .run = {},
+              .last = last_};
   for (const double* const value : parameters_) state.values.push_back(*value);
   if (run_) state.run = run_->state();
   return state;
@@ -158,7 +190,9 @@ void FmuInstance::restore(const State& state) {
   if (state.values.size() != parameters_.size() || state.inputs.size() != inputs_.size() ||
       state.last.size() != last_.size())
     throw InputError("the state is one of another model");
-  bool same = true;
+  bool same = model_.solver.relative_tolerance == state.relative_tolerance;
+  model_.solver.relative_tolerance = state.relative_tolerance;
+  mode_ = state.mode;
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
     same = same && *parameters_[k] == state.values[k];
     *parameters_[k] = state.values[k];

@@ -19,8 +19,12 @@ class FmuInstance {
  public:
   using Reference = std::uint32_t;
 
+  enum class Mode { instantiated, initialization, step, terminated };
+
   /// What an importer saves and restores.
   struct State {
+    Mode mode = Mode::instantiated;
+    double relative_tolerance = 0;
     std::vector<double> values, inputs;  ///< of parameters, of inputs
     std::optional<multibody::SteppedRun::State> run;
     std::vector<Eigen::VectorXd> last;  ///< of the channels, which angles count on from
@@ -28,11 +32,11 @@ class FmuInstance {
 
   explicit FmuInstance(FmuModel model);
 
-  void set_tolerance(double relative) { model_.solver.relative_tolerance = relative; }
-  /// @throws InputError unless the run starts there.
-  void start_at(double time_s);
+  /// @throws InputError unless the run starts at that time.
+  void begin_initialization(std::optional<double> relative_tolerance, double time_s);
   /// From then on parameters stay.
-  void begin();
+  void end_initialization();
+  void terminate();
   void advance(double time_s, double length_s);
   double time_s();
 
@@ -46,6 +50,7 @@ class FmuInstance {
   static State state_of(std::string_view bytes);
 
  private:
+  void require(Mode needed) const;
   const FmuVariable& variable(Reference reference) const;
   multibody::SteppedRun& run();
   /// The values of all outputs at the present time.
@@ -55,7 +60,7 @@ class FmuInstance {
   std::vector<FmuVariable> variables_;
   std::vector<double*> parameters_;  ///< members of model_
   Reference first_input_ = 0, first_output_ = 0;
-  bool has_begun_ = false;
+  Mode mode_ = Mode::instantiated;
   std::optional<multibody::SteppedRun> run_;
   std::vector<double> inputs_;
   std::vector<Eigen::VectorXd> last_;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "geometry/foundation/content_hash.h"
 #include "multibody/files/model_archive.h"
 #include "multibody/history/recorder.h"
 #include "multibody/simulation/stepped_run.h"
@@ -73,6 +74,8 @@ std::string bytes_of(FmuModel& fmu) {
   archive(writer, fmu);
   return std::string(kHead) + writer.bytes();
 }
+
+std::string token_of(const std::string& bytes) { return "{" + hash_of_text(bytes) + "}"; }
 
 FmuModel fmu_model_of(std::string_view bytes) {
   if (!bytes.starts_with(kHead)) ByteReader::refuse();

@@ -23,6 +23,8 @@ struct FmuModel {
 
 /// @throws InputError naming a force element whose load is a function of the program.
 std::string bytes_of(FmuModel& fmu);
+/// The instantiation token of a model's bytes, their hash in braces.
+std::string token_of(const std::string& bytes);
 /// @throws InputError for bytes that are damaged or of another version.
 FmuModel fmu_model_of(std::string_view bytes);
 

@@ -133,9 +133,11 @@ void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
     if (cable.length_m != multibody::Cable::kAsPlaced) continue;
     const auto place = [&](std::size_t marker) {
       const Marker& of = model.markers[marker];
-      return (pose_of(model.bodies[of.body]) * marker_pose(model, of)).position_m;
+      const multibody::Pose pose = pose_of(model.bodies[of.body]) * marker_pose(model, of);
+      return multibody::MarkerKinematics{.p = pose.position_m,
+                                         .R = pose.rotation.toRotationMatrix()};
     };
-    cable.length_m = (place(cable.marker_j) - place(cable.marker_i)).norm();
+    cable.length_m = cable.path_m(place(cable.marker_i), place(cable.marker_j));
   }
 }
 

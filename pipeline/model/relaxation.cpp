@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string>
 
+#include <fmt/core.h>
+
 namespace flexneck::pipeline {
 
 double Relaxation::sum_of_shares() const {
@@ -83,6 +85,9 @@ Relaxation read_relaxation(const StudyTable& table) {
   if (!table.has("shift")) return relaxation;
   const double factor = shift_factor(table.table("shift"));
   for (double& time_s : relaxation.times_s) time_s *= factor;
+  if (!relaxation.fit.empty())
+    relaxation.fit +=
+        fmt::format(", at the reference temperature; times shifted by {:.3g}", factor);
   return relaxation;
 }
 

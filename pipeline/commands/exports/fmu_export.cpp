@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
@@ -107,18 +106,17 @@ void export_fmu(const FileInput& input) {
     throw InputError(path.string() + ": " + error.what());
   }
   const std::string name = path.stem().string();
-  const std::string token = "{" + hash_of_text(bytes) + "}";
   const std::string identifier = c_identifier(name);
   const std::string description = model_description(
-      {name, identifier, token, fmt::format("flexneck {} ({})", kVersion, kGitHash)}, fmu);
-  const std::string model = token + "\n" + bytes;
+      {name, identifier, token_of(bytes), fmt::format("flexneck {} ({})", kVersion, kGitHash)},
+      fmu);
   const std::string object = text_of_file(library_file("flexneck_fmu.so"));
   const TemporaryFolder folder;
   const fs::path made = folder / "model.fmu";
   ZipFile zip(made);
   zip.add("modelDescription.xml", description);
   zip.add(fmt::format("binaries/{}/{}.so", kPlatform, identifier), object);
-  zip.add("resources/model.bin", model);
+  zip.add("resources/model.bin", bytes);
   zip.commit();
   write_text(input.target, text_of_file(made));
 }

@@ -2,6 +2,7 @@
 // FMUs as an importer drives them: beside simulate, saved and restored, two at once, unloaded.
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include "tests/pipeline/fmu/fmu_importer.h"
 #include "tests/support/flexneck_command.h"
@@ -167,10 +168,10 @@ TEST_CASE(
   CHECK(largest_Nm < 1e-5 * channel(2).cwiseAbs().maxCoeff());
   CHECK(std::abs(other.get("nod") - found.back()[3]) > 1e-3);
 
-  // From the middle again, in this instance and, by bytes, in another one.
+  // From the middle again, in this instance and, by bytes, in a new one, whose mode and tolerance
+  // are part of the state.
   const std::vector<fmi3Byte> bytes = run.bytes_of(middle);
   FmuRun third(fmu);
-  third.initialize(1e-10);
   fmi3FMUState copy = third.state_of(bytes);
   third.restore(copy);
   third.free(copy);
@@ -213,7 +214,8 @@ TEST_CASE("what an importer may not do is refused with a message; an FMU unloads
   {
     FmuRun run(fmu);
     CHECK(run.step(0, 1e-3) == fmi3Error);
-    CHECK_THAT(run.logged, Contains("fmi3DoStep: the instance is in another mode"));
+    CHECK_THAT(run.logged,
+               Contains("expected an instance in step mode, found one before initialization"));
     CHECK_THROWS_WITH(run.set("nod", 1), Contains("neither a parameter nor an input"));
     run.set("body.head.mass", -1);
     CHECK_THROWS_WITH(run.initialize(), Contains("body 'head'"));
@@ -227,6 +229,15 @@ TEST_CASE("what an importer may not do is refused with a message; an FMU unloads
     CHECK(run.call("fmi3Terminate") == fmi3OK);
   }
   CHECK(fmu.close());
+  // One bit of the model in the FMU's folder.
+  const std::filesystem::path model = folder / "fmu/resources/model.bin";
+  std::fstream file(model, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekg(1000);
+  const int byte = file.get();
+  file.seekp(1000);
+  file.put(static_cast<char>(byte ^ 1));
+  file.close();
+  CHECK_THROWS_WITH(FmuRun(LoadedFmu(folder / "fmu")), Contains("model.bin: expected the bytes"));
 }
 
 }  // namespace flexneck::pipeline
