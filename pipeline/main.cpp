@@ -62,7 +62,7 @@ int exit_code_of(const CommandLine& line) {
       console.result(line.answer);
       return 0;
     }
-    return execute(line, console, nullptr) ? 0 : kVerificationFailed;
+    return execute(line, console) ? 0 : kVerificationFailed;
   } catch (...) {
     const Failure found = failure();
     console.error(found.text);
@@ -79,7 +79,7 @@ RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks
       console.result(line.answer);
       return {};
     }
-    return {execute(line, console, &ranks) ? 0 : kVerificationFailed};
+    return {execute(line, console, ranks) ? 0 : kVerificationFailed};
   } catch (...) {
     const Failure found = failure();
     return {found.exit_code, found.text};

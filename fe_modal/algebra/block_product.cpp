@@ -86,7 +86,7 @@ void add_product(const NodalMass& mass, const std::vector<ThreeRows<lanes>>& x,
 template <std::size_t lanes, typename Matrix>
 void multiply_by_lanes(const Matrix& matrix, const Eigen::Ref<const Eigen::MatrixXd>& columns,
                        Eigen::Ref<Eigen::MatrixXd> result) {
-  if (columns.cols() == 0) return;
+  if (columns.size() == 0) return;
   constexpr auto kLanes = static_cast<Eigen::Index>(lanes);
   std::vector<ThreeRows<lanes>> in(static_cast<std::size_t>(columns.rows() / 3));
   std::vector<ThreeRows<lanes>> out(in.size());

@@ -25,6 +25,12 @@ class GhostExchange {
   Eigen::MatrixXd to_local(const Eigen::MatrixXd& own) const;
   /// What all ranks have for the rows that this one owns, added up: (rows, k) -> (own dofs, k).
   Eigen::MatrixXd sum_to_own(const Eigen::MatrixXd& local) const;
+  /// A product whose matrix each rank has its summand of; alone nothing is copied.
+  template <typename Product>
+  Eigen::MatrixXd summed(const Eigen::MatrixXd& own, const Product& product) const {
+    if (is_trivial_) return product(own);
+    return sum_to_own(product(to_local(own)));
+  }
 
  private:
   Eigen::Index own_rows_;

@@ -37,10 +37,9 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
         body.mass_kg, body.center_m - solved.averages[region].point_m(), body.inertia_kg_m2);
     const AttachedMass mass(solved.system.ranks(), solved.system.mass(),
                             solved.loads[region].forces, rigid_mass);
-    const EigenPairs pairs =
-        modes.cols() < count
-            ? lowest_eigenpairs(solved.system.stiffness(), mass.matrix(), solved.inverse, count)
-            : lowest_eigenpairs(mass, solved.inverse, modes, count);
+    const EigenPairs pairs = modes.cols() < count
+                                 ? lowest_eigenpairs(mass.matrix(), solved.inverse, count)
+                                 : lowest_eigenpairs(mass, solved.inverse, modes, count);
     result.push_back({body.name, body.interface, frequencies_Hz(pairs.values), rigid_mass});
     if (shapes == nullptr) continue;
     shapes->push_back(

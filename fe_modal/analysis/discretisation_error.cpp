@@ -113,7 +113,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   std::optional<EigenPairs> own = inverse->iterate(system.mass(), count);
   const EigenPairs pairs =
       own ? *std::move(own)
-          : block_lanczos(system.mass(), *inverse, EigenPairs(), std::move(start), count, settled);
+          : block_lanczos(system.mass(), *inverse, std::move(start), count, settled);
 
   const Eigen::MatrixXd similarity = similarities(solved, system.fields(), pairs.vectors);
   const Eigen::VectorXd fine_Hz = pairs.values.unaryExpr(&hertz);

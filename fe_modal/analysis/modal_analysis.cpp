@@ -112,7 +112,7 @@ Basis reduced_basis(const mesher::Mesh& mesh, const AssembledSystem& system,
   }
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
-      EigenPairs pairs = lowest_eigenpairs(system.stiffness(), mass, inverse, count);
+      EigenPairs pairs = lowest_eigenpairs(mass, inverse, count);
       warn_of_cut(pairs, inverse.shift(), warn);
       return pairs;
     };

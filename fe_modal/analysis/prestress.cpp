@@ -93,7 +93,7 @@ double largest_eigenvalue(Mat compression, Mat stiffness, Inverse& inverse) {
 
 /// Each rank solves the static problem by itself: all need its displacements.
 ModalOptions alone(ModalOptions options) {
-  options.ranks = nullptr;
+  options.ranks = {};
   options.element_ranks.clear();
   return options;
 }

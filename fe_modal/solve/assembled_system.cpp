@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/solve/assembled_system.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "fe_modal/algebra/cholesky_factor.h"
@@ -16,14 +18,20 @@
 namespace flexneck::fe_modal {
 namespace {
 
-Ranks ranks_of(const ModalOptions& options) {
-  return options.ranks == nullptr ? Ranks() : *options.ranks;
-}
-
 RankPart part_of(const Ranks& ranks, const mesher::Mesh& mesh, const DofMap& dof_map,
                  const std::vector<std::int32_t>& rank_of_element) {
   if (!ranks.are_many()) return {mesh, dof_map};
   return {mesh, dof_map, rank_of_element, ranks.own()};
+}
+
+void require_work_for_all(const std::vector<std::int32_t>& rank_of_element, int count) {
+  std::vector<bool> has_work(static_cast<std::size_t>(count), false);
+  for (const std::int32_t rank : rank_of_element) has_work[static_cast<std::size_t>(rank)] = true;
+  const auto idle = std::find(has_work.begin(), has_work.end(), false);
+  if (idle == has_work.end()) return;
+  throw InputError("rank " + std::to_string(idle - has_work.begin()) + " of " +
+                   std::to_string(count) + " gets none of the mesh's " +
+                   std::to_string(rank_of_element.size()) + " elements: start fewer ranks");
 }
 
 /// The order of all nodes as one of the free ones; of tied nodes the first one counts.
@@ -48,7 +56,7 @@ std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_or
 
 AssembledSystem::Sharing AssembledSystem::share_out(const mesher::Mesh& mesh, const DofMap& dof_map,
                                                     const ModalOptions& options) {
-  const int count = ranks_of(options).count();
+  const int count = options.ranks.count();
   Sharing sharing;
   if (options.solver == Solver::iterative) {
     sharing.subdomains = find_subdomains(mesh, dof_map, count);
@@ -58,6 +66,7 @@ AssembledSystem::Sharing AssembledSystem::share_out(const mesher::Mesh& mesh, co
                                   ? mesher::partition_elements(mesh, count).processes
                                   : options.element_ranks;
   }
+  if (count > 1) require_work_for_all(sharing.rank_of_element, count);
   return sharing;
 }
 
@@ -72,7 +81,7 @@ AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map
       prestress_m_(options.prestress_m),
       solver_(options.solver),
       sharing_(std::move(sharing)),
-      fields_(dof_map, layout_of(ranks_of(options), mesh, dof_map, sharing_.rank_of_element)),
+      fields_(dof_map, layout_of(options.ranks, mesh, dof_map, sharing_.rank_of_element)),
       part_(part_of(ranks(), mesh, dof_map, sharing_.rank_of_element)),
       exchange_(fields_.layout(), rows_of(part_.blocks())),
       order_(order_of_free(options.node_order, dof_map)),
@@ -81,20 +90,19 @@ AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map
     matrices_ = std::make_unique<SystemMatrices>(assemble(
         part_.mesh(), part_.dof_map(), formulation_, part_.columns_of_nodes(prestress_m_)));
   });
-  stiffness_.emplace(
-      fields_.own_dof_count(),
-      [this](const Eigen::MatrixXd& columns) {
-        return exchange_.sum_to_own(
-            block_product(matrices_->stiffness, exchange_.to_local(columns)));
-      },
-      ranks());
-  mass_.emplace(
-      fields_.own_dof_count(),
-      [this](const Eigen::MatrixXd& columns) {
-        return exchange_.sum_to_own(
-            block_product(matrices_->mass_operator(), exchange_.to_local(columns)));
-      },
-      ranks());
+  const auto operator_of = [this](BlockOperator product) -> BlockOperator {
+    return [this, product = std::move(product)](const Eigen::MatrixXd& columns) {
+      return exchange_.summed(columns, product);
+    };
+  };
+  stiffness_.emplace(fields_.own_dof_count(), operator_of([this](const Eigen::MatrixXd& columns) {
+                       return block_product(matrices_->stiffness, columns);
+                     }),
+                     ranks());
+  mass_.emplace(fields_.own_dof_count(), operator_of([this](const Eigen::MatrixXd& columns) {
+                  return block_product(matrices_->mass_operator(), columns);
+                }),
+                ranks());
 }
 
 const std::vector<std::int32_t>& AssembledSystem::order() const {

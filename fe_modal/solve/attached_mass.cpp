@@ -48,15 +48,14 @@ EigenPairs lowest_eigenpairs(const AttachedMass& mass, const ShiftInverse& inver
   Eigen::MatrixXd start(modes.rows(), modes.cols() + mass.loads().cols());
   start << modes, inverse.solve(mass.loads());
   start *= column_products(inverse.ranks(), start, start).cwiseSqrt().cwiseInverse().asDiagonal();
-  return block_lanczos(mass.matrix(), inverse, EigenPairs(), std::move(start), count,
-                       settled_to(kResidual));
+  return block_lanczos(mass.matrix(), inverse, std::move(start), count, settled_to(kResidual));
 }
 
 Eigen::MatrixXd converged_vectors(const AttachedMass& mass, const ShiftInverse& inverse,
                                   const EigenPairs& pairs) {
   // The error of a vector is this over the relative gap.
   constexpr double kResidual = 1e-11;
-  return block_lanczos(mass.matrix(), inverse, EigenPairs(), pairs.vectors, pairs.values.size(),
+  return block_lanczos(mass.matrix(), inverse, pairs.vectors, pairs.values.size(),
                        settled_to(kResidual))
       .vectors;
 }

@@ -16,7 +16,8 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr Eigen::Index kBlocksOfBasis = 10;  ///< when the basis is that wide, it is cut back
+/// The basis is cut back when it is wider than the wanted pairs by so many blocks.
+constexpr Eigen::Index kBlocksOfBasis = 10;
 constexpr int kMaxBlocks = 500;
 /// Columns of which orthogonalisation leaves less than this share have nothing new.
 constexpr double kNothingNew = 1e-12;
@@ -75,11 +76,6 @@ class Basis {
     projected_.block(0, count_ - shares.cols(), count_, shares.cols()) = shares;
     projected_.block(count_ - shares.cols(), 0, shares.cols(), count_) = shares.transpose();
   }
-  void take(double shift, const EigenPairs& known) {
-    append(known.vectors);
-    projected_.topLeftCorner(count_, count_) =
-        (known.values.array() - shift).inverse().matrix().asDiagonal();
-  }
   /// Restarts with the Ritz vectors V combination, whose Ritz values are given.
   void cut_back(const Eigen::MatrixXd& combination, const Eigen::VectorXd& values) {
     constexpr Eigen::Index kRows = 4096;
@@ -121,12 +117,11 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(const Ranks& ranks, Ma
 
 }  // namespace
 
-EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs& known,
-                         Eigen::MatrixXd start, Eigen::Index count, const Settled& settled) {
+EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, Eigen::MatrixXd start,
+                         Eigen::Index count, const Settled& settled) {
   const Ranks& ranks = inverse.ranks();
   const Eigen::Index width = start.cols();
-  Basis basis(start.rows(), std::min(known.values.size() + kBlocksOfBasis * width, size_of(mass)));
-  if (known.values.size() > 0) basis.take(inverse.shift(), known);
+  Basis basis(start.rows(), std::min(count + kBlocksOfBasis * width, size_of(mass)));
   Columns block{std::move(start), Eigen::MatrixXd()};
   block.momenta = block_product(mass, block.vectors);
   orthogonalise(ranks, mass, basis, block);

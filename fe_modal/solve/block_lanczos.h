@@ -26,13 +26,11 @@ using Settled = std::function<bool(const RitzState&)>;
 /// factor is read once for all of its columns, where one vector at a time waits for the memory.
 /// Copies of a multiple eigenvalue come together if the start has as many columns.
 /// @param mass may differ from that in the inverse if the shift is zero
-/// @param known eigenpairs to go on from, perhaps none
-/// @param start (own dofs, block); what depends on other columns and on known vectors is dropped
-/// @param count wanted, the known ones among them
+/// @param start (own dofs, block); what depends on other columns is dropped
 /// @return `count` pairs, or fewer if all that was given spans no more
 /// @throws ComputationError if they do not settle.
-EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, const EigenPairs& known,
-                         Eigen::MatrixXd start, Eigen::Index count, const Settled& settled);
+EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, Eigen::MatrixXd start,
+                         Eigen::Index count, const Settled& settled);
 
 /// One inverse iteration of all pairs, with the Ritz method: it divides the rounding in the shapes
 /// by the squares of their frequencies, which a small residual needs.

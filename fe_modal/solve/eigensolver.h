@@ -9,18 +9,15 @@
 
 namespace flexneck::fe_modal {
 
-/// Krylov-Schur on the shift-inverted problem (K - shift M)^-1 M; then block Lanczos goes on from
-/// what was found with more columns, for the copies of multiple eigenvalues; then one inverse
-/// iteration of all pairs.
+/// By block Lanczos on the shift-inverted problem (K - shift M)^-1 M, with as many columns as a
+/// multiple eigenvalue may have copies, then one inverse iteration of all pairs; or by the
+/// inverse's own method where it has one.
 /// @param inverse of K - shift M, with a shift below all eigenvalues
 /// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
 /// inverse if the shift is zero
 /// @param count at most the number of degrees of freedom
-/// @param start of the first search, (own dofs); empty: random. What it does not hold is left to
-/// the block.
 /// @throws ComputationError if the iteration does not converge.
-EigenPairs lowest_eigenpairs(Mat stiffness, Mat mass, const ShiftInverse& inverse,
-                             Eigen::Index count, const Eigen::VectorXd& start = {});
+EigenPairs lowest_eigenpairs(Mat mass, const ShiftInverse& inverse, Eigen::Index count);
 
 /// ||K x - lambda M x|| / ||K x|| of each pair; of a rigid-body motion, lambda = 0, where that is
 /// not defined, ||K x|| / ||shift M x||.

@@ -30,8 +30,8 @@ using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 /// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
 Eigen::MatrixXd strainless_fields(const AssembledSystem& system, double scale) {
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
-  const EigenPairs pairs = lowest_eigenpairs(system.stiffness(), system.mass(), *inverse,
-                                             std::min(kMaxMotions, size_of(system.mass())));
+  const EigenPairs pairs =
+      lowest_eigenpairs(system.mass(), *inverse, std::min(kMaxMotions, size_of(system.mass())));
   const Eigen::Index count = (pairs.values.array() < kStrainless * scale).count();
   Eigen::MatrixXd fields(3 * system.fields().node_count(), count);
   const auto expanded = system.fields().expand(pairs.vectors.leftCols(count));

@@ -129,7 +129,7 @@ void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn) {
 CertifiedModes lowest_modes(const ModalSystem& system, const ShiftInverse& inverse,
                             Eigen::Index count, bool certify, const Progress& warn) {
   const auto solve = [&](Eigen::Index asked) {
-    return lowest_eigenpairs(system.stiffness(), system.mass(), inverse, asked);
+    return lowest_eigenpairs(system.mass(), inverse, asked);
   };
   if (!certify) {
     EigenPairs pairs = solve(count);

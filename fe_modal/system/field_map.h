@@ -16,8 +16,7 @@ namespace flexneck::fe_modal {
 class FieldMap {
  public:
   /// Of a process alone. @param dof_map must outlive this
-  FieldMap(const DofMap& dof_map)  // NOLINT(google-explicit-constructor): it is one
-      : FieldMap(dof_map, DofLayout(dof_map.free_count())) {}
+  explicit FieldMap(const DofMap& dof_map) : FieldMap(dof_map, DofLayout(dof_map.free_count())) {}
   FieldMap(const DofMap& dof_map, DofLayout layout)
       : dof_map_(&dof_map), layout_(std::move(layout)) {}
 

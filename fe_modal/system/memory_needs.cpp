@@ -43,19 +43,18 @@ MemoryNeeds memory_needs(double dofs, Solver solver, int mode_count) {
 
 void check_memory(const mesher::Mesh& mesh, const ModalOptions& options) {
   const double dofs = 3.0 * static_cast<double>(mesh.nodes.size());
-  const MemoryNeeds needs = memory_needs(dofs, options.solver, options.mode_count);
+  const bool is_iterative = options.solver == Solver::iterative;
+  const auto known = [&](double count) {
+    const MemoryNeeds needs = memory_needs(count, options.solver, options.mode_count);
+    return is_iterative ? needs.peak : needs.assembling;
+  };
   const std::string what = std::to_string(options.mode_count) + " modes of " + dofs_text(dofs);
-  if (options.solver == Solver::iterative) {
-    require_memory("solving for " + what + " by iteration", needs.peak,
-                   "take a coarser mesh or fewer modes");
-    return;
-  }
-  require_memory("assembling for " + what, needs.assembling, "take a coarser mesh or fewer modes");
+  require_memory(is_iterative ? "solving for " + what + " by iteration" : "assembling for " + what,
+                 known(dofs), "take a coarser mesh or fewer modes");
   if (!options.certify) return;
   constexpr double kCutInEight = 8;
-  const MemoryNeeds refined = memory_needs(kCutInEight * dofs, options.solver, options.mode_count);
   require_memory("the mesh's error, estimated with " + dofs_text(kCutInEight * dofs) + ",",
-                 refined.assembling, "take a coarser mesh, or leave out modes.certify");
+                 known(kCutInEight * dofs), "take a coarser mesh, or leave out modes.certify");
 }
 
 }  // namespace flexneck::fe_modal

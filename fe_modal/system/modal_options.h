@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/ranks.h"
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/element/formulation.h"
@@ -17,8 +18,6 @@
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
-
-class Ranks;
 
 /// The least-squares rigid motion of a face set about a point: minimises
 /// int |u - t - theta x (x - position)|^2 dA. On a fixed face set or node set it is zero.
@@ -65,7 +64,7 @@ struct ModalOptions {
   std::vector<Load> prestress = {};
   /// Displacements of that step, (3, n), that with_prestress() finds; no columns: none.
   Eigen::Matrix3Xd prestress_m = Eigen::Matrix3Xd();
-  const Ranks* ranks = nullptr;  ///< processes that share the work, see ranks.h; null: this alone
+  Ranks ranks = {};                              ///< processes that share the work
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
 

@@ -15,6 +15,20 @@ namespace {
 /// Elements with three common corners have a common side.
 constexpr idx_t kCornersOfAFacet = 3;
 
+/// METIS may leave a part of a small mesh without elements.
+void fill_empty(std::vector<std::int32_t>& processes, int count) {
+  std::vector<std::int32_t> sizes(static_cast<std::size_t>(count));
+  for (const std::int32_t process : processes) ++sizes[static_cast<std::size_t>(process)];
+  for (auto empty = sizes.begin(); (empty = std::find(empty, sizes.end(), 0)) != sizes.end();) {
+    const auto largest = std::max_element(sizes.begin(), sizes.end());
+    const auto from = static_cast<std::int32_t>(largest - sizes.begin());
+    *std::find(processes.begin(), processes.end(), from) =
+        static_cast<std::int32_t>(empty - sizes.begin());
+    --*largest;
+    ++*empty;
+  }
+}
+
 }  // namespace
 
 ElementPartition partition_elements(const Mesh& mesh, int count) {
@@ -39,6 +53,7 @@ ElementPartition partition_elements(const Mesh& mesh, int count) {
                          nullptr, nullptr, &common, &parts, nullptr, options.data(), &cut,
                          partition.processes.data(), process_of_node.data()),
       "sharing out the elements");
+  fill_empty(partition.processes, count);
   return partition;
 }
 

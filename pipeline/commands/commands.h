@@ -24,19 +24,17 @@ struct CommandInput {
   const Study& study;
   const ResultsFolder& folder;
   const Console& console;
-  std::filesystem::path target = {};       ///< of export
-  bool is_binary = false;                  ///< likewise
-  const fe_modal::Ranks* ranks = nullptr;  ///< that mpirun has started; null: this process alone
-  bool redo = false;                       ///< of run: even what has not changed
-  bool is_run = false;                     ///< all that follows is made anew, too
-  bool sensitivity = false;                ///< of modes: their derivatives, too
-  RowShares shares = {};                   ///< of sweep and fit
+  std::filesystem::path target = {};  ///< of export
+  bool is_binary = false;             ///< likewise
+  fe_modal::Ranks ranks = {};         ///< that mpirun has started
+  bool redo = false;                  ///< of run: even what has not changed
+  bool is_run = false;                ///< all that follows is made anew, too
+  bool sensitivity = false;           ///< of modes: their derivatives, too
+  RowShares shares = {};              ///< of sweep and fit
 };
 
 /// Whether this process writes files.
-inline bool writes(const CommandInput& input) {
-  return input.ranks == nullptr || input.ranks->is_first();
-}
+inline bool writes(const CommandInput& input) { return input.ranks.is_first(); }
 
 /// Options that some commands have and others have not.
 enum class CommandOption {

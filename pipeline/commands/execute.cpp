@@ -57,11 +57,11 @@ bool works_on_files(const CommandLine& line) {
 }
 
 /// Does the command. @param take_lock is called once its arguments are known to be right
-bool do_command(const CommandLine& line, const Console& console, const Ranks* ranks,
+bool do_command(const CommandLine& line, const Console& console, Ranks ranks,
                 const std::function<void()>& take_lock) {
   const Command& command = *line.command;
   const ResultsFolder folder(line.folder);
-  const bool is_first = ranks == nullptr || ranks->is_first();
+  const bool is_first = ranks.is_first();
   if (works_on_files(line)) {
     if (!is_first) return true;
     take_lock();
@@ -81,18 +81,14 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
   Study study = read_named(choice);
   study.solver.checkpoint = console.checkpoint();
   for (const std::string& warning : study.warnings) console.warning(warning);
-  if (ranks != nullptr && (line.show || !command.uses_ranks)) {
+  if (ranks.are_many() && (line.show || !command.uses_ranks)) {
     if (!is_first) return true;
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
-    ranks = nullptr;
+    ranks = {};
   }
-  if (ranks == nullptr) {
-    take_lock();
-  } else {
-    ranks->together([&] {
-      if (is_first) take_lock();
-    });
-  }
+  ranks.together([&] {
+    if (is_first) take_lock();
+  });
   if (line.show) return show_command({study, folder, console});
   const bool passed = command.run({.study = study,
                                    .folder = folder,
@@ -110,7 +106,7 @@ bool do_command(const CommandLine& line, const Console& console, const Ranks* ra
 
 }  // namespace
 
-bool execute(const CommandLine& line, const Console& console, const Ranks* ranks) {
+bool execute(const CommandLine& line, const Console& console, const Ranks& ranks) {
   std::optional<FolderLock> lock;
   const auto take_lock = [&] {
     if (!line.locks()) return;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/matrices.h"
 
-#include <optional>
-
 #include <fmt/core.h>
 
 #include "fe_modal/algebra/petsc_session.h"
@@ -24,8 +22,7 @@ bool modes_of_matrices(const CommandInput& input) {
   }
   input.folder.make();
   input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
-  std::optional<fe_modal::PetscSession> session;
-  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::PetscSession session;
   const fe_modal::ImportedBody matrices{fe_modal::read_matrix(files.stiffness),
                                         fe_modal::read_matrix(files.mass),
                                         fe_modal::read_positions(files.nodes)};

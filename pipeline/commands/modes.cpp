@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -39,14 +38,14 @@ std::string mass_text(const Study& study, double mass_kg) {
 /// The folder's mesh, the same on all ranks.
 mesher::MeshFile read_mesh_together(const CommandInput& input) {
   const std::filesystem::path path = input.folder.mesh();
-  if (input.ranks == nullptr) return read_mesh(path);
+  if (!input.ranks.are_many()) return read_mesh(path);
   mesher::MeshFile mesh;
-  input.ranks->together([&] { mesh = read_mesh(path); });
+  input.ranks.together([&] { mesh = read_mesh(path); });
   const std::uint64_t hash = std::hash<std::string>()(hash_of_file(path.string()));
-  const std::uint64_t of_first = input.ranks->of_first(hash);
-  input.ranks->together([&] {
+  const std::uint64_t of_first = input.ranks.of_first(hash);
+  input.ranks.together([&] {
     if (hash != of_first)
-      throw InputError(path.string() + ": rank " + std::to_string(input.ranks->own()) +
+      throw InputError(path.string() + ": rank " + std::to_string(input.ranks.own()) +
                        " reads another file of this name than the first one: take a folder that "
                        "all ranks share");
   });
@@ -59,8 +58,7 @@ void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
   options.solver = input.study.modes.solver;
   options.ranks = input.ranks;
   options.node_order = mesh.node_order;
-  if (input.ranks == nullptr) return;
-  const auto partition = mesh.partitions.find(input.ranks->count());
+  const auto partition = mesh.partitions.find(input.ranks.count());
   if (partition != mesh.partitions.end()) options.element_ranks = partition->second;
 }
 
@@ -135,8 +133,7 @@ bool modes_command(const CommandInput& input) {
   input.console.step(fmt::format("Solving for {} modes of {:.0f} degrees of freedom: about {}",
                                  options.mode_count, dofs, memory_text(needs.peak)));
   times.start("start PETSc");
-  std::optional<fe_modal::PetscSession> session;
-  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::PetscSession session;
   fe_modal::AnalysisFields fields;
   const fe_modal::ModalBody body = solve(input, mesh.mesh, options, input.folder.modes(), times,
                                          input.sensitivity ? &fields : nullptr);
@@ -153,8 +150,9 @@ bool modes_command(const CommandInput& input) {
     write_sensitivities(input, mesh.mesh, options, body, fields, provenance_of_modes(input));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
-  // Of the same values, and PETSc starts once in a process.
-  if (input.is_run && !input.study.loads.empty()) write_stresses(input, std::move(mesh));
+  // Of the same values, and PETSc starts once in a process. The first rank alone does it.
+  if (input.is_run && writes(input) && !input.study.loads.empty())
+    write_stresses(input, std::move(mesh));
   return true;
 }
 

@@ -58,7 +58,7 @@ struct Stage {
 /// all make together, if they are due.
 class ModesGate {
  public:
-  explicit ModesGate(const fe_modal::Ranks* ranks) : ranks_(ranks) {}
+  explicit ModesGate(const fe_modal::Ranks& ranks) : ranks_(ranks) {}
   ~ModesGate() { tell(kNotDue); }
   ModesGate(const ModesGate&) = delete;
   ModesGate& operator=(const ModesGate&) = delete;
@@ -73,11 +73,11 @@ class ModesGate {
   static constexpr std::uint64_t kDue = 1;
 
   void tell(std::uint64_t word) {
-    if (ranks_ != nullptr && !has_told_) static_cast<void>(ranks_->of_first(word));
+    if (!has_told_) static_cast<void>(ranks_.of_first(word));
     has_told_ = true;
   }
 
-  const fe_modal::Ranks* ranks_;
+  fe_modal::Ranks ranks_;
   bool has_told_ = false;
 };
 
@@ -210,7 +210,7 @@ bool run_stages(const CommandInput& input, StepTimes& times) {
 bool run_command(const CommandInput& alone) {
   CommandInput input = alone;
   input.is_run = true;
-  if (!writes(input)) return !ModesGate::wait(*input.ranks) || modes_command(input);
+  if (!writes(input)) return !ModesGate::wait(input.ranks) || modes_command(input);
   input.folder.make();
   StepTimes times;
   const bool passed = run_stages(input, times);

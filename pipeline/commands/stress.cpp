@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/stress.h"
 
-#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -20,7 +19,6 @@ void write_stresses(const CommandInput& input, mesher::MeshFile mesh) {
   const Study& study = input.study;
   fe_modal::ModalOptions options = modes_options(study, mesh.mesh);
   options.solver = study.modes.solver;
-  options.ranks = input.ranks;
   options.node_order = mesh.node_order;
   options.prestress.clear();
   input.console.step(fmt::format("Static step with {} loads", study.loads.size()));
@@ -52,8 +50,7 @@ bool stress_command(const CommandInput& input) {
                       "flexneck mesh");
   for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, formulation_of(study)))
     input.console.warning(line);
-  std::optional<fe_modal::PetscSession> session;
-  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::PetscSession session;
   write_stresses(input, std::move(mesh));
   return true;
 }

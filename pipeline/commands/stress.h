@@ -8,7 +8,7 @@ namespace flexneck::pipeline {
 
 /// The linear static step under the study's [[load]]: stress.h5, stress.xdmf and its figures on the
 /// console.
-/// @pre a fe_modal::PetscSession, or input.ranks
+/// @pre a fe_modal::PetscSession
 /// @throws as fe_modal::analyse_static() does.
 void write_stresses(const CommandInput& input, mesher::MeshFile mesh);
 

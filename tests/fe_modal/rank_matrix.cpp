@@ -111,7 +111,7 @@ double deviation(const mesher::Mesh& mesh, const Cell& cell, Solver solver, cons
   ModalOptions options;
   options.mode_count = kModes;
   options.solver = solver;
-  options.ranks = &ranks;
+  options.ranks = ranks;
   options.basis = BasisKind::residual;
   options.certify = true;
   options.fixed_set = "bottom";

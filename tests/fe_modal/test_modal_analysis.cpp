@@ -46,7 +46,7 @@ double lowest_frequency(const mesher::Mesh& mesh, Formulation formulation) {
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
   const SystemMatrices system = assemble(mesh, dof_map, {formulation});
   const CholeskyFactor factor(system.stiffness.get(), 0);
-  const EigenPairs pairs = lowest_eigenpairs(system.stiffness.get(), system.mass.get(), factor, 1);
+  const EigenPairs pairs = lowest_eigenpairs(system.mass.get(), factor, 1);
   return std::sqrt(pairs.values[0]) / (2 * std::numbers::pi);
 }
 

@@ -10,6 +10,7 @@
 
 #include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/system/memory_needs.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
@@ -96,7 +97,7 @@ TEST_CASE("materials and sets that cannot be are refused, whoever made the mesh"
                      "node set 'bottom' is empty");
 }
 
-TEST_CASE("each material has its formulation; one that locks is warned of") {
+TEST_CASE("each material has its formulation, and one that locks is warned of") {
   testing::BlockMesh pad = testing::box({1, 1, 1}, {0.08, 0.08, 0.03}, {});
   pad.slices = {{"pad", 2, {"rubber", 8.3e6, 0.49, 950}},
                 {"plate", 1, {"steel", 2.1e11, 0.3, 7850}}};
@@ -159,6 +160,20 @@ TEST_CASE("what an analysis takes is estimated within a fifth of what was measur
   // Modes take memory, too.
   CHECK(memory_needs(1e5, Solver::direct, 1000).assembling >
         memory_needs(1e5, Solver::direct, 10).assembling + 8e5 * 1000);
+}
+
+TEST_CASE("the finer mesh of a certificate is refused where it does not fit, with both solvers") {
+  for (const Solver solver : {Solver::direct, Solver::iterative}) {
+    // A quarter of what is free: eight times the degrees of freedom take twice of it.
+    const double per_dof = memory_needs(1e6, solver, 10).assembling / 1e6;
+    mesher::Mesh mesh;
+    mesh.nodes.resize(static_cast<std::size_t>(available_memory() / (4 * 3 * per_dof)));
+    ModalOptions options;
+    options.solver = solver;
+    CHECK_NOTHROW(check_memory(mesh, options));
+    options.certify = true;
+    CHECK_THROWS_WITH(check_memory(mesh, options), Catch::Contains("leave out modes.certify"));
+  }
 }
 
 }  // namespace flexneck::fe_modal

@@ -43,7 +43,7 @@ TEST_CASE("a mode withheld is missed, wherever it stood") {
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
   const AssembledSystem system(mesh, dof_map, {});
   const Eigen::VectorXd values =
-      lowest_eigenpairs(system.stiffness(), system.mass(), *system.shift_inverse(0), 7).values;
+      lowest_eigenpairs(system.mass(), *system.shift_inverse(0), 7).values;
   CHECK(prove_complete(system, values, 5, 0).has_value());
   for (Eigen::Index withheld = 0; withheld < 5; ++withheld) {
     Eigen::VectorXd fewer(6);

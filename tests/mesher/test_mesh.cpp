@@ -146,7 +146,7 @@ TEST_CASE("materials that no solid can have are refused") {
              Contains("part 'upper' has no material"));
 }
 
-TEST_CASE("sets are found by name; a missing one is reported with those there are") {
+TEST_CASE("sets are found by name, a missing one is reported with those there are") {
   const Mesh mesh = testing::small_mesh();
   CHECK(mesh.node_set("floor").nodes.size() == 9);
   CHECK_THROWS_AS(mesh.face_set("flor"), InputError);

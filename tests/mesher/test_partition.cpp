@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <numeric>
 #include <set>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -54,6 +57,17 @@ TEST_CASE("one process has everything, and the same mesh gives the same partitio
   const Mesh cube = box_of(6, 5, 4);
   CHECK(quality_of(cube, partition_elements(cube, 1)).edge_cut == 0);
   CHECK(partition_elements(cube, 3).processes == partition_elements(cube, 3).processes);
+}
+
+TEST_CASE("as many processes as elements have one each") {
+  for (const int count : {2, 3, 5}) {
+    const Mesh bar = box_of(1, 1, count);
+    std::vector<std::int32_t> processes = partition_elements(bar, count).processes;
+    std::sort(processes.begin(), processes.end());
+    std::vector<std::int32_t> each(static_cast<std::size_t>(count));
+    std::iota(each.begin(), each.end(), 0);
+    CHECK(processes == each);
+  }
 }
 
 TEST_CASE("a number of processes without sense is refused with the bounds") {

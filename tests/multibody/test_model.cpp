@@ -77,7 +77,7 @@ TEST_CASE("Masses and inertias that no body has are refused") {
              Contains("principal moment of inertia may be negative"));
 }
 
-TEST_CASE("The triangle inequality of inertias holds to 1e-9; a flat body is allowed") {
+TEST_CASE("The triangle inequality of inertias holds to 1e-9, and a flat body is allowed") {
   const auto principal = [](double largest) {
     return complaint([&](Model& m) {
       const Eigen::Matrix3d turn = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.4).normalized().matrix();

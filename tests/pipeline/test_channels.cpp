@@ -106,7 +106,7 @@ TEST_CASE("reactions come in the axes of either side and as a load cell has them
   CHECK(swing.channel(2).values.row(1) == -swing.history.joint("shoulder").moment_Nm.row(1));
 }
 
-TEST_CASE("an angle counts on over full turns; a filter keeps slow signals and its name") {
+TEST_CASE("an angle counts on over full turns, and a filter keeps slow signals and its name") {
   const Swing swing(channel_text("angle", "marker = \"upper.top\"\naxis = [0, 1, 0]") +
                         channel_text("velocity", "marker = \"lower.tip\"\nfilter = \"CFC 60\"") +
                         channel_text("energy", ""),

@@ -6,10 +6,12 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/model/model_file.h"
+#include "tests/support/model_reading.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using multibody::History;
+using testing::run;
 
 namespace {
 
@@ -28,12 +30,6 @@ ModelFile dummy_on_sled(const std::string& formulation) {
                 "solver.formulation=" + formulation, "solver.integrator=dormand_prince",
                 "solver.relative_tolerance=1e-11", "solver.absolute_tolerance=1e-12",
                 "solver.end_time=0.12 s"});
-}
-
-History run(const ModelFile& file) {
-  REQUIRE(file.start == ModelFile::Start::equilibrium);
-  return multibody::simulate_from_equilibrium(file.model, file.solver,
-                                              {file.end_time_s, file.output.interval_s});
 }
 
 double mass_kg(const ModelFile& file) {

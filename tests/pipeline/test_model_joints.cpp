@@ -18,6 +18,7 @@ using namespace flexneck;
 using namespace flexneck::pipeline;
 using testing::double_pendulum_text;
 using testing::read_model;
+using testing::run;
 using testing::with;
 
 namespace {
@@ -31,10 +32,6 @@ std::string with_elbow(const std::string& keys, const std::string& more = "") {
   return with(double_pendulum_text(), kElbow,
               "lower = \"upper.end\"\nupper = \"lower.top\"\n" + keys) +
          more;
-}
-
-multibody::History run(const ModelFile& file) {
-  return multibody::simulate(file.model, file.solver, {file.end_time_s, file.output.interval_s});
 }
 
 /// Angle and advance of the lower body about and along the elbow's axis, at an output.

@@ -12,10 +12,12 @@
 #include "pipeline/experiments/static_test.h"
 #include "pipeline/model/model_file.h"
 #include "tests/support/modal_files.h"
+#include "tests/support/model_reading.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using multibody::History;
+using testing::run;
 
 namespace {
 
@@ -24,13 +26,6 @@ constexpr double kSame = 1e-12;
 
 std::string shipped(const std::string& name) {
   return std::string(FLEXNECK_SOURCE_DIR) + "/pipeline/models/" + name;
-}
-
-History run(const ModelFile& file) {
-  const multibody::OutputOptions output{file.end_time_s, file.output.interval_s};
-  return file.start == ModelFile::Start::equilibrium
-             ? multibody::simulate_from_equilibrium(file.model, file.solver, output)
-             : multibody::simulate(file.model, file.solver, output);
 }
 
 /// The built-in study moves the same beam.

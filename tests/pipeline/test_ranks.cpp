@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <filesystem>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -10,6 +11,7 @@
 #include "tests/pipeline/sweep/sweep_runs.h"
 #include "tests/support/coarse_neck.h"
 #include "tests/support/flexneck_command.h"
+#include "tests/support/model_text.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
@@ -76,6 +78,47 @@ TEST_CASE("what is wrong is said once on two ranks, and both end") {
   check_refused(run_on_two_ranks(std::string("modes -q -o ") + out + testing::kCoarseNeck +
                                  " --set modes.count=100000"),
                 "100000");
+}
+
+TEST_CASE("ranks as few as elements work, also without free nodes, and more are refused") {
+  const TemporaryFolder folder;
+  std::string text = "*NODE\n";
+  for (int level = 0, node = 1; level < 3; ++level) {
+    for (const char* const corner : {"0,0,", "1,0,", "1,1,", "0,1,"})
+      text += std::to_string(node++) + "," + corner + std::to_string(level) + "\n";
+  }
+  const auto write = [&](const std::string& elements) {
+    testing::write_text(folder / "bar.inp",
+                        text + "*ELEMENT,TYPE=C3D8,ELSET=bar\n" + elements +
+                            "*MATERIAL,NAME=steel\n*ELASTIC\n2.1e11,0.3\n*DENSITY\n7850\n"
+                            "*SOLID SECTION,ELSET=bar,MATERIAL=steel\n"
+                            "*NSET,NSET=lower\n1,2,3,4,5,6,7,8\n");
+  };
+  const std::string study = testing::write_text(folder / "bar.toml",
+                                                "[geometry]\nfile = \"bar.inp\"\nunit = \"m\"\n"
+                                                "[modes]\ncount = 3\nfixed = [\"lower\"]\n")
+                                .string();
+  const std::string arguments = " -q " + study + " -o " + folder.path().string();
+  write("1,1,2,3,4,5,6,7,8\n2,5,6,7,8,9,10,11,12\n");
+  require_success(run_flexneck("mesh" + arguments));
+  require_success(run_flexneck("modes" + arguments));
+  const fe_modal::ModalBody one = fe_modal::read_modal_body(folder / "modes.h5").body;
+  require_success(run_on_two_ranks("modes" + arguments));
+  const fe_modal::ModalBody two = fe_modal::read_modal_body(folder / "modes.h5").body;
+  CHECK((two.frequencies_Hz - one.frequencies_Hz).norm() < 1e-9 * one.frequencies_Hz.norm());
+  check_refused(run_on_two_ranks("modes --set modes.solver=iterative" + arguments),
+                "rank 1 of 2 gets none of the mesh's 2 elements: start fewer ranks");
+}
+
+TEST_CASE("loads of a study on two ranks: the first one makes the static step") {
+  const TemporaryFolder folder;
+  const std::string arguments =
+      std::string(FLEXNECK_SOURCE_DIR) + "/geometry/examples/loaded_bar.toml -q -o ";
+  require_success(run_flexneck("run " + arguments + (folder / "one").string()));
+  require_success(run_on_two_ranks("run " + arguments + (folder / "two").string()));
+  check_same(fe_modal::read_modal_body(folder / "one/modes.h5").body,
+             fe_modal::read_modal_body(folder / "two/modes.h5").body);
+  CHECK(std::filesystem::exists(folder / "two/stress.h5"));
 }
 
 TEST_CASE("what fails on the second rank only is said once by the first, and both end") {

@@ -251,7 +251,7 @@ TEST_CASE("a spun beam stiffens by Southwell's coefficient across its plane, by 
 }
 
 TEST_CASE(
-    "Kane's beam lags behind its hub as it spins up and comes back; a linear one is stopped") {
+    "Kane's beam lags behind its hub as it spins up and comes back, and a linear one is stopped") {
   const SpinUp law;
   const OutputOptions output{.end_time_s = 20, .interval_s = 0.1};
   const History history = spin_up(law, true, output);
@@ -280,7 +280,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a pressed column softens to nothing at Euler's load; a linear one does not feel it") {
+TEST_CASE(
+    "a pressed column softens to nothing at Euler's load, and a linear one does not feel it") {
   constexpr int kModes = 4;
   const Beam beam;
   const double x = kClampedFree[0];

@@ -15,11 +15,19 @@ inline pipeline::ModelFile read_model(const TemporaryFolder& folder, const std::
   return pipeline::read_model_file(write_text(folder / "model.toml", text), {});
 }
 
+inline multibody::History run(const pipeline::ModelFile& file, bool states = false) {
+  const multibody::OutputOptions output{
+      .end_time_s = file.end_time_s, .interval_s = file.output.interval_s, .states = states};
+  return file.start == pipeline::ModelFile::Start::equilibrium
+             ? multibody::simulate_from_equilibrium(file.model, file.solver, output)
+             : multibody::simulate(file.model, file.solver, output);
+}
+
 /// What reading and running this model refuses.
 inline std::string refusal_of_model(const TemporaryFolder& folder, const std::string& text) {
   try {
     const pipeline::ModelFile file = read_model(folder, text);
-    multibody::simulate(file.model, file.solver, {file.end_time_s, file.output.interval_s});
+    run(file);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <optional>
 
 #include <fmt/core.h>
 
@@ -39,8 +38,7 @@ std::vector<std::array<double, 3>> rows_of(const Eigen::Matrix3Xd& columns) {
 mesher::InpStaticStep static_step_of(const CommandInput& input, mesher::Mesh mesh) {
   const Study& study = input.study;
   const fe_modal::ModalOptions options = modes_options(study, mesh);
-  std::optional<fe_modal::PetscSession> session;
-  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::PetscSession session;
   return {rows_of(fe_modal::consistent_forces(mesh, options, study.loads)),
           rows_of(fe_modal::support_displacements(mesh, options, study.loads)),
           study.modes.prestress};

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <optional>
 
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/exchange/exported_matrices.h"
@@ -23,8 +22,7 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
   const std::string fixed = modes_options(study, mesh).fixed_set;
   const fe_modal::DofMap dof_map(
       mesh, fixed.empty() ? std::vector<std::int32_t>{} : mesh.node_set(fixed).nodes);
-  std::optional<fe_modal::PetscSession> session;
-  if (input.ranks == nullptr) session.emplace();
+  const fe_modal::PetscSession session;
   const fe_modal::ImportedBody body =
       fe_modal::export_matrices(mesh, dof_map, formulation_of(study));
   const auto named = [&](const std::string& what) {

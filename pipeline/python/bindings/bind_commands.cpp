@@ -61,7 +61,7 @@ std::pair<bool, std::vector<std::string>> run(const Request& request) {
     start_solvers();
     Messages messages(checkpoint);
     try {
-      passed = execute(line, messages.console(), nullptr);
+      passed = execute(line, messages.console());
     } catch (const ComputationError& error) {
       if (!looks_after_signals(*line.command) || !Interrupt::is_asked()) throw;
       is_stopped = true;

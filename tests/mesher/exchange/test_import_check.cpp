@@ -74,7 +74,7 @@ TEST_CASE("pieces that share no node are counted, also where doubles are kept") 
              Contains("falls apart into 3 pieces"));
 }
 
-TEST_CASE("inverted elements are counted by part; a mirror image is told as such") {
+TEST_CASE("inverted elements are counted by part, and a mirror image is told as such") {
   CHECK_THAT(refusal([](Mesh& mesh) {
                for (auto& node : mesh.nodes) node[0] = -node[0];
              }),

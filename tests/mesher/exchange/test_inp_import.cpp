@@ -165,7 +165,7 @@ TEST_CASE("elements of other types are refused with number, type and line") {
                                    Contains("supported are C3D8, C3D8I"));
 }
 
-TEST_CASE("what would change the structure is refused with its line; so is what is misspelt") {
+TEST_CASE("what would change the structure is refused with its line, and so is what is misspelt") {
   const auto plus = [](const std::string& card) { return with(kDeck, "*Step", card + "*Step"); };
   CHECK_THAT(refusal_of(plus("*Tie, name=t\na, b\n")), Contains("deck.inp:43: *TIE: this keyword"));
   CHECK_THAT(refusal_of(plus("*Elemant, type=C3D8\n")), Contains("did you mean 'ELEMENT'"));

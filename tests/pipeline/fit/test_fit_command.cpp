@@ -230,7 +230,7 @@ TEST_CASE("what is wrong with a fit is told in one line") {
       "expected one of standard_deviation and relative_deviation");
 }
 
-TEST_CASE("a disk that fills up ends a fit with one line; then it goes on") {
+TEST_CASE("a disk that fills up ends a fit with one line, and then it goes on") {
   const TemporaryFolder folder;
   const fs::path study = write_beam_study(
       folder.path(),

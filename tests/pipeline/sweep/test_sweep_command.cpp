@@ -112,7 +112,7 @@ TEST_CASE("Ctrl-C keeps what is done") {
   CHECK_THAT(outcome.text, Contains(std::to_string(lines - 1) + " of 100000"));
 }
 
-TEST_CASE("a disk that fills up ends a sweep with one line; then it goes on") {
+TEST_CASE("a disk that fills up ends a sweep with one line, and then it goes on") {
   const TemporaryFolder folder;
   const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
   require_done(sweep(study, folder / "whole"));

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// States that models start from: modal coordinates, a restart, followers that a closed form
-// follows.
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include <Eigen/Eigenvalues>
@@ -12,26 +9,14 @@
 #include "fe_modal/body/modal_body_file.h"
 #include "fe_modal/exchange/reduced_body.h"
 #include "geometry/foundation/output_file.h"
-#include "multibody/files/history_file.h"
-#include "tests/support/modal_files.h"
 #include "tests/support/model_reading.h"
-
-using Catch::Matchers::Contains;
+#include "tests/support/model_text.h"
 
 namespace flexneck::pipeline {
 namespace {
 
 using Eigen::Matrix4d;
 using Eigen::Vector4d;
-using multibody::History;
-using testing::read_model;
-using testing::refusal_of_model;
-
-History run(const ModelFile& file, bool states = false) {
-  return multibody::simulate(
-      file.model, file.solver,
-      {.end_time_s = file.end_time_s, .interval_s = file.output.interval_s, .states = states});
-}
 
 std::string list_of(const Vector4d& values) {
   std::string text;
@@ -142,17 +127,9 @@ inertia = ["0 kg*m^2", "0 kg*m^2", "0 kg*m^2"]
 position = ["0.450016933 m", "0 m", "0 m"]
 velocity = ["-2.68938672e-6 m/s", "0 m/s", "0 m/s"]
 [[marker]]
-body = "ground"
-name = "guide"
-position = ["0 m", "0 m", "0 m"]
-[[marker]]
 body = "crank"
 name = "pin"
 position = ["0.15 m", "0 m", "0 m"]
-[[marker]]
-body = "slider"
-name = "pin"
-position = ["0 m", "0 m", "0 m"]
 [[joint]]
 name = "crank pin"
 kind = "revolute"
@@ -171,7 +148,9 @@ lower = "ground.guide"
 upper = "slider.pin"
 axis = [1, 0, 0]
 )",
-                     formulation, list_of(modal), list_of(modal_rate));
+                     formulation, list_of(modal), list_of(modal_rate)) +
+         testing::origin_marker_text("ground", "guide") +
+         testing::origin_marker_text("slider", "pin");
 }
 
 }  // namespace
@@ -189,8 +168,8 @@ TEST_CASE("a flexible slider-crank started with its modal coordinates ends as pu
   const Vector4d q_rate(0.444896105, 4.63434311e-3, -1.78591076e-6, -2.68938672e-6);
   const Matrix4d to_modal = T.transpose() * rod.mass;
   const ModelFile file =
-      read_model(folder, slider_crank_text(to_modal * q, to_modal * q_rate, "automatic"));
-  const History found = run(file, true);
+      testing::read_model(folder, slider_crank_text(to_modal * q, to_modal * q_rate, "automatic"));
+  const multibody::History found = testing::run(file, true);
   const Eigen::Index end = found.time_s.size() - 1;
   const Vector4d at_end = T * found.modal[0].coordinates.col(end);
   const Eigen::Vector4d turn = found.marker("rod.start").rotation.col(end);
@@ -210,154 +189,6 @@ TEST_CASE("a flexible slider-crank started with its modal coordinates ends as pu
                            -8.363283141616840e-6);
   INFO((at_end - published).transpose());
   CHECK((at_end - published).cwiseAbs().maxCoeff() < 1e-6 * published.maxCoeff());
-}
-
-TEST_CASE("a run goes on from an output of another as that one does") {
-  const TemporaryFolder folder;
-  testing::write_beam_modes(folder / "neck.h5");
-  const std::string text = R"toml(
-[solver]
-end_time = "0.1 s"
-relative_tolerance = 1e-11
-absolute_tolerance = 1e-14
-gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
-[output]
-interval = "10 ms"
-[[body]]
-name = "ground"
-kind = "prescribed"
-displacement = "0.01 * sin(60 * t)"
-[[body]]
-name = "neck"
-kind = "deformable"
-modes_file = "neck.h5"
-damping_ratio = 0.1
-[[body]]
-name = "head"
-kind = "rigid"
-mass = "4.5 kg"
-center = ["0.02 m", "0.01 m", "0.05 m"]
-inertia = ["0.02 kg*m^2", "0.02 kg*m^2", "0.015 kg*m^2"]
-[[marker]]
-body = "ground"
-name = "foot"
-position = ["0 m", "0 m", "0 m"]
-[[marker]]
-body = "head"
-name = "joint"
-position = ["0 m", "0 m", "0 m"]
-[[joint]]
-name = "foot"
-kind = "revolute"
-lower = "ground.foot"
-upper = "neck.base"
-axis = [1, 2, 0]
-rate = "4 rad/s"
-[[joint]]
-name = "condyles"
-kind = "spherical"
-lower = "neck.top"
-upper = "head.joint"
-)toml";
-  const std::string section = R"([[section]]
-name = "band"
-lower = "neck.top"
-upper = "head.joint"
-length = ["0 m", "0 m", "0 m"]
-translation_stiffness = ["0 N/m", "0 N/m", "0 N/m"]
-rotation_stiffness = ["90 N*m/rad", "80 N*m/rad", "70 N*m/rad"]
-relaxation_times = ["20 ms"]
-relaxation_shares = [0.5]
-)";
-  for (const std::string formulation : {"recursive", "descriptor"}) {
-    INFO(formulation);
-    std::string chosen = text + section;
-    chosen.insert(chosen.find("[output]"), "formulation = \"" + formulation + "\"\n");
-    const ModelFile whole = read_model(folder, chosen);
-    const History truth = run(whole, true);
-    multibody::HistoryFile kept;
-    kept.history = truth;
-    multibody::write_history(folder / "whole.h5", kept);
-    const std::string restarted = chosen + "[restart]\nfile = \"whole.h5\"\ntime = \"40 ms\"\n";
-    const ModelFile file = read_model(folder, restarted);
-    const History found = run(file);
-    REQUIRE(found.time_s.size() == 7);
-    CHECK(found.time_s[0] == Approx(0.04));
-    const auto difference = [&](const auto& a, const auto& b) {
-      return (a - b.rightCols(7)).cwiseAbs().maxCoeff();
-    };
-    CHECK(difference(found.marker("head.joint").position_m, truth.marker("head.joint").position_m) <
-          1e-10);
-    CHECK(difference(found.marker("head.joint").velocity_m_s,
-                     truth.marker("head.joint").velocity_m_s) < 1e-8);
-    CHECK(difference(found.modal[0].coordinates, truth.modal[0].coordinates) < 1e-10);
-    CHECK((found.energy.dissipated_J - truth.energy.dissipated_J.tail(7)).cwiseAbs().maxCoeff() <
-          1e-9);
-    CHECK((found.energy.work_J - truth.energy.work_J.tail(7)).cwiseAbs().maxCoeff() < 1e-9);
-    CHECK_THAT(
-        refusal_of_model(folder, chosen + "[restart]\nfile = \"whole.h5\"\ntime = \"45 ms\"\n"),
-        Contains("restart.time: the history has no output at 0.045 s; the nearest is at 0.0"));
-    std::string at_rest = chosen;
-    at_rest.erase(at_rest.find("rate = "), std::string("rate = \"4 rad/s\"").size());
-    at_rest.insert(at_rest.find("damping_ratio"), "modal_coordinates = [1e-3, 0, 0, 0]\n");
-    at_rest.insert(at_rest.find("end_time"), "start = \"equilibrium\"\n");
-    CHECK_THAT(refusal_of_model(folder, at_rest),
-               Contains("body 'neck': modal_coordinates are given, but [solver] has start"));
-    kept.history.state = {};
-    multibody::write_history(folder / "whole.h5", kept);
-    CHECK_THAT(refusal_of_model(folder, restarted), Contains("the history has no states"));
-  }
-}
-
-TEST_CASE("a follower force on a body that spins evenly: closed form, both formulations") {
-  const TemporaryFolder folder;
-  for (const std::string formulation : {"recursive", "descriptor"}) {
-    const ModelFile file =
-        read_model(folder, "[solver]\nend_time = \"1 s\"\nformulation = \"" + formulation + R"("
-relative_tolerance = 1e-11
-absolute_tolerance = 1e-13
-[output]
-interval = "0.1 s"
-[[body]]
-name = "puck"
-kind = "rigid"
-mass = "2 kg"
-center = ["0 m", "0 m", "0 m"]
-inertia = ["0.1 kg*m^2", "0.1 kg*m^2", "0.2 kg*m^2"]
-position = ["0 m", "0 m", "0 m"]
-angular_velocity = ["0 rad/s", "0 rad/s", "5 rad/s"]
-[[marker]]
-body = "puck"
-name = "middle"
-position = ["0 m", "0 m", "0 m"]
-rotation = ["0 rad", "0 rad", "0.5 rad"]
-[[force]]
-name = "jet"
-marker = "puck.middle"
-direction = [1, 0, 0]
-magnitude = "3 N"
-follows = true
-[[torque]]
-name = "still"
-marker = "puck.middle"
-direction = [0, 0, 1]
-magnitude = "0 N*m"
-follows = true
-)");
-    const History found = run(file);
-    const auto& puck = found.marker("puck.middle");
-    // v = F / (m w) (sin(w t + p) - sin p, cos p - cos(w t + p)), marker's angle p at the start
-    const double speed = 3. / 2 / 5, p = 0.5;
-    for (Eigen::Index k = 0; k < found.time_s.size(); ++k) {
-      const double turned = 5 * found.time_s[k] + p;
-      CHECK(puck.velocity_m_s(0, k) ==
-            Approx(speed * (std::sin(turned) - std::sin(p))).margin(1e-9));
-      CHECK(puck.velocity_m_s(1, k) ==
-            Approx(speed * (std::cos(p) - std::cos(turned))).margin(1e-9));
-    }
-    CHECK(found.energy.work_J.tail<1>()[0] ==
-          Approx(found.energy.kinetic_J.tail<1>()[0] - found.energy.kinetic_J[0]).margin(1e-9));
-  }
 }
 
 }  // namespace flexneck::pipeline
