@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/element/element_fields.h"
 
+#include "fe_modal/element/moduli.h"
 #include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
@@ -21,11 +22,12 @@ void gather(std::span<const std::int32_t> nodes, const Displacements& fields,
 
 void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                       const Displacements& displacements,
-                      const std::function<void(const PointFields&, double)>& visit) {
+                      const std::function<void(const ElementState&)>& visit) {
   PointFields fields;
-  for (const mesher::ElementBlock& block : mesh.blocks) {
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesher::ElementBlock& block = mesh.blocks[b];
     const mesher::Material& material = mesh.materials.at(block.material);
-    const double shear_modulus = material.youngs_modulus_Pa / (2 * (1 + material.poissons_ratio));
+    const double shear_modulus_Pa = moduli_of(material).mu;
     ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
     const std::size_t width = mesher::nodes_per_element(block.kind);
     Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
@@ -35,7 +37,7 @@ void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formula
       mesher::copy_positions(mesh, nodes, coordinates);
       gather(nodes, displacements, values);
       kernel.evaluate(coordinates, material, values, fields);
-      visit(fields, shear_modulus);
+      visit({b, e, nodes, coordinates, fields, shear_modulus_Pa, kernel});
     }
   }
 }

@@ -20,11 +20,21 @@ using Displacements = std::vector<const Eigen::Matrix3Xd*>;
 void gather(std::span<const std::int32_t> nodes, const Displacements& fields,
             Eigen::MatrixXd& values);
 
-/// Calls `visit` with the gradients and stresses of the displacements in each element and with its
-/// shear modulus, in Pa.
+/// An element of a mesh under displacement fields.
+struct ElementState {
+  std::size_t block = 0;    ///< of the mesh
+  std::size_t element = 0;  ///< of the block
+  std::span<const std::int32_t> nodes;
+  const Eigen::Matrix3Xd& nodes_m;  ///< their positions
+  const PointFields& fields;        ///< gradients and stresses of the displacements
+  double shear_modulus_Pa = 0;
+  ElementKernel& kernel;
+};
+
+/// Calls `visit` for each element, block by block.
 /// @throws InputError and ComputationError as element_scheme and ElementKernel.
 void for_each_element(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                       const Displacements& displacements,
-                      const std::function<void(const PointFields&, double)>& visit);
+                      const std::function<void(const ElementState&)>& visit);
 
 }  // namespace flexneck::fe_modal

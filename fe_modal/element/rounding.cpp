@@ -39,8 +39,8 @@ double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formula
   const Eigen::Index mode = elastic - body.frequencies_Hz.begin();
   double work = 0;
   for_each_element(mesh, formulation, {&body.shapes[static_cast<std::size_t>(mode)]},
-                   [&](const PointFields& fields, double shear_modulus_Pa) {
-                     work += stress_work(fields, shear_modulus_Pa);
+                   [&](const ElementState& state) {
+                     work += stress_work(state.fields, state.shear_modulus_Pa);
                    });
   if (body.prestress_stiffness.size() > 0) work += body.prestress_stiffness[mode];
   const double omega = 2 * std::numbers::pi * *elastic;

@@ -2,8 +2,6 @@
 #include "fe_modal/element/stressed_elements.h"
 
 #include "fe_modal/element/element_fields.h"
-#include "fe_modal/element/moduli.h"
-#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 
@@ -22,25 +20,13 @@ Stresses stresses_of(const PointFields& fields, double shear_modulus_Pa, Eigen::
 void for_each_stressed_element(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                                const Eigen::Matrix3Xd& displacements_m,
                                const std::function<void(const StressedElement&)>& visit) {
-  PointFields fields;
   ElementPoints points;
   ElementPoints mass_points;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const mesher::ElementBlock& block = mesh.blocks[b];
-    const mesher::Material& material = mesh.materials.at(block.material);
-    ElementKernel kernel(element_scheme(block.kind, formulation.of(material)));
-    const std::size_t width = mesher::nodes_per_element(block.kind);
-    Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
-    Eigen::MatrixXd values;
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      const auto nodes = std::span(block.nodes).subspan(width * e, width);
-      mesher::copy_positions(mesh, nodes, coordinates);
-      gather(nodes, {&displacements_m}, values);
-      kernel.evaluate(coordinates, material, values, fields);
-      kernel.locate(coordinates, points, mass_points);
-      visit({b, e, nodes, points, stresses_of(fields, moduli_of(material).mu, 0)});
-    }
-  }
+  for_each_element(mesh, formulation, {&displacements_m}, [&](const ElementState& state) {
+    state.kernel.locate(state.nodes_m, points, mass_points);
+    visit({state.block, state.element, state.nodes, points,
+           stresses_of(state.fields, state.shear_modulus_Pa, 0)});
+  });
 }
 
 Eigen::Matrix3Xd internal_forces(const mesher::Mesh& mesh, const FormulationChoice& formulation,

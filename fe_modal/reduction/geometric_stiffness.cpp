@@ -116,10 +116,9 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
   Displacements fields;
   for (const Eigen::Matrix3Xd& mode : modes) fields.push_back(&mode);
   for (const Eigen::Matrix3Xd& displacement : displacements) fields.push_back(&displacement);
-  for_each_element(mesh, formulation, fields,
-                   [&](const PointFields& at_points, double shear_modulus) {
-                     integral.add(at_points, shear_modulus);
-                   });
+  for_each_element(mesh, formulation, fields, [&](const ElementState& state) {
+    integral.add(state.fields, state.shear_modulus_Pa);
+  });
   return integral.matrices();
 }
 

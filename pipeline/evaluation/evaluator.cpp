@@ -34,7 +34,7 @@ class Experiments {
     for (const OutputName& each : wanted.curves) note(each, !is_unfiltered(each.figure));
   }
 
-  Figure figure(const OutputName& output) {
+  ResultValue figure(const OutputName& output) {
     switch (output.of) {
       case Of::modes:
         return {modes_figure(*body_for(output), output.figure), {}};
@@ -93,7 +93,7 @@ class Experiments {
     return runs_.emplace(experiment.name, std::move(found)).first->second;
   }
 
-  Figure of_pendulum(const OutputName& output) {
+  ResultValue of_pendulum(const OutputName& output) {
     const CaseSection& experiment = case_of(output, study_);
     if (source_of_pendulum_figure(output.figure) == PendulumSource::system_mode) {
       auto known = modes_.find(experiment.name);
@@ -127,7 +127,7 @@ class Experiments {
     return static_results_.emplace(experiment.name, found).first->second;
   }
 
-  Figure of_verdict(const OutputName& output) {
+  ResultValue of_verdict(const OutputName& output) {
     const TestSection& test = test_of(output, study_);
     const CaseSection& experiment = case_of(output, study_);
     const PendulumRun& of_case = run(experiment);
@@ -251,7 +251,7 @@ Evaluation Evaluator::evaluate(const std::vector<std::string>& settings,
   Evaluation evaluation;
   evaluation.figures.resize(static_cast<Eigen::Index>(wanted.figures.size()));
   for (std::size_t k = 0; k < wanted.figures.size(); ++k) {
-    const Figure figure = experiments.figure(wanted.figures[k]);
+    const ResultValue figure = experiments.figure(wanted.figures[k]);
     evaluation.figures[static_cast<Eigen::Index>(k)] =
         figure.value.value_or(std::numeric_limits<double>::quiet_NaN());
     if (!figure.value && evaluation.problem.empty())

@@ -64,7 +64,7 @@ template <class Result>
 struct Row {
   std::string name;
   const char* unit;
-  Figure (*read)(const Result&);
+  ResultValue (*read)(const Result&);
   PendulumSource source = PendulumSource::channels;
 };
 
@@ -75,30 +75,30 @@ const auto& row_named(const Rows& rows, const std::string& name) {
   return rows[find_name(names, name, "figure")];
 }
 
-Figure known(double value) { return {value, {}}; }
+ResultValue known(double value) { return {value, {}}; }
 
 template <multibody::Peak PendulumResult::*peak>
-Figure value_of(const PendulumResult& result) {
+ResultValue value_of(const PendulumResult& result) {
   return known((result.*peak).value);
 }
 
 template <multibody::Peak PendulumResult::*peak>
-Figure time_of(const PendulumResult& result) {
+ResultValue time_of(const PendulumResult& result) {
   return known((result.*peak).time_s);
 }
 
 template <std::optional<double> PendulumResult::*figure>
-Figure oscillation(const PendulumResult& result) {
+ResultValue oscillation(const PendulumResult& result) {
   return {result.*figure, "the head does not swing back and forth for long enough"};
 }
 
 template <double multibody::SystemMode::*figure>
-Figure mode_figure(const multibody::SystemMode& mode) {
+ResultValue mode_figure(const multibody::SystemMode& mode) {
   return known(mode.*figure);
 }
 
 template <double StaticTestResult::*figure>
-Figure test_figure(const StaticTestResult& result) {
+ResultValue test_figure(const StaticTestResult& result) {
   return known(result.*figure);
 }
 
@@ -224,11 +224,11 @@ PendulumSource source_of_pendulum_figure(const std::string& name) {
                                 : row_named(pendulum_rows(), name).source;
 }
 
-Figure pendulum_figure(const PendulumResult& result, const std::string& name) {
+ResultValue pendulum_figure(const PendulumResult& result, const std::string& name) {
   return row_named(pendulum_rows(), name).read(result);
 }
 
-Figure system_figure(const multibody::SystemMode& mode, const std::string& name) {
+ResultValue system_figure(const multibody::SystemMode& mode, const std::string& name) {
   if (!mode.kink.empty()) return {{}, "small motions meet a kink, " + mode.kink};
   return row_named(system_rows(), name).read(mode);
 }
@@ -247,7 +247,7 @@ std::string unit_of_verdict_figure(const std::string& name, const CertificationT
   return figures[place_of(figures, name)].unit;
 }
 
-Figure verdict_figure(const Verdict& verdict, const std::string& name) {
+ResultValue verdict_figure(const Verdict& verdict, const std::string& name) {
   if (name == kInside) return known(static_cast<double>(verdict.passed_count()));
   const JudgedFigure& figure = verdict.figures[place_of(verdict.figures, name)];
   return {figure.value, figure.problem};

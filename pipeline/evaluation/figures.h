@@ -14,7 +14,7 @@
 namespace flexneck::pipeline {
 
 /// A figure that was read off a result.
-struct Figure {
+struct ResultValue {
   std::optional<double> value;  ///< SI
   std::string problem;          ///< why there is none
 };
@@ -52,14 +52,14 @@ enum class PendulumSource {
   system_mode         ///< small motions about the hanging equilibrium: no run
 };
 PendulumSource source_of_pendulum_figure(const std::string& name);
-Figure pendulum_figure(const PendulumResult& result, const std::string& name);
+ResultValue pendulum_figure(const PendulumResult& result, const std::string& name);
 /// None about a kink, where small motions have no one stiffness.
-Figure system_figure(const multibody::SystemMode& mode, const std::string& name);
+ResultValue system_figure(const multibody::SystemMode& mode, const std::string& name);
 
 double static_figure(const StaticTestResult& result, const std::string& name);
 
 /// A figure of a verdict, with '_' for each space of its name; "figures_inside" is
 /// how many of them are within their limits.
-Figure verdict_figure(const Verdict& verdict, const std::string& name);
+ResultValue verdict_figure(const Verdict& verdict, const std::string& name);
 
 }  // namespace flexneck::pipeline

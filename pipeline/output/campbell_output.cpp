@@ -22,12 +22,12 @@ using multibody::SystemMode;
 
 namespace {
 
-struct Quantity {
+struct ModeQuantity {
   const char* name;
   const char* unit;
   double SystemMode::*member;
 };
-constexpr std::array<Quantity, 3> kQuantities = {
+constexpr std::array<ModeQuantity, 3> kQuantities = {
     {{"frequency", "Hz", &SystemMode::frequency_Hz},
      {"damping ratio", "1", &SystemMode::damping_ratio},
      {"growth rate", "1/s", &SystemMode::growth_rate_1_s}}};
@@ -52,7 +52,7 @@ void write_campbell_table(const std::filesystem::path& path,
                           const multibody::CampbellDiagram& diagram) {
   std::vector<multibody::Channel> channels;
   for (std::size_t k = 0; k < diagram.modes.size(); ++k)
-    for (const Quantity& each : kQuantities)
+    for (const ModeQuantity& each : kQuantities)
       channels.push_back({name_of(k) + " " + each.name,
                           each.unit,
                           {each.name},

@@ -11,7 +11,8 @@ from . import _core
 from .errors import IncompleteRunError, InputError, warn
 from .folders import Folder, Path
 from .run import Run
-from .toml_text import document_text, setting
+from .settings import HasSettings
+from .toml_text import document_text
 from .values import Value
 
 if typing.TYPE_CHECKING:
@@ -23,7 +24,7 @@ if typing.TYPE_CHECKING:
     Function = typing.Callable[[float, Array, Array, Array, Array], tuple[Vector, Vector]]
 
 
-class Model:
+class Model(HasSettings):
     """A model: a shipped one by its name ("four_bar"), a TOML file, or a dictionary of the same
     tables and keys, such as
 
@@ -57,14 +58,7 @@ class Model:
     def set(self, key: str, value: typing.Any) -> Model:
         """Gives a key another value, as `--set key=value` of the command line does: see
         Study.set()."""
-        before = self._settings
-        self._settings = [each for each in before if each.split("=", 1)[0] != key]
-        self._settings.append(setting(key, value))
-        try:
-            self._read()
-        except Exception:
-            self._settings = before
-            raise
+        self._set(key, value)
         return self
 
     def add_function(self, name: str, lower: str, upper: str, function: Function) -> Model:

@@ -13,7 +13,7 @@ from .errors import VerificationWarning, warn
 from .folders import Folder, Path, execute
 from .mesh import Mesh
 from .results import Results
-from .toml_text import setting
+from .settings import HasSettings
 from .values import Value
 
 
@@ -22,7 +22,7 @@ def shipped_names() -> list[str]:
     return list(_core.shipped_names())
 
 
-class Study:
+class Study(HasSettings):
     """A study: a shipped one by its name ("hybrid3", the default), or a TOML file.
 
     Raises InputError with file, line and key for what is not right in it. `flexneck keys study`
@@ -46,14 +46,7 @@ class Study:
         Returns this study, which has changed. Raises InputError, and leaves it as it was, for a key
         that there is not or a value that it cannot have.
         """
-        before = self._settings
-        self._settings = [each for each in before if each.split("=", 1)[0] != key]
-        self._settings.append(setting(key, value))
-        try:
-            self._read()
-        except Exception:
-            self._settings = before
-            raise
+        self._set(key, value)
         return self
 
     def copy(self) -> Study:

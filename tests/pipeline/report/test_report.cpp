@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdlib>
 #include <fstream>
-#include <optional>
-#include <set>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -10,49 +7,23 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "multibody/files/history_file.h"
-#include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/folder/results_folder.h"
-#include "pipeline/plotting/curve_figure.h"
 #include "pipeline/plotting/embedding.h"
 #include "pipeline/report/comparison.h"
-#include "pipeline/report/corridors.h"
 #include "pipeline/report/display_units.h"
-#include "pipeline/report/paper_context.h"
-#include "pipeline/report/report.h"
-#include "pipeline/report/results.h"
+#include "tests/pipeline/report/report_page.h"
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
 using Catch::Matchers::Contains;
+using testing::built_in;
+using testing::joined;
+using testing::page_of;
+using testing::small_run;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const Study& built_in() {
-  static const Study study = read_study(built_in_study(), {});
-  return study;
-}
-
-/// A run of the pendulum with two channels and nothing else.
-multibody::HistoryFile small_run(int samples) {
-  multibody::HistoryFile file;
-  file.history.time_s = Eigen::VectorXd::LinSpaced(samples, 0, 0.01 * (samples - 1));
-  for (Eigen::VectorXd* energy :
-       {&file.history.energy.kinetic_J, &file.history.energy.gravitational_J,
-        &file.history.energy.strain_J, &file.history.energy.dissipated_J,
-        &file.history.energy.work_J, &file.history.constraints.position_m,
-        &file.history.constraints.orientation_rad, &file.history.constraints.velocity_m_s,
-        &file.history.constraints.angular_velocity_rad_s}) {
-    *energy = Eigen::VectorXd::Zero(samples);
-  }
-  const Eigen::RowVectorXd ramp = file.history.time_s.transpose();
-  file.channels = {{"head rotation", "rad", {"angle"}, ramp, ""},
-                   {"neck rotation", "rad", {"angle"}, 0.5 * ramp, ""}};
-  file.provenance = provenance_of(built_in());
-  return file;
-}
 
 ResultTable small_table() {
   ResultTable table;
@@ -65,38 +36,6 @@ ResultTable small_table() {
 }
 
 Provenance made_by(const std::string& git_hash) { return {"flexneck 0.1.0", git_hash, {}, {}, {}}; }
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
-std::string page_of(const fs::path& folder) {
-  write_report(folder / "report.html", read_results(folder, built_in()), built_in());
-  return text_of_file(folder / "report.html");
-}
-
-/// A variable of the environment for a while.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    if (const char* const before = getenv(name)) before_ = before;
-    setenv(name, value.c_str(), 1);
-  }
-  ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
-
-std::vector<std::string> paper_remarks() {
-  return read_paper_remarks(fs::path(FLEXNECK_SOURCE_DIR) /
-                            "pipeline/verification/hybrid3_context.toml");
-}
 
 }  // namespace
 
@@ -221,135 +160,6 @@ TEST_CASE("verdicts of certification tests come first, each with a sign of its o
   CHECK(page.find("data-table=\"verdicts\"") == page.rfind("data-table=\"verdicts\""));
   CHECK_THAT(page, Contains("✗</span> FAIL</span>") && Contains("✓</span> pass</span>") &&
                        Contains("extension &lt;b&gt;") && Contains("Warning: pulse at 10 ms"));
-}
-
-TEST_CASE("a figure's data are the channel's in the units of its axes") {
-  const TemporaryFolder folder;
-  multibody::write_history(folder / "pendulum-flexion-60.h5", small_run(3));
-  page_of(folder.path());
-  CHECK(text_of_file(folder / "figures/figure-11.csv") ==
-        "\"time [ms]\",\"head rotation φ: rotation [deg]\",\"neck rotation φ′: rotation [deg]\"\n"
-        "0,0,0\n"
-        "10,0.572957795,0.286478898\n"
-        "20,1.14591559,0.572957795\n");
-  CHECK_THAT(text_of_file(folder / "figures/figure-11.svg"),
-             Contains("No reference curve") && Contains("</svg>"));
-
-  fs::remove(folder / "pendulum-flexion-60.h5");
-  page_of(folder.path());
-  CHECK_FALSE(fs::exists(folder / "figures/figure-11.svg"));
-}
-
-TEST_CASE("without gnuplot the package is named") {
-  const TemporaryFolder folder;
-  const Variable nothing_there("PATH", folder.path().string());
-  CHECK_THROWS_WITH(page_of(folder.path()), Contains("gnuplot-nox"));
-  CHECK_THROWS_AS(page_of(folder.path()), InputError);
-}
-
-TEST_CASE("gnuplot obeys the script alone, and no text in it") {
-  CHECK(gnuplot_text("it's\nsystem(\"touch y\")\x1b") ==
-        "'it''s\\nsystem(\"touch y\")\\x1b' noenhanced");
-  const TemporaryFolder folder;
-  std::ofstream(folder / ".gnuplot")
-      << "system('touch \"" << (folder / "touched").string() << "\"')\n";
-  const Variable home("HOME", folder.path().string());
-  const Variable terminal("GNUTERM", "none such");
-  multibody::write_history(folder / "pendulum-flexion-60.h5", small_run(3));
-  page_of(folder.path());
-  CHECK_FALSE(fs::exists(folder / "touched"));
-}
-
-TEST_CASE("each curve of a figure has a style of its own") {
-  CurvePlot plot;
-  for (int k = 0; k < 12; ++k)
-    plot.curves.push_back({std::to_string(k), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, k)});
-  Figure figure{1};
-  draw_curves(plot, figure);
-  std::set<std::string> styles;
-  const std::string before = "with lines ";
-  for (std::size_t at = figure.script.find(before); at != std::string::npos;
-       at = figure.script.find(before, at + 1)) {
-    const std::size_t begin = at + before.size();
-    styles.insert(figure.script.substr(begin, figure.script.find(" title", begin) - begin));
-  }
-  CHECK(styles.size() == plot.curves.size());
-}
-
-TEST_CASE("what the report says of pulses follows from their origins and from the corridors") {
-  const Study& study = built_in();
-  CHECK(joined(pulse_remarks(study)) ==
-        "The pulse 'flexion' is synthetic by the study and, as given there, inside the corridor "
-        "of 572.33 flexion. The table of velocities tells how cases scale it.\n"
-        "The pulse 'extension' is synthetic by the study and, as given there, inside the corridor "
-        "of 572.33 extension. The table of velocities tells how cases scale it.\n");
-  CHECK_THAT(joined(peak_table(study, {}).notes),
-             Contains("by the study: 'flexion' synthetic, 'extension' synthetic."));
-
-  const TemporaryFolder folder;
-  std::ofstream(folder / "mine.csv") << "time [ms], deceleration [gn]\n0, 0\n10, 20\n50, 0\n";
-  std::ofstream(folder / "mine.toml")
-      << "include = [\"" << built_in_study().string() << "\"]\n"
-      << "[[pulse]]\nname = \"flexion\"\n"
-         "table = { value = \"mine.csv\", origin = \"published\", note = \"a source\" }\n"
-         "times = []\ndeceleration = []\n"
-         "[[pulse]]\nname = \"extension\"\ntable = \"mine.csv\"\n"
-         "times = []\ndeceleration = []\n";
-  const Study own = read_study(folder / "mine.toml", {});
-  const std::string remarks = joined(pulse_remarks(own));
-  CHECK_THAT(remarks,
-             Contains("'flexion' is published by the study and, as given there, outside") &&
-                 !Contains("inside"));
-  CHECK_THAT(joined(peak_table(own, {}).notes), Contains("'flexion' published"));
-  CHECK_THAT(joined(paper_remarks()), !Contains("synthetic") && !Contains("inside"));
-}
-
-TEST_CASE("a pulse is inside of a corridor if it keeps to all of it") {
-  CertificationTest test;
-  test.pulse = DecelerationPulse{{0.01, 0.02}, {{20, 30}, {10, 20}}, 15, 5, {0.03, 0.04}};
-  const auto is_in = [&](std::vector<double> times_s, std::vector<double> values) {
-    return is_inside(PulseSection{"", std::move(times_s), std::move(values)}, test);
-  };
-  CHECK(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 25, 15, 10, 0}));
-  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 31, 15, 10, 0}));
-  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 25, 9, 10, 0}));
-  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.03, 0.04}, {0, 25, 15, 16, 0}));  // too high after
-  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.025}, {0, 25, 15, 0}));           // falls too early
-  CHECK_FALSE(is_in({0, 0.01, 0.02, 0.05}, {0, 25, 15, 6}));            // too late
-  CHECK_FALSE(is_in({0, 0.005}, {25, 25}));
-}
-
-TEST_CASE("corridors stand behind the curves of the cases that are judged by them") {
-  const auto corridors_at = [](const std::string& experiment, const std::string& channel,
-                               const std::vector<std::string>& settings = {}) {
-    std::vector<Corridor> found = corridors_of(read_study(built_in_study(), settings));
-    std::erase_if(found, [&](const Corridor& corridor) {
-      return corridor.experiment != experiment || corridor.channel != channel;
-    });
-    return found;
-  };
-  const double degree = std::numbers::pi / 180;
-  const auto flexion = corridors_at("flexion-120", "head rotation");
-  REQUIRE(flexion.size() == 2);
-  CHECK(flexion[0].what == "572.33 flexion, peak rotation");
-  CHECK(flexion[0].times_s.low == Approx(0.057));
-  CHECK(flexion[0].times_s.high == Approx(0.064));
-  CHECK(flexion[0].values.low == Approx(64 * degree));
-  CHECK(flexion[0].values.high == Approx(78 * degree));
-  CHECK(flexion[1].times_s.low == Approx(0.113));
-  CHECK(flexion[1].values.high == 0);
-  // The channel is negative in extension.
-  const auto extension = corridors_at("extension-120-part572", "head rotation");
-  REQUIRE(extension.size() == 2);
-  CHECK(extension[0].values.low == Approx(-106 * degree));
-  CHECK(extension[0].values.high == Approx(-81 * degree));
-  const auto moment = corridors_at("extension-120-part572", "load cell moment");
-  REQUIRE(moment.size() == 2);
-  CHECK(moment[0].values.low == Approx(-59 * 1.3558179483));  // lbf ft
-  // Neither at another velocity nor of another dummy.
-  CHECK(corridors_at("flexion-120", "head rotation", {"case.flexion-120.impact_velocity=200 in/s"})
-            .empty());
-  CHECK(corridors_at("flexion-120", "head rotation", {"dummy.name=Hybrid III 5th female"}).empty());
 }
 
 TEST_CASE("names and notes of a user never become markup") {

@@ -14,7 +14,7 @@ TEST_CASE("a figure of small motions that meet a kink has no value, and says why
   CHECK(system_figure(mode, "system_damping_ratio").value == 0.2);
   mode.kink = "section 'disc': a gap opens or closes";
   for (const char* const name : {"system_frequency", "system_damping_ratio"}) {
-    const Figure figure = system_figure(mode, name);
+    const ResultValue figure = system_figure(mode, name);
     CHECK_FALSE(figure.value);
     CHECK_THAT(figure.problem, Catch::Matchers::Contains("section 'disc'"));
   }

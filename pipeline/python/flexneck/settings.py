@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings of a file, as `--set key=value` of the command line."""
+
+from __future__ import annotations
+
+import typing
+
+from .toml_text import setting
+
+
+class HasSettings:
+    """A file that is read with settings, and read anew with others."""
+
+    _settings: list[str]
+
+    def _read(self) -> None:
+        raise NotImplementedError
+
+    def _set(self, key: str, value: typing.Any) -> None:
+        before = self._settings
+        self._settings = [each for each in before if each.split("=", 1)[0] != key]
+        self._settings.append(setting(key, value))
+        try:
+            self._read()
+        except Exception:
+            self._settings = before
+            raise
