@@ -80,7 +80,6 @@ Eigen::MatrixXd similarities(const SolvedMesh& coarse, const FieldMap& fine_node
 std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions& options,
                                    const Progress& progress) {
   const mesher::RefinedMesh fine = mesher::refine(solved.mesh);
-  const bool fixed = options.is_fixed();
   const DofMap dof_map = dof_map_of(fine.mesh, options);
   if (progress) {
     progress("refining for the error of the mesh, " + std::to_string(dof_map.dof_count()) +
@@ -92,7 +91,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   fine_options = with_prestress(fine.mesh, std::move(fine_options), progress);
   const AssembledSystem system(fine.mesh, dof_map, fine_options);
   const std::unique_ptr<const ShiftInverse> inverse =
-      system.shift_inverse(fixed ? 0 : -eigenvalue_scale(solved.mesh));
+      system.shift_inverse(solved.is_fixed ? 0 : -eigenvalue_scale(solved.mesh));
 
   std::vector<Eigen::Matrix3Xd> prolonged = solved.system.fields().expand(solved.pairs.vectors);
   for (Eigen::Matrix3Xd& field : prolonged) {

@@ -17,6 +17,7 @@ struct SolvedMesh {
   const mesher::Mesh& mesh;
   const AssembledSystem& system;
   const EigenPairs& pairs;
+  bool is_fixed;  ///< keeps no rigid motion
 };
 
 /// Discretisation error of each frequency, by the same modes with every element cut in eight

@@ -10,11 +10,12 @@
 #include "fe_modal/analysis/prestress.h"
 #include "fe_modal/analysis/slit_basis.h"
 #include "fe_modal/analysis/sound_factor.h"
-#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/dofs/rigid_motions.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
 #include "fe_modal/reduction/mode_conventions.h"
 #include "fe_modal/reduction/mode_naming.h"
+#include "fe_modal/reduction/particles.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/reduction/static_response.h"
 #include "fe_modal/solve/assembled_system.h"
@@ -33,10 +34,15 @@ namespace {
 
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
 void check_no_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
-                        const Eigen::VectorXd& values, bool fixed) {
-  const Eigen::Index rigid = fixed ? 0 : 6;
-  if (values.size() <= rigid || values[rigid] > kStrainless * eigenvalue_scale(mesh)) return;
-  if (const auto motions = describe_mechanism(mesh, system, fixed)) {
+                        const Eigen::VectorXd& values, Eigen::Index rigid) {
+  const double scale = eigenvalue_scale(mesh);
+  const Eigen::Index last = std::min(rigid, values.size());
+  if (last > 0 && values[last - 1] > kStrainless * scale) {
+    throw ComputationError("the body has fewer motions without strain than the " +
+                           std::to_string(rigid) + " that its supports leave");
+  }
+  if (values.size() <= rigid || values[rigid] > strainless_share(mesh) * scale) return;
+  if (const auto motions = describe_mechanism(mesh, system, rigid == 0)) {
     refuse_mechanism(*motions);
   }
 }
@@ -94,6 +100,13 @@ std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FieldMap
   return loads;
 }
 
+void warn_of_rigid_cut(Eigen::Index count, Eigen::Index rigid_count, const Progress& warn) {
+  if (count >= rigid_count || !warn) return;
+  const std::string all = std::to_string(rigid_count);
+  warn("the number of modes, " + std::to_string(count) + ", cuts the " + all +
+       " rigid-body motions of the body, of which any combination is one: ask for at least " + all);
+}
+
 /// The basis asked for, its certificate, and the ways in which slits part that joined it.
 struct Basis {
   Reduction reduction;
@@ -103,8 +116,8 @@ struct Basis {
 
 Basis reduced_basis(const mesher::Mesh& mesh, const AssembledSystem& system,
                     const ShiftInverse& inverse, const ModalOptions& options,
-                    const std::vector<InterfaceLoads>& loads, const Progress& progress,
-                    const Progress& warn) {
+                    const std::vector<InterfaceLoads>& loads, Eigen::Index rigid_count,
+                    const Progress& progress, const Progress& warn) {
   const BodyOperators operators = operators_of(system, inverse);
   if (options.slit_motions != SlitMotions::none) {
     SlitBasis basis = slit_basis(mesh, system.fields(), operators, options, loads, progress);
@@ -121,12 +134,12 @@ Basis reduced_basis(const mesher::Mesh& mesh, const AssembledSystem& system,
   }
   auto [pairs, certificate] =
       lowest_modes(system, inverse, options.mode_count, options.certify, warn);
-  check_no_mechanism(mesh, system, pairs.values, options.is_fixed());
+  check_no_mechanism(mesh, system, pairs.values, rigid_count);
   check_eigenvalues(pairs.values, inverse.shift());
-  for (double& value : pairs.values) {
-    if (value < kStrainless * -inverse.shift()) value = 0;
-  }
-  return {complete_modes(operators, pairs, loads, options.basis, progress), certificate};
+  warn_of_rigid_cut(pairs.values.size(), rigid_count, warn);
+  pairs.values.head(std::min(rigid_count, pairs.values.size())).setZero();
+  return {complete_modes(operators, pairs, loads, options.basis, rigid_count, progress),
+          certificate};
 }
 
 /// How many of the basis, its first, are the body's own eigenvectors, which are its lowest.
@@ -164,8 +177,9 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
   }
   if (!given.prestress.empty()) times.start("static step");
   const ModalOptions options = with_prestress(mesh, given, progress);
-  const bool fixed = options.is_fixed();
   const DofMap dof_map = dof_map_of(mesh, options);
+  const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);
+  const bool fixed = rigid.count() == 0;
   report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
          " degrees of freedom");
   times.start("assemble");
@@ -174,7 +188,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
 
   times.start("order and factorise");
   report("factorising the stiffness");
-  // A fixed body has a definite stiffness; a free one is shifted below zero.
+  // A fixed body has a definite stiffness; one that keeps rigid motions is shifted below zero.
   const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
   const std::unique_ptr<const ShiftInverse> inverse =
       options.prestress.empty() ? factorise_or_refuse(mesh, system, shift)
@@ -188,7 +202,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
   }
   const std::vector<InterfaceLoads> loads = loads_of(options, field_map, averages);
   auto [basis, certificate, slit_fields] =
-      reduced_basis(mesh, system, *inverse, options, loads, progress, warn);
+      reduced_basis(mesh, system, *inverse, options, loads, rigid.count(), progress, warn);
   EigenPairs& pairs = basis.pairs;
   if (options.sign_interface.empty()) {
     apply_conventions(pairs, field_map.layout());
@@ -201,7 +215,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
   report("reducing to modal coordinates");
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
-  body.boundary = boundary_of(options) + (options.prestress.empty() ? "" : "; prestressed");
+  body.boundary =
+      boundary_of(mesh, options, rigid) + (options.prestress.empty() ? "" : "; prestressed");
   body.prestress = prestress_text(options);
   body.certificate = certificate;
   body.nodes_m = mesher::positions_of(mesh);
@@ -220,7 +235,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
     times.start("refine and solve again");
     const EigenPairs normal = {pairs.values.head(eigenvectors),
                                pairs.vectors.leftCols(eigenvectors)};
-    const auto errors = mesh_errors({mesh, system, normal}, options, progress);
+    const auto errors = mesh_errors({mesh, system, normal, fixed}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       body.modes[k].mesh_error = errors[k];
     }
@@ -228,9 +243,11 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
   }
   body.slits = slit_motions(mesh, slit_fields, body.shapes);
   body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
+  const std::vector<Particle> particles =
+      particles_of(mesh, dof_map, field_map.layout().whole(pairs.vectors));
   body.invariants = inertia_invariants(
       [&](const Eigen::MatrixXd& columns) { return system.mass_integrals(columns); }, mesh.nodes,
-      body.shapes);
+      body.shapes, particles);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
   body.orthogonality =
       (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
@@ -238,8 +255,9 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
           .maxCoeff();
   if (options.geometric_stiffness) {
     report("integrating the geometric stiffness");
-    body.geometric_stiffness = unit_load_stiffness(
-        mesh, options.formulation, system, operators_of(system, *inverse), loads, body.shapes);
+    body.geometric_stiffness =
+        unit_load_stiffness(mesh, options.formulation, system, operators_of(system, *inverse),
+                            loads, body.shapes, particles);
   }
   if (!options.attachments.empty()) {
     times.start("iterate with bodies attached");

@@ -133,6 +133,18 @@ void check_overlap(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
 }
 
+/// Constraints whose coefficients change with the positions of nodes.
+void check_connections(const mesher::Connections& connections) {
+  const auto turns = [](const mesher::Support& support) { return support.axes.is_cylindrical; };
+  if (connections.couplings.empty() && connections.equations.empty() &&
+      std::none_of(connections.supports.begin(), connections.supports.end(), turns)) {
+    return;
+  }
+  throw InputError(
+      "sensitivities are not offered with couplings, equations or supports in "
+      "cylindrical axes");
+}
+
 void check_basis(const ModalOptions& options) {
   if (options.basis == BasisKind::craig_bampton) {
     throw InputError(
@@ -189,6 +201,7 @@ Sensitivities sensitivities(const mesher::Mesh& mesh, const ModalOptions& option
                             std::vector<DesignParameter> parameters) {
   check_basis(options);
   check_overlap(mesh, options);
+  check_connections(mesh.connections);
   const SensitivityRequest request = request_of(mesh, options, body, fields);
   BodyGradient gradient = body_gradient(mesh, options.formulation, request.fields, request.forms);
   add_couplings(mesh, options, request, gradient);

@@ -48,7 +48,8 @@ SlitBasis slit_basis(const mesher::Mesh& mesh, const FieldMap& field_map, const 
   // Forces on couplings and in fixed directions do not pass from the one body to the other.
   if (field_map.dof_map().is_constrained())
     throw InputError(
-        "slits that open and close: expected no rigid interface and no direction fixed alone");
+        "slits that open and close: expected no rigid interface or coupling, no equation, and no "
+        "direction fixed alone");
   const StaticShapes shapes = static_shapes(open, {}, loads);
   const Eigen::MatrixXd combinations = correcting_loads(shapes, loads, progress);
 

@@ -15,6 +15,7 @@
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/memory_needs.h"
 #include "fe_modal/system/modal_options_check.h"
+#include "fe_modal/system/point_forces.h"
 #include "fe_modal/system/supports.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/positions.h"
@@ -25,13 +26,6 @@ namespace {
 /// Of the free nodes' forces, relative to the nodal forces of the elements: rounding makes 1e-12 of
 /// slender bodies.
 constexpr double kBalanced = 1e-6;
-
-void require_supports(const ModalOptions& options) {
-  if (options.is_fixed()) return;
-  throw InputError(
-      "a static step needs supports, but nothing is fixed: name node sets in modes.fixed or "
-      "modes.fixed_directions");
-}
 
 /// A mechanism may pass the factorisation by rounding: loads move it without strain then.
 void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
@@ -45,7 +39,7 @@ void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& sys
 
 StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
                        const std::vector<Load>& loads, const Progress& progress) {
-  require_supports(options);
+  require_supports(rigid_motions_of(mesh, options), "a static step");
   const DofMap dof_map = dof_map_of(mesh, options);
   const Eigen::Matrix3Xd moved_m = support_displacements(mesh, options, loads);
   if (progress) {
@@ -54,7 +48,8 @@ StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
   const AssembledSystem system(mesh, dof_map, options);
   StaticStep step;
   step.applied_N = nodal_forces(mesh, system.nodal_mass(), loads);
-  Eigen::VectorXd load = dof_map.gather(step.applied_N);
+  const Eigen::VectorXd weights = weights_at_points(mesh, dof_map, loads);
+  Eigen::VectorXd load = dof_map.gather(step.applied_N) + weights;
   if (moved_m.cwiseAbs().maxCoeff() > 0)
     load -= dof_map.gather(internal_forces(mesh, options.formulation, moved_m));
   const std::unique_ptr<const ShiftInverse> inverse = factorise_or_refuse(mesh, system, 0);
@@ -63,6 +58,7 @@ StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
     response = static_response_beyond(operators_of(system, *inverse), {}, load).col(0);
   refuse_moved_mechanism(mesh, system, response, load);
   step.displacements_m = dof_map.expand(response) + moved_m;
+  step.point_forces = weights - spring_forces(mesh, dof_map, response);
   step.solver = inverse->describe();
   return step;
 }
@@ -75,12 +71,13 @@ Eigen::Matrix3Xd consistent_forces(const mesher::Mesh& mesh, const ModalOptions&
 
 StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& options,
                               const std::vector<Load>& loads, const Progress& progress) {
-  require_supports(options);
+  const RigidMotions rigid = rigid_motions_of(mesh, options);
+  require_supports(rigid, "a static step");
   check_options(mesh, options);
   check_memory(mesh, options);
   StaticStep step = static_step(mesh, options, loads, progress);
   StaticSolution solution;
-  solution.boundary = boundary_of(options);
+  solution.boundary = boundary_of(mesh, options, rigid);
   solution.solver = std::move(step.solver);
   for (const Load& load : loads) solution.loads.push_back(describe(load));
   solution.nodes_m = mesher::positions_of(mesh);
@@ -90,16 +87,19 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
       internal_forces(mesh, options.formulation, step.displacements_m);
   const Eigen::Matrix3Xd unbalanced_N = internal_N - step.applied_N;
   const double scale = std::max(internal_N.norm(), step.applied_N.norm());
-  if (scale > 0) solution.imbalance = dof_map_of(mesh, options).gather(unbalanced_N).norm() / scale;
+  if (scale > 0) {
+    solution.imbalance =
+        (dof_map_of(mesh, options).gather(unbalanced_N) - step.point_forces).norm() / scale;
+  }
   if (!(solution.imbalance < kBalanced))
     throw ComputationError(
         "the static step is not in equilibrium: " + std::to_string(solution.imbalance) +
         " of the forces are left over at free nodes");
-  const std::vector<std::array<bool, 3>> fixed = fixed_directions_of(mesh, options);
+  const std::vector<std::array<bool, 3>> reacting = reacting_directions_of(mesh, options);
   solution.reactions_N = unbalanced_N;
-  for (std::size_t k = 0; k < fixed.size(); ++k) {
+  for (std::size_t k = 0; k < reacting.size(); ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
-      if (!fixed[k][a])
+      if (!reacting[k][a])
         solution.reactions_N(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(k)) = 0;
     }
   }

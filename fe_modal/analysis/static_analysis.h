@@ -17,6 +17,7 @@ namespace flexneck::fe_modal {
 struct StaticStep {
   Eigen::Matrix3Xd displacements_m;  ///< (3, n), those of the supports included
   Eigen::Matrix3Xd applied_N;        ///< (3, n), nodal forces of the loads
+  Eigen::VectorXd point_forces;      ///< of springs and weights at reference points, on free dofs
   std::string solver;                ///< how it was solved
 };
 

@@ -45,7 +45,7 @@ struct StaticSolution {
   Eigen::Matrix3Xd nodes_m;              ///< (3, n)
   Eigen::Matrix3Xd displacements_m;      ///< (3, n)
   Eigen::Matrix3Xd applied_N;            ///< (3, n), consistent nodal forces of the loads
-  Eigen::Matrix3Xd reactions_N;          ///< (3, n), of the supports on the body; zero elsewhere
+  Eigen::Matrix3Xd reactions_N;          ///< (3, n), of supports and connections on nodes
   std::vector<NodalStresses> at_nodes;   ///< one for each material
   std::vector<PointStresses> at_points;  ///< one for each part and kind of element
 };

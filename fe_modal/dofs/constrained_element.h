@@ -11,14 +11,14 @@
 
 namespace flexneck::fe_modal {
 
-/// An element in the degrees of freedom that rigid couplings and fixed directions leave it: of a
-/// coupling that any of its nodes are in, the translation and the rotation take the place of these
-/// nodes; what is fixed has zero rows and columns.
+/// An element in the blocks of degrees of freedom that constraints leave it: T^T E T with the
+/// motions u = T q of its sites.
 class ConstrainedElement {
  public:
-  ConstrainedElement(std::span<const std::int32_t> nodes, const DofMap& dof_map);
+  /// @param sites nodes, and of point elements those of reference points
+  ConstrainedElement(std::span<const std::int32_t> sites, const DofMap& dof_map);
 
-  /// DofMap' number of each place, -1 if fixed: (m) places, the couplings' last.
+  /// Block of each place, -1 if fixed: (m) places.
   std::span<const std::int32_t> numbers() const { return numbers_; }
   /// T^T E T, (3m, 3m) with degree of freedom a m + i, of an element's matrix (3n, 3n).
   Eigen::MatrixXd reduced(const Eigen::MatrixXd& element) const;

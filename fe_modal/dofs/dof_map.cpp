@@ -2,232 +2,262 @@
 #include "fe_modal/dofs/dof_map.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 
-#include "fe_modal/body/skew.h"
-#include "geometry/foundation/error.h"
-#include "mesher/mesh/positions.h"
+#include "fe_modal/dofs/body_constraints.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-/// The lowest node of those that are tied together, for each node. Where cuts cross, more than two
-/// nodes are one.
-class TiedNodes {
- public:
-  explicit TiedNodes(std::size_t node_count) : next_(node_count) {
-    std::iota(next_.begin(), next_.end(), 0);
+bool is_fixed(const AffineConstraints& constraints, std::int32_t site) {
+  for (std::int32_t dof = 3 * site; dof < 3 * site + 3; ++dof) {
+    if (!constraints.is_dependent(dof) || !constraints.line(dof).empty()) return false;
   }
+  return true;
+}
 
-  void coupling(std::int32_t one, std::int32_t other) {
-    const std::int32_t a = lowest(one);
-    const std::int32_t b = lowest(other);
-    next_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+/// The site that this one moves with in all directions; -1 if there is none.
+std::int32_t tied_to(const AffineConstraints& constraints, std::int32_t site) {
+  std::int32_t other = -1;
+  for (std::int32_t a = 0; a < 3; ++a) {
+    if (!constraints.is_dependent(3 * site + a)) return -1;
+    const std::span<const DofTerm> line = constraints.line(3 * site + a);
+    if (line.size() != 1 || line[0].coefficient != 1 || line[0].dof % 3 != a) return -1;
+    if (a > 0 && line[0].dof / 3 != other) return -1;
+    other = line[0].dof / 3;
   }
-
-  std::int32_t lowest(std::int32_t node) const {
-    while (next_[static_cast<std::size_t>(node)] != node) {
-      node = next_[static_cast<std::size_t>(node)];
-    }
-    return node;
-  }
-
- private:
-  std::vector<std::int32_t> next_;  ///< a lower node that it is tied to, or itself
-};
+  return other;
+}
 
 }  // namespace
 
 DofMap::DofMap(std::size_t node_count, std::span<const std::int32_t> fixed,
                std::span<const mesher::Slit> slits)
-    : indices_(node_count, 0) {
-  TiedNodes tied(node_count);
-  for (const mesher::Slit& slit : slits) {
-    if (!slit.tied) continue;
-    for (std::size_t p = 0; p < slit.lower.size(); ++p) tied.coupling(slit.lower[p], slit.upper[p]);
-  }
-  for (const std::int32_t node : fixed) {
-    indices_.at(static_cast<std::size_t>(tied.lowest(node))) = -1;
-  }
-  std::int32_t next = 0;
-  for (std::size_t k = 0; k < node_count; ++k) {
-    const auto lowest = static_cast<std::size_t>(tied.lowest(static_cast<std::int32_t>(k)));
-    if (lowest < k) {
-      indices_[k] = indices_[lowest];
-    } else if (indices_[k] == 0) {
-      indices_[k] = next++;
-    }
-  }
-  free_count_ = next;
+    : node_count_(static_cast<Eigen::Index>(node_count)) {
+  number(tie_and_fix(node_count, fixed, slits));
 }
 
 DofMap::DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> fixed,
-               std::span<const RigidCoupling> couplings,
-               std::span<const FixedDirections> directions)
-    : DofMap(mesh.nodes.size(), fixed, mesh.slits) {
-  if (!couplings.empty()) couple_rigidly(mesh, couplings);
-  if (!directions.empty()) fix(directions, couplings);
+               const mesher::Connections& connections)
+    : node_count_(static_cast<Eigen::Index>(mesh.nodes.size())) {
+  number(connections.empty() ? tie_and_fix(mesh.nodes.size(), fixed, mesh.slits)
+                             : constraints_of(mesh, fixed, connections));
 }
 
-void DofMap::couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupling> couplings) {
-  // By the numbers that nodes have so far, which slits may have given to several.
-  std::vector<std::int32_t> coupling_of_number(static_cast<std::size_t>(free_count_), -1);
-  for (std::size_t t = 0; t < couplings.size(); ++t) {
-    for (const std::int32_t node : couplings[t].nodes) {
-      if (index(node) < 0) {
-        throw InputError("rigid interface '" + couplings[t].name + "' has nodes that are fixed");
-      }
-      std::int32_t& coupling = coupling_of_number[static_cast<std::size_t>(index(node))];
-      if (coupling >= 0 && coupling != static_cast<std::int32_t>(t)) {
-        throw InputError("rigid interfaces '" + couplings[static_cast<std::size_t>(coupling)].name +
-                         "' and '" + couplings[t].name + "' share nodes");
-      }
-      coupling = static_cast<std::int32_t>(t);
+void DofMap::number(const AffineConstraints& constraints) {
+  const std::int32_t sites = constraints.dof_count() / 3;
+  const auto count_dependent = [&](std::int32_t site) {
+    int count = 0;
+    for (int a = 0; a < 3; ++a) count += constraints.is_dependent(3 * site + a) ? 1 : 0;
+    return count;
+  };
+  indices_.assign(static_cast<std::size_t>(sites), -1);
+  for (std::int32_t site = 0; site < sites; ++site) {
+    if (site == node_count_) first_point_block_ = static_cast<std::int32_t>(free_count_);
+    if (count_dependent(site) < 3) {
+      indices_[static_cast<std::size_t>(site)] = static_cast<std::int32_t>(free_count_++);
     }
   }
-  std::vector<std::int32_t> new_number(coupling_of_number.size());
-  for (std::size_t k = 0; k < new_number.size(); ++k) {
-    new_number[k] = coupling_of_number[k] < 0 ? first_coupling_++ : -1;
-  }
-  free_count_ = first_coupling_ + 2 * static_cast<Eigen::Index>(couplings.size());
-  coupling_of_.assign(indices_.size(), -1);
-  arms_m_ = Eigen::Matrix3Xd::Zero(3, node_count());
-  const auto positions = mesher::positions_of(mesh);
-  for (std::size_t k = 0; k < indices_.size(); ++k) {
-    if (indices_[k] < 0) continue;
-    const auto number = static_cast<std::size_t>(indices_[k]);
-    coupling_of_[k] = coupling_of_number[number];
-    indices_[k] = new_number[number];
-    if (coupling_of_[k] < 0) continue;
-    arms_m_.col(static_cast<Eigen::Index>(k)) =
-        positions.col(static_cast<Eigen::Index>(k)) -
-        couplings[static_cast<std::size_t>(coupling_of_[k])].point_m;
-  }
-}
-
-void DofMap::fix(std::span<const FixedDirections> directions,
-                 std::span<const RigidCoupling> couplings) {
-  fixed_.assign(static_cast<std::size_t>(free_count_), {});
-  for (const FixedDirections& fixed : directions) {
-    for (const std::int32_t node : fixed.nodes) {
-      if (coupling(node) >= 0) {
-        throw InputError("rigid interface '" +
-                         couplings[static_cast<std::size_t>(coupling(node))].name +
-                         "' has nodes that are fixed");
-      }
-      if (index(node) < 0) continue;
-      for (std::size_t a = 0; a < 3; ++a) {
-        bool& is_fixed = fixed_[static_cast<std::size_t>(index(node))][a];
-        is_fixed = is_fixed || fixed.is_fixed[a];
-      }
+  std::vector<std::int32_t> composites;
+  for (std::int32_t site = 0; site < sites; ++site) {
+    if (count_dependent(site) == 0 || is_fixed(constraints, site)) continue;
+    const std::int32_t other = tied_to(constraints, site);
+    if (other < 0) {
+      composites.push_back(site);
+    } else {
+      indices_[static_cast<std::size_t>(site)] = index(other);
     }
   }
+  if (composites.empty() && sites == node_count_) return;
+  composite_of_.assign(static_cast<std::size_t>(sites), -1);
+  dependent_.assign(static_cast<std::size_t>(free_count_), {});
+  for (const std::int32_t site : composites) add_composite(constraints, site);
 }
 
-DofMap DofMap::part(std::span<const std::int32_t> nodes, std::vector<std::int32_t>& numbers) const {
+void DofMap::add_composite(const AffineConstraints& constraints, std::int32_t site) {
+  const auto block_dof = [&](std::int32_t dof) { return 3 * index(dof / 3) + dof % 3; };
+  composite_of_[static_cast<std::size_t>(site)] =
+      static_cast<std::int32_t>((offsets_.size() - 1) / 3);
+  for (std::int32_t a = 0; a < 3; ++a) {
+    const std::int32_t dof = 3 * site + a;
+    if (!constraints.is_dependent(dof)) {
+      terms_.push_back({block_dof(dof), 1});
+    } else {
+      for (const DofTerm& term : constraints.line(dof)) {
+        terms_.push_back({block_dof(term.dof), term.coefficient});
+      }
+      if (index(site) >= 0) {
+        dependent_[static_cast<std::size_t>(index(site))][static_cast<std::size_t>(a)] = true;
+      }
+    }
+    offsets_.push_back(terms_.size());
+  }
+}
+
+DofMap DofMap::part(std::span<const std::int32_t> nodes, std::span<const std::int32_t> more,
+                    std::vector<std::int32_t>& numbers) const {
   numbers.clear();
-  for (const std::int32_t node : nodes) {
-    for_each_number(node, [&](std::int32_t number) { numbers.push_back(number); });
+  for (const auto& sites : {nodes, more}) {
+    for (const std::int32_t site : sites) {
+      for_each_number(site, [&](std::int32_t block) { numbers.push_back(block); });
+    }
   }
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  const auto place = [&](std::int32_t number) {
-    return static_cast<std::int32_t>(std::lower_bound(numbers.begin(), numbers.end(), number) -
-                                     numbers.begin());
+  const auto place = [&](std::int32_t block) {
+    return std::lower_bound(numbers.begin(), numbers.end(), block) - numbers.begin();
+  };
+  const auto is_here = [&](std::int32_t block) {
+    return std::binary_search(numbers.begin(), numbers.end(), block);
   };
   DofMap result;
+  result.node_count_ = static_cast<Eigen::Index>(nodes.size());
   result.free_count_ = static_cast<Eigen::Index>(numbers.size());
-  result.first_coupling_ = place(first_coupling_);
-  for (const std::int32_t node : nodes) {
-    result.indices_.push_back(index(node) < 0 ? -1 : place(index(node)));
-    if (!has_rigid_couplings()) continue;
-    result.coupling_of_.push_back(
-        coupling(node) < 0 ? -1
-                           : (place(translation(coupling(node))) - result.first_coupling_) / 2);
+  result.first_point_block_ = static_cast<std::int32_t>(place(first_point_block_));
+  std::vector<std::int32_t> sites(nodes.begin(), nodes.end());
+  for (auto site = static_cast<std::int32_t>(node_count()); site < site_count(); ++site) {
+    sites.push_back(site);
   }
-  if (has_rigid_couplings()) result.arms_m_ = arms_m_(Eigen::all, nodes);
-  if (!fixed_.empty()) {
-    for (const std::int32_t number : numbers) {
-      result.fixed_.push_back(fixed_[static_cast<std::size_t>(number)]);
+  for (const std::int32_t site : sites) {
+    const std::int32_t block = index(site);
+    result.indices_.push_back(block >= 0 && is_here(block) ? static_cast<std::int32_t>(place(block))
+                                                           : -1);
+    if (!is_constrained()) continue;
+    bool is_composite = !is_plain(site);
+    // Of a point that the part does not have, nothing moves.
+    for_each_number(site, [&](std::int32_t each) { is_composite = is_composite && is_here(each); });
+    result.composite_of_.push_back(
+        is_composite ? static_cast<std::int32_t>((result.offsets_.size() - 1) / 3) : -1);
+    for (int a = 0; is_composite && a < 3; ++a) {
+      for (const DofTerm& term : terms(site, a)) {
+        const auto own = static_cast<std::int32_t>(place(term.dof / 3));
+        result.terms_.push_back({3 * own + term.dof % 3, term.coefficient});
+      }
+      result.offsets_.push_back(result.terms_.size());
     }
+  }
+  for (std::size_t k = 0; !dependent_.empty() && k < numbers.size(); ++k) {
+    result.dependent_.push_back(dependent_[static_cast<std::size_t>(numbers[k])]);
   }
   return result;
 }
 
-Eigen::Index DofMap::fixed_direction_count() const {
+std::span<const DofTerm> DofMap::terms(std::int32_t site, int a) const {
+  const auto row = 3 * static_cast<std::size_t>(composite_of_[static_cast<std::size_t>(site)]) +
+                   static_cast<std::size_t>(a);
+  return std::span(terms_).subspan(offsets_[row], offsets_[row + 1] - offsets_[row]);
+}
+
+Eigen::Index DofMap::dependent_count() const {
   Eigen::Index count = 0;
-  for (const std::array<bool, 3>& fixed : fixed_)
-    count += std::count(fixed.begin(), fixed.end(), true);
+  for (const std::array<bool, 3>& block : dependent_)
+    count += std::count(block.begin(), block.end(), true);
   return count;
 }
 
-void DofMap::clear_fixed(Eigen::VectorXd& values) const {
-  for (std::size_t k = 0; k < fixed_.size(); ++k) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (fixed_[k][a]) values[static_cast<Eigen::Index>(3 * k + a)] = 0;
-    }
+Eigen::Vector3d DofMap::motion_of(std::int32_t site,
+                                  const Eigen::Ref<const Eigen::VectorXd>& free_values) const {
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero();
+  if (is_plain(site)) {
+    if (index(site) >= 0) motion = free_values.segment<3>(3 * index(site));
+    return motion;
   }
+  for (int a = 0; a < 3; ++a) {
+    for (const DofTerm& term : terms(site, a))
+      motion[a] += term.coefficient * free_values[term.dof];
+  }
+  return motion;
 }
 
-Eigen::VectorXd DofMap::restrict(const Eigen::Matrix3Xd& field) const {
-  Eigen::VectorXd values(dof_count());
-  const Eigen::Index couplings = (free_count_ - first_coupling_) / 2;
-  using Six = Eigen::Matrix<double, 6, 6>;
-  std::vector<Six> matrices(has_rigid_couplings() ? static_cast<std::size_t>(couplings) : 0,
-                            Six::Zero());
-  if (has_rigid_couplings()) values.tail(6 * couplings).setZero();
-  for (std::int32_t k = 0; k < node_count(); ++k) {
-    if (index(k) >= 0) values.segment<3>(3 * static_cast<Eigen::Index>(index(k))) = field.col(k);
-    if (coupling(k) < 0) continue;
-    const Eigen::Matrix<double, 3, 6> motion = rigid_motions_at(arm_m(k));
-    matrices[static_cast<std::size_t>(coupling(k))] += motion.transpose() * motion;
-    values.segment<6>(3 * static_cast<Eigen::Index>(translation(coupling(k)))) +=
-        motion.transpose() * field.col(k);
+void DofMap::add_force(std::int32_t site, const Eigen::Vector3d& force,
+                       Eigen::VectorXd& values) const {
+  if (is_plain(site)) {
+    if (index(site) >= 0) values.segment<3>(3 * index(site)) += force;
+    return;
   }
-  for (std::size_t t = 0; t < matrices.size(); ++t) {
-    auto six =
-        values.segment<6>(3 * static_cast<Eigen::Index>(translation(static_cast<std::int32_t>(t))));
-    six = matrices[t].ldlt().solve(Eigen::Matrix<double, 6, 1>(six)).eval();
+  for (int a = 0; a < 3; ++a) {
+    for (const DofTerm& term : terms(site, a)) values[term.dof] += term.coefficient * force[a];
   }
-  clear_fixed(values);
-  return values;
 }
 
 Eigen::Matrix3Xd DofMap::expand(const Eigen::VectorXd& free_values) const {
-  Eigen::Matrix3Xd field = Eigen::Matrix3Xd::Zero(3, node_count());
-  for (std::size_t k = 0; k < indices_.size(); ++k) {
-    if (indices_[k] < 0) continue;
-    auto displacement = field.col(static_cast<Eigen::Index>(k));
-    displacement = free_values.segment<3>(3 * indices_[k]);
-    for (Eigen::Index a = 0; a < 3; ++a) {
-      if (is_fixed(indices_[k], a)) displacement[a] = 0;
-    }
-  }
-  for (std::int32_t k = 0; has_rigid_couplings() && k < node_count(); ++k) {
-    if (coupling(k) < 0) continue;
-    const Eigen::Vector3d turn = free_values.segment<3>(3 * rotation(coupling(k)));
-    field.col(k) = free_values.segment<3>(3 * translation(coupling(k))) + turn.cross(arm_m(k));
+  Eigen::Matrix3Xd field(3, node_count());
+  for (std::int32_t node = 0; node < node_count(); ++node) {
+    field.col(node) = motion_of(node, free_values);
   }
   return field;
 }
 
 Eigen::VectorXd DofMap::gather(const Eigen::Matrix3Xd& forces) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(dof_count());
-  for (std::size_t k = 0; k < indices_.size(); ++k) {
-    if (indices_[k] < 0) continue;
-    values.segment<3>(3 * indices_[k]) += forces.col(static_cast<Eigen::Index>(k));
+  for (std::int32_t node = 0; node < node_count(); ++node) {
+    add_force(node, forces.col(node), values);
   }
-  for (std::int32_t k = 0; has_rigid_couplings() && k < node_count(); ++k) {
-    if (coupling(k) < 0) continue;
-    const Eigen::Vector3d force = forces.col(k);
-    values.segment<3>(3 * translation(coupling(k))) += force;
-    values.segment<3>(3 * rotation(coupling(k))) += arm_m(k).cross(force);
-  }
-  clear_fixed(values);
   return values;
+}
+
+Eigen::VectorXd DofMap::restrict(const Eigen::Matrix3Xd& field) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(dof_count());
+  for (std::int32_t node = 0; node < node_count(); ++node) {
+    if (index(node) >= 0) values.segment<3>(3 * index(node)) = field.col(node);
+  }
+  for (std::size_t block = 0; block < dependent_.size(); ++block) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (dependent_[block][a]) values[static_cast<Eigen::Index>(3 * block + a)] = 0;
+    }
+  }
+  fit_points(field, values);
+  return values;
+}
+
+/// Each reference point by itself: of a node that follows several, nothing is made.
+void DofMap::fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) const {
+  using Six = Eigen::Matrix<double, 6, 1>;
+  struct Fit {
+    Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
+    Six right = Six::Zero();
+  };
+  std::vector<Fit> fits(static_cast<std::size_t>(site_count() - node_count()) / 2);
+  if (fits.empty()) return;
+  std::vector<std::size_t> place;  // of a point's own block: 2 point, or 2 point + 1
+  for (auto site = static_cast<std::int32_t>(node_count()); site < site_count(); ++site) {
+    if (index(site) != first_point_block_ + static_cast<std::int32_t>(place.size())) continue;
+    place.push_back(static_cast<std::size_t>(site - node_count()));
+  }
+  for (std::int32_t node = 0; node < node_count(); ++node) {
+    for (int a = 0; a < 3 && !is_plain(node); ++a) {
+      Six row = Six::Zero();
+      double rest = field(a, node);
+      std::size_t point = fits.size();
+      bool is_of_one = true;
+      for (const DofTerm& term : terms(node, a)) {
+        if (term.dof / 3 < first_point_block_) {
+          rest -= term.coefficient * values[term.dof];
+          continue;
+        }
+        const std::size_t where =
+            place[static_cast<std::size_t>(term.dof / 3 - first_point_block_)];
+        is_of_one = is_of_one && (point == fits.size() || point == where / 2);
+        point = where / 2;
+        row[static_cast<Eigen::Index>(3 * (where % 2)) + term.dof % 3] = term.coefficient;
+      }
+      if (point == fits.size() || !is_of_one) continue;
+      fits[point].matrix += row * row.transpose();
+      fits[point].right += row * rest;
+    }
+  }
+  for (std::size_t p = 0; p < fits.size(); ++p) {
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      if (fits[p].matrix(i, i) == 0) fits[p].matrix(i, i) = 1;
+    }
+    const Six motion = fits[p].matrix.ldlt().solve(fits[p].right);
+    for (std::int32_t half = 0; half < 2; ++half) {
+      const std::int32_t block =
+          index(static_cast<std::int32_t>(node_count()) + 2 * static_cast<std::int32_t>(p) + half);
+      if (block >= first_point_block_) values.segment<3>(3 * block) = motion.segment<3>(3 * half);
+    }
+  }
 }
 
 }  // namespace flexneck::fe_modal

@@ -4,108 +4,108 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "fe_modal/dofs/affine_constraints.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
 
-/// Nodes that move as one rigid body, u = t + theta x (x - point).
-struct RigidCoupling {
-  std::string name;  ///< for messages
-  std::vector<std::int32_t> nodes;
-  Eigen::Vector3d point_m;
-};
-
-/// Nodes that are fixed in some of the mesh's directions only.
-struct FixedDirections {
-  std::vector<std::int32_t> nodes;
-  std::array<bool, 3> is_fixed;  ///< in x, y, z
-};
-
-/// Numbers the nodes that may move; fixed ones have no degrees of freedom, and nodes tied to one
-/// another share theirs. Degree of freedom 3 index(k) + a is direction a of node k. Keeps the order
-/// of the nodes. After them come two numbers for each rigid coupling: its translation t and its
-/// rotation theta take the places of two nodes. A direction that is fixed alone keeps its number,
-/// and is zero.
+/// Numbers the degrees of freedom that constraints leave, in blocks of three. Sites have three
+/// each: the nodes of the mesh, then of each reference point its translation and its rotation
+/// (mesher/mesh/connections.h). A site has a block if one of its degrees of freedom is independent;
+/// nodes tied to one another share it. Blocks keep the order of the sites. Degree of freedom
+/// 3 block + a is direction a of its site; a dependent one keeps its place, without stiffness or
+/// mass, and is zero.
 class DofMap {
  public:
   /// @param fixed nodes fixed in all directions, in range; a node tied to one of them is fixed too
   /// @param slits those that are tied couple their pairs
   DofMap(std::size_t node_count, std::span<const std::int32_t> fixed,
          std::span<const mesher::Slit> slits = {});
-  /// @param couplings a node tied to one of theirs, by a slit, is in the coupling too
-  /// @throws InputError if a rigid coupling has a node that is fixed, in any direction, or shares
-  /// one with another.
+  /// @throws InputError as AffineConstraints, and for a reference point that nothing holds.
   DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> fixed,
-         std::span<const RigidCoupling> couplings = {},
-         std::span<const FixedDirections> directions = {});
+         const mesher::Connections& connections);
+  /// With the mesh's own connections.
+  DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> fixed)
+      : DofMap(mesh, fixed, mesh.connections) {}
 
-  /// The same of some nodes alone, by numbers of their own, which ascend as those of the whole do.
+  /// The same of some nodes alone and of all reference points, by blocks of their own, which ascend
+  /// as those of the whole do.
   /// @param nodes of the whole, ascending
-  /// @param numbers takes what the numbers are in the whole
-  DofMap part(std::span<const std::int32_t> nodes, std::vector<std::int32_t>& numbers) const;
+  /// @param more sites of the whole that have blocks besides
+  /// @param numbers takes what the blocks are in the whole
+  DofMap part(std::span<const std::int32_t> nodes, std::span<const std::int32_t> more,
+              std::vector<std::int32_t>& numbers) const;
 
-  Eigen::Index node_count() const { return static_cast<Eigen::Index>(indices_.size()); }
-  Eigen::Index free_count() const { return free_count_; }
+  Eigen::Index node_count() const { return node_count_; }
+  Eigen::Index site_count() const { return static_cast<Eigen::Index>(indices_.size()); }
+  Eigen::Index free_count() const { return free_count_; }  ///< blocks
   Eigen::Index dof_count() const { return 3 * free_count_; }
 
-  /// Number of a node among the free ones, -1 if it is fixed or in a rigid coupling.
-  std::int32_t index(std::int32_t node) const { return indices_[static_cast<std::size_t>(node)]; }
-  bool has_rigid_couplings() const { return !coupling_of_.empty(); }
-  /// Number of a node's rigid coupling, -1 if it is in none.
-  std::int32_t coupling(std::int32_t node) const {
-    return has_rigid_couplings() ? coupling_of_[static_cast<std::size_t>(node)] : -1;
+  /// A site's own block, or that of the node which it is tied to in all directions; -1 if it has
+  /// none.
+  std::int32_t index(std::int32_t site) const { return indices_[static_cast<std::size_t>(site)]; }
+  /// Whether the site moves as the block index() does, or, without one, not at all.
+  bool is_plain(std::int32_t site) const {
+    return composite_of_.empty() || composite_of_[static_cast<std::size_t>(site)] < 0;
   }
-  /// Numbers of a rigid coupling's translation, m, and rotation, rad.
-  std::int32_t translation(std::int32_t coupling) const { return first_coupling_ + 2 * coupling; }
-  std::int32_t rotation(std::int32_t coupling) const { return first_coupling_ + 2 * coupling + 1; }
-  /// Calls emit(number) for each number that a node's displacement depends on.
-  template <typename Emit>
-  void for_each_number(std::int32_t node, const Emit& emit) const {
-    if (coupling(node) >= 0) {
-      emit(translation(coupling(node)));
-      emit(rotation(coupling(node)));
-    } else if (index(node) >= 0) {
-      emit(index(node));
-    }
-  }
-  /// Whether a node, by its number, is fixed in direction a.
-  bool is_fixed(std::int32_t number, Eigen::Index a) const {
-    return !fixed_.empty() && fixed_[static_cast<std::size_t>(number)][static_cast<std::size_t>(a)];
-  }
-  Eigen::Index fixed_direction_count() const;
-  /// Whether some degrees of freedom are not those of a node that moves freely.
-  bool is_constrained() const { return has_rigid_couplings() || !fixed_.empty(); }
-  /// From the point of its rigid coupling to a node.
-  Eigen::Vector3d arm_m(std::int32_t node) const { return arms_m_.col(node); }
-  /// What a field on all nodes, (3, n), has as free values: of a coupling, whose nodes need not
-  /// quite move rigidly in it, the least-squares motion.
-  Eigen::VectorXd restrict(const Eigen::Matrix3Xd& field) const;
+  /// Direction a of a site that is not plain: coefficients times degrees of freedom of the blocks.
+  std::span<const DofTerm> terms(std::int32_t site, int a) const;
+  /// Calls visit(block) for the blocks that move a site; one may come more than once.
+  template <typename Visitor>
+  void for_each_number(std::int32_t site, const Visitor& visit) const;
 
+  /// Whether some degrees of freedom are not those of a node that moves freely.
+  bool is_constrained() const { return !composite_of_.empty(); }
+  /// Whether degree of freedom a of a block is dependent.
+  bool is_dependent(std::int32_t block, Eigen::Index a) const {
+    return !dependent_.empty() &&
+           dependent_[static_cast<std::size_t>(block)][static_cast<std::size_t>(a)];
+  }
+  Eigen::Index dependent_count() const;
+
+  /// What a field on all nodes, (3, n), has as free values: of a reference point the least-squares
+  /// motion of the nodes that follow it; they need not quite move so in the field.
+  Eigen::VectorXd restrict(const Eigen::Matrix3Xd& field) const;
   /// Field on all nodes, (3, n), from its free values (dof_count()); zero on fixed nodes.
   Eigen::Matrix3Xd expand(const Eigen::VectorXd& free_values) const;
+  /// The same of one site.
+  Eigen::Vector3d motion_of(std::int32_t site,
+                            const Eigen::Ref<const Eigen::VectorXd>& free_values) const;
   /// Forces on the free degrees of freedom from forces on all nodes, (3, n): the transpose of
   /// expand(). Forces on tied nodes add.
   Eigen::VectorXd gather(const Eigen::Matrix3Xd& forces) const;
+  /// Adds the force on one site, of a rotation a moment.
+  void add_force(std::int32_t site, const Eigen::Vector3d& force, Eigen::VectorXd& values) const;
 
  private:
   DofMap() = default;
-  void couple_rigidly(const mesher::Mesh& mesh, std::span<const RigidCoupling> couplings);
-  void fix(std::span<const FixedDirections> directions, std::span<const RigidCoupling> couplings);
-  /// Zero in the directions that are fixed, (dof_count()).
-  void clear_fixed(Eigen::VectorXd& values) const;
+  void number(const AffineConstraints& constraints);
+  void add_composite(const AffineConstraints& constraints, std::int32_t site);
+  void fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) const;
 
-  std::vector<std::int32_t> indices_;
+  std::vector<std::int32_t> indices_;  ///< (sites)
+  Eigen::Index node_count_ = 0;
   Eigen::Index free_count_ = 0;
-  std::int32_t first_coupling_ = 0;
-  std::vector<std::int32_t> coupling_of_;   ///< (n), empty without rigid couplings
-  Eigen::Matrix3Xd arms_m_;                 ///< (3, n), likewise
-  std::vector<std::array<bool, 3>> fixed_;  ///< (free_count), empty without fixed directions
+  std::int32_t first_point_block_ = 0;
+  std::vector<std::int32_t> composite_of_;  ///< (sites), empty if all are plain
+  std::vector<std::size_t> offsets_ = {0};  ///< of the terms of each composite's three directions
+  std::vector<DofTerm> terms_;
+  std::vector<std::array<bool, 3>> dependent_;  ///< (free_count), empty if none is
 };
+
+template <typename Visitor>
+void DofMap::for_each_number(std::int32_t site, const Visitor& visit) const {
+  if (is_plain(site)) {
+    if (index(site) >= 0) visit(index(site));
+    return;
+  }
+  for (int a = 0; a < 3; ++a) {
+    for (const DofTerm& term : terms(site, a)) visit(term.dof / 3);
+  }
+}
 
 }  // namespace flexneck::fe_modal

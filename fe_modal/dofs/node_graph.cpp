@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "fe_modal/dofs/point_element.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -87,11 +88,23 @@ NodeGraph::NodeGraph(const mesher::Mesh& mesh) {
 }
 
 NodeGraph::NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map) {
-  const auto free = [&](std::int32_t node, const auto& emit) {
-    dof_map.for_each_number(node, emit);
+  const auto free = [&](std::int32_t site, const auto& emit) {
+    dof_map.for_each_number(site, emit);
   };
-  connect(nodes_of_elements(mesh, free), static_cast<std::size_t>(dof_map.free_count()), offsets_,
-          columns_);
+  Rows elements = nodes_of_elements(mesh, free);
+  for (const PointElement& point : point_elements_of(mesh.connections, mesh.nodes.size())) {
+    for (const std::int32_t site : point.sites) {
+      free(site, [&](std::int32_t block) { elements.entries.push_back(block); });
+    }
+    elements.offsets.push_back(elements.entries.size());
+  }
+  // A reference point's block that nothing feels keeps its diagonal.
+  for (auto site = static_cast<std::int32_t>(dof_map.node_count()); site < dof_map.site_count();
+       ++site) {
+    free(site, [&](std::int32_t block) { elements.entries.push_back(block); });
+    elements.offsets.push_back(elements.entries.size());
+  }
+  connect(elements, static_cast<std::size_t>(dof_map.free_count()), offsets_, columns_);
 }
 
 }  // namespace flexneck::fe_modal

@@ -16,7 +16,7 @@ class NodeGraph {
  public:
   /// Of all nodes of the mesh.
   explicit NodeGraph(const mesher::Mesh& mesh);
-  /// Of the free nodes, by their indices.
+  /// Of the blocks of degrees of freedom that elements, point masses and springs join.
   NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map);
 
   /// As found elsewhere.

@@ -7,7 +7,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-UpperMatrix stiffness_of(SymmetricMatrix& matrix) {
+UpperMatrix upper_of(SymmetricMatrix& matrix) {
   return Eigen::Map<const UpperMatrix>(
       matrix.size(), matrix.size(), static_cast<Eigen::Index>(matrix.columns().size()),
       matrix.offsets().data(), matrix.columns().data(), matrix.values().data());
@@ -18,7 +18,10 @@ UpperMatrix stiffness_of(SymmetricMatrix& matrix) {
 ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                              const FormulationChoice& formulation) {
   SystemMatrices system = assemble(mesh, dof_map, formulation);
-  ImportedBody body{stiffness_of(system.stiffness), expand_mass(system.mass.between_nodes()), {}};
+  ImportedBody body{upper_of(system.stiffness),
+                    system.constrained_mass ? upper_of(*system.constrained_mass)
+                                            : expand_mass(system.mass.between_nodes()),
+                    {}};
   body.nodes_m.resize(3, dof_map.free_count());
   const auto positions = mesher::positions_of(mesh);
   // From the last one on, so that the first of tied nodes stands.

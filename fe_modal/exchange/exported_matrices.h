@@ -9,6 +9,7 @@ namespace flexneck::fe_modal {
 
 /// K and M of a mesh for other programs, without what is fixed; of nodes that are tied the first
 /// one stands for all.
+/// @pre the DofMap is not constrained; springs and masses are at nodes
 /// @throws what assemble() throws.
 ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                              const FormulationChoice& formulation);

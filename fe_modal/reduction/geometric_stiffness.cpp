@@ -104,6 +104,21 @@ std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positio
   return fields;
 }
 
+/// Less the inertia forces of a particle in the same accelerations, on all degrees of freedom.
+void add_inertia_forces(const Particle& particle, const DofMap& dof_map, Eigen::MatrixXd& loads) {
+  std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(particle.position_m);
+  for (const auto& motion : particle.motions.colwise()) accelerations.emplace_back(motion);
+  for (std::size_t i = 0; i < accelerations.size(); ++i) {
+    const Eigen::Vector3d force = -particle.mass_kg * accelerations[i];
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(loads.rows());
+    dof_map.add_force(particle.site, force, values);
+    if (particle.site >= dof_map.node_count()) {
+      dof_map.add_force(particle.site + 1, particle.arm_m.cross(force), values);
+    }
+    loads.col(static_cast<Eigen::Index>(i)) += values;
+  }
+}
+
 }  // namespace
 
 std::vector<Eigen::MatrixXd> geometric_stiffness(
@@ -126,13 +141,20 @@ GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
                                        const FormulationChoice& formulation,
                                        const AssembledSystem& system, const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
-                                       const std::vector<Eigen::Matrix3Xd>& modes) {
+                                       const std::vector<Eigen::Matrix3Xd>& modes,
+                                       const std::vector<Particle>& particles) {
   std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(mesher::positions_of(mesh));
   accelerations.insert(accelerations.end(), modes.begin(), modes.end());
   const auto inertial = static_cast<Eigen::Index>(accelerations.size());
   Eigen::MatrixXd loads(system.fields().own_dof_count(),
                         inertial + static_cast<Eigen::Index>(6 * interfaces.size()));
   loads.leftCols(inertial) = -system.inertia_forces(accelerations);
+  if (!particles.empty()) {
+    const DofMap& dof_map = system.fields().dof_map();
+    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(dof_map.dof_count(), inertial);
+    for (const Particle& particle : particles) add_inertia_forces(particle, dof_map, forces);
+    loads.leftCols(inertial) += system.fields().layout().own_rows(forces);
+  }
   for (std::size_t k = 0; k < interfaces.size(); ++k) {
     loads.middleCols<6>(inertial + static_cast<Eigen::Index>(6 * k)) = interfaces[k].forces;
   }

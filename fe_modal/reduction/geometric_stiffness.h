@@ -8,6 +8,7 @@
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/reduction/operators.h"
+#include "fe_modal/reduction/particles.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/solve/assembled_system.h"
 #include "mesher/mesh/mesh.h"
@@ -25,10 +26,12 @@ std::vector<Eigen::MatrixXd> geometric_stiffness(
 
 /// The same for the stresses of unit accelerations, angular accelerations, products of angular
 /// velocities, modal accelerations and interface loads of a fixed body, from static solutions.
+/// @param particles that the body carries besides, with their motions in the modes
 GeometricStiffness unit_load_stiffness(const mesher::Mesh& mesh,
                                        const FormulationChoice& formulation,
                                        const AssembledSystem& system, const BodyOperators& body,
                                        const std::vector<InterfaceLoads>& interfaces,
-                                       const std::vector<Eigen::Matrix3Xd>& modes);
+                                       const std::vector<Eigen::Matrix3Xd>& modes,
+                                       const std::vector<Particle>& particles);
 
 }  // namespace flexneck::fe_modal

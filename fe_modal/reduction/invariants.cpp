@@ -31,7 +31,8 @@ InertiaInvariants inertia_invariants(const NodalMass& mass,
 
 InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
                                      const std::vector<std::array<double, 3>>& nodes_m,
-                                     const std::vector<Eigen::Matrix3Xd>& shapes) {
+                                     const std::vector<Eigen::Matrix3Xd>& shapes,
+                                     const std::vector<Particle>& particles) {
   const auto n = static_cast<Eigen::Index>(nodes_m.size());
   const auto m = static_cast<Eigen::Index>(shapes.size());
   // Columns: 1, then the components of s0, then those of psi_0 … psi_(m-1).
@@ -44,7 +45,12 @@ InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
   for (Eigen::Index l = 0; l < m; ++l) {
     fields.middleCols<3>(4 + 3 * l) = shapes[static_cast<std::size_t>(l)].transpose();
   }
-  const Eigen::MatrixXd integrals = mass_integrals(fields);
+  Eigen::MatrixXd integrals = mass_integrals(fields);
+  for (const Particle& particle : particles) {
+    Eigen::VectorXd values(4 + 3 * m);
+    values << 1, particle.position_m, particle.motions.reshaped();
+    integrals += particle.mass_kg * values * values.transpose();
+  }
   const auto products = [&](Eigen::Index first, Eigen::Index second) -> Products {
     return integrals.block<3, 3>(1 + 3 * first, 1 + 3 * second);  // 0: s0, l + 1: psi_l
   };

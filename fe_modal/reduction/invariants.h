@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fe_modal/body/modal_body.h"
+#include "fe_modal/reduction/particles.h"
 #include "fe_modal/system/assembly.h"
 
 namespace flexneck::fe_modal {
@@ -18,9 +19,11 @@ using MassIntegrals = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 /// @param mass_integrals int rho f g dV of all pairs of fields, (n, k) -> (k, k)
 /// @param nodes_m positions in the body frame
 /// @param shapes m fields on all nodes, (3, n) each
+/// @param particles that the body carries besides, with their motions in the m fields
 InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
                                      const std::vector<std::array<double, 3>>& nodes_m,
-                                     const std::vector<Eigen::Matrix3Xd>& shapes);
+                                     const std::vector<Eigen::Matrix3Xd>& shapes,
+                                     const std::vector<Particle>& particles = {});
 /// The same of a mass matrix between all nodes.
 InertiaInvariants inertia_invariants(const NodalMass& mass,
                                      const std::vector<std::array<double, 3>>& nodes_m,

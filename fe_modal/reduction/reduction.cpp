@@ -9,8 +9,6 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr Eigen::Index kRigidMotions = 6;
-
 EigenPairs joined(const EigenPairs& lower, const EigenPairs& upper) {
   EigenPairs all{Eigen::VectorXd(lower.values.size() + upper.values.size()),
                  Eigen::MatrixXd(lower.vectors.rows(), lower.values.size() + upper.values.size())};
@@ -23,17 +21,17 @@ EigenPairs joined(const EigenPairs& lower, const EigenPairs& upper) {
 
 Reduction complete_modes(const BodyOperators& body, const EigenPairs& normal,
                          const std::vector<InterfaceLoads>& interfaces, BasisKind kind,
-                         const Progress& progress) {
+                         Eigen::Index rigid_count, const Progress& progress) {
   Reduction reduction;
   reduction.pairs = normal;
   for (const double value : normal.values) {
     reduction.kinds.emplace_back(value > 0 ? kNormalMode : kRigidMode);
   }
   const bool free = body.shift != 0;
-  const bool all_rigid_motions = (normal.values.array() == 0).count() >= kRigidMotions;
+  const bool all_rigid_motions = (normal.values.array() == 0).count() >= rigid_count;
   if (kind != BasisKind::normal && free && !all_rigid_motions) {
-    throw InputError(
-        "inertia relief needs all six rigid motions of the free body: ask for six modes or more");
+    throw InputError("inertia relief needs all rigid motions of the body: ask for " +
+                     std::to_string(rigid_count) + " modes or more");
   }
   if (interfaces.empty() || (free && !all_rigid_motions)) return reduction;
 

@@ -17,7 +17,7 @@ namespace flexneck::fe_modal {
 struct Reduction {
   EigenPairs pairs;                ///< M-orthonormal, ascending
   std::vector<std::string> kinds;  ///< of each pair, see basis_kind.h
-  /// For each interface; none for a free body whose modes do not hold all six rigid motions.
+  /// For each interface; none for a body whose modes do not hold all its rigid motions.
   std::vector<StaticResponse> responses;
 };
 
@@ -30,10 +30,11 @@ using ModeSolver = std::function<EigenPairs(Mat mass, Eigen::Index count)>;
 /// on others or that the modes hold already are dropped and reported.
 /// @param normal eigenpairs of the body; eigenvalues of rigid motions are exactly zero
 /// @param kind normal: nothing is added
+/// @param rigid_count rigid motions that the boundary leaves the body
 /// @throws InputError if a free body's basis lacks rigid motions; ComputationError from the solver.
 Reduction complete_modes(const BodyOperators& body, const EigenPairs& normal,
                          const std::vector<InterfaceLoads>& interfaces, BasisKind kind,
-                         const Progress& progress);
+                         Eigen::Index rigid_count, const Progress& progress);
 
 /// Modes with the average motions of the interfaces fixed, and the interfaces' static shapes (Craig
 /// and Bampton, AIAA J. 6 (1968)), made orthonormal by the reduced eigenproblem. Of its vectors the

@@ -66,7 +66,10 @@ AssembledSystem::Sharing AssembledSystem::share_out(const mesher::Mesh& mesh, co
                                   ? mesher::partition_elements(mesh, count).processes
                                   : options.element_ranks;
   }
-  if (count > 1) require_work_for_all(sharing.rank_of_element, count);
+  if (count > 1) {
+    require_work_for_all(sharing.rank_of_element, count);
+    sharing.rank_of_element.resize(element_count(mesh), 0);  // springs and masses
+  }
   return sharing;
 }
 

@@ -3,10 +3,7 @@
 
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "fe_modal/algebra/matrix_product.h"
-#include "fe_modal/body/skew.h"
 #include "fe_modal/solve/block_lanczos.h"
 
 namespace flexneck::fe_modal {
@@ -17,15 +14,6 @@ Settled settled_to(double residual) {
 }
 
 }  // namespace
-
-Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
-                           const Eigen::Matrix3d& inertia_kg_m2) {
-  const Eigen::Matrix3d crossed = skew(center_m);
-  Matrix6d matrix;
-  matrix << mass_kg * Eigen::Matrix3d::Identity(), -mass_kg * crossed, mass_kg * crossed,
-      inertia_kg_m2 - mass_kg * crossed * crossed;
-  return matrix;
-}
 
 AttachedMass::AttachedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& loads,
                            const Matrix6d& rigid_mass)

@@ -3,15 +3,10 @@
 
 #include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/dofs/rigid_mass.h"
 #include "fe_modal/system/rigid_average.h"
 
 namespace flexneck::fe_modal {
-
-/// Mass matrix of a rigid body about a point, (6, 6): translation of the point, then rotation.
-/// @param center_m of mass, from the point
-/// @param inertia_kg_m2 about the centre of mass
-Matrix6d rigid_mass_matrix(double mass_kg, const Eigen::Vector3d& center_m,
-                           const Eigen::Matrix3d& inertia_kg_m2);
 
 /// M + C^T M_rigid C as an operator: the body with a rigid one that follows the average motion C of
 /// a region. The matrix itself would be full on the region.

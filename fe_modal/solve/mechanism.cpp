@@ -28,11 +28,12 @@ constexpr double kNone = 1e-3;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
-Eigen::MatrixXd strainless_fields(const AssembledSystem& system, double scale) {
+Eigen::MatrixXd strainless_fields(const AssembledSystem& system, double scale, double strainless) {
   const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
-  const EigenPairs pairs =
-      lowest_eigenpairs(system.mass(), *inverse, std::min(kMaxMotions, size_of(system.mass())));
-  const Eigen::Index count = (pairs.values.array() < kStrainless * scale).count();
+  const DofMap& dof_map = system.fields().dof_map();
+  const Eigen::Index dofs = dof_map.dof_count() - dof_map.dependent_count();
+  const EigenPairs pairs = lowest_eigenpairs(system.mass(), *inverse, std::min(kMaxMotions, dofs));
+  const Eigen::Index count = (pairs.values.array() < strainless * scale).count();
   Eigen::MatrixXd fields(3 * system.fields().node_count(), count);
   const auto expanded = system.fields().expand(pairs.vectors.leftCols(count));
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -156,11 +157,17 @@ double eigenvalue_scale(const mesher::Mesh& mesh) {
   return slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
 }
 
+double strainless_share(const mesher::Mesh& mesh) {
+  constexpr double kOnSprings = 1e-12;
+  return mesh.connections.springs.empty() ? kStrainless : kOnSprings;
+}
+
 std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh,
                                               const AssembledSystem& system, bool is_fixed) {
   const double length_m = mesher::bounding_box(mesh).extent_m().norm();
   const std::vector<Part> parts = rigid_parts_of(mesh);
-  Eigen::MatrixXd fields = strainless_fields(system, eigenvalue_scale(mesh));
+  Eigen::MatrixXd fields =
+      strainless_fields(system, eigenvalue_scale(mesh), strainless_share(mesh));
   if (!is_fixed && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
   std::string text;
   for (const Part& part : parts) {

@@ -14,11 +14,12 @@ double eigenvalue_scale(const mesher::Mesh& mesh);
 
 /// Eigenvalues below this share of the scale belong to motions without strain.
 inline constexpr double kStrainless = 1e-6;
+/// The same of a mesh: on springs a body may move as softly as they are.
+double strainless_share(const mesher::Mesh& mesh);
 
 /// Which parts move without strain, and how, e.g. "part 'pin' turns freely about z through (0, 0,
-/// 0.1) m". Of a body that nothing fixes the motion as a whole does not count: the heaviest part
-/// stands still.
-/// @param is_fixed whether a node set is fixed
+/// 0.1) m". Of a body that keeps rigid motions these do not count: the heaviest part stands still.
+/// @param is_fixed whether supports leave the body no rigid motion
 /// @return nothing if every such motion is too large for parts as rigid bodies: then it bends
 /// @throws ComputationError if the motions cannot be computed.
 std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh,

@@ -109,16 +109,9 @@ void check_eigenvalues(const Eigen::VectorXd& values, double shift) {
 }
 
 void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn) {
-  constexpr Eigen::Index kRigidMotions = 6;
   const Eigen::Index count = pairs.values.size();
-  if (count == 0 || !warn) return;
+  if (count == 0 || !warn || (shift != 0 && is_rigid(pairs.next, shift))) return;
   const std::string cuts = "the number of modes, " + std::to_string(count) + ", cuts ";
-  if (shift != 0 && count < kRigidMotions) {
-    warn(cuts +
-         "the 6 rigid-body motions of a free body, of which any combination is one: ask "
-         "for at least 6");
-    return;
-  }
   if (!(pairs.next - pairs.values[count - 1] < kCluster * pairs.next)) return;
   const Eigen::Index begin = cluster_of(pairs.values, count - 1, shift).begin;
   warn(cuts + "a cluster of equal frequencies at " + hertz(pairs.values[begin]) +

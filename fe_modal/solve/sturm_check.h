@@ -41,9 +41,9 @@ std::optional<std::string> prove_complete(const ModalSystem& system, const Eigen
 /// @throws ComputationError for values that are not numbers, or negative beyond rounding.
 void check_eigenvalues(const Eigen::VectorXd& values, double shift);
 
-/// Warns if the next eigenvalue belongs to the cluster of the last pair, or if rigid-body motions
-/// are among those that are left out.
-/// @param shift of the inverse; not zero for a free body
+/// Warns if the next eigenvalue belongs to the cluster of the last pair, unless that is of
+/// rigid-body motions.
+/// @param shift of the inverse; not zero for a body that keeps rigid motions
 void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn);
 
 }  // namespace flexneck::fe_modal

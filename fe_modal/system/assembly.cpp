@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fe_modal/dofs/constrained_element.h"
+#include "fe_modal/dofs/point_element.h"
 #include "fe_modal/element/element_fields.h"
 #include "fe_modal/element/element_kernel.h"
 #include "fe_modal/element/geometric_kernel.h"
@@ -87,13 +88,14 @@ void add_mass(const SortedNodes& nodes, const Eigen::MatrixXd& element, NodalMas
 }
 
 /// The same where there are constraints, with which the mass is not the same in each direction.
-void add_constrained(std::span<const std::int32_t> nodes, const DofMap& dof_map,
-                     const ElementMatrices& element, SortedNodes& sorted,
+void add_constrained(std::span<const std::int32_t> sites, const DofMap& dof_map,
+                     const Eigen::MatrixXd& element_stiffness, const Eigen::MatrixXd& element_mass,
                      SymmetricMatrix& stiffness, SymmetricMatrix& mass) {
-  const ConstrainedElement constrained(nodes, dof_map);
+  const ConstrainedElement constrained(sites, dof_map);
+  SortedNodes sorted;
   sorted.assign(constrained.numbers(), [](std::int32_t number) { return number; });
-  add_stiffness(sorted, constrained.reduced(element.stiffness), stiffness);
-  add_stiffness(sorted, constrained.reduced(in_three_directions(element.mass)), mass);
+  add_stiffness(sorted, constrained.reduced(element_stiffness), stiffness);
+  add_stiffness(sorted, constrained.reduced(element_mass), mass);
 }
 
 void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, const DofMap& dof_map,
@@ -125,7 +127,8 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, cons
                              error.what());
     }
     if (constrained_mass) {
-      add_constrained(nodes, dof_map, element, sorted, stiffness, *constrained_mass);
+      add_constrained(nodes, dof_map, element.stiffness, in_three_directions(element.mass),
+                      stiffness, *constrained_mass);
     } else {
       sorted.assign(nodes, [&](std::int32_t node) { return dof_map.index(node); });
       add_stiffness(sorted, element.stiffness, stiffness);
@@ -135,8 +138,9 @@ void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, cons
   }
 }
 
-/// Each fixed degree of freedom gets the mean diagonal entry as its only stiffness, and no mass.
-void stiffen_fixed(const DofMap& dof_map, SymmetricMatrix& stiffness) {
+/// Each dependent degree of freedom gets the mean diagonal entry as its only stiffness, and no
+/// mass.
+void stiffen_dependent(const DofMap& dof_map, SymmetricMatrix& stiffness) {
   double sum = 0;
   const auto for_each = [&](const auto& action) {
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(dof_map.free_count()); ++k) {
@@ -146,7 +150,7 @@ void stiffen_fixed(const DofMap& dof_map, SymmetricMatrix& stiffness) {
   for_each([&](std::int32_t /*k*/, int /*a*/, double entry) { sum += entry; });
   const double mean = sum / static_cast<double>(dof_map.dof_count());
   for_each([&](std::int32_t k, int a, double& entry) {
-    if (dof_map.is_fixed(k, a)) entry = mean;
+    if (dof_map.is_dependent(k, a)) entry = mean;
   });
 }
 
@@ -158,12 +162,17 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
   SymmetricMatrix stiffness(graph);
   NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));
   std::optional<SymmetricMatrix> constrained_mass;
-  if (dof_map.is_constrained()) constrained_mass.emplace(graph);
+  const std::vector<PointElement> points = point_elements_of(mesh.connections, mesh.nodes.size());
+  if (dof_map.is_constrained() || !points.empty()) constrained_mass.emplace(graph);
   for (const mesher::ElementBlock& block : mesh.blocks) {
     add_block(mesh, block, dof_map, formulation, prestress_m, stiffness, nodal_mass,
               constrained_mass);
   }
-  if (dof_map.fixed_direction_count() > 0) stiffen_fixed(dof_map, stiffness);
+  for (const PointElement& point : points) {
+    add_constrained(point.sites, dof_map, point.stiffness, point.mass, stiffness,
+                    *constrained_mass);
+  }
+  if (dof_map.dependent_count() > 0) stiffen_dependent(dof_map, stiffness);
   MassMatrix mass(nodal_mass, graph, dof_map);
   SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass),
                         std::move(constrained_mass)};

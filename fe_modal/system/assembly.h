@@ -16,12 +16,12 @@ namespace flexneck::fe_modal {
 
 /// Matrices of the whole body.
 struct SystemMatrices {
-  NodeGraph graph;            ///< of the free nodes
+  NodeGraph graph;            ///< of the blocks of degrees of freedom
   SymmetricMatrix stiffness;  ///< of the free degrees of freedom, N/m
-  NodalMass nodal_mass;       ///< of all nodes, kg
+  NodalMass nodal_mass;       ///< of all nodes, kg; without point masses
   MassMatrix mass;            ///< of the free degrees of freedom, kg; void with constraints
-  /// Where there are rigid couplings or fixed directions: of the free degrees of freedom, the
-  /// couplings' included; zero where a direction is fixed.
+  /// Where constraints join degrees of freedom, and where there are point masses or springs: of the
+  /// free degrees of freedom; zero in dependent ones.
   std::optional<SymmetricMatrix> constrained_mass;
 
   Mat mass_operator() const { return constrained_mass ? constrained_mass->get() : mass.get(); }

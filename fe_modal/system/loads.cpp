@@ -102,6 +102,10 @@ class NodalForces {
     const Eigen::MatrixX3d field =
         load.acceleration_m_s2.transpose().replicate(forces_N_.cols(), 1);
     forces_N_ += Eigen::MatrixX3d(nodal_mass_ * field).transpose();
+    for (const mesher::PointMass& mass : mesh_.connections.masses) {
+      if (mass.site < forces_N_.cols())
+        forces_N_.col(mass.site) += mass.mass_kg * load.acceleration_m_s2;
+    }
   }
 
   void operator()(const FaceLoad& load) const {

@@ -59,7 +59,8 @@ struct Load {
 /// "pull: face 'tip', force (0, 0, 100) N at (0, 0, 1) m"
 std::string describe(const Load& load);
 
-/// Consistent nodal forces of all loads, (3, n) in N; none of supports that move.
+/// Consistent nodal forces of all loads, (3, n) in N; none of supports that move, nor the weights
+/// of masses at reference points (point_forces.h).
 /// @param nodal_mass of all nodes
 /// @throws InputError for an unknown set, a position without a node, or a pressure on faces that
 /// are not on the boundary, naming the load.

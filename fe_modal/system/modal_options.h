@@ -11,7 +11,7 @@
 
 #include "fe_modal/algebra/ranks.h"
 #include "fe_modal/body/basis_kind.h"
-#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/dofs/rigid_motions.h"
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/system/loads.h"
 #include "fe_modal/system/solver.h"
@@ -67,14 +67,21 @@ struct ModalOptions {
   Ranks ranks = {};                              ///< processes that share the work
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
   std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
-
-  bool is_fixed() const { return !fixed_set.empty() || !fixed_directions.empty(); }
 };
 
-/// The nodes that the options leave free. @throws InputError for unknown sets, and as DofMap.
+/// Those of the mesh, behind them rigid interfaces and sets that are fixed in some directions.
+/// @throws InputError for unknown sets.
+mesher::Connections connections_of(const mesher::Mesh& mesh, const ModalOptions& options);
+
+/// What the options leave free. @throws InputError for unknown sets, as DofMap, and for a rigid
+/// interface that does not move.
 DofMap dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options);
 
-/// "fixed: bolts, x of left", or "free".
-std::string boundary_of(const ModalOptions& options);
+/// Those of the body as a whole that the options leave.
+RigidMotions rigid_motions_of(const mesher::Mesh& mesh, const ModalOptions& options);
+
+/// "fixed: bolts, x of left; slides along y", or "free".
+std::string boundary_of(const mesher::Mesh& mesh, const ModalOptions& options,
+                        const RigidMotions& rigid);
 
 }  // namespace flexneck::fe_modal

@@ -3,27 +3,12 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
-
-#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/dofs/rigid_motions.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-/// Three nodes that are not on a line keep a body from turning.
-void check_fixed(const mesher::Mesh& mesh, const std::string& set) {
-  Eigen::Matrix3Xd positions = mesher::positions_of(mesh, mesh.node_set(set).nodes);
-  positions.colwise() -= positions.rowwise().mean().eval();
-  Eigen::ColPivHouseholderQR<Eigen::Matrix3Xd> decomposition(positions);
-  decomposition.setThreshold(1e-6);
-  if (decomposition.rank() < 2) {
-    throw InputError("fixed set '" + set + "' has " + std::to_string(positions.cols()) +
-                     " nodes on one line: the body can turn about it; fix an area");
-  }
-}
 
 void check_parts(const mesher::Mesh& mesh, const ModalOptions& options) {
   std::vector<std::string> parts;
@@ -46,7 +31,15 @@ void check_parts(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
 }
 
-void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
+constexpr Eigen::Index kAll = 6;  ///< rigid motions
+
+/// "a free body", or "a body that slides along x"
+std::string body_with(const RigidMotions& rigid) {
+  return rigid.count() == kAll ? "a free body" : "a body that " + rigid.text();
+}
+
+void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options,
+                      const RigidMotions& rigid) {
   std::vector<std::string> names = names_of(options.interfaces);
   for (const InterfaceDefinition& interface : options.interfaces) {
     static_cast<void>(mesh.face_set(interface.set));
@@ -60,9 +53,9 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
   for (const RigidAttachment& attachment : options.attachments) {
     static_cast<void>(find_name(names, attachment.interface, "interface"));
-    if (!options.is_fixed()) {
-      throw InputError("rigid body '" + attachment.name +
-                       "' is attached to a free body: name a set of nodes to fix");
+    if (rigid.count() > 0) {
+      throw InputError("rigid body '" + attachment.name + "' is attached to " + body_with(rigid) +
+                       ": name a set of nodes to fix");
     }
     if (!(attachment.mass_kg >= 0)) {
       throw InputError("the mass of rigid body '" + attachment.name + "' is negative");
@@ -79,19 +72,19 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_names(names_of(options.attachments), "attachment");
 }
 
-void check_basis(const ModalOptions& options, Eigen::Index dofs) {
+void check_basis(const mesher::Mesh& mesh, const ModalOptions& options, Eigen::Index dofs,
+                 const RigidMotions& rigid) {
   if (options.basis == BasisKind::normal) return;
   const std::string who =
       "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
-  const bool fixed = options.is_fixed();
-  if (options.basis == BasisKind::inertia_relief && fixed) {
-    const std::string& set =
-        options.fixed_set.empty() ? options.fixed_directions.begin()->first : options.fixed_set;
-    throw InputError(who + " is for a free body, but '" + set +
-                     "' is fixed; take 'residual' or fix nothing");
+  if (options.basis == BasisKind::inertia_relief && rigid.count() == 0) {
+    throw InputError(who + " is for a body that keeps rigid motions, and of one that is '" +
+                     boundary_of(mesh, options, rigid) +
+                     "' none is left; take 'residual' or fix less");
   }
-  if (options.basis != BasisKind::inertia_relief && !fixed) {
-    throw InputError(who + " is for a fixed body, but nothing is fixed; take 'inertia-relief'");
+  if (options.basis != BasisKind::inertia_relief && rigid.count() > 0) {
+    throw InputError(who + " is for a fixed body, but this is " + body_with(rigid) +
+                     "; take 'inertia-relief'");
   }
   if (options.interfaces.empty()) {
     throw InputError(who +
@@ -122,14 +115,24 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError("slits that open and close: the mesh has no open slit");
 }
 
-void check_prestress(const ModalOptions& options) {
+/// Forces in couplings and springs turn with the body and stiffen or soften it, which constraints
+/// and springs of small motions leave out.
+void refuse_turning_forces(const mesher::Mesh& mesh, const std::string& what) {
+  mesher::Connections turning;
+  turning.points = mesh.connections.points;
+  turning.couplings = mesh.connections.couplings;
+  turning.springs = mesh.connections.springs;
+  if (turning.empty()) return;
+  throw InputError(what + " is not offered with " + turning.text() +
+                   ", whose forces would turn with the body: leave these out");
+}
+
+void check_prestress(const mesher::Mesh& mesh, const ModalOptions& options,
+                     const RigidMotions& rigid) {
   if (options.prestress.empty()) return;
+  refuse_turning_forces(mesh, "a prestress");
   check_names(names_of(options.prestress), "load");
-  if (!options.is_fixed()) {
-    throw InputError(
-        "a prestress needs supports, but nothing is fixed: name node sets in modes.fixed or "
-        "modes.fixed_directions");
-  }
+  require_supports(rigid, "a prestress");
   if (options.geometric_stiffness || options.slit_motions != SlitMotions::none) {
     throw InputError(
         "a prestress is not offered with the geometric stiffness of unit loads, nor with slits "
@@ -139,15 +142,19 @@ void check_prestress(const ModalOptions& options) {
 
 }  // namespace
 
+void require_supports(const RigidMotions& rigid, const std::string& who) {
+  if (rigid.count() == 0) return;
+  throw InputError(who + " needs supports, but " +
+                   (rigid.count() == kAll ? "nothing is fixed" : "the body " + rigid.text()) +
+                   ": name node sets in modes.fixed or modes.fixed_directions");
+}
+
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   mesher::check(mesh);
   check_parts(mesh, options);
-  // With directions fixed besides, a line of nodes may be enough; if not, the mechanism is named.
-  if (!options.fixed_set.empty() && options.fixed_directions.empty()) {
-    check_fixed(mesh, options.fixed_set);
-  }
   const DofMap dof_map = dof_map_of(mesh, options);
-  const Eigen::Index dofs = dof_map.dof_count() - dof_map.fixed_direction_count();
+  const Eigen::Index dofs = dof_map.dof_count() - dof_map.dependent_count();
+  const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);
   // Static shapes alone make a basis too.
   const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
   if (options.mode_count < least || options.mode_count > dofs) {
@@ -155,14 +162,17 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
                      std::to_string(dofs) + " degrees of freedom, found " +
                      std::to_string(options.mode_count));
   }
-  check_interfaces(mesh, options);
-  check_basis(options, dofs);
+  check_interfaces(mesh, options, rigid);
+  check_basis(mesh, options, dofs, rigid);
   check_slit_motions(mesh, options);
-  check_prestress(options);
-  if (options.geometric_stiffness && !options.is_fixed()) {
+  check_prestress(mesh, options, rigid);
+  if (options.geometric_stiffness)
+    refuse_turning_forces(mesh, "the geometric stiffness under unit loads");
+  if (options.geometric_stiffness && rigid.count() > 0) {
     throw InputError(
-        "the geometric stiffness under unit loads is that of a fixed body: name a set "
-        "of nodes to fix");
+        "the geometric stiffness under unit loads is that of a fixed body, and this "
+        "is " +
+        body_with(rigid) + ": name a set of nodes to fix");
   }
 }
 

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "fe_modal/system/modal_options.h"
 
 namespace flexneck::fe_modal {
 
 /// @throws InputError for the first option that does not fit the mesh or the other options.
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options);
+
+/// @param who needs them: "a static step"
+/// @throws InputError with the rigid motions that are left, if there are any.
+void require_supports(const RigidMotions& rigid, const std::string& who);
 
 }  // namespace flexneck::fe_modal

@@ -20,7 +20,7 @@ class RankPart {
  public:
   /// All of the mesh, which must outlive this.
   RankPart(const mesher::Mesh& mesh, const DofMap& dof_map);
-  /// @param numbers of the elements, the mesh's blocks in their order
+  /// @param numbers of the elements, as for_each_element() counts them
   /// @param number of those that are in the part
   RankPart(const mesher::Mesh& mesh, const DofMap& dof_map,
            const std::vector<std::int32_t>& numbers, std::int32_t number);
@@ -43,13 +43,17 @@ class RankPart {
   std::vector<std::int32_t> blocks_;
 };
 
-/// Calls visit(number of the element, its nodes) for each element.
+/// Elements, point masses and springs.
+std::size_t element_count(const mesher::Mesh& mesh);
+
+/// Calls visit(number of the element, its nodes) for each element, the mesh's blocks in their
+/// order; behind them for springs and point masses, with their sites.
 void for_each_element(const mesher::Mesh& mesh,
                       const std::function<void(std::size_t, std::span<const std::int32_t>)>& visit);
 
 /// Where vectors lie if the elements are shared out: a block is of the lowest rank that has one of
 /// its elements.
-/// @param rank_of_element the mesh's blocks in their order
+/// @param rank_of_element as for_each_element() counts them
 DofLayout layout_of(const Ranks& ranks, const mesher::Mesh& mesh, const DofMap& dof_map,
                     const std::vector<std::int32_t>& rank_of_element);
 

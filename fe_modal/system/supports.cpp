@@ -26,11 +26,68 @@ void for_tied_pairs(const mesher::Mesh& mesh, const Couple& couple) {
   }
 }
 
-using Moved = std::vector<std::array<bool, 3>>;
+using Directions = std::vector<std::array<bool, 3>>;
+
+/// Those that supports along x, y and z fix.
+Directions supported(const mesher::Mesh& mesh, const ModalOptions& options,
+                     const mesher::Connections& connections) {
+  Directions fixed(mesh.nodes.size());
+  const auto fix = [&](const std::vector<std::int32_t>& nodes,
+                       const std::array<bool, 3>& directions) {
+    for (const std::int32_t node : nodes) {
+      auto& of_node = fixed[static_cast<std::size_t>(node)];
+      for (std::size_t a = 0; a < 3; ++a) of_node[a] = of_node[a] || directions[a];
+    }
+  };
+  if (!options.fixed_set.empty()) fix(mesh.node_set(options.fixed_set).nodes, {true, true, true});
+  for (const mesher::Support& support : connections.supports) {
+    if (support.axes.is_global()) fix(support.nodes, support.directions);
+  }
+  return fixed;
+}
+
+/// Calls visit(node, name) for nodes that connections act on, other than supports along x, y and z.
+template <typename Visitor>
+void for_connected_nodes(const mesher::Connections& connections, std::size_t node_count,
+                         const Visitor& visit) {
+  const auto visit_terms = [&](const auto& each) {
+    for (const mesher::Term& term : each.terms) {
+      if (static_cast<std::size_t>(term.site) < node_count) visit(term.site, each.name);
+    }
+  };
+  for (const mesher::Coupling& coupling : connections.couplings) {
+    for (const std::int32_t node : coupling.nodes) visit(node, coupling.name);
+  }
+  for (const mesher::Equation& equation : connections.equations) visit_terms(equation);
+  for (const mesher::Spring& spring : connections.springs) visit_terms(spring);
+  for (const mesher::Support& support : connections.supports) {
+    if (support.axes.is_global()) continue;
+    for (const std::int32_t node : support.nodes) visit(node, support.name);
+  }
+}
+
+void spread_over_ties(const mesher::Mesh& mesh, Directions& directions) {
+  for_tied_pairs(mesh, [&](std::int32_t lower, std::int32_t upper) {
+    auto& one = directions[static_cast<std::size_t>(lower)];
+    auto& other = directions[static_cast<std::size_t>(upper)];
+    if (one == other) return false;
+    for (std::size_t a = 0; a < 3; ++a) one[a] = other[a] = one[a] || other[a];
+    return true;
+  });
+}
+
+/// Forces in what acts on such a node would follow its motion.
+void refuse_connected(const mesher::Connections& connections, const Directions& moved) {
+  for_connected_nodes(connections, moved.size(), [&](std::int32_t node, const std::string& name) {
+    if (moved[static_cast<std::size_t>(node)] == std::array<bool, 3>{}) return;
+    throw InputError("supports that move are not offered at nodes of " + name +
+                     ": leave that out, or move other nodes");
+  });
+}
 
 /// Moves the fixed directions of a load's nodes.
-void move(const mesher::Mesh& mesh, const Moved& fixed, const SupportLoad& load,
-          Eigen::Matrix3Xd& displacements_m, Moved& moved) {
+void move(const mesher::Mesh& mesh, const Directions& fixed, const SupportLoad& load,
+          Eigen::Matrix3Xd& displacements_m, Directions& moved) {
   const auto nodes_m = mesher::positions_of(mesh);
   bool has_moved = load.translation_m.norm() == 0 && load.rotation_rad.norm() == 0;
   for (const std::int32_t node : mesh.node_set(load.set).nodes) {
@@ -63,33 +120,26 @@ void move(const mesher::Mesh& mesh, const Moved& fixed, const SupportLoad& load,
 
 }  // namespace
 
-std::vector<std::array<bool, 3>> fixed_directions_of(const mesher::Mesh& mesh,
-                                                     const ModalOptions& options) {
-  std::vector<std::array<bool, 3>> fixed(mesh.nodes.size());
-  const auto fix = [&](const std::string& set, const std::array<bool, 3>& directions) {
-    for (const std::int32_t node : mesh.node_set(set).nodes) {
-      auto& of_node = fixed[static_cast<std::size_t>(node)];
-      for (std::size_t a = 0; a < 3; ++a) of_node[a] = of_node[a] || directions[a];
-    }
-  };
-  if (!options.fixed_set.empty()) fix(options.fixed_set, {true, true, true});
-  for (const auto& [set, directions] : options.fixed_directions) fix(set, directions);
-  for_tied_pairs(mesh, [&](std::int32_t lower, std::int32_t upper) {
-    auto& one = fixed[static_cast<std::size_t>(lower)];
-    auto& other = fixed[static_cast<std::size_t>(upper)];
-    if (one == other) return false;
-    for (std::size_t a = 0; a < 3; ++a) one[a] = other[a] = one[a] || other[a];
-    return true;
-  });
-  return fixed;
+std::vector<std::array<bool, 3>> reacting_directions_of(const mesher::Mesh& mesh,
+                                                        const ModalOptions& options) {
+  const mesher::Connections connections = connections_of(mesh, options);
+  Directions directions = supported(mesh, options, connections);
+  for_connected_nodes(connections, mesh.nodes.size(),
+                      [&](std::int32_t node, const std::string& /*name*/) {
+                        directions[static_cast<std::size_t>(node)] = {true, true, true};
+                      });
+  spread_over_ties(mesh, directions);
+  return directions;
 }
 
 Eigen::Matrix3Xd support_displacements(const mesher::Mesh& mesh, const ModalOptions& options,
                                        const std::vector<Load>& loads) {
   Eigen::Matrix3Xd displacements_m =
       Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  Moved moved(mesh.nodes.size());
-  const Moved fixed = fixed_directions_of(mesh, options);
+  Directions moved(mesh.nodes.size());
+  const mesher::Connections connections = connections_of(mesh, options);
+  Directions fixed = supported(mesh, options, connections);
+  spread_over_ties(mesh, fixed);
   for (const Load& load : loads) {
     const auto* const support = std::get_if<SupportLoad>(&load.kind);
     if (support == nullptr) continue;
@@ -112,6 +162,7 @@ Eigen::Matrix3Xd support_displacements(const mesher::Mesh& mesh, const ModalOpti
     }
     return changed;
   });
+  refuse_connected(connections, moved);
   return displacements_m;
 }
 

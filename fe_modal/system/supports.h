@@ -12,16 +12,17 @@
 
 namespace flexneck::fe_modal {
 
-/// For each node the directions x, y, z in which it is fixed, (n); a node that a tied slit couples
-/// to a fixed one is fixed like it.
-std::vector<std::array<bool, 3>> fixed_directions_of(const mesher::Mesh& mesh,
-                                                     const ModalOptions& options);
+/// For each node the directions x, y, z in which supports along these or connections that they may
+/// pass forces to act on it, (n); of two nodes that a tied slit couples on both alike. Connections
+/// are couplings, rigid interfaces, equations, springs and supports in axes of their own.
+std::vector<std::array<bool, 3>> reacting_directions_of(const mesher::Mesh& mesh,
+                                                        const ModalOptions& options);
 
 /// Displacements of the supports, (3, n) in m: those of the SupportLoads in the directions that are
 /// fixed, zero elsewhere.
 /// @throws InputError if a node of such a load is not fixed, if the load moves none of its nodes in
-/// a direction that is fixed, translates one in a direction that is free, or if two loads move a
-/// node differently.
+/// a direction that is fixed, translates one in a direction that is free, if two loads move a node
+/// differently, or if one moves a node that a connection acts on.
 Eigen::Matrix3Xd support_displacements(const mesher::Mesh& mesh, const ModalOptions& options,
                                        const std::vector<Load>& loads);
 

@@ -7,7 +7,7 @@
 
 namespace flexneck::mesher {
 
-void compare_with(const Mesh& mesh, const FileSurvey& survey, LeftOut& left_out) {
+void compare_with(const Mesh& mesh, const FileSurvey& survey) {
   std::map<std::size_t, std::size_t> found;
   for (const ElementBlock& block : mesh.blocks) {
     found[nodes_per_element(block.kind)] += block.size();
@@ -18,9 +18,6 @@ void compare_with(const Mesh& mesh, const FileSurvey& survey, LeftOut& left_out)
                      std::to_string(nodes) + " nodes, but gmsh reads " +
                      std::to_string(found[nodes]) +
                      " of them; export it anew, a .bdf in small fields, or as a .msh");
-  }
-  if (survey.nodes > mesh.nodes.size()) {
-    left_out.add("nodes of no solid element", survey.nodes - mesh.nodes.size());
   }
 }
 

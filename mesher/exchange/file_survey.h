@@ -15,12 +15,13 @@ namespace flexneck::mesher {
 struct FileSurvey {
   std::map<std::size_t, std::size_t> solids;  ///< number of nodes to number of elements
   std::size_t nodes = 0;
+  bool has_connections = false;  ///< of a .bdf: cards that nastran_connections.h reads
 };
 
 /// Of Nastran's bulk data. Counted as left out is every card but nodes, solids, materials (the
-/// study gives them), properties, coordinate systems and the control of an analysis; so are GRIDs
-/// with supports of their own and a PARAM,WTMASS, with which densities are weights. Shells and bars
-/// in a file that gmsh wrote are the faces and curves of sets.
+/// study gives them), properties, coordinate systems, the control of an analysis and what
+/// nastran_connections.h reads; so is a PARAM,WTMASS, with which densities are weights. Shells and
+/// bars in a file that gmsh wrote are the faces and curves of sets.
 /// @throws InputError with the line where the solids would come out wrong: nodes in coordinate
 /// systems of their own, INCLUDE, replicated cards, tabs in fixed fields, solids without some of
 /// their midside nodes.
@@ -33,8 +34,7 @@ FileSurvey survey_nastran(std::string_view text, LeftOut& left_out);
 /// @param length_unit_m as the study has it
 FileSurvey survey_unv(std::string_view text, double length_unit_m, LeftOut& left_out);
 
-/// Adds the nodes that no solid element uses to what is left out.
 /// @throws InputError if the mesh has not all solid elements of the file.
-void compare_with(const Mesh& mesh, const FileSurvey& survey, LeftOut& left_out);
+void compare_with(const Mesh& mesh, const FileSurvey& survey);
 
 }  // namespace flexneck::mesher

@@ -98,12 +98,31 @@ void refuse_doubled_nodes(const Mesh& mesh) {
                    "nodes, or say coincident_nodes = \"keep\" if a gap is meant");
 }
 
+/// Couplings, equations and springs join what they are at.
+void join_connected(const Mesh& mesh, DisjointSets& pieces) {
+  const Connections& connections = mesh.connections;
+  const auto place = [&](std::int32_t site) {  // both sites of a point are one
+    const auto s = static_cast<std::size_t>(site);
+    return s < mesh.nodes.size() ? s : mesh.nodes.size() + (s - mesh.nodes.size()) / 2;
+  };
+  const auto join_all = [&](const std::vector<Term>& terms) {
+    for (const Term& term : terms) pieces.join(place(terms.front().site), place(term.site));
+  };
+  for (const Coupling& coupling : connections.couplings) {
+    const std::size_t point = mesh.nodes.size() + static_cast<std::size_t>(coupling.point);
+    for (const std::int32_t node : coupling.nodes) pieces.join(point, place(node));
+  }
+  for (const Equation& equation : connections.equations) join_all(equation.terms);
+  for (const Spring& spring : connections.springs) join_all(spring.terms);
+}
+
 void refuse_unconnected(const Mesh& mesh) {
-  DisjointSets pieces(mesh.nodes.size());
+  DisjointSets pieces(mesh.nodes.size() + mesh.connections.points.size());
   const auto member = [](std::int32_t node) { return static_cast<std::size_t>(node); };
   for_each_element(mesh, [&](const ElementBlock&, std::span<const std::int32_t> nodes) {
     for (const std::int32_t node : nodes) pieces.join(member(nodes.front()), member(node));
   });
+  join_connected(mesh, pieces);
   std::set<std::size_t> roots;
   std::string second;
   for_each_element(mesh, [&](const ElementBlock& block, std::span<const std::int32_t> nodes) {

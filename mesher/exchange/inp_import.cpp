@@ -272,13 +272,14 @@ void add_integration(const InpModel& model, const ImportOptions& options, LeftOu
   }
 }
 
+/// @param used nodes of no solid element that the mesh has all the same
 void add_loose_nodes(const InpModel& model, const std::map<std::int64_t, std::int32_t>& index_of,
-                     LeftOut& left_out) {
-  left_out.add("nodes of no solid element", model.nodes.size() - index_of.size());
+                     const std::set<std::int64_t>& used, LeftOut& left_out) {
+  left_out.add("nodes of no solid element", model.nodes.size() - index_of.size() - used.size());
   for (const auto& [key, set] : model.nsets) {
     const auto loose =
         std::count_if(set.members.begin(), set.members.end(), [&](std::int64_t node) {
-          return model.nodes.count(node) > 0 && index_of.count(node) == 0;
+          return model.nodes.count(node) > 0 && index_of.count(node) == 0 && used.count(node) == 0;
         });
     left_out.add("of them in NSET '" + set.name + "'", static_cast<std::size_t>(loose));
   }
@@ -290,7 +291,6 @@ Mesh mesh_of(const InpModel& model, const ImportOptions& options, LeftOut& left_
   assign_parts_of_file(model, all);
   require_all_assigned(model, all);
   const auto index_of = number_nodes(model);
-  add_loose_nodes(model, index_of, left_out);
 
   Mesh mesh;
   for (const auto& [number, index] : index_of) {
@@ -302,6 +302,10 @@ Mesh mesh_of(const InpModel& model, const ImportOptions& options, LeftOut& left_
   add_blocks(model, all, options, index_of, mesh);
   add_node_sets(model, index_of, mesh);
   add_surfaces(model, index_of, mesh);
+  const std::set<std::int64_t> used = add_connections(
+      model.connections, {model.nodes, index_of, options.length_unit_m, options.force_unit_N}, mesh,
+      left_out);
+  add_loose_nodes(model, index_of, used, left_out);
   return mesh;
 }
 

@@ -9,6 +9,7 @@
 #include "geometry/foundation/names.h"
 #include "mesher/exchange/abaqus_elements.h"
 #include "mesher/exchange/edge_order.h"
+#include "mesher/exchange/inp_connections.h"
 #include "mesher/exchange/inp_keywords.h"
 #include "mesher/exchange/inp_sets.h"
 
@@ -21,6 +22,8 @@ class ModelReader {
     const auto found = handlers().find(card.keyword);
     if (found != handlers().end()) {
       (this->*found->second)(card);
+    } else if (connections_.read(card, model_)) {
+      return;
     } else if (is_left_out_keyword(card.keyword)) {
       model_.left_out.add("*" + card.keyword);
     } else if (is_silent_keyword(card.keyword)) {
@@ -38,7 +41,7 @@ class ModelReader {
     if (model_.elements.empty()) throw InputError(file.string() + ": it has no *ELEMENT");
     std::sort(model_.elements.begin(), model_.elements.end(),
               [](const InpElement& a, const InpElement& b) { return a.number < b.number; });
-    collect_fixed(file);
+    collect_connections();
     return std::move(model_);
   }
 
@@ -60,7 +63,6 @@ class ModelReader {
     material_of(card).density = inp_number(only_line_of(card), 0);
   }
   void solid_section(const InpCard& card);
-  void boundary(const InpCard& card);
 
   InpMaterial& material_of(const InpCard& card) {
     if (model_.materials.empty()) card.refuse("it stands under no *MATERIAL");
@@ -78,7 +80,7 @@ class ModelReader {
   template <class Known>
   void check_members(const InpSets& sets, const std::string& kind, const std::string& member,
                      const Known& known);
-  void collect_fixed(const std::filesystem::path& file);
+  void collect_connections();
 
   struct OtherType {
     std::size_t count = 0;
@@ -90,8 +92,7 @@ class ModelReader {
   std::string preload_;  ///< place of the last *STATIC
   std::set<std::int64_t> element_numbers_;
   std::map<std::string, OtherType> other_types_;
-  std::map<std::int64_t, unsigned> fixed_directions_;  ///< bits 1, 2, 4
-  std::vector<std::int64_t> fixed_by_number_;
+  InpConnectionReader connections_;
 };
 
 const std::map<std::string, ModelReader::Handler>& ModelReader::handlers() {
@@ -104,8 +105,7 @@ const std::map<std::string, ModelReader::Handler>& ModelReader::handlers() {
       {"MATERIAL", &ModelReader::material},
       {"ELASTIC", &ModelReader::elastic},
       {"DENSITY", &ModelReader::density},
-      {"SOLID SECTION", &ModelReader::solid_section},
-      {"BOUNDARY", &ModelReader::boundary}};
+      {"SOLID SECTION", &ModelReader::solid_section}};
   return kHandlers;
 }
 
@@ -153,6 +153,12 @@ void ModelReader::nodes(const InpCard& card) {
 void ModelReader::elements(const InpCard& card) {
   const std::string type = upper_case(card.parameter("TYPE"));
   const auto kind = kind_of_abaqus_type(type);
+  if (InpPointElements::has(type)) {
+    for (const std::int64_t number : connections_.elements(card, type)) {
+      element_numbers_.insert(number);
+    }
+    return;
+  }
   if (!kind) {
     OtherType& other = other_types_[type];
     if (other.count == 0) other.first = card.place.text();
@@ -225,37 +231,6 @@ void ModelReader::solid_section(const InpCard& card) {
   model_.sections.push_back({card.place, card.parameter("ELSET"), card.parameter("MATERIAL")});
 }
 
-void ModelReader::boundary(const InpCard& card) {
-  if (card.has("TYPE") && upper_case(card.parameter("TYPE")) != "DISPLACEMENT") {
-    card.refuse("only displacements are supported");
-  }
-  if (card.has("OP") && upper_case(card.parameter("OP")) == "NEW" && !fixed_directions_.empty()) {
-    card.refuse("OP=NEW lets go what was fixed before; give one *BOUNDARY for the modes");
-  }
-  for (const InpData& line : card.data) {
-    unsigned directions = 0;
-    const std::string second = line.fields.size() > 1 ? upper_case(line.fields[1]) : "";
-    if (second == "ENCASTRE" || second == "PINNED") {
-      directions = 7;
-    } else {
-      const std::int64_t first = inp_integer(line, 1);
-      const bool has_last = line.fields.size() > 2 && !line.fields[2].empty();
-      const std::int64_t last = has_last ? inp_integer(line, 2) : first;
-      for (std::int64_t d = first; d <= std::min<std::int64_t>(last, 3); ++d) {
-        if (d >= 1) directions |= 1U << (d - 1);
-      }
-    }
-    if (line.fields.size() > 3 && !line.fields[3].empty() && inp_number(line, 3) != 0) {
-      throw InputError(line.place.text() + "*BOUNDARY: expected displacements of zero");
-    }
-    const std::vector<std::int64_t> nodes = inp_members_of(line, 0, model_.nsets, "NSET");
-    if (!is_inp_set(line, 0, model_.nsets)) fixed_by_number_.push_back(nodes.front());
-    for (const std::int64_t node : nodes) {
-      fixed_directions_[node] |= directions;
-    }
-  }
-}
-
 void ModelReader::refuse_other_types(const std::filesystem::path& file) const {
   if (other_types_.empty()) return;
   std::string found;
@@ -287,17 +262,16 @@ void ModelReader::check_members(const InpSets& sets, const std::string& kind,
   }
 }
 
-void ModelReader::collect_fixed(const std::filesystem::path& file) {
-  for (const std::int64_t node : fixed_by_number_) {
+void ModelReader::collect_connections() {
+  for (const std::int64_t node : connections_.supported_by_number()) {
     if (model_.nodes.count(node) > 0) continue;
     throw InputError("*BOUNDARY fixes node " + std::to_string(node) +
                      ", which *NODE does not give");
   }
-  for (const auto& [node, directions] : fixed_directions_) {
-    if (directions == 7) model_.fixed.push_back(node);
-    if (directions == 7 || directions == 0) continue;
-    throw InputError(file.string() + ": *BOUNDARY fixes node " + std::to_string(node) +
-                     " in some directions only; a node is fixed in all three or in none");
+  model_.connections = connections_.finish(model_);
+  for (const DeckSupport& support : model_.connections.supports) {
+    const auto& fixed = support.components;
+    if (fixed[0] && fixed[1] && fixed[2]) model_.fixed.push_back(support.node);
   }
   const auto named = model_.nsets.find("BOUNDARY");
   if (named != model_.nsets.end() && !model_.fixed.empty() &&

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/exchange/deck_connections.h"
 #include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/left_out.h"
 #include "mesher/mesh/element_kind.h"
@@ -65,18 +66,18 @@ struct InpModel {
   std::vector<InpSurface> surfaces;
   std::vector<InpMaterial> materials;
   std::vector<InpSection> sections;
-  std::vector<std::int64_t> fixed;   ///< nodes that *BOUNDARY fixes in directions 1, 2 and 3
-  std::vector<std::string> ignored;  ///< keywords that were passed over, each once
+  std::vector<std::int64_t> fixed;  ///< nodes that *BOUNDARY fixes in directions 1, 2 and 3
+  DeckConnections connections;
+  std::vector<std::string> ignored;          ///< keywords that were passed over, each once
   std::map<std::string, std::size_t> types;  ///< number of elements by TYPE=, in capitals
   LeftOut left_out;                          ///< loads, prestress, damping, numbers of nothing
 };
 
 /// Reads *NODE, *ELEMENT (the types of abaqus_elements.h), *ELSET, *NSET, *SURFACE (of elements),
-/// *MATERIAL with *ELASTIC (isotropic) and *DENSITY, *SOLID SECTION and *BOUNDARY (zero
-/// displacements, all three directions of a node). Analysis steps and output requests are passed
-/// over; loads, prestress and damping are left out and counted; what would change the structure
-/// (springs, ties, equations, transformations, parts and instances …) is refused, and so is every
-/// keyword that is not known.
+/// *MATERIAL with *ELASTIC (isotropic) and *DENSITY, *SOLID SECTION and what inp_connections.h
+/// lists. Analysis steps and output requests are passed over; loads, prestress and damping are left
+/// out and counted; what would change the structure (ties, parts and instances …) is refused, and
+/// so is every keyword that is not known.
 /// @throws InputError with file and line; for elements of other types: which, how many, where; for
 /// sets and supports with numbers, written out, that the file has not.
 InpModel read_inp(const std::filesystem::path& file, const std::string& text);

@@ -165,15 +165,34 @@ void write_ties(OutputFile& out, const Mesh& mesh, const FixedNodes& fixed) {
   }
 }
 
-void write_boundary(OutputFile& out, const InpOptions& options) {
-  if (options.fixed.empty() && options.fixed_directions.empty()) return;
+void write_boundary(OutputFile& out, const Mesh& mesh, const InpOptions& options) {
+  const std::vector<Support>& supports = mesh.connections.supports;
+  if (options.fixed.empty() && options.fixed_directions.empty() && supports.empty()) return;
   out.write("*BOUNDARY\n");
+  for (const Support& support : supports) {
+    for (const std::int32_t node : support.nodes) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (!support.directions[a]) continue;
+        out.write(std::to_string(node + 1) + "," + std::to_string(a + 1) + "\n");
+      }
+    }
+  }
   for (const std::string& name : options.fixed) out.write(name + ",1,3\n");
   for (const auto& [name, directions] : options.fixed_directions) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (directions[a]) out.write(name + "," + std::to_string(a + 1) + "\n");
     }
   }
+}
+
+/// Supports along x, y and z are written, nothing else.
+void check_connections(Connections connections) {
+  std::erase_if(connections.supports,
+                [](const Support& support) { return support.axes.is_global(); });
+  if (connections.empty()) return;
+  throw InputError(
+      "an .inp is not written with " + connections.text() +
+      ": of such connections only supports along x, y and z are; leave the others out");
 }
 
 /// "node,direction[,direction],value" of what is not zero.
@@ -214,6 +233,11 @@ FixedNodes fixed_nodes(const Mesh& mesh, const InpOptions& options) {
   };
   for (const std::string& name : options.fixed) fix(name, {true, true, true});
   for (const auto& [name, directions] : options.fixed_directions) fix(name, directions);
+  for (const Support& support : mesh.connections.supports) {
+    for (const std::int32_t node : support.nodes) {
+      for (std::size_t a = 0; a < 3; ++a) nodes[node][a] = nodes[node][a] || support.directions[a];
+    }
+  }
   return nodes;
 }
 
@@ -227,6 +251,7 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   for (const ElementBlock& block : mesh.blocks) {
     static_cast<void>(type_of(mesh, block, options));
   }
+  check_connections(mesh.connections);
   const FixedNodes fixed = fixed_nodes(mesh, options);
 
   OutputFile out(file);
@@ -237,7 +262,7 @@ void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOpt
   write_surfaces(out, mesh);
   write_materials(out, mesh);
   write_ties(out, mesh, fixed);
-  write_boundary(out, options);
+  write_boundary(out, mesh, options);
   write_steps(out, options);
   out.commit();
 }

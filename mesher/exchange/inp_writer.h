@@ -30,11 +30,12 @@ struct InpOptions {
 
 /// Writes a deck in SI units that CalculiX solves for the modes and Abaqus reads: *NODE, *ELEMENT
 /// by part, *NSET, *SURFACE, *MATERIAL, *SOLID SECTION, *BOUNDARY, a step with *STATIC if there are
-/// loads, and one with *FREQUENCY; the node pairs of tied slits as *EQUATION. Numbers have at most
-/// 20 characters, which is all that CalculiX reads: 13 digits at least.
+/// loads, and one with *FREQUENCY; the node pairs of tied slits as *EQUATION; of connections only
+/// supports along x, y and z. Numbers have at most 20 characters, which is all that CalculiX reads:
+/// 13 digits at least.
 /// @throws InputError if the file cannot be written, an element kind has no type there (hex27,
-/// prism18), or a name is none there: letters, digits, "_", "-" and ".", a letter first, different
-/// in capitals.
+/// prism18), the mesh has other connections, or a name is none there: letters, digits, "_", "-" and
+/// ".", a letter first, different in capitals.
 void write_inp(const std::filesystem::path& file, const Mesh& mesh, const InpOptions& options);
 
 }  // namespace flexneck::mesher

@@ -24,7 +24,7 @@ struct BoxSet {
 struct ImportOptions {
   std::filesystem::path file;  ///< its ending says what it is, see foreign_file.h
   double length_unit_m = 1;    ///< what the number 1 in the file means; a STEP file knows it itself
-  double force_unit_N = 1;     ///< the same for the materials of an .inp, with the second as time
+  double force_unit_N = 1;  ///< the same for materials, springs and masses of .inp, .bdf; time: s
   std::vector<Material> materials;  ///< in SI units
   /// Part to material name. What an .inp says of the materials of other parts holds; in every other
   /// file each part needs a material here.

@@ -8,6 +8,7 @@
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/file_survey.h"
 #include "mesher/exchange/nastran_cards.h"
+#include "mesher/exchange/nastran_connections.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -67,6 +68,8 @@ class Surveyor {
       add_parameter(card);
     } else if (solid != kSolids.end()) {
       add_solid(card, *solid);
+    } else if (is_nastran_connection(card.name)) {
+      survey_.has_connections = true;
     } else if (!is_among(kSilent, card.name) &&
                !(is_from_gmsh_ && is_among(kFacesAndCurves, card.name))) {
       left_out_->add(is_name(card.name) ? card.name : "lines that are no cards");
@@ -93,7 +96,7 @@ class Surveyor {
       refuse(card, "coordinates in system " + card.field(1) +
                        " are not supported; write the deck in the basic system");
     }
-    if (is_given(card.field(6))) left_out_->add(card.name + " with supports (PS)");
+    survey_.has_connections = survey_.has_connections || is_given(card.field(6));
     if (card.name == "GRID") ++survey_.nodes;
   }
 

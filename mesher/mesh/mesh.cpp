@@ -182,6 +182,11 @@ void check(const Mesh& mesh) {
   check_sets(mesh);
   check_names(names_of(mesh.slits), "slit");
   for (const Slit& slit : mesh.slits) check_slit(mesh, slit);
+  try {
+    check(mesh.connections, mesh.nodes.size());
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
 }
 
 }  // namespace flexneck::mesher

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/mesh/connections.h"
 #include "mesher/mesh/element_kind.h"
 
 namespace flexneck::mesher {
@@ -68,6 +69,7 @@ struct Mesh {
   std::vector<NodeSet> node_sets;
   std::vector<FaceSet> face_sets;
   std::vector<Slit> slits;
+  Connections connections;
 
   /// @throws InputError if there is none of that name; the message lists those there are.
   const NodeSet& node_set(const std::string& name) const;
@@ -82,7 +84,7 @@ NodeSet nodes_of(const FaceSet& faces);
 
 /// Checks what every consumer relies on: indices in range, no loose node, no empty block or set,
 /// unique names, one material a part, paired nodes in the same place with a unit normal, materials
-/// physical (E > 0, -1 < nu < 0.5, density > 0).
+/// physical (E > 0, -1 < nu < 0.5, density > 0), connections as check(Connections) wants them.
 /// @throws InputError naming the first violation.
 void check(const Mesh& mesh);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "mesher/mesh/connections_file.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -245,12 +246,14 @@ void read_orders(const Hdf5Reader& reader, MeshFile& file) {
 
 void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
   check(file);
-  Hdf5Writer writer(path, kMeshFormat);
+  Hdf5Writer writer(path,
+                    file.mesh.connections.empty() ? kMeshFormatWithoutConnections : kMeshFormat);
   writer.write("/nodes", flattened(file.mesh.nodes), {file.mesh.nodes.size(), 3}, "m");
   write_materials(writer, file.mesh);
   write_blocks(writer, file.mesh);
   write_sets(writer, file.mesh);
   write_slits(writer, file.mesh);
+  write_connections(writer, file.mesh.connections);
   write_orders(writer, file);
   write_provenance(writer, file.provenance);
   writer.commit();
@@ -264,6 +267,7 @@ MeshFile read_mesh(const std::filesystem::path& path) {
   read_blocks(reader, file.mesh);
   read_sets(reader, file.mesh);
   read_slits(reader, file.mesh);
+  file.mesh.connections = read_connections(reader);
   read_orders(reader, file);
   try {
     check(file);

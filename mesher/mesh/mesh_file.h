@@ -12,7 +12,9 @@
 namespace flexneck::mesher {
 
 /// The layout is described in mesher/mesh/README.md.
-inline constexpr FileFormat kMeshFormat{"flexneck mesh", 3, "flexneck mesh"};
+inline constexpr FileFormat kMeshFormat{"flexneck mesh", 4, "flexneck mesh"};
+/// Of a mesh without connections, which readers of that version know too.
+inline constexpr FileFormat kMeshFormatWithoutConnections{"flexneck mesh", 3, "flexneck mesh"};
 
 struct MeshFile {
   Mesh mesh;

@@ -170,6 +170,10 @@ std::string cut_name(const std::string& other_piece) { return "to_" + other_piec
 
 std::vector<MeshPiece> cut_apart(const Mesh& mesh, const PieceOfElement& piece_of_element,
                                  const std::vector<std::string>& names) {
+  if (!mesh.connections.empty()) {
+    throw InputError("a structure with " + mesh.connections.text() +
+                     " cannot be cut into pieces; leave them out");
+  }
   const CommonFaces common = common_faces(mesh, piece_of_element);
   std::vector<MeshPiece> pieces;
   for (std::size_t p = 0; p < names.size(); ++p) {

@@ -32,7 +32,7 @@ std::string cut_name(const std::string& other_piece);
 /// for each piece that it touches the common faces, their normals out of it, as a face set and a
 /// node set of the name `cut_name(other)`. Slits stay with the piece that they cut.
 /// @param names  of the pieces
-/// @throws InputError if a slit lies between two pieces.
+/// @throws InputError if a slit lies between two pieces, and for a mesh with connections.
 std::vector<MeshPiece> cut_apart(const Mesh& mesh, const PieceOfElement& piece_of_element,
                                  const std::vector<std::string>& names);
 

@@ -272,6 +272,28 @@ NodeSet refine_set(const NodeSet& set, const std::vector<Weights>& positions) {
   return result;
 }
 
+/// New nodes among those of a coupling or support belong to it; masses, springs and equations stay
+/// where they are, with reference points behind more nodes.
+Connections refine_connections(const Mesh& mesh, const std::vector<Weights>& positions) {
+  Connections result = mesh.connections;
+  const auto finer = [&](std::vector<std::int32_t>& nodes) {
+    nodes = refine_set({"", nodes}, positions).nodes;
+  };
+  for (Coupling& coupling : result.couplings) finer(coupling.nodes);
+  for (Support& support : result.supports) finer(support.nodes);
+  const auto behind = [&](std::int32_t& site) {
+    if (static_cast<std::size_t>(site) < mesh.nodes.size()) return;
+    site += static_cast<std::int32_t>(positions.size() - mesh.nodes.size());
+  };
+  const auto all_behind = [&](std::vector<Term>& terms) {
+    for (Term& term : terms) behind(term.site);
+  };
+  for (Equation& equation : result.equations) all_behind(equation.terms);
+  for (Spring& spring : result.springs) all_behind(spring.terms);
+  for (PointMass& mass : result.masses) behind(mass.site);
+  return result;
+}
+
 /// A position of the lower face becomes one of the upper face when its nodes are exchanged.
 Slit refine_slit(const Slit& slit, const NodeNumbers& numbers) {
   std::map<std::int32_t, std::int32_t> partner;
@@ -334,6 +356,7 @@ RefinedMesh refine(const Mesh& mesh) {
     result.mesh.node_sets.push_back(refine_set(set, numbers.weights()));
   }
   for (const Slit& slit : mesh.slits) result.mesh.slits.push_back(refine_slit(slit, numbers));
+  result.mesh.connections = refine_connections(mesh, numbers.weights());
   return result;
 }
 

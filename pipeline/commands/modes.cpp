@@ -122,8 +122,6 @@ bool modes_command(const CommandInput& input) {
   }
   fe_modal::ModalOptions options = modes_options(input.study, mesh.mesh);
   share_work(input, mesh, options);
-  if (const std::string line = free_boundary(input.study, mesh.mesh); !line.empty())
-    input.console.warning(line);
   for (const std::string& line : fe_modal::locking_warnings(mesh.mesh, options.formulation)) {
     input.console.warning(line);
   }

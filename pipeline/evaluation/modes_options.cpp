@@ -2,13 +2,11 @@
 #include "pipeline/evaluation/modes_options.h"
 
 #include <algorithm>
-#include <set>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "mesher/exchange/foreign_file.h"
-#include "mesher/exchange/inp_cards.h"
 #include "mesher/mesh/bounding_box.h"
+#include "pipeline/evaluation/study_connections.h"
 
 namespace flexneck::pipeline {
 
@@ -108,6 +106,7 @@ fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
   options.fixed_directions = study.modes.fixed_directions;
   options.length_m = mesher::bounding_box(mesh).extent_m().maxCoeff();
   try {
+    add_study_connections(study, mesh);
     options.fixed_set = fixed_set(study.modes.fixed, mesh);
     add_interfaces(study, mesh, options);
     attach_body(study, options);
@@ -116,30 +115,6 @@ fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
     throw InputError(study.file.string() + ": " + error.what());
   }
   return options;
-}
-
-std::string free_boundary(const Study& study, const mesher::Mesh& mesh) {
-  const auto* const file = std::get_if<mesher::ImportOptions>(&study.structure->source);
-  if (file == nullptr || mesher::foreign_format_of(file->file) != mesher::ForeignFormat::inp) {
-    return {};
-  }
-  std::set<std::int32_t> fixed;
-  const auto add = [&](const std::string& name) {
-    const std::vector<std::int32_t>& nodes = mesh.node_set(name).nodes;
-    fixed.insert(nodes.begin(), nodes.end());
-  };
-  for (const std::string& name : study.modes.fixed) add(name);
-  for (const auto& [name, directions] : study.modes.fixed_directions) add(name);
-  for (const mesher::NodeSet& set : mesh.node_sets) {
-    if (mesher::upper_case(set.name) != "BOUNDARY") continue;
-    const auto free = std::count_if(set.nodes.begin(), set.nodes.end(),
-                                    [&](std::int32_t node) { return fixed.count(node) == 0; });
-    if (free == 0) return {};
-    return file->file.string() + ": *BOUNDARY fixes " + std::to_string(set.nodes.size()) +
-           " nodes, of which the study leaves " + std::to_string(free) +
-           " free; modes.fixed = [\"" + set.name + "\"] fixes them";
-  }
-  return {};
 }
 
 }  // namespace flexneck::pipeline

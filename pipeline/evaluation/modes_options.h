@@ -11,12 +11,9 @@ namespace flexneck::pipeline {
 /// What `flexneck modes` computes: [modes] and [[interface]]. An interface on a set that is fixed
 /// is the fixed interface. If several sets are fixed, their union joins the mesh as the node set
 /// "fixed". Signs follow the first other interface.
+/// What the study holds and joins otherwise is added to the mesh (study_connections.h).
 /// @throws InputError naming study and key, with the nearest set where one is unknown.
 fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh);
-
-/// A line about nodes that *BOUNDARY of the study's .inp holds, but neither modes.fixed nor
-/// modes.fixed_directions; empty if there are none.
-std::string free_boundary(const Study& study, const mesher::Mesh& mesh);
 
 /// The formulation of each material: its own, or that of [modes].
 fe_modal::FormulationChoice formulation_of(const Study& study);

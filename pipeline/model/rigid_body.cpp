@@ -4,11 +4,8 @@
 #include "pipeline/document/table_values.h"
 
 namespace flexneck::pipeline {
-namespace {
 
-/// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the
-/// first three: the products carry the tensor's sign, Ixz = -int x z dm.
-Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
+Eigen::Matrix3d read_inertia(const StudyTable& table, const std::string& key) {
   std::vector<double> i = table.quantities(key);
   if (i.size() == 3) i.resize(6, 0);
   if (i.size() != 6) {
@@ -20,10 +17,8 @@ Eigen::Matrix3d inertia(const StudyTable& table, const std::string& key) {
   return tensor;
 }
 
-}  // namespace
-
 multibody::RigidBody read_rigid(const StudyTable& body) {
-  return {body.quantity("mass"), quantity_vector(body, "center"), inertia(body, "inertia")};
+  return {body.quantity("mass"), quantity_vector(body, "center"), read_inertia(body, "inertia")};
 }
 
 }  // namespace flexneck::pipeline

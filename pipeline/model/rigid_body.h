@@ -21,6 +21,9 @@ inline constexpr std::array<Key, 3> kRigidBodyKeys = {{
                     "tensor, whose products carry its sign"),
 }};
 
+/// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the
+/// first three: the products carry the tensor's sign, Ixz = -int x z dm.
+Eigen::Matrix3d read_inertia(const StudyTable& table, const std::string& key);
 /// The keys kRigidBodyKeys.
 multibody::RigidBody read_rigid(const StudyTable& body);
 

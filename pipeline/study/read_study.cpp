@@ -56,6 +56,8 @@ constexpr Key kModesKeys[] = {
     Key::texts("fixed", kNone, "Node sets that are fixed in all directions", {.formerly = "held"}),
     Key::table("fixed_directions", "Node sets that are fixed in some directions", kFixedKeys,
                UsedBy::table, "held_directions"),
+    Key::flag("deck_supports", "true",
+              "Whether supports hold that the structure's file gives, such as *BOUNDARY and SPC1"),
     Key::texts("rigid_parts", kNone, "Parts whose motion gives the modes their names"),
     Key::text("attached_body", kNone,
               "Rigid body attached to an interface for the loaded frequencies"),
@@ -97,6 +99,15 @@ std::vector<Key> shared_model_keys() {
   return keys;
 }
 
+std::span<const Key> modes_keys() {
+  static const std::vector<Key> kKeys = [] {
+    std::vector<Key> keys(std::begin(kModesKeys), std::end(kModesKeys));
+    keys.insert(keys.end(), modes_connection_keys().begin(), modes_connection_keys().end());
+    return keys;
+  }();
+  return kKeys;
+}
+
 std::vector<Key> all_study_keys() {
   std::vector<Key> keys = {
       variables_key(),
@@ -105,7 +116,7 @@ std::vector<Key> all_study_keys() {
       Key::table("mesh", "How it is meshed", mesh_keys(), UsedBy::mesh),
       Key::table("matrices", "Matrices of another program, in place of a mesh", matrices_keys(),
                  UsedBy::modes),
-      Key::table("modes", "Modes of the structure", kModesKeys, UsedBy::modes),
+      Key::table("modes", "Modes of the structure", modes_keys(), UsedBy::modes),
       Key::table("substructures", "Bodies that the structure is cut into", substructures_keys(),
                  UsedBy::modes),
       Key::tables("interface", "Where other bodies attach to a structure", interface_keys(),
@@ -204,6 +215,8 @@ ModesSection read_modes(const StudyTable& table) {
       table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;
   modes.fixed = table.texts("fixed");
   modes.fixed_directions = read_fixed_directions(table.table("fixed_directions"));
+  modes.deck_supports = table.flag("deck_supports");
+  modes.connections = read_modes_connections(table);
   modes.rigid_parts = table.texts("rigid_parts");
   modes.attached_body = table.text("attached_body");
   modes.attached_to = table.text("attached_to");

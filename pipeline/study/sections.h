@@ -15,6 +15,8 @@ std::span<const Key> materials_keys();
 std::span<const Key> mesh_keys();
 std::span<const Key> matrices_keys();
 std::span<const Key> interface_keys();
+/// [[modes.coupling]], [[modes.support]], …
+std::span<const Key> modes_connection_keys();
 std::span<const Key> load_keys();
 std::span<const Key> pulse_keys();
 std::span<const Key> case_keys();
@@ -36,6 +38,7 @@ MeshOrders read_mesh_orders(const StudyTable& mesh);
 /// The key formulation. @throws InputError if there is none of that name.
 fe_modal::Formulation read_formulation(const StudyTable& table);
 ModesSection read_modes(const StudyTable& modes);
+ModesConnections read_modes_connections(const StudyTable& modes);
 /// The keys table, a CSV file, or times and deceleration. A file read is appended to `files`.
 PulseSection read_pulse(const StudyTable& pulse, std::vector<InputFile>& files);
 /// The tables [[body]], [[marker]], … as a study has them.

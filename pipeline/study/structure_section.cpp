@@ -50,7 +50,7 @@ constexpr auto kKeys = std::to_array<Key>({
     Key::file("script", kNone, "gmsh script that draws and meshes the structure"),
     Key::file("file", kNone, "In place of a script: a mesh or a shape to be meshed"),
     Key::text("unit", "m", "Length that the number 1 stands for in a script or a file"),
-    Key::text("force_unit", "N", "Of an .inp: force that the number 1 stands for"),
+    Key::text("force_unit", "N", "Of an .inp or .bdf: force that the number 1 stands for"),
     Key::table("constants", "Values of constants of the script", kConstantKeys),
     Key::text("slits", "none", "Slits: not there, cut but tied shut, or open",
               {.choices = slit_states}),
@@ -177,7 +177,8 @@ mesher::ImportOptions read_file(const StudyTable& geometry, const StudyTable& me
     geometry.refuse("unit", "a STEP file says its unit itself; take this key away");
   }
   options.length_unit_m = unit(geometry, "unit", "m");
-  if (format == ForeignFormat::inp) options.force_unit_N = unit(geometry, "force_unit", "N");
+  if (format == ForeignFormat::inp || format == ForeignFormat::bdf)
+    options.force_unit_N = unit(geometry, "force_unit", "N");
   if (format == ForeignFormat::step || format == ForeignFormat::brep) {
     options.element_size_m = mesh.quantity("size");
   }

@@ -23,6 +23,7 @@
 #include "pipeline/model/assembly.h"
 #include "pipeline/model/pulse.h"
 #include "pipeline/study/measured_section.h"
+#include "pipeline/study/modes_connections.h"
 #include "pipeline/study/structure_section.h"
 #include "pipeline/study/substructure_section.h"
 #include "pipeline/verdict/certification_test.h"
@@ -48,6 +49,8 @@ struct ModesSection {
   bool certify = false;  ///< prove that no mode is missing, estimate the error of the mesh
   std::vector<std::string> fixed;  ///< node sets fixed in all directions
   std::map<std::string, std::array<bool, 3>> fixed_directions;  ///< others, in some of x, y, z
+  bool deck_supports = true;             ///< supports that the structure's file gives hold
+  ModesConnections connections;          ///< couplings, supports, equations, springs, masses
   std::vector<std::string> rigid_parts;  ///< parts whose motion names the modes
   std::string attached_body;  ///< rigid body set on an interface for the loaded frequencies
   std::string attached_to;    ///< that interface; empty: the first

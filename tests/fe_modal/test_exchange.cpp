@@ -22,7 +22,10 @@ ImportedBody matrices(const mesher::Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("matrices that went out and came back have the frequencies of the mesh") {
-  const mesher::Mesh mesh = column();
+  mesher::Mesh mesh = column();
+  const std::int32_t top = mesh.node_set("top").nodes.front();
+  mesh.connections.springs = {{"s", {{top, {0.6, 0, 0.8}}}, 3000}};
+  mesh.connections.masses = {{"m", top, 0.7, {}, {}}};
   ModalOptions options;
   options.mode_count = 5;
   options.fixed_set = "bottom";

@@ -116,11 +116,29 @@ TEST_CASE("residual modes carry the compliance of a body with fixed directions")
   CHECK(difference(modal_compliance(body, "tip"), expected) < 1e-8);
 }
 
-TEST_CASE("directions that do not hold a body leave a mechanism, which is named") {
+TEST_CASE(
+    "a rigid motion that directions leave has frequency zero, and the modes are those above") {
   const mesher::Mesh mesh = block();
   ModalOptions options = on_rollers(BasisKind::normal, 6);
   options.fixed_directions = {{"bottom", {false, true, true}}};
-  CHECK_THROWS_WITH(analyse_modes(mesh, options, {}), Contains("slides freely along x"));
+  options.certify = true;
+  const ModalBody body = analyse_modes(mesh, options, {});
+  CHECK(body.boundary == "fixed: yz of bottom; slides along x");
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
+  const std::vector<Eigen::Index> kept = free_directions(mesh, options);
+  const Eigen::VectorXd expected =
+      testing::dense_pairs(rows_and_columns(system.stiffness.get(), kept),
+                           rows_and_columns(system.mass.get(), kept))
+          .values.segment(1, 5)
+          .cwiseSqrt() /
+      (2 * std::numbers::pi);
+  CHECK(body.frequencies_Hz[0] == 0);
+  CHECK(body.modes[0].kind == kRigidMode);
+  CHECK((body.frequencies_Hz.tail(5).array() / expected.array() - 1).abs().maxCoeff() < kSame);
+  CHECK_THAT(body.certificate, Contains("certified: no mode is missing"));
+  options.basis = BasisKind::residual;
+  CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
+                    Contains("this is a body that slides along x; take 'inertia-relief'"));
 }
 
 TEST_CASE("fixed directions that cannot be are refused") {

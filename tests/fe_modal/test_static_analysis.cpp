@@ -240,7 +240,8 @@ TEST_CASE("loads that fit neither mesh nor supports are refused by their names")
   ModalOptions hinge = clamped();
   hinge.fixed_set.clear();
   hinge.fixed_directions = {{"bottom", {true, true, false}}};
-  refused(hinge, {"weight", GravityLoad{{0, 0, -1}}}, "mechanism");
+  refused(hinge, {"weight", GravityLoad{{0, 0, -1}}},
+          "the body slides along z, turns about x and y");
 }
 
 }  // namespace flexneck::fe_modal

@@ -79,7 +79,7 @@ TEST_CASE("a script in millimetres or inches gives the bar of the script in metr
   }
 }
 
-TEST_CASE("masses and supports of a Nastran deck are told, exit 0") {
+TEST_CASE("masses and supports of a Nastran deck hold and load the structure, exit 0") {
   const TemporaryFolder folder;
   std::ofstream(folder / "deck.bdf") << "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\n"
                                         "GRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\n"
@@ -93,8 +93,11 @@ TEST_CASE("masses and supports of a Nastran deck are told, exit 0") {
   const CommandOutcome outcome = run_flexneck("mesh -q " + (folder / "deck.toml").string() +
                                               " -o " + (folder / "out").string());
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.text,
-             Contains("Warning: ") && Contains("deck.bdf: not carried over: 1 CONM2, 1 SPC1\n"));
+  CHECK_THAT(outcome.text, !Contains("Warning"));
+  const CommandOutcome modes =
+      run_flexneck("modes " + (folder / "deck.toml").string() + " -o " + (folder / "out").string());
+  CHECK(modes.exit_code == 0);
+  CHECK_THAT(modes.text, Contains("fixed: SPC1 1") && Contains("mass 7855 kg"));
 }
 
 TEST_CASE("a run of a structure ends with a report of what it has, without the paper's sections") {
@@ -149,14 +152,17 @@ TEST_CASE("an interface needs a face set, or a node set that is fixed") {
                 "interface.base.set: there is no face set 'bolts'");
 }
 
-TEST_CASE("weight densities, free supports and decks without pressures are warned about") {
+TEST_CASE(
+    "weight densities and decks without pressures are warned about, supports of a deck hold") {
   const TemporaryFolder folder;
   const std::string out = " -o " + folder.path().string();
   const std::string study = kExamples + "cantilever_inp.toml" + out;
   CHECK_THAT(run_flexneck("run " + study).text, !Contains("Warning"));
   CHECK_THAT(run_flexneck("modes --set 'modes.fixed=[]' " + study).text,
-             Contains("Warning: ") && Contains("cantilever.inp: *BOUNDARY fixes 8 nodes, of which "
-                                               "the study leaves 8 free"));
+             Contains("fixed: *BOUNDARY") && !Contains("Warning"));
+  CHECK_THAT(
+      run_flexneck("modes --set 'modes.fixed=[]' --set modes.deck_supports=false " + study).text,
+      Contains("Modes: free"));
   CHECK_THAT(run_flexneck("export " + study + " --to " + (folder / "bar.inp").string()).text,
              Contains("Warning: ") &&
                  Contains("bar.inp: formulation mixed_pressure is not carried "

@@ -108,6 +108,7 @@ Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int 
       result.of_element.push_back(of_element_of_part[p][next[p]++]);
     }
   }
+  result.of_element.resize(element_count(mesh), 0);  // springs and masses
   result.blocks.resize(static_cast<std::size_t>(first));
   for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
     auto& own = result.blocks[static_cast<std::size_t>(result.of_element[element])];
@@ -128,8 +129,9 @@ std::vector<std::int32_t> ranks_of_subdomains(const mesher::Mesh& mesh,
   std::vector<double> elements(count, 0.0);
   for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
     const auto subdomain = static_cast<std::size_t>(subdomains.of_element[element]);
-    places[subdomain] +=
-        mesh.nodes[static_cast<std::size_t>(nodes.front())][static_cast<std::size_t>(longest)];
+    const auto node = static_cast<std::size_t>(nodes.front());
+    if (node >= mesh.nodes.size()) return;  // a reference point
+    places[subdomain] += mesh.nodes[node][static_cast<std::size_t>(longest)];
     elements[subdomain] += 1;
   });
   std::vector<std::size_t> order(count);

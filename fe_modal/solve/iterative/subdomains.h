@@ -17,7 +17,7 @@ using NodeLists = std::vector<std::vector<std::int32_t>>;
 
 /// Subdomains of a mesh. Elements belong to one each, blocks between them to several.
 struct Subdomains {
-  std::vector<std::int32_t> of_element;  ///< the mesh's blocks in their order
+  std::vector<std::int32_t> of_element;  ///< as for_each_element() counts them
   NodeLists blocks;                      ///< of each; together they are all
 
   std::int32_t count() const { return static_cast<std::int32_t>(blocks.size()); }

@@ -8,6 +8,7 @@
 #include "mesher/exchange/inp_writer.h"
 #include "pipeline/commands/exports/export_formats.h"
 #include "pipeline/evaluation/modes_options.h"
+#include "pipeline/evaluation/study_connections.h"
 
 namespace flexneck::pipeline {
 
@@ -58,7 +59,9 @@ void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
       options.reduced.insert(material.name);
     }
   }
+  // It adds the study's connections to a mesh of its own.
   if (!study.loads.empty()) options.static_step = static_step_of(input, mesh);
+  add_study_connections(study, mesh);
   mesher::write_inp(input.target, mesh, options);
   const std::string line = mixed_materials(mesh, choice);
   if (!line.empty()) input.console.warning(input.target.string() + ": " + line);

@@ -19,9 +19,14 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
     throw InputError(
         "matrices are written without the stiffness of a prestress: leave out "
         "modes.prestress");
-  const std::string fixed = modes_options(study, mesh).fixed_set;
-  const fe_modal::DofMap dof_map(
-      mesh, fixed.empty() ? std::vector<std::int32_t>{} : mesh.node_set(fixed).nodes);
+  const fe_modal::ModalOptions options = modes_options(study, mesh);
+  const fe_modal::DofMap dof_map = fe_modal::dof_map_of(mesh, options);
+  if (dof_map.is_constrained()) {
+    throw InputError("matrices are written with three directions a node, and not with " +
+                     mesh.connections.text() +
+                     ": leave out all but springs and masses at nodes, and supports in all "
+                     "directions");
+  }
   const fe_modal::PetscSession session;
   const fe_modal::ImportedBody body =
       fe_modal::export_matrices(mesh, dof_map, formulation_of(study));

@@ -137,8 +137,13 @@ TEST_CASE("a named support of solids holds all directions, as its numbers do") {
     const Mesh mesh = import_mesh(options, {});
     CHECK(mesh.node_set("boundary").nodes == mesh.node_set("Foot").nodes);
   }
-  const auto refused = refusal_of(with(kDeck, "Foot, 1, 2\nfoot, 3\n", "Foot, XSYMM\n"));
-  CHECK_THAT(refused, Contains("deck.inp") && Contains("XSYMM"));
+  ImportOptions options;
+  options.file = files.write("deck.inp", with(kDeck, "Foot, 1, 2\nfoot, 3\n", "Foot, XSYMM\n"));
+  const Mesh mesh = import_mesh(options, {});
+  REQUIRE(mesh.connections.supports.size() == 1);
+  CHECK(mesh.connections.supports[0].nodes == mesh.node_set("Foot").nodes);
+  CHECK(mesh.connections.supports[0].directions == std::array<bool, 3>{true, false, false});
+  CHECK_THROWS_WITH(mesh.node_set("boundary"), Contains("no node set 'boundary'"));
 }
 
 TEST_CASE("parts that are missing, doubled or without material are refused") {
@@ -170,7 +175,17 @@ TEST_CASE("what would change the structure is refused with its line, and so is w
   CHECK_THAT(refusal_of(plus("*Tie, name=t\na, b\n")), Contains("deck.inp:43: *TIE: this keyword"));
   CHECK_THAT(refusal_of(plus("*Elemant, type=C3D8\n")), Contains("did you mean 'ELEMENT'"));
   CHECK_THAT(refusal_of(plus("*Instance, name=p, part=q\n")), Contains("noPartsInputFile=ON"));
-  CHECK_THAT(refusal_of(plus("*Boundary\nAll, 1\n")), Contains("in some directions only"));
+  CHECK_THAT(refusal_of(plus("*Spring, elset=s, nonlinear\n1\n1.\n")),
+             Contains("*SPRING: NONLINEAR is not supported"));
+  CHECK_THAT(refusal_of(plus("*Spring, elset=s\n1\n1.\n")),
+             Contains("*SPRING: there are no such elements in ELSET 's'"));
+  CHECK_THAT(refusal_of(plus("*MPC\nPLANE, 1, 2\n")), Contains("expected PIN, TIE, LINK or BEAM"));
+  CHECK_THAT(refusal_of(plus("*Equation\n2\n1, 1, 1., 5, 1\n")),
+             Contains("expected 6 fields in line 45, found 5"));
+  CHECK_THAT(refusal_of(plus("*Equation\n2\n1, 1, 1., 77, 1, -1.\n")),
+             Contains("*EQUATION in line 44 has node 77, which the file does not give"));
+  CHECK_THAT(refusal_of(plus("*Rigid Body, nset=Reference, ref node=99\n")),
+             Contains("*RIGID BODY in line 43 has no nodes that elements use"));
   CHECK_THAT(refusal_of(plus("*Boundary\nFoot, 1, 3, 0.1\n")), Contains("displacements of zero"));
   CHECK_THAT(refusal_of(plus("*Boundary\nFot, 1, 3\n")),
              Contains("deck.inp:44: there is no NSET 'Fot' (did you mean 'Foot'?)"));

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "fe_modal/dofs/dof_map.h"
+
+namespace flexneck::fe_modal {
+
+/// Rigid motions of a body as a whole that its constraints and springs leave: six of a free one,
+/// none of a fixed one, three of half of one on a plane of symmetry.
+class RigidMotions {
+ public:
+  /// @param connections those of the DofMap
+  RigidMotions(const mesher::Mesh& mesh, const mesher::Connections& connections,
+               const DofMap& dof_map);
+
+  Eigen::Index count() const { return motions_.cols(); }
+  /// "slides along x and y, turns about z"; of one that turns about no point that stands still
+  /// while it turns, the slide along the axis comes too; empty if there are none.
+  std::string text() const;
+
+ private:
+  /// (6, count) translation of the origin, m, and rotation, times `length_m`, orthonormal.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> motions_;
+};
+
+}  // namespace flexneck::fe_modal

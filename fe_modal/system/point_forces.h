@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/system/loads.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// Weights of the masses at reference points under the loads' gravity, on the free degrees of
+/// freedom (dof_count()); those of masses at nodes are nodal forces (loads.h).
+Eigen::VectorXd weights_at_points(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                  const std::vector<Load>& loads);
+
+/// Forces that the springs resist free values with, K_springs q: (dof_count()).
+Eigen::VectorXd spring_forces(const mesher::Mesh& mesh, const DofMap& dof_map,
+                              const Eigen::VectorXd& free_values);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "geometry/foundation/hdf5_file.h"
+#include "mesher/mesh/connections.h"
+
+namespace flexneck::mesher {
+
+/// The group /connections of a mesh file (README.md); nothing is written if there are none.
+void write_connections(Hdf5Writer& file, const Connections& connections);
+/// @throws InputError as Hdf5Reader, and for lists whose lengths do not go together.
+Connections read_connections(const Hdf5Reader& file);
+
+}  // namespace flexneck::mesher
