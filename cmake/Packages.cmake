@@ -29,7 +29,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
     "flexneck, libslepc-real-dev, libgmsh-dev, libmetis-dev, libmumps-dev, libsuitesparse-dev, libcairo2-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
-    "libboost-dev, libcli11-dev, libtomlplusplus-dev, libspdlog-dev, libfmt-dev, libmuparser-dev, nlohmann-json3-dev")
+    "libboost-dev, libcli11-dev, libtomlplusplus-dev, libspdlog-dev, libfmt-dev, libmuparser-dev, libnlopt-cxx-dev, libzip-dev, nlohmann-json3-dev")
 if(FLEXNECK_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-flexneck)

@@ -2,6 +2,7 @@
 #include "fe_modal/body/condensed_section.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <Eigen/Cholesky>
@@ -117,6 +118,30 @@ CondensedSection condense(const ModalBody& body, const std::string& base, const 
   const MatrixXd shut = to_body * condensed.leftCols<12>();
   section.mass = shut.transpose() * mass_in_body_frame(body.invariants) * shut;
   return section;
+}
+
+double warp_of_face(const ModalBody& body, const std::string& interface,
+                    const std::vector<Eigen::Index>& nodes) {
+  const Interface& face = body.interface(interface);
+  const MatrixXd motions = motions_of_modes(body, face);
+  check_independent(body, face, motions, 1);
+  const MatrixXd amplitudes = motions.inverse().leftCols<6>();
+  double largest = 0;
+  for (Eigen::Index way = 0; way < 6; ++way) {
+    double apart = 0;
+    double whole = 0;
+    for (const Eigen::Index node : nodes) {
+      Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+      for (Eigen::Index l = 0; l < body.mode_count(); ++l)
+        moved += amplitudes(l, way) * body.shapes[static_cast<std::size_t>(l)].col(node);
+      const Eigen::Vector3d rigid =
+          carried(face.position_m, body.nodes_m.col(node)).topRows<3>().col(way);
+      apart += (moved - rigid).squaredNorm();
+      whole += rigid.squaredNorm();
+    }
+    largest = std::max(largest, std::sqrt(apart / whole));
+  }
+  return largest;
 }
 
 namespace {

@@ -30,6 +30,13 @@ struct CondensedSection {
 /// unless they move the top and the slits independently.
 CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top);
 
+/// How far a face is from moving as a rigid one does: of the body's motions that move the interface
+/// in one of six ways with the slits shut, the largest rms distance of the face's nodes from the
+/// rigid motion, over the rms of that.
+/// @param nodes  of the face, among the body's, with their shapes
+double warp_of_face(const ModalBody& body, const std::string& interface,
+                    const std::vector<Eigen::Index>& nodes);
+
 /// Mass that moves with one end of a section.
 struct LumpedMass {
   double mass_kg = 0;

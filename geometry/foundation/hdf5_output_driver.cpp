@@ -99,11 +99,14 @@ H5FD_class_t driver() {
 
 Hdf5Handle output_access(AtomicFile& file) {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  const H5FD_class_t description = driver();
-  // The properties, and later the file, hold on to the driver.
-  const Hdf5Handle id(H5FDregister(&description), H5FDunregister);
+  // Until the library ends: H5Fclose reads the driver after a file's hold on it has gone, which
+  // must not be the last.
+  static const hid_t id = [] {
+    const H5FD_class_t description = driver();
+    return H5FDregister(&description);
+  }();
   const AccessInfo info{&file};
-  if (H5Pset_driver(access.get(), id.get(), &info) < 0) return {};
+  if (H5Pset_driver(access.get(), id, &info) < 0) return {};
   return access;
 }
 

@@ -46,7 +46,8 @@ ForceSet::ForceSet(const Model& model)
       internal_rate_(internal_),
       given_(internal_),
       begin_(internal_),
-      begin_rate_(internal_) {
+      begin_rate_(internal_),
+      steps_(internal_blocks(model.forces).size()) {
   model.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     for (const Kind& element : elements) {
       auto slots = element.markers(model.joints);
@@ -93,7 +94,13 @@ void ForceSet::give_internal(const ConstVector& values) {
 void ForceSet::begin_step(const ConstVector& values, const ConstVector& rates, double length_s) {
   begin_ = values;
   begin_rate_ = rates;
-  step_s_ = length_s;
+  BranchStep* step = steps_.data();
+  model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
+    if constexpr (RelaxingForce<Kind>)
+      for (const Kind& element : elements)
+        for (std::size_t branch = 0; branch < element.branch_count(); ++branch)
+          *step++ = BranchStep::over(length_s, element.relaxation_time_s(branch));
+  });
 }
 
 InternalVariables ForceSet::internal_variables() {
@@ -101,7 +108,7 @@ InternalVariables ForceSet::internal_variables() {
   return {known_,
           in_step ? begin_.data() : given_.data(),
           begin_rate_.data(),
-          step_s_,
+          steps_.data(),
           internal_.data(),
           internal_rate_.data()};
 }
@@ -125,8 +132,8 @@ void ForceSet::evaluate(double time_s) {
       ForceInput input{i, j, model_.joints, time_s};
       if constexpr (RelaxingForce<Kind>) {
         input.internal = internal;
-        internal = internal.behind(static_cast<Index>(elements[k].branch_count()) *
-                                   elements[k].branch_size());
+        internal = internal.behind(elements[k].branch_size(),
+                                   static_cast<Index>(elements[k].branch_count()));
       }
       elements[k].act(input, load, sums_);
       if constexpr (PiecewiseForce<Kind>) {

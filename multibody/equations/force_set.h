@@ -90,7 +90,7 @@ class ForceSet {
   InternalVariables::Known known_ = InternalVariables::Known::relaxed;
   Eigen::VectorXd internal_, internal_rate_;
   Eigen::VectorXd given_, begin_, begin_rate_;
-  double step_s_ = 0;
+  std::vector<BranchStep> steps_;  ///< of the branches over the step that was begun
   ForceEnergies sums_;
 };
 

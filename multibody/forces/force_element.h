@@ -95,6 +95,7 @@ concept PiecewiseForce = requires {
 template <class Kind>
 concept RelaxingForce = requires(const Kind& element) {
   { element.branch_count() } -> std::convertible_to<std::size_t>;
+  { element.relaxation_time_s(std::size_t{}) } -> std::convertible_to<double>;
   { element.branch_size() } -> std::convertible_to<Eigen::Index>;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "multibody/forces/bushing.h"
+#include "multibody/forces/cable.h"
 #include "multibody/forces/force_lists.h"
 #include "multibody/forces/function_force.h"
 #include "multibody/forces/joint_resistance.h"
@@ -22,6 +23,7 @@ using Forces = ForceLists<PointForce,       // [[force]] in model files
                           JointResistance,  // [[resistance]]
                           LineForce,        // [[line_force]]
                           Section,          // [[section]]
-                          FunctionForce>;   // [[function_force]]
+                          FunctionForce,    // [[function_force]]
+                          Cable>;           // [[cable]]
 
 }  // namespace flexneck::multibody

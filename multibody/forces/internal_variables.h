@@ -7,6 +7,17 @@
 
 namespace flexneck::multibody {
 
+/// What a step of length h does to a Maxwell branch with the relaxation time tau.
+struct BranchStep {
+  double decay = 1;  ///< exp(-h/tau): what is left of the spring's strain
+  double share = 1;  ///< (1 - exp(-h/tau)) tau/h: what it has of a strain that changes evenly
+
+  static BranchStep over(double length_s, double relaxation_time_s) {
+    const double periods = length_s / relaxation_time_s;
+    return {std::exp(-periods), periods > 0 ? -std::expm1(-periods) / periods : 1};
+  }
+};
+
 /// Internal variables of a force element: the strains of its dashpots, a block for each branch,
 /// that follow the motion with a delay. How the element finds them when it acts, and its answer.
 struct InternalVariables {
@@ -17,16 +28,24 @@ struct InternalVariables {
   };
 
   Known known = Known::relaxed;
-  const double* values = nullptr;  ///< now, or at the beginning
-  const double* rates = nullptr;   ///< at the beginning, 1/s
-  double length_s = 0;             ///< of the step
-  double* found_values = nullptr;  ///< answer: now
+  const double* values = nullptr;     ///< now, or at the beginning
+  const double* rates = nullptr;      ///< at the beginning, 1/s
+  const BranchStep* steps = nullptr;  ///< of the branches over the step
+  double* found_values = nullptr;     ///< answer: now
   double* found_rates = nullptr;
 
-  /// Those that begin behind the first so many.
-  InternalVariables behind(Eigen::Index count) const {
-    const auto part = [&](auto* all) { return all == nullptr ? all : all + count; };
-    return {known, part(values), part(rates), length_s, part(found_values), part(found_rates)};
+  /// Those that begin behind the first so many branches, of a size each.
+  InternalVariables behind(Eigen::Index size, Eigen::Index branches = 1) const {
+    const auto part = [](auto* all, Eigen::Index count) {
+      return all == nullptr ? all : all + count;
+    };
+    const Eigen::Index count = branches * size;
+    return {known,
+            part(values, count),
+            part(rates, count),
+            part(steps, branches),
+            part(found_values, count),
+            part(found_rates, count)};
   }
 };
 
@@ -38,7 +57,7 @@ struct InternalBlock {
 };
 
 /// A spring and a dashpot in line, for several strains at once (a Maxwell branch).
-template <class Strain, class Stiffness>
+template <class Stiffness>
 struct MaxwellBranch {
   Stiffness stiffness;
   double relaxation_time_s = 0;
@@ -46,24 +65,27 @@ struct MaxwellBranch {
   /// The spring's part s of a strain e, whose dashpot has the rest z, z' = s / tau, is
   /// share e + offset: e - z, or over a step of length h from s0, e0 the exact solution for an even
   /// change of the strain, exp(-h/tau) s0 + (1 - exp(-h/tau)) tau/h (e - e0).
+  template <class Strain>
   struct SpringStrain {
     double share = 0;
     Strain offset;
     Strain of(const Strain& strain) const { return share * strain + offset; }
   };
-  SpringStrain spring(const InternalVariables& internal) const {
+  /// @tparam Strain  a vector of the branch's size
+  template <class Strain>
+  SpringStrain<Strain> spring(const InternalVariables& internal) const {
     using Map = Eigen::Map<const Strain>;
     const Eigen::Index size = stiffness.rows();
     if (internal.known == InternalVariables::Known::relaxed) return {0, Strain::Zero(size)};
     const Map values(internal.values, size);
     if (internal.known == InternalVariables::Known::now) return {1, -values};
     const Strain before = relaxation_time_s * Map(internal.rates, size);
-    const double periods = internal.length_s / relaxation_time_s;
-    const double share = periods > 0 ? -std::expm1(-periods) / periods : 1;
-    return {share, std::exp(-periods) * before - share * (values + before)};
+    const auto [decay, share] = *internal.steps;
+    return {share, decay * before - share * (values + before)};
   }
 
   /// Tells the variables that go with a spring's strain.
+  template <class Strain>
   void answer(const Strain& strain, const Strain& spring, const InternalVariables& internal) const {
     if (internal.found_values == nullptr) return;
     Eigen::Map<Strain>(internal.found_values, strain.size()) = strain - spring;

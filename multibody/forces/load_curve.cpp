@@ -82,6 +82,14 @@ bool LoadCurve::continues(const LoadCurve& other) const {
   return load_[1] * other.x_[1] == other.load_[1] * x_[1];
 }
 
+bool LoadCurve::falls() const {
+  if (locks()) return false;
+  if (!x_.empty()) return !std::is_sorted(load_.begin(), load_.end());
+  // The slope c1 + 2 c2 x + 3 c3 x^2 is least at -c2 / (3 c3), if that is ahead, or at an end.
+  if (c1_ < 0 || c3_ < 0 || (c3_ == 0 && c2_ < 0)) return true;
+  return c2_ < 0 && c1_ < c2_ * c2_ / (3 * c3_);
+}
+
 double LoadCurve::value(double x) const {
   if (locks()) {
     const double of_law = std::min(x, kLocked * L_);

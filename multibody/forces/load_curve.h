@@ -26,8 +26,19 @@ class LoadCurve {
   double energy(double x) const;  ///< integral of the load from 0 to x, J
   /// Between which of its rows x lies, or whether it has locked; 0 for a cubic.
   int piece(double x) const;
+  bool is_none() const { return c1_ == 0 && c2_ == 0 && c3_ == 0 && x_.empty(); }
+  /// Slope at zero.
+  double first_slope() const { return x_.empty() ? c1_ : load_[1] / x_[1]; }
+  /// Whether the load falls anywhere as the deflection grows.
+  bool falls() const;
   /// Whether it and `other`, one for each direction, make one smooth curve through zero.
   bool continues(const LoadCurve& other) const;
+
+  /// Its fields (geometry/foundation/byte_archive.h).
+  template <class Archive>
+  void archive(Archive& all) {
+    all(c1_, c2_, c3_, L_, x_, load_, energy_);
+  }
 
  private:
   bool locks() const { return L_ > 0; }

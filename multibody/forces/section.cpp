@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/forces/section.h"
 
+#include <cmath>
+#include <optional>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -14,6 +17,39 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Moment and energy over the bending angle follow a curve: a section that is bent by an angle t
+/// has the energy of one that is bent in proportion by f(t), f^2 / 2 the curve's energy over its
+/// first slope. Zero rotation stays zero.
+class CurvedBending {
+ public:
+  CurvedBending(const LoadCurve& curve, const Vector3d& bending) {
+    const double first_slope = curve.first_slope();
+    const double angle = bending.norm();
+    piece = curve.piece(angle);
+    if (!(angle > kStraight)) return;
+    const double f = std::sqrt(2 * curve.energy(angle) / first_slope);
+    ratio_ = f / angle;
+    slope_ = curve.value(angle) / (first_slope * f);
+    along_ = bending / angle;
+  }
+
+  /// What the stiffness sees of the bending, less the bending.
+  Vector3d added_to(const Vector3d& bending) const { return (ratio_ - 1) * bending; }
+  /// The moment that goes with the bending, from that of what the stiffness sees, both across the
+  /// length; less the latter.
+  Vector3d added_to_moment(const Vector3d& moment) const {
+    const double along = along_.dot(moment);
+    return (ratio_ - 1) * (moment - along * along_) + (slope_ - 1) * along * along_;
+  }
+
+  int piece = 0;  ///< of the curve
+
+ private:
+  static constexpr double kStraight = 1e-9;  // rad: the curve's first row is further
+  double ratio_ = 1, slope_ = 1;
+  Vector3d along_ = Vector3d::Zero();
+};
 
 /// A section whose number of gaps the compiler knows, so that its small vectors stay in registers:
 /// sections are much of the work of a neck of plates.
@@ -35,10 +71,11 @@ class Sized {
       typename Gaps::Matrix A = K.template bottomRightCorner<kGaps, kGaps>();
       typename Gaps::Vector r = K.template bottomLeftCorner<kGaps, 6>().lazyProduct(e);
       for (const Section::Branch& branch : section_.branches) {
-        const auto spring = branch.spring(internal);
+        const auto spring = branch.spring<Vector>(internal);
         const auto K_branch = map(branch.stiffness);
         A += spring.share * K_branch.template bottomRightCorner<kGaps, kGaps>();
-        r += K_branch.template bottomRows<kGaps>().lazyProduct(strain_of(spring, strain));
+        const Vector offset = spring.of(strain);
+        r += K_branch.template bottomRows<kGaps>().lazyProduct(offset);
         internal = internal.behind(kSize);
       }
       const Gaps found(A, r, which_open);
@@ -55,22 +92,19 @@ class Sized {
     Vector sum = map(section_.stiffness).lazyProduct(strain);
     sums.stored_J += strain.dot(sum) / 2;
     for (const Section::Branch& branch : section_.branches) {
-      const Vector spring = strain_of(branch.spring(internal), strain);
+      const Vector spring = branch.spring<Vector>(internal).of(strain);
       const Vector part = map(branch.stiffness).lazyProduct(spring);
       sum += part;
       const double energy_J = spring.dot(part) / 2;
       sums.stored_J += energy_J;
       sums.lost_W += 2 * energy_J / branch.relaxation_time_s;
-      branch.answer(Section::Strain(strain), Section::Strain(spring), internal);
+      branch.answer(strain, spring, internal);
       internal = internal.behind(kSize);
     }
     return sum.template head<6>();
   }
 
  private:
-  static Vector strain_of(const Section::Branch::SpringStrain& spring, const Vector& strain) {
-    return spring.share * strain + Eigen::Map<const Vector>(spring.offset.data());
-  }
   static Eigen::Map<const Eigen::Matrix<double, kSize, kSize>> map(
       const Section::Stiffness& matrix) {
     return Eigen::Map<const Eigen::Matrix<double, kSize, kSize>>(matrix.data());
@@ -118,6 +152,10 @@ void Section::check(const std::string& who, const ForceSites& sites) const {
     if (!(branches[k].relaxation_time_s > 0 && std::isfinite(branches[k].relaxation_time_s)))
       refuse_force(who, "relaxation time of " + which + " must be positive");
   }
+  if (bending_curve.is_none()) return;
+  if (rest_m.isZero(0)) refuse_force(who, "a bending curve needs a length");
+  if (!(bending_curve.first_slope() > 0) || bending_curve.falls())
+    refuse_force(who, "the bending curve must rise at once and never fall");
 }
 
 Section::Strain Section::with_gaps(const Vector6d& e, const InternalVariables& internal,
@@ -131,18 +169,28 @@ void Section::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums)
   const Vector3d theta = rotation_log(R_i.transpose() * input.j.R);
   const HalfTurn half(theta);
   const Vector3d d = half.turned_back(R_i.transpose() * (input.j.p - input.i.p));
-  const ArcShortening arc(part_across(theta, rest_m));
+  const Vector3d bending = part_across(theta, rest_m);
+  const ArcShortening arc(bending);
 
   Vector6d e;
   e << d - arc.ratio * rest_m + theta.cross(rest_m) / 2, theta;
+  std::optional<CurvedBending> curved;
+  if (!bending_curve.is_none()) {
+    curved.emplace(bending_curve, bending);
+    const Vector3d added = curved->added_to(bending);
+    e.tail<3>() += added;
+    e.head<3>() += added.cross(rest_m) / 2;
+  }
   int which_open = load.piece.deflection;
   const Vector6d stress =
       sized(*this, [&](const auto& of) { return of.stress(e, input.internal, which_open, sums); });
-  load.piece = {which_open, 0};
+  load.piece = {which_open, curved ? curved->piece : 0};
 
   // Virtual work (equations.md section 8): of w and theta, then of the motion of j against i.
   const Vector3d f = stress.head<3>();
-  const Vector3d m = stress.tail<3>() + rest_m.cross(f) / 2 - f.dot(rest_m) * arc.gradient;
+  Vector3d m = stress.tail<3>() + rest_m.cross(f) / 2;
+  if (curved) m += curved->added_to_moment(part_across(m, rest_m));
+  m -= f.dot(rest_m) * arc.gradient;
   const Vector3d turning = half.turned(f.cross(d));
   load.force_N = -(R_i * half.turned(f));
   load.moment_Nm = -(R_i * half.to_moment(half.of_rate(turning) / 2 + m));

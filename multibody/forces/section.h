@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "multibody/forces/force_element.h"
+#include "multibody/forces/load_curve.h"
 
 namespace flexneck::multibody {
 
@@ -18,17 +19,20 @@ namespace flexneck::multibody {
 /// [e; g]^T K [e; g] / 2 over them, so that loads follow from it exactly, whatever the rotation
 /// (below pi), and closing and opening creates no energy. Maxwell branches add stiffness that
 /// relaxes: sum s^T K_b s / 2, s the strain of the branch's spring (MaxwellBranch).
+///
+/// A bending curve, moment over angle as a nonlinear solution has it, stretches the part of theta
+/// across the length, so that the moment is the curve's times the stiffness over its first slope.
 struct Section {
   static constexpr std::string_view kName = "section";
   static constexpr bool kHolds = true;
   static constexpr bool kHasKinks = true;  ///< where a gap opens or closes
-  static constexpr std::string_view kKink = "a gap opens or closes";
+  static constexpr std::string_view kKink = "a gap opens or closes, or a row of its bending curve";
 
   static constexpr int kMaxGaps = 4;
   using Strain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6 + kMaxGaps, 1>;
   using Stiffness =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6 + kMaxGaps, 6 + kMaxGaps>;
-  using Branch = MaxwellBranch<Strain, Stiffness>;
+  using Branch = MaxwellBranch<Stiffness>;
 
   std::string name;
   std::size_t marker_i = 0;
@@ -38,6 +42,7 @@ struct Section {
   /// forces of gaps over openings; N, N m; m, rad.
   Stiffness stiffness = Stiffness::Zero(6, 6);
   std::vector<Branch> branches = {};  ///< of the same size
+  LoadCurve bending_curve = {};       ///< table of N m over rad; none: in proportion
 
   Eigen::Index gap_count() const { return stiffness.rows() - 6; }
   void check(const std::string& who, const ForceSites& sites) const;
@@ -47,10 +52,11 @@ struct Section {
   static bool resists_turning() { return true; }
   std::size_t branch_count() const { return branches.size(); }
   Eigen::Index branch_size() const { return stiffness.rows(); }
+  double relaxation_time_s(std::size_t branch) const { return branches[branch].relaxation_time_s; }
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
 
   /// [e; g] with the gaps that go with the motion e.
-  /// @param which_open  answer: a bit each
+  /// @param which_open  answer: a bit each; as it comes, it is tried first
   Strain with_gaps(const Eigen::Matrix<double, 6, 1>& e, const InternalVariables& internal,
                    int& which_open) const;
 };

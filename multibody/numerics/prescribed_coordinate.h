@@ -41,6 +41,12 @@ class PrescribedCoordinate {
   /// Times at which the second rate or its slope may jump.
   void add_breakpoints(std::vector<double>& times_s) const;
 
+  /// Its fields (geometry/foundation/byte_archive.h).
+  template <class Archive>
+  void archive(Archive& all) {
+    all(moves_, value_before_, rate_before_, table_, function_, input_);
+  }
+
  private:
   bool moves_ = false;
   double value_before_ = 0, rate_before_ = 0;  ///< what the table alone would have at time zero

@@ -50,6 +50,12 @@ class SmoothMotion {
     Series displacement, velocity, acceleration;
   };
 
+  /// Its fields (geometry/foundation/byte_archive.h).
+  template <class Archive>
+  void archive(Archive& all) {
+    all(pieces_, breakpoints_s_);
+  }
+
  private:
   const Piece& piece_at(double time_s) const;
   double value(double time_s, Series Piece::*series) const;

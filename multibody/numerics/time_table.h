@@ -26,6 +26,12 @@ class TimeTable {
   /// Where the function has a kink or a jump: the integrator steps onto these times.
   const std::vector<double>& times_s() const { return times_s_; }
 
+  /// Its fields (geometry/foundation/byte_archive.h).
+  template <class Archive>
+  void archive(Archive& all) {
+    all(times_s_, values_, integrals_, second_integrals_, outside_);
+  }
+
  private:
   /// The straight piece that holds at a time from the first on: the row it starts from, its value
   /// there and its slope.

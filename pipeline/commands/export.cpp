@@ -50,7 +50,7 @@ bool export_file_command(const FileInput& input) {
                      "; other files are of a study's mesh");
   if (input.files.size() != 1)
     throw InputError("export: expected one file, found '" + input.files[1].string() + "' too");
-  if (!input.settings.empty())
+  if (!input.settings.empty() && !format.takes_settings)
     throw InputError("--set: has no meaning for a file, which is exported as it is");
   input.console.step("Writing " + input.target.string());
   format.write_file(input);
@@ -62,8 +62,7 @@ bool export_command(const CommandInput& input) {
   const ExportFormat& format = format_of(target, input.is_binary);
   if (format.write == nullptr)
     throw InputError(target.string() +
-                     ": name the file that holds it, such as 'flexneck export "
-                     "out/pendulum-flexion-80.h5 --to " +
+                     ": name the file that holds it, as in 'flexneck export FILE --to " +
                      target.string() + "'");
   mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),

@@ -6,6 +6,7 @@
 #include "pipeline/commands/shown_tables.h"
 #include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/experiments/pulse_tables.h"
+#include "pipeline/experiments/relaxation_table.h"
 #include "pipeline/experiments/rigid_neck.h"
 #include "pipeline/experiments/variant_tables.h"
 #include "pipeline/isolation/result_files.h"
@@ -70,6 +71,8 @@ void write_pendulum_tables(const CommandInput& input, const PendulumResults& kno
                                      velocity_table(entries),
                                      spectrum_table(modes.study, entries, modes.body)};
   tables.insert(tables.end(), variants.begin(), variants.end());
+  if (ResultTable relaxation = relaxation_table(modes.study); !relaxation.rows.empty())
+    tables.push_back(std::move(relaxation));
   std::vector<ResultTable> measured;
   if (ResultTable necks = rigid_neck_table(modes.study, modes.body); !necks.rows.empty()) {
     tables.push_back(std::move(necks));

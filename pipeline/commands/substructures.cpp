@@ -24,6 +24,7 @@ void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
     fe_modal::ModalBodyFile file;
     file.body = fe_modal::analyse_modes(piece.mesh, piece.options, input.console.detail(), nullptr,
                                         input.console.warnings(path.filename().string()));
+    require_rigid_face(input.study, piece, file.body);
     file.provenance = provenance;
     if (writes(input)) fe_modal::write_modal_body(path, file);
     const Eigen::VectorXd& frequencies = file.body.frequencies_Hz;

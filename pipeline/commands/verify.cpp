@@ -45,6 +45,7 @@ bool compare_with_published(const CommandInput& input) {
   std::vector<PendulumEvidence> pendulum;
   for (const CaseSection& experiment : study.cases) {
     if (experiment.kind != CaseSection::Kind::pendulum || !experiment.variant_of.empty()) continue;
+    if (experiment.direction == CaseSection::Direction::oblique) continue;  // nothing is published
     pendulum.push_back(evidence_of(input, study, experiment, modes.body));
   }
   const VerificationTable table = verify(input.study, modes.body, pendulum, reference);

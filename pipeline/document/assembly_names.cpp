@@ -41,6 +41,7 @@ const std::vector<Section>& sections() {
       {"bushing", none, {{"lower", marker}, {"upper", marker}}},
       {"section", none, {{"lower", marker}, {"upper", marker}}},
       {"line_force", none, {{"lower", marker}, {"upper", marker}}},
+      {"cable", none, {{"lower", marker}, {"upper", marker}}},
       {"function_force", none, {{"lower", marker}, {"upper", marker}}},
       {"resistance", none, {{"joint", joint}}},
       {"channel",

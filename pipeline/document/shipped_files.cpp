@@ -22,13 +22,13 @@ constexpr const char* kEnding = ".toml";
 constexpr std::array<const char*, 4> kNamedFolders = {"pipeline/studies", "pipeline/studies/fits",
                                                       "pipeline/models", "geometry/examples"};
 
-fs::path found_folder() {
+fs::path found(const fs::path& name) {
   const fs::path program = running_object();
   for (fs::path at = program.parent_path();; at = at.parent_path()) {
-    if (fs::is_directory(at / kFolder)) return fs::canonical(at / kFolder);
+    if (fs::exists(at / name)) return fs::canonical(at / name);
     if (at == at.root_path()) break;
   }
-  throw ComputationError(program.string() + ": there is no folder " + kFolder +
+  throw ComputationError(program.string() + ": there is no " + name.string() +
                          " beside or above it; install flexneck again");
 }
 
@@ -54,9 +54,11 @@ bool is_file(const fs::path& path) {
 }  // namespace
 
 fs::path shipped_folder() {
-  static const fs::path folder = found_folder();
+  static const fs::path folder = found(kFolder);
   return folder;
 }
+
+fs::path library_file(const std::string& name) { return found(fs::path("lib/flexneck") / name); }
 
 fs::path shipped_file(const fs::path& path) { return shipped_folder() / path; }
 

@@ -17,6 +17,11 @@ std::filesystem::path shipped_folder();
 /// A file in it. @param path  as in the sources, such as "geometry/neck.geo"
 std::filesystem::path shipped_file(const std::filesystem::path& path);
 
+/// A shared object that comes with the program: in lib/flexneck beside or above the running
+/// program.
+/// @throws ComputationError if there is none.
+std::filesystem::path library_file(const std::string& name);
+
 /// Names by which named_file() finds shipped studies and models, such as "hybrid3_a", in order.
 std::vector<std::string> shipped_names();
 

@@ -57,9 +57,11 @@ Pieces modes_of_pieces(const Study& study, mesher::Mesh mesh) {
   fe_modal::ModalOptions options = modes_options(study, mesh);
   options.solver = study.modes.solver;
   Pieces pieces;
-  for (const Substructure& piece : substructures_of(study, mesh, options))
-    pieces.emplace(piece.name,
-                   without_shapes(fe_modal::analyse_modes(piece.mesh, piece.options, {})));
+  for (const Substructure& piece : substructures_of(study, mesh, options)) {
+    fe_modal::ModalBody body = fe_modal::analyse_modes(piece.mesh, piece.options, {});
+    require_rigid_face(study, piece, body);
+    pieces.emplace(piece.name, without_shapes(std::move(body)));
+  }
   return pieces;
 }
 

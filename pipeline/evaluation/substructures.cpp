@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/core.h>
+
+#include "fe_modal/body/condensed_section.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "mesher/mesh/positions.h"
+#include "pipeline/model/model_sections.h"
 
 namespace flexneck::pipeline {
 namespace {
@@ -130,6 +134,30 @@ std::vector<Substructure> substructures_of(const Study& study, const mesher::Mes
   } catch (const InputError& error) {
     throw InputError(study.file.string() + ": substructures: " + error.what());
   }
+}
+
+void require_rigid_face(const Study& study, const Substructure& piece,
+                        const fe_modal::ModalBody& body) {
+  constexpr double kLargest = 0.05;
+  for (const CaseSection& experiment : study.cases)
+    for (const PieceUse& use : experiment.model.of_pieces) {
+      if (use.piece != piece.name) continue;
+      const auto& interfaces = piece.options.interfaces;
+      const std::size_t top = at_key(
+          use.table, "top", [&] { return find_name(names_of(interfaces), use.top, "interface"); });
+      std::vector<Eigen::Index> nodes;
+      for (const std::size_t node :
+           mesher::nodes_of(piece.mesh.face_set(interfaces[top].set)).nodes)
+        nodes.push_back(static_cast<Eigen::Index>(node));
+      const double warp = fe_modal::warp_of_face(body, use.top, nodes);
+      if (!(warp <= kLargest))
+        use.table.refuse("top",
+                         fmt::format("the face '{}' of piece '{}' is not rigid enough to be "
+                                     "condensed: it warps by {:.2g} of its motion, expected at "
+                                     "most {:g}; cut at a stiff plate",
+                                     use.top, piece.name, warp, kLargest));
+      break;
+    }
 }
 
 }  // namespace flexneck::pipeline

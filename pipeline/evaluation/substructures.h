@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fe_modal/body/modal_body.h"
 #include "fe_modal/system/modal_options.h"
 #include "mesher/mesh/pieces.h"
 #include "pipeline/study/study.h"
@@ -31,5 +32,11 @@ std::vector<Substructure> substructures(const SubstructuresSection& section,
 /// Those of a study. @throws InputError as substructures(), with the study in front
 std::vector<Substructure> substructures_of(const Study& study, const mesher::Mesh& mesh,
                                            const fe_modal::ModalOptions& whole);
+
+/// @param body  of the piece, with its shapes
+/// @throws InputError if a section of the study's cases is that piece, and the face at its top is
+/// not rigid enough to be condensed to six motions
+void require_rigid_face(const Study& study, const Substructure& piece,
+                        const fe_modal::ModalBody& body);
 
 }  // namespace flexneck::pipeline

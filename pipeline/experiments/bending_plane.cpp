@@ -4,16 +4,23 @@
 #include <cmath>
 #include <numbers>
 
-#include "multibody/signals/load_cell.h"
-
 namespace flexneck::pipeline {
 
-BendingPlane bending_plane(CaseSection::Direction direction) {
+BendingPlane bending_plane(CaseSection::Direction direction, double oblique_angle_rad) {
+  using Direction = CaseSection::Direction;
   using Eigen::Vector3d;
-  const bool lateral = direction == CaseSection::Direction::lateral;
-  const Vector3d tip = lateral ? Vector3d::UnitY() : Vector3d::UnitX();
-  const double sense = direction == CaseSection::Direction::extension ? -1 : 1;
-  return {sense * tip, tip, Vector3d::UnitZ().cross(tip), lateral ? 1 : 0, lateral ? 3 : 4};
+  const bool lateral = direction == Direction::lateral;
+  Vector3d tip = lateral ? Vector3d::UnitY() : Vector3d::UnitX();
+  if (direction == Direction::oblique)
+    tip = {std::cos(oblique_angle_rad), std::sin(oblique_angle_rad), 0};
+  const Vector3d axis = Vector3d::UnitZ().cross(tip);
+  // SAE J211 has y to the right: Fy is positive against the tip, Fx along it.
+  const Vector3d shear = lateral ? Vector3d(-tip) : tip;
+  return {direction == Direction::extension ? Vector3d(-tip) : tip, tip, axis, shear, -axis};
+}
+
+BendingPlane bending_plane(const CaseSection& experiment) {
+  return bending_plane(experiment.direction, experiment.oblique_angle_rad);
 }
 
 Eigen::Quaterniond rotation_at(const multibody::MarkerHistory& marker, Eigen::Index k) {
@@ -41,7 +48,7 @@ Eigen::VectorXd relative_rotation(const multibody::MarkerHistory& marker,
 }
 
 Eigen::VectorXd bending_moment(const multibody::JointHistory& joint, const BendingPlane& plane) {
-  return multibody::sae_j211(joint).row(plane.moment_channel).transpose();
+  return joint.moment_Nm.transpose() * plane.moment;
 }
 
 }  // namespace flexneck::pipeline

@@ -14,11 +14,14 @@ struct BendingPlane {
   Eigen::Vector3d motion;  ///< way the arm moves or the load pushes
   Eigen::Vector3d tip;     ///< way the head tips when the rotation is positive: +x or +y
   Eigen::Vector3d axis;    ///< of that rotation, z cross tip
-  int force_channel;       ///< row of the SAE J211 channels along tip: 0 = Fx, 1 = Fy
-  int moment_channel;      ///< row of the SAE J211 channels about axis: 3 = Mx, 4 = My
+  /// Of a load of the lower body on the upper one, what the channels of SAE J211 have of it: Fx and
+  /// My, Fy and Mx, or of an oblique plane what Fx and My would be if x were the tip.
+  Eigen::Vector3d shear, moment;
 };
 
-BendingPlane bending_plane(CaseSection::Direction direction);
+/// @param oblique_angle_rad  of an oblique direction, from +x towards +y
+BendingPlane bending_plane(CaseSection::Direction direction, double oblique_angle_rad = 0);
+BendingPlane bending_plane(const CaseSection& experiment);
 
 /// Rotation of a marker at output time k, marker to world.
 Eigen::Quaterniond rotation_at(const multibody::MarkerHistory& marker, Eigen::Index k);

@@ -27,7 +27,7 @@ namespace {
 /// @param to_world  of the arm's axes, which are the neck's
 multibody::PrescribedBody arm_motion(const CaseSection& experiment, const FittedPulse& pulse,
                                      const Eigen::Quaterniond& to_world) {
-  const Eigen::Vector3d along = to_world * bending_plane(experiment.direction).motion;
+  const Eigen::Vector3d along = to_world * bending_plane(experiment).motion;
   multibody::PrescribedBody prescribed;
   if (experiment.arm == CaseSection::Arm::translating) {
     prescribed.direction = along;
@@ -218,10 +218,11 @@ Model model_in_plane(const Study& study, CaseSection experiment, const fe_modal:
   experiment.arm = CaseSection::Arm::translating;
   Model model = pendulum_model(study, experiment, body);
   const bool fore_aft = experiment.direction != CaseSection::Direction::lateral;
+  const bool oblique = experiment.direction == CaseSection::Direction::oblique;
   for (multibody::Body& each : model.bodies)
     if (auto* const deformable = std::get_if<multibody::DeformableBody>(&each.kind))
-      keep_modes(fore_aft, *deformable);
-  fix_pins_across(bending_plane(experiment.direction), model);
+      if (!oblique) keep_modes(fore_aft, *deformable);
+  fix_pins_across(bending_plane(experiment), model);
   return model;
 }
 

@@ -20,11 +20,11 @@ namespace flexneck::pipeline {
 FittedPulse case_pulse(const Study& study, const CaseSection& experiment);
 
 /// The head/neck pendulum: arm, neck and head hang along -z of the world, the arm moves along the
-/// case's direction (flexion: neck +x, extension: -x, lateral: +y) with the impact velocity and is
-/// brought to rest by its pulse. A translating arm does that as a whole; a rotating one swings
-/// about its pivot above the neck, with velocity and pulse at its accelerometer.
-/// Conventions: multibody/CONVENTIONS.md. Its markers are "arm.end", "head.condyles" and
-/// "head.cg", and those of the joints.
+/// case's direction (flexion: neck +x, extension: -x, lateral: +y, oblique: between) with the
+/// impact velocity and is brought to rest by its pulse. A translating arm does that as a whole; a
+/// rotating one swings about its pivot above the neck, with velocity and pulse at its
+/// accelerometer. Conventions: multibody/CONVENTIONS.md. Its markers are "arm.end", "head.condyles"
+/// and "head.cg", and those of the joints.
 multibody::Model pendulum_model(const Study& study, const CaseSection& experiment,
                                 const fe_modal::ModalBody& body);
 

@@ -7,7 +7,6 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "multibody/signals/load_cell.h"
 #include "pipeline/document/channel_class.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/joint_load.h"
@@ -43,11 +42,6 @@ const MarkerHistory& marker_i(const Model& model, const History& history, std::s
   return history.marker(model.markers[model.joints[joint].marker_i].name);
 }
 
-/// Row of the SAE J211 channels of a load.
-VectorXd sae_channel(const JointLoad& load, int row) {
-  return multibody::sae_j211({"", load.force_N, load.moment_Nm}).row(row).transpose();
-}
-
 /// Moments about another point, which is at the given place from marker j, axes of marker i.
 void refer_to(const Eigen::Matrix3Xd& point_from_j_m, JointLoad& load) {
   for (Index k = 0; k < load.moment_Nm.cols(); ++k) {
@@ -69,7 +63,7 @@ void add_base(const Model& model, const History& history, const BendingPlane& pl
     end.col(k) = rotation_at(carrier, k).conjugate() *
                  Vector3d(arm.position_m.col(k) - pivot.position_m.col(k));
   refer_to(end, load);
-  signals.base_moment = sae_channel(load, plane.moment_channel);
+  signals.base_moment = load.moment_Nm.transpose() * plane.moment;
 }
 
 void add_head(const Model& model, const History& history, const BendingPlane& plane,
@@ -78,7 +72,7 @@ void add_head(const Model& model, const History& history, const BendingPlane& pl
   const MarkerHistory& head = history.marker("head.condyles");
   const MarkerHistory& top = marker_i(model, history, joint);
   JointLoad load = joint_load(model, history, joint);
-  signals.occipital_moment = sae_channel(load, plane.moment_channel);
+  signals.occipital_moment = load.moment_Nm.transpose() * plane.moment;
   // The cell turns with the head.
   for (Index k = 0; k < load.force_N.cols(); ++k) {
     const Eigen::Quaterniond to_head = rotation_at(head, k).conjugate() * rotation_at(top, k);
@@ -86,15 +80,15 @@ void add_head(const Model& model, const History& history, const BendingPlane& pl
     load.moment_Nm.col(k) = to_head * Vector3d(load.moment_Nm.col(k));
   }
   refer_to(Vector3d(0, 0, kLoadCellHeight_m).replicate(1, load.force_N.cols()), load);
-  signals.cell_shear = sae_channel(load, plane.force_channel);
-  signals.cell_moment = sae_channel(load, plane.moment_channel);
+  signals.cell_shear = load.force_N.transpose() * plane.shear;
+  signals.cell_moment = load.moment_Nm.transpose() * plane.moment;
 }
 
 }  // namespace
 
 PendulumSignals pendulum_signals(const Model& model, const History& history,
                                  const CaseSection& experiment) {
-  const BendingPlane plane = bending_plane(experiment.direction);
+  const BendingPlane plane = bending_plane(experiment);
   const MarkerHistory& top = marker_i(model, history, head_joint(model));
   const MarkerHistory& centre = history.marker("head.cg");
   const MarkerHistory& arm = history.marker("arm.end");

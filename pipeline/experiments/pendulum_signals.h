@@ -37,7 +37,7 @@ PendulumSignals pendulum_signals(const multibody::Model& model, const multibody:
                                  const CaseSection& experiment);
 
 /// The condyles' moment by the regulations' formula from a load cell's channels: M = My - arm Fx in
-/// the fore-aft plane; by the same statics M = Mx + arm Fy in the lateral one.
+/// the fore-aft plane and an oblique one; by the same statics M = Mx + arm Fy in the lateral one.
 Eigen::VectorXd moment_by_formula(const Eigen::VectorXd& moment_Nm, const Eigen::VectorXd& shear_N,
                                   double arm_m, CaseSection::Direction direction);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -167,10 +168,12 @@ ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>&
       row.push_back(fmt::format("{:.1f}", 100 * share_left(*pulse, frequency_Hz)));
     table.rows.push_back(std::move(row));
   };
-  std::set<CaseSection::Direction> seen;
+  std::set<std::pair<CaseSection::Direction, double>> seen;
   for (const PendulumEntry& entry : entries) {
     const CaseSection& experiment = entry.experiment;
-    if (!experiment.variant_of.empty() || !seen.insert(experiment.direction).second) continue;
+    if (!experiment.variant_of.empty() ||
+        !seen.insert({experiment.direction, experiment.oblique_angle_rad}).second)
+      continue;
     add("neck and head, " + experiment.name, entry.hanging.frequency_Hz, true);
   }
   std::set<std::string> used;

@@ -10,7 +10,7 @@ StaticTestSignals static_test_signals(const multibody::Model& model,
                                       const multibody::History& history,
                                       const CaseSection& experiment) {
   const multibody::MarkerHistory& top = history.marker("neck.top");
-  const BendingPlane plane = bending_plane(experiment.direction);
+  const BendingPlane plane = bending_plane(experiment);
   StaticTestSignals signals;
   signals.time_s = history.time_s;
   signals.load.setZero(history.time_s.size());

@@ -40,7 +40,8 @@ struct Assembly {
   std::optional<std::vector<std::string>> structure;
   std::map<std::size_t, ModesUse> of_structure;  ///< such bodies: interfaces only until attach()
   std::vector<PieceUse> of_pieces;  ///< sections without stiffness until attach_pieces()
-  std::set<std::size_t> lumped;     ///< rigid bodies whose mass is that of the sections at them
+  std::map<std::size_t, Relaxation> relaxations;  ///< of sections that relax
+  std::set<std::size_t> lumped;  ///< rigid bodies whose mass is that of the sections at them
 };
 
 /// Gives the bodies of the structure its modes.

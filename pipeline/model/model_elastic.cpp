@@ -45,6 +45,13 @@ constexpr auto kSectionKeys = joined(
             "gap_stiffness", "N/m", kNone,
             "Of slits: forces of their gaps over openings, a square matrix row by row; the "
             "stiffness is that with all gaps closed"),
+        Key::quantities(
+            "bending_angles", "rad", kNone,
+            "Of a nonlinear solution of the section under bending moments at its ends: angles "
+            "between them, the first 0"),
+        Key::quantities("bending_moments", "N*m", kNone,
+                        "Moment of each angle, the first 0; the stiffness is multiplied by what "
+                        "the curve has over its first slope"),
         Key::quantities("gap_translation_coupling", "N/m", kNone,
                         "Force of each gap over the top's three translations, gap by gap; negative "
                         "where a motion opens the gap"),
@@ -158,6 +165,17 @@ SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section
   return quick.stiffness - slow.stiffness.bottomRightCorner(size, size);
 }
 
+multibody::LoadCurve bending_curve(const StudyTable& table) {
+  if (!table.has("bending_angles")) {
+    table.refuse_given({"bending_moments"}, "it belongs to bending_angles, which is not there");
+    return {};
+  }
+  const std::vector<double> angles = table.quantities("bending_angles");
+  return at_key(table, "bending_moments", [&] {
+    return multibody::LoadCurve::table(angles, table.quantities("bending_moments", angles.size()));
+  });
+}
+
 /// The section's stiffness from the source that its table names; of a piece later.
 void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assembly) {
   const std::vector<std::string> own = {
@@ -165,7 +183,9 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
       "gap_stiffness", "gap_translation_coupling", "gap_rotation_coupling"};
   const Relaxation relaxation = read_relaxation(table);
   if (table.has("slow_modes_file") && relaxation.times_s.empty())
-    table.refuse("slow_modes_file", "nothing relaxes: there are no relaxation_times");
+    table.refuse("slow_modes_file",
+                 "nothing relaxes: there are no relaxation_times and no relaxation_law");
+  if (!relaxation.times_s.empty()) assembly.relaxations.emplace(index, relaxation);
   if (table.has("piece")) {
     table.refuse_given(own, "the piece gives it already");
     table.refuse_given({"modes_file", "slow_modes_file", "made_by"},
@@ -197,6 +217,7 @@ void read_section(const StudyTable& table, Assembly& assembly) {
   section.name = table.text("name");
   section.marker_i = marker_named(table, "lower", assembly);
   section.marker_j = marker_named(table, "upper", assembly);
+  section.bending_curve = bending_curve(table);
   assembly.model.forces.add(std::move(section));
   read_stiffness(table, assembly.model.forces.of<multibody::Section>().size() - 1, assembly);
   table.finish();

@@ -164,6 +164,40 @@ void read_line_force(const StudyTable& table, Assembly& assembly) {
   table.finish();
 }
 
+constexpr auto kCableKeys = std::to_array<Key>({
+    Key::text("name", kRequired, "Name of the cable"),
+    Key::text("lower", kRequired, "Marker at its one end, in whose axes the axis is"),
+    Key::text("upper", kRequired, "Marker at the other"),
+    Key::numbers("axis", kNone, "Direction of the part in whose hole it runs; z if it is not there",
+                 {.size = 3}),
+    Key::quantity(
+        "length", "m", kNone,
+        "Length of its path under the preload; where the markers are at first if the key is "
+        "not there",
+        {.range = kPositive}),
+    Key::quantity("preload", "N", "0",
+                  "Its pull at that length, under which the part has its shape without load",
+                  {.range = at_least(0)}),
+    Key::quantity("stiffness", "N/m", kRequired, "Pull over what it is stretched",
+                  {.range = at_least(0)}),
+    Key::quantity("play", "m", "0", "What its path lengthens by before it is stretched",
+                  {.range = at_least(0)}),
+});
+
+void read_cable(const StudyTable& table, Assembly& assembly) {
+  multibody::Cable cable;
+  cable.name = table.text("name");
+  cable.marker_i = marker_named(table, "lower", assembly);
+  cable.marker_j = marker_named(table, "upper", assembly);
+  if (table.has("axis")) cable.axis = unit_vector(table, "axis");
+  cable.length_m = table.has("length") ? table.quantity("length") : multibody::Cable::kAsPlaced;
+  cable.preload_N = table.quantity("preload");
+  cable.stiffness_N_m = table.quantity("stiffness");
+  cable.play_m = table.quantity("play");
+  assembly.model.forces.add(std::move(cable));
+  table.finish();
+}
+
 void read_function_force(const StudyTable& table, Assembly& assembly) {
   multibody::FunctionForce force;
   force.name = table.text("name");
@@ -198,6 +232,9 @@ std::vector<ModelSection> force_sections() {
       {Key::tables("line_force", "Forces between two markers along the line between them",
                    kLineForceKeys),
        read_line_force},
+      {Key::tables("cable", "Cables in the holes of parts that bend, between two markers",
+                   kCableKeys),
+       read_cable},
       {Key::tables("spring", "Springs and dampers between the origins of two markers", kSpringKeys),
        read_spring},
       bushing_section(),

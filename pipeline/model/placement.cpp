@@ -129,6 +129,16 @@ void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
     throw InputError("no joint or section connects the body '" + model.bodies[b].name +
                      "' with one whose place is known; join it, or give it a position");
   }
+  for (multibody::Cable& cable : model.forces.of<multibody::Cable>()) {
+    if (cable.length_m != multibody::Cable::kAsPlaced) continue;
+    const auto place = [&](std::size_t marker) {
+      const Marker& of = model.markers[marker];
+      const multibody::Pose pose = pose_of(model.bodies[of.body]) * marker_pose(model, of);
+      return multibody::MarkerKinematics{.p = pose.position_m,
+                                         .R = pose.rotation.toRotationMatrix()};
+    };
+    cable.length_m = cable.path_m(place(cable.marker_i), place(cable.marker_j));
+  }
 }
 
 void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vector<bool> moving) {

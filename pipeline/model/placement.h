@@ -31,7 +31,8 @@ struct BodyMotion {
 BodyMotion motion_of(const multibody::Body& body);
 
 /// Gives a pose to each body that has none, so that the joints close: walks the joints from the
-/// bodies that have one. Deformable bodies have the shape that they start with.
+/// bodies that have one. Deformable bodies have the shape that they start with. Cables without a
+/// length get it from the places of their ends.
 /// @param starts  one for each joint
 /// @param posed   of each body
 /// @throws InputError naming a body that no joint reaches.

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string>
 
+#include <fmt/core.h>
+
 namespace flexneck::pipeline {
 
 double Relaxation::sum_of_shares() const {
@@ -39,9 +41,8 @@ double shift_factor(const StudyTable& shift) {
   return factor;
 }
 
-}  // namespace
-
-Relaxation read_relaxation(const StudyTable& table) {
+/// Branches by their times and shares.
+Relaxation given_branches(const StudyTable& table) {
   Relaxation relaxation;
   if (table.has("relaxation_times"))
     relaxation.times_s = table.quantities("relaxation_times", 0, "s");
@@ -54,11 +55,39 @@ Relaxation read_relaxation(const StudyTable& table) {
     if (!(share > 0)) table.refuse("relaxation_shares", "expected positive shares");
   if (relaxation.sum_of_shares() > 1 + 1e-12)
     table.refuse("relaxation_shares", "their sum is above one: more than the stiffness relaxes");
+  return relaxation;
+}
+
+Relaxation fitted_branches(const StudyTable& table) {
+  table.refuse_given({"relaxation_times", "relaxation_shares"},
+                     "they are fitted to relaxation_law already");
+  return read_relaxation_law(table.table("relaxation_law"));
+}
+
+std::pair<double, double> read_band(const StudyTable& table) {
+  const std::vector<double> band_Hz = table.quantities("relaxation_band");
+  if (!(0 <= band_Hz[0] && band_Hz[0] < band_Hz[1]))
+    table.refuse("relaxation_band", "expected the lower frequency first");
+  return {band_Hz[0], band_Hz[1]};
+}
+
+}  // namespace
+
+Relaxation read_relaxation(const StudyTable& table) {
+  Relaxation relaxation =
+      table.has("relaxation_law") ? fitted_branches(table) : given_branches(table);
+  if (relaxation.times_s.empty()) {
+    table.refuse_given({"shift", "relaxation_band"},
+                       "nothing relaxes: there are no relaxation_times and no relaxation_law");
+    return relaxation;
+  }
+  if (table.has("relaxation_band")) relaxation.band_Hz = read_band(table);
   if (!table.has("shift")) return relaxation;
-  if (relaxation.times_s.empty())
-    table.refuse("shift", "nothing relaxes: there are no relaxation_times");
   const double factor = shift_factor(table.table("shift"));
   for (double& time_s : relaxation.times_s) time_s *= factor;
+  if (!relaxation.fit.empty())
+    relaxation.fit +=
+        fmt::format(", at the reference temperature; times shifted by {:.3g}", factor);
   return relaxation;
 }
 

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "multibody/forces/section.h"
 #include "pipeline/document/study_document.h"
+#include "pipeline/model/relaxation_law.h"
 
 namespace flexneck::pipeline {
 
@@ -13,6 +17,9 @@ namespace flexneck::pipeline {
 /// that it takes with it.
 struct Relaxation {
   std::vector<double> times_s, shares;
+  std::string fit;  ///< what they were fitted to, and how well; empty if they were given
+  /// Frequencies between which the study says that they stand for the rubber, Hz.
+  std::optional<std::pair<double, double>> band_Hz;
 
   double sum_of_shares() const;
   /// Splits the section's stiffness, that of quick motions, into that of slow ones and branches.
@@ -37,6 +44,13 @@ inline constexpr auto kRelaxationKeys = std::to_array<Key>({
     Key::numbers("relaxation_shares", kNone,
                  "Of each branch, the share of the stiffness that it takes with it; their sum is "
                  "at most one, and with slow_modes_file they share what that lacks"),
+    Key::table("relaxation_law",
+               "In place of relaxation_times and relaxation_shares: a law that they are fitted to",
+               kRelaxationLawKeys),
+    Key::quantities("relaxation_band", "Hz", kNone,
+                    "Lowest and highest frequency at which the branches stand for the rubber, for "
+                    "the report",
+                    {.size = 2}),
     Key::table("shift", "How temperature shifts the relaxation times", kShiftKeys),
 });
 

@@ -41,6 +41,17 @@ LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units,
   }
 }
 
+void refuse_if_it_falls(const StudyTable& table, const ResistanceSide& side) {
+  if (table.flag("may_fall")) return;
+  const bool is_table = table.has("deflections") || table.has("table");
+  for (const auto& [curve, key] : {std::pair{&side.curve, is_table ? "loads" : "stiffness"},
+                                   std::pair{&side.beyond_stop, "stop_stiffness"}})
+    if (curve->falls())
+      table.refuse(key,
+                   "the load falls as the deflection grows; expected a curve that never does, or "
+                   "may_fall = true");
+}
+
 }  // namespace
 
 ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUnits& units,
@@ -50,6 +61,7 @@ ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUni
   side.stop = table.quantity("stop", units.deflection);
   side.beyond_stop = polynomial(table, "stop_", units);
   side.unloading_ratio = table.number("unloading_ratio");
+  refuse_if_it_falls(table, side);
   return side;
 }
 

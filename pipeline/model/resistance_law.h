@@ -38,6 +38,7 @@ inline constexpr auto kResistanceSideKeys = std::to_array<Key>({
     Key::quantity("stop_quadratic", "N/m^2 | N*m/rad^2", "0", "Over its square"),
     Key::quantity("stop_cubic", "N/m^3 | N*m/rad^3", "0", "Over its cube"),
     Key::number("unloading_ratio", "1", "Load of unloading over that of loading"),
+    Key::flag("may_fall", "false", "Whether the load may fall as the deflection grows"),
 });
 
 inline constexpr auto kResistanceOneSideKeys = joined(kResistanceSideKeys, kCsvKeys);

@@ -12,7 +12,7 @@ namespace flexneck::pipeline {
 namespace {
 
 std::vector<std::string> case_kinds() { return {"pendulum", "static"}; }
-std::vector<std::string> directions() { return {"flexion", "extension", "lateral"}; }
+std::vector<std::string> directions() { return {"flexion", "extension", "lateral", "oblique"}; }
 std::vector<std::string> pulse_scalings() { return {"amplitude", "duration", "none"}; }
 std::vector<std::string> arms() { return {"translating", "rotating"}; }
 
@@ -26,6 +26,9 @@ constexpr auto kCaseKeys = std::to_array<Key>({
                "Bodies of the study that the model has, with the joints between them; all if the "
                "key is not there"),
     Key::text("direction", kRequired, "Direction of the bending", {.choices = directions}),
+    Key::quantity("oblique_angle", "rad", kNone,
+                  "Of direction oblique, required there: from forwards towards the left",
+                  {.range = {.low = -3.1416, .high = 3.1416}}),
     Key::quantity("duration", "s", kRequired, "Length of the run", kAbove0),
     Key::texts("forces", kNone, "Forces, springs and resistances of the study that act in it"),
     Key::quantity("drop_angle", "rad", kNone, "Angle that the arm falls from",
@@ -66,6 +69,15 @@ constexpr auto kVariantKeys = std::to_array<Key>({
 /// Head below the arm: the neck's z is the world's -z, x stays.
 Eigen::Quaterniond hanging() { return {0, 1, 0, 0}; }
 
+void read_direction(const StudyTable& table, CaseSection& experiment) {
+  using Direction = CaseSection::Direction;
+  experiment.direction = static_cast<Direction>(table.choice("direction"));
+  if (experiment.direction == Direction::oblique)
+    experiment.oblique_angle_rad = table.quantity("oblique_angle");
+  else
+    table.refuse_given({"oblique_angle"}, "it belongs to direction = \"oblique\"");
+}
+
 void read_velocity(const StudyTable& table, CaseSection& experiment) {
   if (table.has("drop_angle")) {
     experiment.drop_angle_rad = table.quantity("drop_angle");
@@ -102,6 +114,10 @@ void read_pendulum(const StudyTable& table, CaseSection& experiment) {
   }
   experiment.moment = read_moment_definition(table);
   experiment.equivalent_rigid_neck = table.flag("equivalent_rigid_neck");
+  if (experiment.equivalent_rigid_neck && experiment.direction == CaseSection::Direction::oblique)
+    table.refuse(
+        "equivalent_rigid_neck",
+        "its pivots turn about one axis; expected direction flexion, extension or lateral");
 }
 
 /// The tables that may hold a case's own bodies, joints and forces.
@@ -134,7 +150,7 @@ CaseSection read_case(CaseSource& source, const StudyModels& models) {
   CaseSection experiment;
   experiment.name = table.text("name");
   experiment.kind = static_cast<CaseSection::Kind>(table.choice("kind"));
-  experiment.direction = static_cast<CaseSection::Direction>(table.choice("direction"));
+  read_direction(table, experiment);
   experiment.duration_s = table.quantity("duration");
   if (experiment.kind == CaseSection::Kind::pendulum) read_pendulum(table, experiment);
   source.tables.bodies = table.texts("bodies");

@@ -68,7 +68,7 @@ struct PulseSection {
 /// of a kind share stand in [pendulum] and [static]; a [[variant]] makes cases of other ones.
 struct CaseSection {
   enum class Kind { pendulum, static_test };
-  enum class Direction { flexion, extension, lateral };
+  enum class Direction { flexion, extension, lateral, oblique };
   enum class Arm { translating, rotating };
   std::string name;
   std::string variant_of;  ///< the case that a [[variant]] made this of; empty for none
@@ -77,6 +77,7 @@ struct CaseSection {
   Assembly model;  ///< its bodies not placed yet, those of the structure without their modes
   std::vector<std::string> forces;  ///< of the study's that act in it
   double duration_s = 1.0;
+  double oblique_angle_rad = 0;  ///< of an oblique direction, from forwards towards the left
   // Of a pendulum:
   std::optional<double> drop_angle_rad;
   std::optional<double> effective_length_m;  ///< of the pendulum as one of a point

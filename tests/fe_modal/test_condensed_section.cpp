@@ -203,6 +203,24 @@ TEST_CASE("the lumped masses of a section have the mass, centre and inertia of t
   CHECK((inertia - whole.J0).norm() < 1e-9 * whole.J0.norm());
 }
 
+TEST_CASE("a face of rubber warps, one of a steel cap moves as a rigid one") {
+  const mesher::Material rubber{"rubber", 1e7, 0.4, 1000};
+  const auto warp_of = [&](const std::vector<testing::Slice>& slices) {
+    testing::BlockMesh block;
+    block.slices = slices;
+    block.position = [](const Eigen::Vector3d& p) { return p; };
+    const mesher::Mesh mesh = block.make();
+    const ModalBody body =
+        analyse_modes(mesh, section_options("bottom", {0.5, 0.5, 0}, "top", {0.5, 0.5, 1}), {});
+    std::vector<Eigen::Index> nodes;
+    for (const std::size_t node : mesher::nodes_of(mesh.face_set("top")).nodes)
+      nodes.push_back(static_cast<Eigen::Index>(node));
+    return warp_of_face(body, "top", nodes);
+  };
+  CHECK(warp_of({{"bar", 2, rubber}}) > 0.05);
+  CHECK(warp_of({{"bar", 2, rubber}, {"cap", 2, {"steel", 2e11, 0.3, 7800}}}) < 1e-3);
+}
+
 TEST_CASE("a body with other modes is no section") {
   testing::BlockMesh block;
   block.slices = {{"bar", 2, {"steel", 2e11, 0.3, 7800}}};

@@ -114,6 +114,42 @@ TEST_CASE("under small motions a section is as stiff as its matrix, seen from ma
   }
 }
 
+TEST_CASE(
+    "a bending curve makes the moment its own, and the load stays the gradient of the energy") {
+  constexpr double kLength_m = 0.2;
+  constexpr double kEI = 7;
+  constexpr double kSlope = kEI / kLength_m;
+  Section section{"beam", 0, 1, {0, 0, kLength_m}, beam_stiffness(kLength_m, 4e4, kEI, 5)};
+  section.bending_curve = LoadCurve::table({0, 0.1, 0.5, 1}, {0, 2, 14, 50});
+  // A first slope of 20: the stiffness has another, by which the curve is multiplied.
+  for (const double turn : {0.05, 0.3, 0.8}) {
+    const double radius = kLength_m / turn;
+    MarkerKinematics end;
+    end.p = {radius * (1 - std::cos(turn)), 0, radius * std::sin(turn)};
+    end.R = rotation_exp({0, turn, 0});
+    const ForceLoad load = acted(section, {}, end).second;
+    CHECK(load.moment_Nm.y() == Approx(-kSlope / 20 * section.bending_curve.value(turn)));
+    CHECK(load.force_N.norm() < 1e-9);
+  }
+  MarkerKinematics j;
+  j.p = {0.02, -0.03, 0.19};
+  j.R = rotation_exp({0.3, -0.5, 0.2});
+  const ForceLoad load = acted(section, {}, j).second;
+  constexpr double kStep = 1e-6;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto energy_at = [&](double moved, double turned) {
+      MarkerKinematics at = j;
+      at.p += moved * Vector3d::Unit(axis);
+      at.R = rotation_exp(turned * Vector3d::Unit(axis)) * at.R;
+      return acted(section, {}, at).first;
+    };
+    CHECK(load.force_N[axis] ==
+          Approx((energy_at(-kStep, 0) - energy_at(kStep, 0)) / (2 * kStep)).epsilon(1e-6));
+    CHECK(load.moment_Nm[axis] ==
+          Approx((energy_at(0, -kStep) - energy_at(0, kStep)) / (2 * kStep)).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("a beam section bent to an arc of its length carries the moment of an elastica alone") {
   constexpr double kLength_m = 0.4;
   constexpr double kEI = 7;

@@ -58,7 +58,12 @@ VectorXd descriptor_state(const System& system, const tree::TreeDynamics& dynami
 
 Model any_model() {
   const int number = GENERATE(0, 1, 2);
-  return number == 2 ? chain_of_all_joints() : forest(number == 1);
+  if (number == 2) return chain_of_all_joints();
+  Model model = forest(number == 1);
+  if (number == 1)
+    model.forces.add(Cable{"cable", model.marker_index("d end"), model.marker_index("k g"),
+                           Vector3d::UnitX(), 0.1, 5, 40, 0.01});
+  return model;
 }
 
 }  // namespace

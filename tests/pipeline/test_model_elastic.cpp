@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -109,4 +110,46 @@ TEST_CASE("what a section cannot mean is refused by its key") {
           "gap_rotation_coupling: it belongs to gap_stiffness");
   refused("\"1 N/mm\", \"2 N/mm\", \"3 N/mm\"", "\"1 N/mm\", \"-2 N/mm\", \"3 N/mm\"",
           "must not have a negative eigenvalue");
+}
+
+TEST_CASE("a cable without a length has that of the places of its ends") {
+  const ModelFile file = read(section_text() + R"(
+[[cable]]
+name = "wire"
+lower = "ground.hook"
+upper = "box.at"
+stiffness = "800 N/mm"
+preload = "500 N"
+play = "1 mm"
+)");
+  const multibody::Cable& cable = file.model.forces.of<multibody::Cable>().front();
+  CHECK(cable.length_m == Approx(std::hypot(0.01, 0.02)));
+  CHECK(cable.preload_N == 500);
+}
+
+TEST_CASE("curves that fall are refused unless the file says that they may") {
+  const auto spring = [](const std::string& law) {
+    return read(section_text() +
+                "[[spring]]\nname = \"rope\"\nlower = \"ground.hook\"\nupper = "
+                "\"box.at\"\nfree_length = \"0.1 m\"\n" +
+                law);
+  };
+  const std::string table =
+      "deflections = [\"0 m\", \"1 m\", \"2 m\"]\nloads = [\"0 N\", \"5 N\", \"4 N\"]\n";
+  CHECK_THROWS_WITH(spring(table), Contains("loads: the load falls"));
+  CHECK_THROWS_WITH(
+      spring("stiffness = \"1 N/m\"\nquadratic = \"-2 N/m^2\"\ncubic = \"1 N/m^3\"\n"),
+      Contains("stiffness: the load falls"));
+  CHECK_NOTHROW(spring("stiffness = \"1 N/m\"\nquadratic = \"-1.7 N/m^2\"\ncubic = \"1 N/m^3\"\n"));
+  CHECK_NOTHROW(spring(table + "may_fall = true\n"));
+  const auto bent = [](const std::string& curve) {
+    return read(with(section_text(), "relaxation_times", curve + "\nrelaxation_times"));
+  };
+  CHECK_NOTHROW(
+      bent("bending_angles = [\"0 deg\", \"5 deg\", \"9 deg\"]\nbending_moments = [\"0 N*m\", \"1 "
+           "N*m\", \"3 N*m\"]"));
+  CHECK_THROWS_WITH(bent("bending_angles = [\"0 deg\", \"5 deg\", \"9 deg\"]\nbending_moments = "
+                         "[\"0 N*m\", \"3 N*m\", \"1 N*m\"]"),
+                    Contains("never fall"));
+  CHECK_THROWS_WITH(bent("bending_moments = [\"0 N*m\", \"3 N*m\"]"), Contains("bending_angles"));
 }

@@ -17,6 +17,7 @@
 #include "pipeline/evaluation/pieces_of_cases.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum.h"
+#include "pipeline/experiments/relaxation_table.h"
 #include "pipeline/experiments/test_curves.h"
 #include "pipeline/report/plate_motion.h"
 #include "pipeline/verdict/verdict.h"
@@ -129,6 +130,18 @@ TEST_CASE("the built-in neck passes its certification test, all twelve figures w
       CHECK(std::abs(figure.half_corridors().value()) < 0.5);
     }
   }
+}
+
+TEST_CASE("the report tells loss factor and storage of the relaxing rubber, and where it is none") {
+  const ResultTable table = relaxation_table(
+      Made({}).study({"variables.relaxing_share=0.39", "variables.relaxation_time=29 ms"}));
+  REQUIRE(table.rows.size() == 9);
+  // Of one branch at 5 Hz: x = w tau = 0.9111, storage 1 - 0.39 / (1 + x^2), loss 0.39 x / (1 +
+  // x^2).
+  const std::vector<std::string> expected = {"disc_1, disc_2, disc_3, disc_4", "5", "0.787",
+                                             "0.247"};
+  CHECK(table.rows[3] == expected);
+  CHECK(table.notes.front().find("a stand-in for 1 to 20 Hz") != std::string::npos);
 }
 
 TEST_CASE("the certification test keeps its books, and finer steps change no figure") {

@@ -8,7 +8,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr std::array<ExportFormat, 13> kFormats = {
+constexpr std::array<ExportFormat, 14> kFormats = {
     {{".msh", "the mesh for gmsh", export_msh, true},
      {".inp", "a deck for CalculiX", export_deck},
      {".mtx", "K and M in Matrix Market's format", export_matrices},
@@ -22,7 +22,8 @@ constexpr std::array<ExportFormat, 13> kFormats = {
      {".fem", "a modal body for MBDyn", nullptr, false, export_mbdyn_body},
      {".SID_FEM", "a modal body as standard input data", nullptr, false, export_sid_body},
      {".hdf5", "a modal body for Exudyn", nullptr, false, export_exudyn_body},
-     {".h5", "a modal body of .fem or .SID_FEM", nullptr, false, import_body}}};
+     {".h5", "a modal body of .fem or .SID_FEM", nullptr, false, import_body},
+     {".fmu", "a model for co-simulation by FMI 3.0", nullptr, false, export_fmu, true}}};
 
 /// Endings of files that hold a run or a body.
 constexpr std::array<std::string_view, 3> kNoStudies = {".h5", ".fem", ".SID_FEM"};

@@ -17,7 +17,8 @@ struct ExportFormat {
   /// @param mesh of the folder; may be changed
   void (*write)(const CommandInput& input, mesher::Mesh& mesh);  ///< null if it is of a file
   bool may_be_binary = false;                                    ///< knows --binary
-  void (*write_file)(const FileInput& input) = nullptr;  ///< of what a file holds: a run, a body
+  void (*write_file)(const FileInput& input) = nullptr;  ///< of a file: a run, a body, a model
+  bool takes_settings = false;                           ///< of the model
 };
 
 std::span<const ExportFormat> export_formats();
@@ -66,6 +67,11 @@ void export_exudyn_body(const FileInput& input);
 /// A modal body of ours from a file of MBDyn (.fem) or standard input data (.SID_FEM); a warning
 /// tells what is not carried over.
 void import_body(const FileInput& input);
+
+/// The model of a file as an FMU 3.0 for co-simulation (fmu/README.md).
+/// @throws InputError for a quasi-static model, or one with a load that is a function of the
+/// program.
+void export_fmu(const FileInput& input);
 
 /// The channels of a run, the only one of input.files, as a test of ISO-MME
 /// (iso_mme/test_writer.h). A case's are those of the study that its folder remembers.

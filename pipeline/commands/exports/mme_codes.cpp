@@ -100,7 +100,9 @@ std::vector<std::string> mme_codes(const multibody::Channel& channel, const MmeS
   const char filter = mme_filter_letter(channel.filter);
   if (source.experiment != nullptr) {
     const CaseSection& experiment = *source.experiment;
-    if (const CodeRow* const row = row_of(channel, experiment)) {
+    // Directions of the standard lie along axes.
+    const bool has_code = experiment.direction != CaseSection::Direction::oblique;
+    if (const CodeRow* const row = has_code ? row_of(channel, experiment) : nullptr) {
       const bool lateral = experiment.direction == CaseSection::Direction::lateral;
       return {fmt::format("{}{}{}{}{}", row->place,
                           row->has_dummy ? dummy_code(source.dummy) : "00", row->dimension,

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/experiments/relaxation_table.h"
+
+#include <algorithm>
+#include <array>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "multibody/forces/section.h"
+
+namespace flexneck::pipeline {
+namespace {
+
+using multibody::Section;
+
+constexpr std::array kFrequencies_Hz = {0.5, 1., 2., 5., 10., 20., 50., 100., 200.};
+
+/// Stiffness against bending, slits shut, over that of quick motions.
+std::complex<double> bending_ratio(const Section& section, double frequency_Hz) {
+  constexpr Eigen::Index kBending = 4;
+  double quick = section.stiffness(kBending, kBending);
+  std::complex<double> sum = quick;
+  for (const Section::Branch& branch : section.branches) {
+    const double part = branch.stiffness(kBending, kBending);
+    const double phase = 2 * std::numbers::pi * frequency_Hz * branch.relaxation_time_s;
+    quick += part;
+    sum += part * std::complex<double>(0, phase) / std::complex<double>(1, phase);
+  }
+  return sum / quick;
+}
+
+/// Sections that relax alike.
+struct Alike {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> cells;  ///< of each frequency
+  Relaxation relaxation;
+
+  bool is_like(const Alike& other) const {
+    return cells == other.cells && relaxation.fit == other.relaxation.fit &&
+           relaxation.band_Hz == other.relaxation.band_Hz;
+  }
+};
+
+Alike alone(const Section& section, const Relaxation& relaxation) {
+  Alike found{{section.name}, {}, relaxation};
+  for (const double frequency_Hz : kFrequencies_Hz) {
+    const std::complex<double> ratio = bending_ratio(section, frequency_Hz);
+    found.cells.push_back({fmt::format("{:g}", frequency_Hz), fmt::format("{:.3f}", ratio.real()),
+                           fmt::format("{:.3f}", ratio.imag() / ratio.real())});
+  }
+  return found;
+}
+
+std::vector<Alike> relaxing_sections(const Study& study) {
+  std::vector<Alike> all;
+  for (const CaseSection& experiment : study.cases) {
+    if (experiment.kind != CaseSection::Kind::pendulum) continue;
+    const auto& sections = experiment.model.model.forces.of<Section>();
+    for (const auto& [index, relaxation] : experiment.model.relaxations) {
+      const Alike found = alone(sections[index], relaxation);
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const Alike& each) { return each.is_like(found); });
+      if (same == all.end()) {
+        all.push_back(found);
+      } else if (std::find(same->names.begin(), same->names.end(), found.names.front()) ==
+                 same->names.end()) {
+        same->names.push_back(found.names.front());
+      }
+    }
+  }
+  return all;
+}
+
+std::string band_note(const Alike& sections, const std::string& names) {
+  if (!sections.relaxation.band_Hz)
+    return names +
+           ": the study does not say at which frequencies the branches stand for the rubber.";
+  return fmt::format(
+      "{}: a stand-in for {:g} to {:g} Hz, says the study. Beyond, these are figures of the "
+      "branches, not of the rubber.",
+      names, sections.relaxation.band_Hz->first, sections.relaxation.band_Hz->second);
+}
+
+}  // namespace
+
+ResultTable relaxation_table(const Study& study) {
+  ResultTable table;
+  table.name = "relaxation";
+  table.title = "Sections that relax, bending stiffness against frequency";
+  table.columns = {
+      {"sections", ""}, {"frequency", "Hz"}, {"storage over quick", "1"}, {"loss factor", "1"}};
+  for (const Alike& sections : relaxing_sections(study)) {
+    const std::string names = fmt::format("{}", fmt::join(sections.names, ", "));
+    for (const std::vector<std::string>& cells : sections.cells) {
+      table.rows.push_back({names});
+      table.rows.back().insert(table.rows.back().end(), cells.begin(), cells.end());
+    }
+    table.notes.push_back(band_note(sections, names));
+    const std::string& fit = sections.relaxation.fit;
+    if (!fit.empty()) table.notes.push_back(names + ": Maxwell branches, " + fit + ".");
+  }
+  table.notes.emplace_back(
+      "With slits shut. Quick: the stiffness of motions quicker than all branches.");
+  return table;
+}
+
+}  // namespace flexneck::pipeline

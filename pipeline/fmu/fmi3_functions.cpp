@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The functions of an FMU's shared object that do something (the others: fmi3_not_offered.cpp).
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "pipeline/fmu/fmi3_instance.h"
+
+// Of libstdc++, which is linked in: its reserve for exceptions, which it keeps to the end of a
+// process.
+namespace __gnu_cxx {  // NOLINT(bugprone-reserved-identifier): the library's own
+void __freeres();      // NOLINT(bugprone-reserved-identifier)
+}
+
+namespace {
+
+/// Behind all other destructors of the shared object, which may be loaded again and again.
+__attribute__((destructor(101))) void free_reserve() { __gnu_cxx::__freeres(); }
+
+using flexneck::InputError;
+using flexneck::pipeline::FmuInstance;
+using flexneck::pipeline::FmuModel;
+using flexneck::pipeline::guarded;
+using Instance = flexneck::pipeline::Fmi3Instance;
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The archived model, whose bytes the token is the hash of.
+FmuModel model_in(const std::string& resources, const std::string& token) {
+  const std::string path =
+      resources + (resources.empty() || resources.back() == '/' ? "" : "/") + "model.bin";
+  const std::string bytes = text_of_file(path);
+  if (flexneck::pipeline::token_of(bytes) != token)
+    throw InputError(path + ": expected the bytes that the token " + token +
+                     " belongs to, found others; unpack the FMU again");
+  return flexneck::pipeline::fmu_model_of(bytes);
+}
+
+FmuInstance::State& state_of(fmi3FMUState state) {
+  if (state == nullptr) throw InputError("there is no saved state");
+  return *static_cast<FmuInstance::State*>(state);
+}
+
+}  // namespace
+
+FLEXNECK_FMI fmi3String fmi3GetVersion() { return "3.0"; }
+
+FLEXNECK_FMI fmi3Instance fmi3InstantiateCoSimulation(
+    fmi3String /*name*/, fmi3String token, fmi3String resources, fmi3Boolean /*visible*/,
+    fmi3Boolean /*logging*/, fmi3Boolean /*event_mode*/, fmi3Boolean /*early_return*/,
+    const fmi3ValueReference /*intermediate*/[], std::size_t /*intermediates*/,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+    fmi3IntermediateUpdateCallback /*update*/) {
+  try {
+    auto instance = std::make_unique<Instance>();
+    instance->environment = environment;
+    instance->log = log;
+    if (guarded(instance.get(), [&](Instance& at) {
+          if (token == nullptr || resources == nullptr)
+            throw InputError("an instance needs the token and the path of the resources");
+          at.model = model_in(resources, token);
+          at.run = std::make_unique<FmuInstance>(at.model);
+        }) != fmi3OK)
+      return nullptr;
+    return instance.release();
+  } catch (...) {
+    return nullptr;
+  }
+}
+
+FLEXNECK_FMI void fmi3FreeInstance(fmi3Instance instance) {
+  delete static_cast<Instance*>(instance);
+}
+
+FLEXNECK_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean, std::size_t,
+                                            const fmi3String[]) {
+  return guarded(instance, [](const Instance&) {});
+}
+
+FLEXNECK_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance instance,
+                                                    fmi3Boolean has_tolerance,
+                                                    fmi3Float64 tolerance, fmi3Float64 start,
+                                                    fmi3Boolean /*has_stop*/,
+                                                    fmi3Float64 /*stop*/) {
+  return guarded(instance, [&](Instance& at) {
+    at.run->begin_initialization(has_tolerance ? std::optional<double>(tolerance) : std::nullopt,
+                                 start);
+  });
+}
+
+FLEXNECK_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
+  return guarded(instance, [](Instance& at) { at.run->end_initialization(); });
+}
+
+FLEXNECK_FMI fmi3Status fmi3Terminate(fmi3Instance instance) {
+  return guarded(instance, [](Instance& at) { at.run->terminate(); });
+}
+
+FLEXNECK_FMI fmi3Status fmi3Reset(fmi3Instance instance) {
+  return guarded(instance, [](Instance& at) { at.run = std::make_unique<FmuInstance>(at.model); });
+}
+
+FLEXNECK_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 length,
+                                   fmi3Boolean /*no_set_state*/, fmi3Boolean* event,
+                                   fmi3Boolean* terminate, fmi3Boolean* early,
+                                   fmi3Float64* last_time) {
+  const fmi3Status status = guarded(instance, [&](Instance& at) { at.run->advance(time, length); });
+  for (fmi3Boolean* const flag : {event, terminate, early})
+    if (flag != nullptr) *flag = false;
+  if (last_time != nullptr && instance != nullptr)
+    *last_time = static_cast<Instance*>(instance)->run->time_s();
+  return status;
+}
+
+FLEXNECK_FMI fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[],
+                                       std::size_t count, fmi3Float64 values[],
+                                       std::size_t values_count) {
+  return guarded(instance, [&](Instance& at) {
+    at.run->get({references, count}, {values, values_count});
+  });
+}
+
+FLEXNECK_FMI fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference references[],
+                                       std::size_t count, const fmi3Float64 values[],
+                                       std::size_t values_count) {
+  return guarded(instance, [&](Instance& at) {
+    at.run->set({references, count}, {values, values_count});
+  });
+}
+
+FLEXNECK_FMI fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  return guarded(instance, [&](Instance& at) {
+    if (state == nullptr) throw InputError("there is no place for the state");
+    FmuInstance::State found = at.run->save();
+    if (*state != nullptr)
+      state_of(*state) = std::move(found);
+    else
+      *state = std::make_unique<FmuInstance::State>(std::move(found)).release();
+  });
+}
+
+FLEXNECK_FMI fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
+  return guarded(instance, [&](Instance& at) { at.run->restore(state_of(state)); });
+}
+
+FLEXNECK_FMI fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
+  return guarded(instance, [&](Instance&) {
+    if (state == nullptr) return;
+    delete static_cast<FmuInstance::State*>(*state);
+    *state = nullptr;
+  });
+}
+
+FLEXNECK_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
+                                                   std::size_t* size) {
+  return guarded(instance,
+                 [&](Instance&) { *size = FmuInstance::bytes_of(state_of(state)).size(); });
+}
+
+FLEXNECK_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state,
+                                              fmi3Byte bytes[], std::size_t size) {
+  return guarded(instance, [&](Instance&) {
+    const std::string found = FmuInstance::bytes_of(state_of(state));
+    if (found.size() != size) throw InputError("the state has another size");
+    std::memcpy(bytes, found.data(), size);
+  });
+}
+
+FLEXNECK_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[],
+                                                std::size_t size, fmi3FMUState* state) {
+  return guarded(instance, [&](Instance&) {
+    FmuInstance::State found = FmuInstance::state_of({reinterpret_cast<const char*>(bytes), size});
+    *state = std::make_unique<FmuInstance::State>(std::move(found)).release();
+  });
+}

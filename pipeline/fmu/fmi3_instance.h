@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <exception>
+#include <memory>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/fmu/fmi3_interface.h"
+#include "pipeline/fmu/fmu_instance.h"
+
+/// Of functions of the interface: nothing else of the shared object is seen from outside.
+#define FLEXNECK_FMI extern "C" __attribute__((visibility("default")))
+
+namespace flexneck::pipeline {
+
+/// What a handle of the interface points to.
+struct Fmi3Instance {
+  FmuModel model;  ///< as it was read, for a reset
+  std::unique_ptr<FmuInstance> run;
+  fmi3InstanceEnvironment environment = nullptr;
+  fmi3LogMessageCallback log = nullptr;
+
+  fmi3Status tell(fmi3Status status, const char* message) const {
+    if (log != nullptr) log(environment, status, "error", message);
+    return status;
+  }
+};
+
+/// Does something with an instance. What is thrown never leaves the shared object.
+/// @param not_computed  status where a run cannot go on
+template <class Do>
+fmi3Status guarded(fmi3Instance instance, const Do& action, fmi3Status not_computed = fmi3Error) {
+  if (instance == nullptr) return fmi3Error;
+  Fmi3Instance& at = *static_cast<Fmi3Instance*>(instance);
+  try {
+    action(at);
+    return fmi3OK;
+  } catch (const ComputationError& error) {
+    return at.tell(not_computed, error.what());
+  } catch (const std::exception& error) {
+    return at.tell(fmi3Error, error.what());
+  } catch (...) {
+    return at.tell(fmi3Error, "failed for an unknown reason");
+  }
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "multibody/equations/solver_options.h"
+#include "multibody/model/model.h"
+#include "pipeline/model/channel.h"
+
+namespace flexneck::pipeline {
+
+/// What an FMU carries: all that its shared object needs to run a model.
+struct FmuModel {
+  multibody::Model model;
+  multibody::SolverOptions solver;
+  bool from_equilibrium = false;
+  double end_time_s = 1;
+  double interval_s = 1e-3;
+  std::vector<ChannelSpec> channels;  ///< without filters, which need the whole of a run
+};
+
+/// @throws InputError naming a force element whose load is a function of the program.
+std::string bytes_of(FmuModel& fmu);
+/// The instantiation token of a model's bytes, their hash in braces.
+std::string token_of(const std::string& bytes);
+/// @throws InputError for bytes that are damaged or of another version.
+FmuModel fmu_model_of(std::string_view bytes);
+
+enum class Causality { independent, parameter, input, output };
+
+/// A variable, whose value reference is its index among all.
+struct FmuVariable {
+  std::string name;
+  Causality causality;
+  std::string unit;
+  std::string what;
+  double start = 0;  ///< of parameters and inputs
+};
+
+/// Time; the parameters, which are members of the model; what inputs_of() lists; a component each
+/// of the channels.
+std::vector<FmuVariable> variables_of(FmuModel& fmu);
+/// The members of the model that parameters are, in their order.
+std::vector<double*> parameters_of(multibody::Model& model);
+
+}  // namespace flexneck::pipeline
