@@ -71,7 +71,7 @@ const std::vector<Command>& commands() {
       {.name = "export",
        .help = "for other programs, by the ending of --to: mesh, modes, bodies, stresses, runs",
        .files = {"STUDY.toml or FILE",
-                 "Default: the study of the folder; else a run, stresses, a body or a model"},
+                 "Default: the folder's study; else a run, stresses, a body or a model"},
        .options = {folder, settings, target},
        .run = export_command,
        .run_on_files = export_file_command,

@@ -208,7 +208,8 @@ TEST_CASE("inputs of an FMU add to the model's own: a constant acceleration and 
   CHECK(run.get("body.sled.acceleration") == -80);
 }
 
-TEST_CASE("what an importer may not do is refused with a message; an FMU unloads without a rest") {
+TEST_CASE(
+    "what an importer may not do is refused with a message, and an FMU unloads without a rest") {
   const TemporaryFolder folder;
   LoadedFmu fmu(unpacked(folder, sled_text(kPulse)));
   {
