@@ -115,13 +115,15 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError("slits that open and close: the mesh has no open slit");
 }
 
-/// Forces in couplings and springs turn with the body and stiffen or soften it, which constraints
-/// and springs of small motions leave out.
-void refuse_turning_forces(const mesher::Mesh& mesh, const std::string& what) {
+/// Forces in couplings, those of rigid interfaces too, and in springs turn with the body and stiffen
+/// or soften it, which constraints and springs of small motions leave out.
+void refuse_turning_forces(const mesher::Mesh& mesh, const ModalOptions& options,
+                           const std::string& what) {
+  const mesher::Connections all = connections_of(mesh, options);
   mesher::Connections turning;
-  turning.points = mesh.connections.points;
-  turning.couplings = mesh.connections.couplings;
-  turning.springs = mesh.connections.springs;
+  turning.points = all.points;
+  turning.couplings = all.couplings;
+  turning.springs = all.springs;
   if (turning.empty()) return;
   throw InputError(what + " is not offered with " + turning.text() +
                    ", whose forces would turn with the body: leave these out");
@@ -130,7 +132,7 @@ void refuse_turning_forces(const mesher::Mesh& mesh, const std::string& what) {
 void check_prestress(const mesher::Mesh& mesh, const ModalOptions& options,
                      const RigidMotions& rigid) {
   if (options.prestress.empty()) return;
-  refuse_turning_forces(mesh, "a prestress");
+  refuse_turning_forces(mesh, options, "a prestress");
   check_names(names_of(options.prestress), "load");
   require_supports(rigid, "a prestress");
   if (options.geometric_stiffness || options.slit_motions != SlitMotions::none) {
@@ -167,7 +169,7 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_slit_motions(mesh, options);
   check_prestress(mesh, options, rigid);
   if (options.geometric_stiffness)
-    refuse_turning_forces(mesh, "the geometric stiffness under unit loads");
+    refuse_turning_forces(mesh, options, "the geometric stiffness under unit loads");
   if (options.geometric_stiffness && rigid.count() > 0) {
     throw InputError(
         "the geometric stiffness under unit loads is that of a fixed body, and this "

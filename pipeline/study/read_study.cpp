@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "pipeline/document/assemblies.h"
 #include "pipeline/document/shipped_files.h"
 #include "pipeline/document/table_values.h"
-#include "pipeline/model/model_sections.h"
 #include "pipeline/model/solver_steps.h"
 #include "pipeline/study/fit_section.h"
 #include "pipeline/study/sections.h"
@@ -20,154 +16,6 @@
 #include "pipeline/study/sweep_section.h"
 
 namespace flexneck::pipeline {
-
-namespace {
-
-std::vector<std::string> stiffenings() { return {"none", "unit-loads"}; }
-std::vector<std::string> prestresses() { return {"none", "loads"}; }
-std::vector<std::string> solvers() { return {"direct", "iterative"}; }
-
-constexpr Key kFixedKeys[] = {
-    Key::text("*", kNone,
-              "Directions, such as \"x\" or \"yz\", that the node set of this name is fixed in"),
-};
-
-constexpr Key kModesKeys[] = {
-    Key::count("count", "10", "Number of elastic modes", {.range = at_least(1)}),
-    Key::text("formulation", "mixed_pressure",
-              "Formulation of the elements: mixed_pressure, displacement or reduced"),
-    Key::flag("certify", "false",
-              "Whether to prove that no mode is missing, and to estimate the error of the mesh",
-              {.changes_results = false}),
-    Key::text("basis", "normal", "Which vectors the basis of a body is made of",
-              {.choices = [] { return fe_modal::basis_names(); }}),
-    Key::texts("rigid_interfaces", kNone, "Interfaces whose nodes move as a rigid body"),
-    Key::texts("basis_interfaces", kNone,
-               "Interfaces whose static shapes join the basis; all if the key is not there"),
-    Key::text("stress_stiffening", "none",
-              "Geometric stiffness of the modes under unit loads at the interfaces",
-              {.choices = stiffenings}),
-    Key::text("prestress", "none",
-              "Stresses that the modes are about: none, or those of a linear static step under all "
-              "[[load]]",
-              {.choices = prestresses}),
-    Key::text("solver", "direct", "How the eigenproblem is solved",
-              {.choices = solvers, .changes_results = false}),
-    Key::texts("fixed", kNone, "Node sets that are fixed in all directions", {.formerly = "held"}),
-    Key::table("fixed_directions", "Node sets that are fixed in some directions", kFixedKeys,
-               UsedBy::table, "held_directions"),
-    Key::flag("deck_supports", "true",
-              "Whether supports hold that the structure's file gives, such as *BOUNDARY and SPC1"),
-    Key::texts("rigid_parts", kNone, "Parts whose motion gives the modes their names"),
-    Key::text("attached_body", kNone,
-              "Rigid body attached to an interface for the loaded frequencies"),
-    Key::text("attached_to", kNone, "That interface; the first if the key is not there"),
-};
-
-constexpr auto kSolverKeys = joined(
-    std::to_array<Key>({
-        Key::quantities("gravity", "m/s^2", kNone,
-                        "Gravity of pendulum cases, in the world; 1 gn down if it is not there",
-                        {.size = 3}),
-    }),
-    kStepKeys);
-
-constexpr Key kOutputKeys[] = {
-    Key::quantity("interval", "s", "0.001", "Time between outputs", {.range = kPositive}),
-    Key::file("verification", kNone,
-              "Table of published figures that results are compared with; \"\" for none"),
-};
-
-}  // namespace
-
-std::vector<Key> model_table_keys() {
-  std::vector<Key> keys;
-  for (const ModelSection& section : model_sections()) keys.push_back(section.key);
-  return keys;
-}
-
-namespace {
-
-/// Of the study itself: bodies and what joins them belong to all cases, forces to those that say
-/// so.
-std::vector<Key> shared_model_keys() {
-  std::vector<Key> keys = model_table_keys();
-  const std::size_t forces = force_sections().size();
-  for (std::size_t k = 0; k < keys.size(); ++k)
-    keys[k].details.used_by =
-        k + forces < keys.size() ? UsedBy::all_experiments : UsedBy::named_experiments;
-  return keys;
-}
-
-std::span<const Key> modes_keys() {
-  static const std::vector<Key> kKeys = [] {
-    std::vector<Key> keys(std::begin(kModesKeys), std::end(kModesKeys));
-    keys.insert(keys.end(), modes_connection_keys().begin(), modes_connection_keys().end());
-    return keys;
-  }();
-  return kKeys;
-}
-
-std::vector<Key> all_study_keys() {
-  std::vector<Key> keys = {
-      variables_key(),
-      assembly_key(),
-      Key::table("geometry", "What is meshed", geometry_keys(), UsedBy::mesh),
-      Key::table("mesh", "How it is meshed", mesh_keys(), UsedBy::mesh),
-      Key::table("matrices", "Matrices of another program, in place of a mesh", matrices_keys(),
-                 UsedBy::modes),
-      Key::table("modes", "Modes of the structure", modes_keys(), UsedBy::modes),
-      Key::table("substructures", "Bodies that the structure is cut into", substructures_keys(),
-                 UsedBy::modes),
-      Key::tables("interface", "Where other bodies attach to a structure", interface_keys(),
-                  UsedBy::modes),
-      Key::tables("load", "Loads of a linear static step: 'flexneck stress', modes.prestress",
-                  load_keys(), UsedBy::modes),
-  };
-  const std::vector<Key> shared = shared_model_keys();
-  keys.insert(keys.end(), shared.begin(), shared.end());
-  const std::vector<Key> experiments = {
-      Key::tables("pulse", "Decelerations of the pendulum's arm", pulse_keys(),
-                  UsedBy::named_experiments),
-      Key::table("pendulum", "Keys that all [[case]] of the pendulum share", case_keys(),
-                 UsedBy::named_experiments),
-      Key::table("static", "Keys that all [[case]] of the static tester share", case_keys(),
-                 UsedBy::named_experiments),
-      Key::tables("case", "Experiments", case_keys(), UsedBy::named_experiments),
-      Key::texts("cases", kNone,
-                 "Names of the cases that are run, which may end in *; a variant brings the case "
-                 "that it is made of; all if the key is not there"),
-      Key::tables("variant", "Experiments made of others, with keys of their own", variant_keys(),
-                  UsedBy::named_experiments),
-      Key::table("dummy", "Whose head and neck the bodies are", dummy_keys(),
-                 UsedBy::named_experiments),
-      Key::tables("test", "Cases that are judged by tests of regulations", test_keys(),
-                  UsedBy::named_experiments),
-      Key::table("solver", "Integration of the experiments", kSolverKeys, UsedBy::all_experiments),
-      Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
-      Key::table("sweep", "Many values of some keys, and what becomes of them: 'flexneck sweep'",
-                 sweep_keys(), UsedBy::named_experiments),
-      Key::table("fit", "Free values of some keys that bring results to targets: 'flexneck fit'",
-                 fit_keys(), UsedBy::named_experiments),
-  };
-  keys.insert(keys.end(), experiments.begin(), experiments.end());
-  return keys;
-}
-
-}  // namespace
-
-std::span<const Key> study_keys() {
-  static const std::vector<Key> kKeys = all_study_keys();
-  return kKeys;
-}
-
-fe_modal::Formulation read_formulation(const StudyTable& table) {
-  try {
-    return fe_modal::formulation_from(table.text("formulation"));
-  } catch (const InputError& error) {
-    table.refuse("formulation", error.what());
-  }
-}
 
 MeshOrders read_mesh_orders(const StudyTable& mesh) {
   MeshOrders orders;
@@ -181,47 +29,6 @@ MeshOrders read_mesh_orders(const StudyTable& mesh) {
   }
   orders.node_order = mesh.choice("node_order") == 1;
   return orders;
-}
-
-namespace {
-
-/// left = "x", bottom = "yz"
-std::map<std::string, std::array<bool, 3>> read_fixed_directions(const StudyTable& table) {
-  std::map<std::string, std::array<bool, 3>> fixed;
-  for (const std::string& set : table.keys()) {
-    const std::string letters = table.text(set);
-    if (letters.empty() || letters.find_first_not_of("xyz") != std::string::npos) {
-      table.refuse(set, "expected directions such as \"x\" or \"yz\", found \"" + letters + "\"");
-    }
-    for (const char letter : letters) fixed[set][static_cast<std::size_t>(letter - 'x')] = true;
-  }
-  table.finish();
-  return fixed;
-}
-
-}  // namespace
-
-ModesSection read_modes(const StudyTable& table) {
-  ModesSection modes;
-  modes.count = table.count("count");
-  modes.formulation = read_formulation(table);
-  modes.certify = table.flag("certify");
-  modes.basis = static_cast<fe_modal::BasisKind>(table.choice("basis"));
-  modes.rigid_interfaces = table.texts("rigid_interfaces");
-  modes.basis_interfaces = table.texts("basis_interfaces");
-  modes.stress_stiffening = table.choice("stress_stiffening") == 1;
-  modes.prestress = table.choice("prestress") == 1;
-  modes.solver =
-      table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;
-  modes.fixed = table.texts("fixed");
-  modes.fixed_directions = read_fixed_directions(table.table("fixed_directions"));
-  modes.deck_supports = table.flag("deck_supports");
-  modes.connections = read_modes_connections(table);
-  modes.rigid_parts = table.texts("rigid_parts");
-  modes.attached_body = table.text("attached_body");
-  modes.attached_to = table.text("attached_to");
-  table.finish();
-  return modes;
 }
 
 void read_solver(const StudyTable& table, Study& study) {

@@ -15,6 +15,8 @@ std::span<const Key> materials_keys();
 std::span<const Key> mesh_keys();
 std::span<const Key> matrices_keys();
 std::span<const Key> interface_keys();
+/// [modes], with those of its tables.
+std::span<const Key> modes_keys();
 /// [[modes.coupling]], [[modes.support]], …
 std::span<const Key> modes_connection_keys();
 std::span<const Key> load_keys();

@@ -105,6 +105,12 @@ TEST_CASE("what small motions of couplings and springs leave out is refused") {
   options.geometric_stiffness = true;
   CHECK_THAT(refusal([&] { analyse_modes(mesh, options, {}); }),
              Contains("the geometric stiffness under unit loads is not offered with 1 reference"));
+  mesher::Mesh plain = mesh;
+  plain.connections = {};
+  options.fixed_set = "bottom";
+  options.interfaces[0].is_rigid = true;
+  CHECK_THAT(refusal([&] { analyse_modes(plain, options, {}); }),
+             Contains("under unit loads is not offered with 1 reference point, 1 coupling"));
   ModalOptions fixed;
   fixed.fixed_directions = {{"bottom", {true, false, false}}};
   CHECK_THAT(refusal([&] {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 #include <set>
+#include <string>
+#include <sys/utsname.h>
 #include <zip.h>
 
 #include <fmt/core.h>
@@ -22,7 +24,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kPlatform = "x86_64-linux";
+/// Of the shared object, as the standard names it: "x86_64-linux".
+std::string platform() {
+  utsname machine{};
+  uname(&machine);
+  return std::string(machine.machine) + "-linux";
+}
 
 /// Takes the texts and puts them into an archive at once, with one time stamp for all.
 class ZipFile {
@@ -115,7 +122,7 @@ void export_fmu(const FileInput& input) {
   const fs::path made = folder / "model.fmu";
   ZipFile zip(made);
   zip.add("modelDescription.xml", description);
-  zip.add(fmt::format("binaries/{}/{}.so", kPlatform, identifier), object);
+  zip.add(fmt::format("binaries/{}/{}.so", platform(), identifier), object);
   zip.add("resources/model.bin", bytes);
   zip.commit();
   write_text(input.target, text_of_file(made));

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/foundation/error.h"
+#include "pipeline/study/sections.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+std::vector<std::string> stiffenings() { return {"none", "unit-loads"}; }
+std::vector<std::string> prestresses() { return {"none", "loads"}; }
+std::vector<std::string> solvers() { return {"direct", "iterative"}; }
+
+constexpr Key kFixedKeys[] = {
+    Key::text("*", kNone,
+              "Directions, such as \"x\" or \"yz\", that the node set of this name is fixed in"),
+};
+
+constexpr Key kModesKeys[] = {
+    Key::count("count", "10", "Number of elastic modes", {.range = at_least(1)}),
+    Key::text("formulation", "mixed_pressure",
+              "Formulation of the elements: mixed_pressure, displacement or reduced"),
+    Key::flag("certify", "false",
+              "Whether to prove that no mode is missing, and to estimate the error of the mesh",
+              {.changes_results = false}),
+    Key::text("basis", "normal", "Which vectors the basis of a body is made of",
+              {.choices = [] { return fe_modal::basis_names(); }}),
+    Key::texts("rigid_interfaces", kNone, "Interfaces whose nodes move as a rigid body"),
+    Key::texts("basis_interfaces", kNone,
+               "Interfaces whose static shapes join the basis; all if the key is not there"),
+    Key::text("stress_stiffening", "none",
+              "Geometric stiffness of the modes under unit loads at the interfaces",
+              {.choices = stiffenings}),
+    Key::text("prestress", "none",
+              "Stresses that the modes are about: none, or those of a linear static step under all "
+              "[[load]]",
+              {.choices = prestresses}),
+    Key::text("solver", "direct", "How the eigenproblem is solved",
+              {.choices = solvers, .changes_results = false}),
+    Key::texts("fixed", kNone, "Node sets that are fixed in all directions", {.formerly = "held"}),
+    Key::table("fixed_directions", "Node sets that are fixed in some directions", kFixedKeys,
+               UsedBy::table, "held_directions"),
+    Key::flag("deck_supports", "true",
+              "Whether supports hold that the structure's file gives, such as *BOUNDARY and SPC1"),
+    Key::texts("rigid_parts", kNone, "Parts whose motion gives the modes their names"),
+    Key::text("attached_body", kNone,
+              "Rigid body attached to an interface for the loaded frequencies"),
+    Key::text("attached_to", kNone, "That interface; the first if the key is not there"),
+};
+
+/// left = "x", bottom = "yz"
+std::map<std::string, std::array<bool, 3>> read_fixed_directions(const StudyTable& table) {
+  std::map<std::string, std::array<bool, 3>> fixed;
+  for (const std::string& set : table.keys()) {
+    const std::string letters = table.text(set);
+    if (letters.empty() || letters.find_first_not_of("xyz") != std::string::npos) {
+      table.refuse(set, "expected directions such as \"x\" or \"yz\", found \"" + letters + "\"");
+    }
+    for (const char letter : letters) fixed[set][static_cast<std::size_t>(letter - 'x')] = true;
+  }
+  table.finish();
+  return fixed;
+}
+
+}  // namespace
+
+std::span<const Key> modes_keys() {
+  static const std::vector<Key> kKeys = [] {
+    std::vector<Key> keys(std::begin(kModesKeys), std::end(kModesKeys));
+    keys.insert(keys.end(), modes_connection_keys().begin(), modes_connection_keys().end());
+    return keys;
+  }();
+  return kKeys;
+}
+
+fe_modal::Formulation read_formulation(const StudyTable& table) {
+  try {
+    return fe_modal::formulation_from(table.text("formulation"));
+  } catch (const InputError& error) {
+    table.refuse("formulation", error.what());
+  }
+}
+
+ModesSection read_modes(const StudyTable& table) {
+  ModesSection modes;
+  modes.count = table.count("count");
+  modes.formulation = read_formulation(table);
+  modes.certify = table.flag("certify");
+  modes.basis = static_cast<fe_modal::BasisKind>(table.choice("basis"));
+  modes.rigid_interfaces = table.texts("rigid_interfaces");
+  modes.basis_interfaces = table.texts("basis_interfaces");
+  modes.stress_stiffening = table.choice("stress_stiffening") == 1;
+  modes.prestress = table.choice("prestress") == 1;
+  modes.solver =
+      table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;
+  modes.fixed = table.texts("fixed");
+  modes.fixed_directions = read_fixed_directions(table.table("fixed_directions"));
+  modes.deck_supports = table.flag("deck_supports");
+  modes.connections = read_modes_connections(table);
+  modes.rigid_parts = table.texts("rigid_parts");
+  modes.attached_body = table.text("attached_body");
+  modes.attached_to = table.text("attached_to");
+  table.finish();
+  return modes;
+}
+
+}  // namespace flexneck::pipeline
