@@ -77,6 +77,7 @@ double FmuRun::get(const std::string& name) const {
 
 std::vector<double> FmuRun::get(const std::vector<std::string>& names) const {
   std::vector<fmi3ValueReference> references;
+  references.reserve(names.size());
   for (const std::string& name : names) references.push_back(fmu_.reference(name));
   std::vector<double> values(names.size());
   require(fmu_.function<fmi3GetFloat64TYPE>("fmi3GetFloat64")(

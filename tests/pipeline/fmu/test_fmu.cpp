@@ -155,7 +155,7 @@ TEST_CASE(
     largest_rad = std::max(largest_rad, std::abs(now[3] - channel(1)(0, k)));
     for (int axis = 0; axis < 2; ++axis)
       largest_Nm = std::max(
-          largest_Nm, std::abs(now[static_cast<std::size_t>(4 + axis)] - channel(2)(axis, k)));
+          largest_Nm, std::abs(now[4 + static_cast<std::size_t>(axis)] - channel(2)(axis, k)));
     if (k == kSteps / 2) middle = run.save();
     if (k == kSteps) break;
     REQUIRE(run.step(k * 1e-4, (k + 1) * 1e-4 - k * 1e-4) == fmi3OK);
@@ -181,8 +181,8 @@ TEST_CASE(
   for (int k = kSteps / 2; k < kSteps; ++k) {
     REQUIRE(run.step(k * 1e-4, (k + 1) * 1e-4 - k * 1e-4) == fmi3OK);
     REQUIRE(third.step(k * 1e-4, (k + 1) * 1e-4 - k * 1e-4) == fmi3OK);
-    REQUIRE(run.get(kOutputs) == found[static_cast<std::size_t>(k + 1)]);
-    REQUIRE(third.get(kOutputs) == found[static_cast<std::size_t>(k + 1)]);
+    REQUIRE(run.get(kOutputs) == found[static_cast<std::size_t>(k) + 1]);
+    REQUIRE(third.get(kOutputs) == found[static_cast<std::size_t>(k) + 1]);
   }
 }
 
