@@ -77,7 +77,7 @@ FLEXNECK_FMI fmi3Instance fmi3InstantiateCoSimulation(
 }
 
 FLEXNECK_FMI void fmi3FreeInstance(fmi3Instance instance) {
-  delete static_cast<Instance*>(instance);
+  const std::unique_ptr<Instance> taken(static_cast<Instance*>(instance));
 }
 
 FLEXNECK_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean, std::size_t,
@@ -154,7 +154,7 @@ FLEXNECK_FMI fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState stat
 FLEXNECK_FMI fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
   return guarded(instance, [&](Instance&) {
     if (state == nullptr) return;
-    delete static_cast<FmuInstance::State*>(*state);
+    const std::unique_ptr<FmuInstance::State> taken(static_cast<FmuInstance::State*>(*state));
     *state = nullptr;
   });
 }
