@@ -115,8 +115,8 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError("slits that open and close: the mesh has no open slit");
 }
 
-/// Forces in couplings, those of rigid interfaces too, and in springs turn with the body and stiffen
-/// or soften it, which constraints and springs of small motions leave out.
+/// Forces in couplings, those of rigid interfaces too, and in springs turn with the body and
+/// stiffen or soften it, which constraints and springs of small motions leave out.
 void refuse_turning_forces(const mesher::Mesh& mesh, const ModalOptions& options,
                            const std::string& what) {
   const mesher::Connections all = connections_of(mesh, options);
