@@ -150,7 +150,7 @@ double deviation(const mesher::Mesh& mesh, const Cell& cell, const Truth& truth,
   // Of a motion that is fixed there is no compliance to divide by.
   return std::max({difference(body.frequencies_Hz.head(kModes), truth.frequencies_Hz),
                    difference(body.attached.front().frequencies_Hz, truth.loaded_Hz),
-                   0.1 * (compliance - truth.compliance).cwiseAbs().maxCoeff() / scale});
+                   (compliance - truth.compliance).cwiseAbs().maxCoeff() / scale});
 }
 
 int run_all(const Ranks& ranks) {
