@@ -32,17 +32,6 @@ interval = "10 ms"
 name = "ground"
 kind = "prescribed"
 displacement = "0.01 * sin(60 * t)"
-[[body]]
-name = "neck"
-kind = "deformable"
-modes_file = "neck.h5"
-damping_ratio = 0.1
-[[body]]
-name = "head"
-kind = "rigid"
-mass = "4.5 kg"
-center = ["0.02 m", "0.01 m", "0.05 m"]
-inertia = ["0.02 kg*m^2", "0.02 kg*m^2", "0.015 kg*m^2"]
 [[joint]]
 name = "foot"
 kind = "revolute"
@@ -55,7 +44,8 @@ name = "condyles"
 kind = "spherical"
 lower = "neck.top"
 upper = "head.joint"
-)toml" + testing::origin_marker_text("ground", "foot") +
+)toml" + testing::neck_and_head_text() +
+                           testing::origin_marker_text("ground", "foot") +
                            testing::origin_marker_text("head", "joint");
   const std::string section = R"([[section]]
 name = "band"

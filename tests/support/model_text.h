@@ -100,6 +100,23 @@ inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
 )" + origin_marker_text(name, marker);
 }
 
+/// A neck with the modes of "neck.h5" and a head.
+inline std::string neck_and_head_text() {
+  return R"(
+[[body]]
+name = "neck"
+kind = "deformable"
+modes_file = "neck.h5"
+damping_ratio = 0.1
+[[body]]
+name = "head"
+kind = "rigid"
+mass = "4.5 kg"
+center = ["0.02 m", "0.01 m", "0.05 m"]
+inertia = ["0.02 kg*m^2", "0.02 kg*m^2", "0.015 kg*m^2"]
+)";
+}
+
 inline std::string fixed_joint_text(const std::string& name, const std::string& lower,
                                     const std::string& upper) {
   return "\n[[joint]]\nname = \"" + name + "\"\nkind = \"fixed\"\nlower = \"" + lower +

@@ -32,19 +32,8 @@ interval = "1 ms"
 name = "sled"
 kind = "prescribed"
 )" + acceleration +
-         R"(
-[[body]]
-name = "neck"
-kind = "deformable"
-modes_file = "neck.h5"
-damping_ratio = 0.1
-[[body]]
-name = "head"
-kind = "rigid"
-mass = "4.5 kg"
-center = ["0.02 m", "0.01 m", "0.05 m"]
-inertia = ["0.02 kg*m^2", "0.02 kg*m^2", "0.015 kg*m^2"]
-[[marker]]
+         testing::neck_and_head_text() +
+         R"([[marker]]
 body = "sled"
 name = "seat"
 position = ["0 m", "0 m", "0 m"]
