@@ -3,14 +3,16 @@
 # of Eigen instantiated once for all of them. With OFF a changed source is compiled by itself.
 option(FLEXNECK_UNITY "Compile the sources of a folder together" ON)
 
-# flexneck_compile_by_folder(TARGET [ALONE source …]): ALONE are those that share a name with a
-# neighbour where each may have its own.
+# flexneck_compile_by_folder(TARGET [TOGETHER number] [ALONE source …]): ALONE are those that share a
+# name with a neighbour where each may have its own.
 function(flexneck_compile_by_folder target)
   if(NOT FLEXNECK_UNITY)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "" "ALONE" ${ARGN})
-  set(together 8)
+  cmake_parse_arguments(ARG "" "TOGETHER" "ALONE" ${ARGN})
+  if(NOT ARG_TOGETHER)
+    set(ARG_TOGETHER 8)
+  endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     if(source IN_LIST ARG_ALONE)
@@ -21,7 +23,7 @@ function(flexneck_compile_by_folder target)
     if(NOT DEFINED count_${folder})
       set(count_${folder} 0)
     endif()
-    math(EXPR group "${count_${folder}} / ${together}")
+    math(EXPR group "${count_${folder}} / ${ARG_TOGETHER}")
     math(EXPR count_${folder} "${count_${folder}} + 1")
     set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}_${group}")
   endforeach()

@@ -33,4 +33,4 @@ ctest --preset ci --parallel "$(nproc)"
 
 echo '== fuzz'
 cmake --build --preset fuzz
-python3 tests/reliability/fuzz/fuzz.py --seconds 120
+python3 tests/reliability/fuzz/fuzz.py --seconds 60
