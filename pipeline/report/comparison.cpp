@@ -53,6 +53,7 @@ ResultTable table_of(const std::string& name, const std::string& title, const st
   return table;
 }
 
+/// Those that all studies have come first: the others are mostly keys of cases that one has not.
 ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
   SideBySide cells(studies.size());
   for (std::size_t s = 0; s < studies.size(); ++s)
@@ -64,6 +65,10 @@ ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
     return std::all_of(row.begin() + 2, row.end(),
                        [&](const std::string& cell) { return cell == row[1]; });
   });
+  std::stable_partition(table.rows.begin(), table.rows.end(),
+                        [](const std::vector<std::string>& row) {
+                          return std::find(row.begin(), row.end(), kNone) == row.end();
+                        });
   return table;
 }
 
