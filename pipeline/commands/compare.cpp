@@ -59,7 +59,7 @@ bool compare_command(const FileInput& input) {
   for (const fs::path& folder : input.files) {
     // Without a study of its own: a folder is what it is, not to be measured by today's values.
     studies.push_back(
-        {label_of(folder, input.files), read_results(folder, Study()), study_of(folder)});
+        {label_of(folder, input.files), read_results(folder, Study()), study_of(folder), folder});
     if (studies.back().results.files.empty()) {
       throw InputError(folder.string() + ": holds no results; make them with 'flexneck run -o " +
                        folder.string() + "'");
