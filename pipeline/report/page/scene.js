@@ -81,7 +81,8 @@ flexneck.startScene = (scenes, canvas) => {
     control('size-label').hidden = first.kind !== 'mode';
     control('note').textContent = [...new Set(drawn.flatMap(({source}) => source.notes))].join(' ') +
         (second ? ` Left: ${first.label}. Right: ${second.label}.` : '');
-    orbit.setHome({target, distance: distance * (second ? 1.25 : 1), azimuth, elevation});
+    const farther = canvas.clientWidth < 1.2 * canvas.clientHeight ? 1.6 : 1.25;  // two fit a phone, too
+    orbit.setHome({target, distance: distance * (second ? farther : 1), azimuth, elevation});
     label();
   };
 
