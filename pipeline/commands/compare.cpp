@@ -73,12 +73,12 @@ bool compare_command(const FileInput& input) {
   for (const ComparedStudy& study : studies)
     for (const ResultFile& file : study.results.files)
       files.push_back({study.label + "/" + file.name, file.hash});
-  write_tables(input.folder.file("comparison.json"), tables, provenance_of(files, {}));
+  write_tables(input.folder.file(kComparisonTables), tables, provenance_of(files, {}));
   write_comparison(input.folder.file("comparison.html"), studies);
   for (std::size_t t = 0; t < std::min<std::size_t>(3, tables.size()); ++t)
     show(input.console, tables[t]);
   input.console.result("\nComparison: " + input.folder.file("comparison.html").string() + ", " +
-                       input.folder.file("comparison.json").string());
+                       input.folder.file(kComparisonTables).string());
   return true;
 }
 
