@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kBlockValues = 8192;        ///< of an appended dataset are written at once
+constexpr std::size_t kMinCompressed = 512;       ///< values below which compression costs space
+constexpr unsigned kCompressionLevel = 1;         ///< others take longer and save no more
 constexpr std::size_t kMaxAttributeSize = 64000;  ///< HDF5 has 64 KiB for a whole attribute
 
 std::size_t count_of(const Shape& shape) {
@@ -38,8 +40,8 @@ Shape with_rows(std::size_t rows, const Shape& row) {
 
 std::vector<hsize_t> extents_of(const Shape& shape) { return {shape.begin(), shape.end()}; }
 
-/// A dataset that grows by rows. It is made when its first block is full; what fits one block is
-/// written at the end as any other dataset.
+/// A dataset that grows by rows, in compressed blocks. It is made when its first block is full, or
+/// at the end; what is too little to compress is then written as any other dataset.
 struct Appended {
   Shape row;
   std::string unit;
@@ -93,6 +95,11 @@ struct Hdf5Writer::Impl {
     require(block.empty() || H5Pset_chunk(properties.get(), static_cast<int>(block.size()),
                                           extents_of(block).data()) >= 0,
             name);
+    if (!block.empty()) {
+      require(H5Pset_shuffle(properties.get()) >= 0 &&
+                  H5Pset_deflate(properties.get(), kCompressionLevel) >= 0,
+              name);
+    }
     return properties;
   }
 
@@ -157,7 +164,7 @@ struct Hdf5Writer::Impl {
   void write_block(const std::string& name, Appended& rows) {
     const std::size_t count = rows.waiting.size() / rows.row_size();
     if (!rows.dataset) {
-      const Shape block = with_rows(rows.block_rows(), rows.row);
+      const Shape block = with_rows(count, rows.row);
       rows.dataset = create_dataset(name, H5T_NATIVE_DOUBLE, with_rows(0, rows.row), block);
     }
     const std::vector<hsize_t> extents = extents_of(with_rows(rows.rows + count, rows.row));
@@ -179,7 +186,7 @@ struct Hdf5Writer::Impl {
   }
 
   void finish(const std::string& name, Appended& rows) {
-    if (!rows.dataset) {
+    if (!rows.dataset && rows.waiting.size() < kMinCompressed) {
       const Shape shape = with_rows(rows.waiting.size() / rows.row_size(), rows.row);
       write_dataset(name, H5T_NATIVE_DOUBLE, rows.waiting.data(), shape);
     } else {

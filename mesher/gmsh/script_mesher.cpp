@@ -65,7 +65,9 @@ std::string onelab_name(const std::map<std::string, std::string>& declared,
   try {
     return declared.at(names[find_name(names, constant, "declared constant")]);
   } catch (const InputError& error) {
-    throw InputError(script.string() + ": " + error.what());
+    throw InputError(script.string() + ": " + error.what() +
+                     "; gmsh tells of those with a Name: " + "DefineConstant[" + constant +
+                     " = {1, Name \"Parameters/" + constant + "\"}]");
   }
 }
 

@@ -56,19 +56,8 @@ void write_vector(Hdf5Writer& file, const std::string& dataset, const Eigen::Vec
   file.write(dataset, numbers_of(values), {static_cast<std::size_t>(values.size())}, unit);
 }
 
-/// An Eigen matrix with one column per time is, by its memory, a row-major (n, rows) array.
-void write_whole(Hdf5Writer& file, const History& history, const std::vector<Channel>& channels) {
-  put_arrays(history, channels,
-             [&](const std::string& dataset, const auto& values, std::string_view unit) {
-               Shape shape = {static_cast<std::size_t>(values.cols()),
-                              static_cast<std::size_t>(values.rows())};
-               if (kIsOnePerTime<decltype(values)>)
-                 shape = {static_cast<std::size_t>(values.rows())};
-               file.write(dataset, numbers_of(values), shape, unit);
-             });
-}
-
-/// Arrays of bodies without modes have no numbers: they are written at the end.
+/// An Eigen matrix with one column per time is, by its memory, a row-major (n, rows) array. Arrays
+/// of bodies without modes have no numbers: they are written at the end.
 void append_columns(Hdf5Writer& file, const History& history,
                     const std::vector<Channel>& channels) {
   put_arrays(history, channels,
@@ -176,18 +165,13 @@ HistoryWriter::HistoryWriter(std::filesystem::path path) : file_(std::move(path)
 
 void HistoryWriter::append(const History& outputs, const std::vector<Channel>& channels) {
   append_columns(file_, outputs, channels);
-  has_begun_ = true;
 }
 
 void HistoryWriter::finish(const HistoryFile& last, const std::function<void()>& meanwhile) {
   check_group_names(last.history);
   check_names(names_of(last.channels), "channel");
-  if (has_begun_) {
-    append_columns(file_, last.history, last.channels);
-    write_empty(file_, last.history, last.channels);
-  } else {
-    write_whole(file_, last.history, last.channels);
-  }
+  append_columns(file_, last.history, last.channels);
+  write_empty(file_, last.history, last.channels);
   write_groups(file_, last.history, last.channels);
   write_run(file_, last);
   file_.commit(meanwhile);

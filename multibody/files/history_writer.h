@@ -27,7 +27,6 @@ class HistoryWriter {
 
  private:
   Hdf5Writer file_;
-  bool has_begun_ = false;
 };
 
 }  // namespace flexneck::multibody

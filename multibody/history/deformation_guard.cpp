@@ -100,8 +100,8 @@ std::vector<std::string> DeformationGuard::warnings() const {
     if (each && each->largest.of_limit > 1)
       texts.push_back(text_of(*each, each->largest) +
                       ", beyond the small deformations for which modes hold: above 57 deg or half "
-                      "of its length what they do is off by a tenth and more, that of several "
-                      "bodies in its place is not");
+                      "of its length its results are off by a tenth and more; those of several "
+                      "bodies in its place are not");
   return texts;
 }
 

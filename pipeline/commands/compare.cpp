@@ -36,6 +36,17 @@ Study study_of(const fs::path& folder) {
   }
 }
 
+/// The first rows of a table; all when verbose.
+void show(const Console& console, ResultTable table) {
+  constexpr std::size_t kMaxRows = 12;
+  const std::size_t rows = table.rows.size();
+  if (!console.is_verbose() && rows > kMaxRows) {
+    table.rows.resize(kMaxRows);
+    table.notes = {"and " + std::to_string(rows - kMaxRows) + " rows more (--verbose)"};
+  }
+  console.result("\n" + printed(table));
+}
+
 }  // namespace
 
 bool compare_command(const FileInput& input) {
@@ -48,7 +59,7 @@ bool compare_command(const FileInput& input) {
   for (const fs::path& folder : input.files) {
     // Without a study of its own: a folder is what it is, not to be measured by today's values.
     studies.push_back(
-        {label_of(folder, input.files), read_results(folder, Study()), study_of(folder)});
+        {label_of(folder, input.files), read_results(folder, Study()), study_of(folder), folder});
     if (studies.back().results.files.empty()) {
       throw InputError(folder.string() + ": holds no results; make them with 'flexneck run -o " +
                        folder.string() + "'");
@@ -62,12 +73,12 @@ bool compare_command(const FileInput& input) {
   for (const ComparedStudy& study : studies)
     for (const ResultFile& file : study.results.files)
       files.push_back({study.label + "/" + file.name, file.hash});
-  write_tables(input.folder.file("comparison.json"), tables, provenance_of(files, {}));
+  write_tables(input.folder.file(kComparisonTables), tables, provenance_of(files, {}));
   write_comparison(input.folder.file("comparison.html"), studies);
   for (std::size_t t = 0; t < std::min<std::size_t>(3, tables.size()); ++t)
-    input.console.result("\n" + printed(tables[t]));
+    show(input.console, tables[t]);
   input.console.result("\nComparison: " + input.folder.file("comparison.html").string() + ", " +
-                       input.folder.file("comparison.json").string());
+                       input.folder.file(kComparisonTables).string());
   return true;
 }
 

@@ -145,7 +145,11 @@ void StudyTable::Node::require_within(const std::string& key, const Range& range
 
 const toml::node& StudyTable::Node::value(const std::string& key) {
   const toml::node* const node = find(key);
-  if (node == nullptr) refuse(key, "expected this key, found none" + misspelt(key));
+  if (node == nullptr) {
+    const std::string near = misspelt(key);
+    refuse(key, "expected this key, found none" +
+                    (near.empty() ? " (" + std::string(row(key).what) + ")" : near));
+  }
   const toml::table* const labels = node->as_table();
   if (labels == nullptr) {
     record(key, *node, nullptr);

@@ -29,11 +29,12 @@ CHAPTERS = {
     "theory": ("Theory", ["multibody/CONVENTIONS.md", "multibody/equations.md"]),
     "models": ("Model files", ["pipeline/models/README.md"]),
     "experiments": ("Experiments, tests, ratings", ["pipeline/experiments/README.md", "pipeline/verdict/README.md",
-                                                    "pipeline/rating/README.md"]),
+                                                    "pipeline/studies/README.md", "pipeline/rating/README.md"]),
     "studies": ("Many values, free values", ["pipeline/evaluation/README.md", "pipeline/sampling/README.md",
                                              "pipeline/sweep/README.md", "pipeline/fit/README.md"]),
+    "python": ("From Python", ["pipeline/python/README.md"]),
     "files": ("File formats", ["geometry/foundation/README.md", "mesher/mesh/README.md", "fe_modal/body/README.md",
-                               "pipeline/iso_mme/README.md"]),
+                               "fe_modal/exchange/README.md", "pipeline/iso_mme/README.md", "pipeline/fmu/README.md"]),
 }
 
 

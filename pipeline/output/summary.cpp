@@ -88,12 +88,13 @@ void PeakTable::append(const Eigen::VectorXd& time_s,
 
 std::string PeakTable::text() const {
   std::vector<std::vector<std::string>> rows = {
-      {"channel", "", "unit", "smallest", "at s", "largest", "at s", ""}};
+      {"channel", "", "unit", "smallest", "at s", "largest", "at s"}};
   for (const Curve& curve : curves_)
-    rows.push_back({curve.channel, curve.column, curve.unit, fmt::format("{:.5g}", curve.smallest),
+    rows.push_back({curve.channel, curve.column + (curve.filter.empty() ? "" : ", " + curve.filter),
+                    curve.unit, fmt::format("{:.5g}", curve.smallest),
                     fmt::format("{:.4f}", curve.smallest_s), fmt::format("{:.5g}", curve.largest),
-                    fmt::format("{:.4f}", curve.largest_s), curve.filter});
-  return text_table(rows, {0, 1, 2, 7});
+                    fmt::format("{:.4f}", curve.largest_s)});
+  return text_table(rows, {0, 1, 2});
 }
 
 }  // namespace flexneck::pipeline

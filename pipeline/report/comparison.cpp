@@ -15,6 +15,7 @@
 #include "pipeline/report/html_table.h"
 #include "pipeline/report/neck_scene.h"
 #include "pipeline/report/page_sections.h"
+#include "pipeline/report/pictures_html.h"
 #include "pipeline/report/web_library.h"
 
 namespace flexneck::pipeline {
@@ -53,6 +54,7 @@ ResultTable table_of(const std::string& name, const std::string& title, const st
   return table;
 }
 
+/// Those that all studies have come first: the others are mostly keys of cases that one has not.
 ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
   SideBySide cells(studies.size());
   for (std::size_t s = 0; s < studies.size(); ++s)
@@ -64,6 +66,10 @@ ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
     return std::all_of(row.begin() + 2, row.end(),
                        [&](const std::string& cell) { return cell == row[1]; });
   });
+  std::stable_partition(table.rows.begin(), table.rows.end(),
+                        [](const std::vector<std::string>& row) {
+                          return std::find(row.begin(), row.end(), kNone) == row.end();
+                        });
   return table;
 }
 
@@ -203,21 +209,26 @@ void write_comparison(const std::filesystem::path& path,
                       const std::vector<ComparedStudy>& studies) {
   std::string names;
   Json scenes = Json::array();
+  std::string pictures;
   for (const ComparedStudy& study : studies) {
     names += (names.empty() ? "" : ", ") + study.label;
     Json scene = scene_of(study.results, study.study);
-    if (!scene.is_null()) scenes.push_back({{"label", study.label}, {"scene", std::move(scene)}});
+    if (scene.is_null()) continue;
+    scenes.push_back({{"label", study.label}, {"scene", std::move(scene)}});
+    pictures += mesh_picture_html(study.folder, study.label);
   }
   Json curves = curves_of(all_runs(studies), {});
   if (!curves.is_null())
     for (const ComparedStudy& study : studies) curves["folders"].push_back(study.label);
   std::map<std::string, std::string> texts = {{"head", page_head(html_text(names))},
                                               {"units", page_part("units.html")},
-                                              {"studies", html_text(names)},
-                                              {"warnings", warnings_of(studies)}};
+                                              {"studies", html_text(names)}};
   if (!scenes.empty())
     add_section("view", "In motion", "Modes and motion",
-                "<div class=\"viewer\">\n" + page_part("scene.html") + "</div>\n", texts);
+                "<div class=\"viewer\">\n" + page_part("scene.html") + "</div>\n<div hidden>\n" +
+                    pictures + "</div>\n",
+                texts);
+  add_section("warnings", "Warnings", kWarningsTitle, warnings_of(studies), texts);
   std::vector<ResultTable> tables = compared_tables(studies);
   // What differs comes before all curves.
   const auto add_table = [&](const ResultTable& table) {
@@ -225,7 +236,10 @@ void write_comparison(const std::filesystem::path& path,
     std::replace_if(
         id.begin(), id.end(),
         [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '-');
-    add_section(id, html_text(table.name), html_text(table.title),
+    std::string link = table.name;
+    if (!link.empty())
+      link.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(link.front())));
+    add_section(id, html_text(link), html_text(table.title),
                 html_of(html_table_of(table)) + html_list(table.notes), texts);
   };
   const std::size_t first = std::min<std::size_t>(3, tables.size());

@@ -14,6 +14,7 @@ struct ComparedStudy {
   std::string label;  ///< the folder's name
   Results results;
   Study study = {};  ///< that made it, for the scene; empty if it is not known any more
+  std::filesystem::path folder = {};  ///< whose picture of the mesh stands in where no motion can
 };
 
 /// What stands side by side: inputs that differ, verification, frequencies of the modes, and every

@@ -113,7 +113,7 @@ std::string summary_html(const Results& results, const Study& study) {
   if (!results.warnings.empty())
     items +=
         item("warnings", "Warnings", badge("failed", "⚠", std::to_string(results.warnings.size())),
-             "Do not trust without a look.");
+             "Read these before you use the results.");
   if (results.verification) items += verification_item(*results.verification);
   items += certification_items(results);
   std::string made_by;

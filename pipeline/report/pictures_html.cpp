@@ -30,11 +30,13 @@ constexpr std::array<PictureKind, 4> kFitKinds = {
      {"fit-profiles", "Chi-squared over each parameter, the others fitted anew"},
      {"fit-history", "Points of the prior, and those that meet all targets"}}};
 
-std::string picture(const fs::path& path, const std::string& caption) {
-  const std::string svg = text_of_file(path);
-  return "<figure>\n<img alt=\"" + html_text(caption) + "\" src=\"data:image/svg+xml;base64," +
-         base64(std::as_bytes(std::span(svg))) + "\">\n<figcaption>" + html_text(caption) +
-         "</figcaption>\n</figure>\n";
+std::string picture(const fs::path& path, const std::string& caption,
+                    const std::string& attributes = "") {
+  const std::string type = path.extension() == ".svg" ? "svg+xml" : "png";
+  const std::string content = text_of_file(path);
+  return "<figure" + attributes + ">\n<img alt=\"" + html_text(caption) + "\" src=\"data:image/" +
+         type + ";base64," + base64(std::as_bytes(std::span(content))) + "\">\n<figcaption>" +
+         html_text(caption) + "</figcaption>\n</figure>\n";
 }
 
 std::string pictures_html(const fs::path& folder, std::span<const PictureKind> kinds) {
@@ -60,5 +62,10 @@ std::string sweep_pictures_html(const fs::path& folder) {
 }
 
 std::string fit_pictures_html(const fs::path& folder) { return pictures_html(folder, kFitKinds); }
+
+std::string mesh_picture_html(const fs::path& folder, const std::string& label) {
+  const fs::path path = folder / "mesh.png";
+  return fs::exists(path) ? picture(path, label + ": parts and mesh", " data-shows=\"neck\"") : "";
+}
 
 }  // namespace flexneck::pipeline

@@ -10,5 +10,7 @@ namespace flexneck::pipeline {
 std::string sweep_pictures_html(const std::filesystem::path& folder);
 /// Those that `flexneck fit` has left.
 std::string fit_pictures_html(const std::filesystem::path& folder);
+/// mesh.png of a folder, for readers whose browser shows no motion; empty if it is not there.
+std::string mesh_picture_html(const std::filesystem::path& folder, const std::string& label);
 
 }  // namespace flexneck::pipeline

@@ -31,7 +31,7 @@ struct PageSection {
 };
 constexpr std::array<PageSection, 14> kSections = {
     {{"view", "Overview", "Overview", "overview"},
-     {"warnings", "Warnings", "⚠ Do not trust without a look", "warnings"},
+     {"warnings", "Warnings", kWarningsTitle, "warnings"},
      {"certification", "Certification", "Certification tests", "certification"},
      {"verification", "Verification", "Verification", "verification"},
      {"curves", "Curves", "Curves", "plots"},

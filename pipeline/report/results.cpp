@@ -103,6 +103,7 @@ class Reader {
 
   void tables() {
     for (const std::string& name : names_in(folder_)) {
+      if (name == kComparisonTables) continue;
       if (!name.ends_with(".json") || !holds_tables(folder_ / name)) continue;
       read(name, "flexneck run", [&](const fs::path& path) {
         TableFile file = read_tables(path);

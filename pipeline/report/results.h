@@ -15,6 +15,9 @@
 
 namespace flexneck::pipeline {
 
+/// Tables of several folders side by side: not results of the folder that they are written into.
+inline constexpr const char* kComparisonTables = "comparison.json";
+
 /// A run of the pendulum or of the static neck tester.
 struct Experiment {
   enum class Kind { pendulum, static_test };

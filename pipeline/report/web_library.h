@@ -20,6 +20,9 @@ std::string page_part(const std::string& name);
 /// What every page of ours has between <head> and </head>. @param title  as HTML
 std::string page_head(const std::string& title);
 
+/// Of the section with the warnings.
+inline constexpr const char* kWarningsTitle = "⚠ Read before you use the results";
+
 /// Adds a section to texts["sections"], and to texts["navigation"] its link. One without content is
 /// left out. @param link, title  as HTML
 void add_section(const std::string& id, const std::string& link, const std::string& title,

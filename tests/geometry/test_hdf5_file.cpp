@@ -91,7 +91,7 @@ TEST_CASE("one flipped bit anywhere in a file of ours is found before HDF5 reads
   CHECK(accepted == std::string("flexneck").size());
 }
 
-TEST_CASE("rows that are appended one by one are those of one write") {
+TEST_CASE("rows that are appended one by one are those of one write, compressed") {
   const TemporaryFolder folder;
   const std::size_t rows = 10001;
   std::vector<double> values(6 * rows);
@@ -115,6 +115,7 @@ TEST_CASE("rows that are appended one by one are those of one write") {
         std::vector<double>(values.begin(), values.begin() + 100));
   CHECK(one.read_doubles("/empty", {0, 3}, "kg").empty());
   CHECK(Hdf5Reader(folder / "b.h5", kFormat).read_doubles("/long", {rows, 2, 3}, "m") == values);
+  CHECK(std::filesystem::file_size(folder / "a.h5") < values.size() * sizeof(double) / 2);
 }
 
 TEST_CASE("a file that is not committed leaves nothing behind") {

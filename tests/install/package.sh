@@ -21,7 +21,8 @@ echo '== a bare root'
 rm -rf "$root"
 mmdebstrap --variant=apt --mode=root --aptopt='APT::Sandbox::User "root"' --include=ca-certificates bookworm "$root" ${MIRROR:-} 2>"$out/mmdebstrap.log"
 mount -t proc proc "$root/proc"  # by which the program finds itself
-trap 'umount "$root/proc"' EXIT
+mount -t sysfs -o ro sys "$root/sys"
+trap 'umount "$root/proc" "$root/sys"' EXIT
 cp "$build"/*.deb "$root/tmp"
 cp -r "$sources/tests/install/consumer" "$root/tmp/consumer"
 inside() { chroot "$root" env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/root LC_ALL=C.UTF-8 \
@@ -29,12 +30,16 @@ inside() { chroot "$root" env -i PATH=/usr/bin:/bin:/usr/sbin:/sbin HOME=/root L
 
 echo '== the command'
 begin=$(date +%s)
-inside sh -c 'apt-get update && apt-get install -y --no-install-recommends /tmp/flexneck_*.deb' >"$out/apt.log" 2>&1
+# What it takes of the processor, too: the clock of a busy machine says little.
+(inside sh -c 'apt-get update && apt-get install -y --no-install-recommends /tmp/flexneck_*.deb' >"$out/apt.log" 2>&1
+  times >"$out/apt.times")
 installed=$(date +%s)
-inside sh -c 'cd /tmp && flexneck run -o out' >"$out/run.log" 2>&1
+(inside sh -c 'cd /tmp && flexneck run -o out' >"$out/run.log" 2>&1
+  times >"$out/run.times")
 end=$(date +%s)
-grep -A 12 '^Verification' "$out/run.log"
+grep -A 16 '^Verification' "$out/run.log"
 echo "installed in $((installed - begin)) s; from 'apt install' to the last verdict $((end - begin)) s"
+echo "of the processor, user and system: apt $(tail -1 "$out/apt.times"), the run $(tail -1 "$out/run.times")"
 inside sh -c 'cd /tmp && flexneck run cantilever -q -o bar && test -s bar/report.html'
 test -s "$root/usr/share/man/man1/flexneck.1"
 test -s "$root/usr/share/bash-completion/completions/flexneck"
@@ -61,6 +66,6 @@ inside sh -c 'apt-get install -y --no-install-recommends /tmp/libflexneck-dev_*.
 inside sh -c 'cd /tmp && cmake -S consumer -B built && cmake --build built && built/pendulum' \
   >"$out/consumer.log" 2>&1
 tail -2 "$out/consumer.log"
-umount "$root/proc"
+umount "$root/proc" "$root/sys"
 trap - EXIT
 rm -rf "$root"

@@ -65,6 +65,7 @@ flexneck.Body = class {
     const most = flexneck.largest(this.shapes[k]);
     return {
       label: `Mode ${k + 1}: ${mode.name}, ${mode.frequencyHz.toFixed(2)} Hz`,
+      name: mode.name,
       kind: 'mode',
       duration: 1,
       start: 0.25,

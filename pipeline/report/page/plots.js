@@ -230,6 +230,7 @@
         inside.append('path').attr({class: 'curve', d: line(curve.points), stroke: curve.stroke,
                                     'stroke-width': curve.width, 'stroke-dasharray': curve.dash});
       }
+      this.labelCorridors(inside, corridors);
       this.mark = inside.append('g');
       this.read(this.cursor);
     }
@@ -291,8 +292,15 @@
         const [bottom, top] = values.map(this.scaleY);
         inside.append('rect').attr({class: 'corridor', x: left, width: right - left,
                                     y: top - 2, height: bottom - top + 4});
-        inside.append('text').attr({class: 'corridor', x: right + 5, y: top + 10 - (top === bottom) * 18})
-            .text(what);
+      }
+    }
+
+    /** Names of the corridors, in front of the curves. */
+    labelCorridors(inside, corridors) {
+      for (const {what, times, values} of corridors) {
+        const [bottom, top] = values.map(this.scaleY);
+        inside.append('text').attr({class: 'corridor', x: this.scaleX(times[1]) + 5,
+                                    y: top + 10 - (top === bottom) * 18}).text(what);
       }
     }
 

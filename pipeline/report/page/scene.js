@@ -81,7 +81,8 @@ flexneck.startScene = (scenes, canvas) => {
     control('size-label').hidden = first.kind !== 'mode';
     control('note').textContent = [...new Set(drawn.flatMap(({source}) => source.notes))].join(' ') +
         (second ? ` Left: ${first.label}. Right: ${second.label}.` : '');
-    orbit.setHome({target, distance: distance * (second ? 1.25 : 1), azimuth, elevation});
+    const farther = canvas.clientWidth < 1.2 * canvas.clientHeight ? 1.6 : 1.25;  // two fit a phone, too
+    orbit.setHome({target, distance: distance * (second ? farther : 1), azimuth, elevation});
     label();
   };
 
@@ -157,13 +158,17 @@ flexneck.startScene = (scenes, canvas) => {
   if (!window.matchMedia('(prefers-reduced-motion: reduce)').matches) clock.play(true);
 };
 
-/** Of several folders the first shows its first run beside the same of the second. */
+/** Of several folders the first shows a run, or a mode, beside the same of another: what it shows by itself if another
+ * has it, else its first that another has. */
 flexneck.showBeside = (sources, bodies, control, choose) => {
-  const first = sources[Number(control('source').value)];
-  const place = first.body.sources.indexOf(first);
-  const other = bodies.find((body) => body !== first.body && body.sources[place]?.kind === first.kind);
-  if (!other) return;
-  control('second').value = sources.indexOf(other.sources[place]);
+  const shown = sources[Number(control('source').value)];
+  const sameOf = (source) => bodies.filter((body) => body !== source.body).flatMap((body) => body.sources)
+      .find((other) => other.kind === source.kind && other.name === source.name);
+  const first = [shown, ...shown.body.sources.filter(({kind}) => kind === shown.kind), ...shown.body.sources].find(sameOf);
+  if (!first) return;
+  control('source').value = sources.indexOf(first);
+  choose();  // offers what may stand beside it
+  control('second').value = sources.indexOf(sameOf(first));
   choose();
 };
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 FLEXNECK, SOURCES = (Path(word).resolve() for word in sys.argv[1:3])
 sys.path.insert(0, str(SOURCES / "pipeline/manual"))
+import conf  # noqa: E402
 import make_manual  # noqa: E402
 import mathml  # noqa: E402
 
@@ -30,6 +31,15 @@ def drawn(markup):
 
 
 class Manual(unittest.TestCase):
+    def test_contents_link_chapters_and_sections_of_their_own(self):
+        def chapter(name, *sections):
+            return f'<span id="document-{name}"></span><section id="{name}">\n<h2>{name}</h2>\n' + "".join(
+                f'<section id="{each}">\n<span id="text"></span><h3>{each}</h3></section>\n' for each in sections) + "</section>"
+
+        links = re.findall('href="#([^"]+)"', conf.contents_of(
+            '<h1>all</h1>' + chapter("tour", "first", "more") + chapter("files", "more", "last")))
+        self.assertEqual(links, ["tour", "first", "files", "last"])
+
     def test_every_key_is_documented(self):
         """Against the sources, whose tables have rows such as Key::text("name", …)."""
         keys = set()

@@ -108,6 +108,7 @@ TEST_CASE("files that cannot be trusted become warnings, files that are not ther
              "tables": [{"name": "a", "title": "", "columns": [], "rows": [["1"]], "notes": []}]})";
   write_tables(folder / "one.json", {small_table()}, made_by("one"));
   write_tables(folder / "two.json", {small_table()}, made_by("two"));
+  write_tables(folder / kComparisonTables, {small_table()}, made_by("two"));  // of other folders
   multibody::HistoryFile other = small_run(3);
   other.provenance.parameters.front().value = "something else";
   multibody::write_history(folder / "pendulum-flexion-60.h5", other);
