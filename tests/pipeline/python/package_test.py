@@ -94,6 +94,13 @@ class Stages(InFolder):
         flexneck("export", self.folder / "command/modes.h5", "--to", self.folder / "command.fem")
         self.assertEqual((self.folder / "python.fem").read_bytes(),
                          (self.folder / "command.fem").read_bytes())
+        back = fn.ModalBody.read(self.folder / "command.fem")
+        np.testing.assert_allclose(back.frequencies, body.frequencies, rtol=1e-12)
+        self.assertEqual(back.names, body.names)
+        back.write(self.folder / "back.h5")
+        (self.folder / "cut.fem").write_bytes((self.folder / "command.fem").read_bytes()[:-30])
+        with self.assertRaisesRegex(fn.InputError, "cut.fem:.*the file ends too early"):
+            fn.ModalBody.read(self.folder / "cut.fem")
         # A folder of modes of other values is refused, as the command does.
         with self.assertWarnsRegex(fn.ResultWarning, "modes.count = 6, now with 4"):
             mesh.modes(count=4)
