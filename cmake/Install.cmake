@@ -11,7 +11,7 @@ set(flexneck_config "${CMAKE_INSTALL_LIBDIR}/cmake/flexneck")
 # The command.
 install(TARGETS flexneck RUNTIME COMPONENT runtime)
 # The same place for every architecture: the program looks for it beside or above itself.
-install(TARGETS flexneck_fmu LIBRARY DESTINATION lib/flexneck COMPONENT runtime)
+install(TARGETS flexneck_fmu flexneck_fmu_formulas LIBRARY DESTINATION lib/flexneck COMPONENT runtime)
 set(made "${PROJECT_BINARY_DIR}/generated/reference")
 install(FILES "${made}/flexneck.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
 install(FILES "${made}/flexneck"
@@ -25,6 +25,7 @@ foreach(folder geometry geometry/examples pipeline/models pipeline/regulations p
   list(FILTER files INCLUDE REGEX "\\.(toml|geo|csv|inp|msh|md)$")
   install(FILES ${files} DESTINATION "${flexneck_data}/${folder}" COMPONENT runtime)
 endforeach()
+install(FILES pipeline/fmu/muparser.txt DESTINATION "${flexneck_data}/pipeline/fmu" COMPONENT runtime)
 install(DIRECTORY pipeline/report/page DESTINATION "${flexneck_data}/pipeline/report"
         COMPONENT runtime)
 

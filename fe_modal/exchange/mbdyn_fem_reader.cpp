@@ -33,13 +33,15 @@ class Groups {
   explicit Groups(const std::filesystem::path& path) : path_(path) {
     const std::string text = read_text(path, kMaxBytes);
     std::size_t number = 0;
-    for (std::size_t begin = 0; begin < text.size();) {
+    bool goes_on = true;
+    for (std::size_t begin = 0; goes_on && begin < text.size();) {
       const std::size_t end = std::min(text.find('\n', begin), text.size());
-      ++number;
-      if (!take(std::string_view(text).substr(begin, end - begin), number)) break;
+      goes_on = take(std::string_view(text).substr(begin, end - begin), ++number);
       begin = end + 1;
     }
     if (words_.empty()) refuse(1, "expected '** RECORD GROUP 1', found none");
+    // A last number that is cut short is a number, too.
+    if (goes_on) refuse(number, "expected '** END OF FILE', found none: the file ends too early");
   }
 
   bool has(int group) const { return words_.count(group) > 0; }

@@ -5,8 +5,7 @@ namespace flexneck::multibody {
 
 PrescribedCoordinate::PrescribedCoordinate(double initial_rate, const TimeTable& accelerations,
                                            const SmoothMotion& function, const HeldInput& input)
-    : moves_(initial_rate != 0 || !accelerations.times_s().empty() || !function.is_none() ||
-             !input.is_none()),
+    : moves_(initial_rate != 0 || !accelerations.times_s().empty() || !function.is_none()),
       value_before_(accelerations.second_integral(0)),
       rate_before_(accelerations.integral(0) - initial_rate),
       table_(accelerations),

@@ -33,7 +33,9 @@ class PrescribedCoordinate {
   PrescribedCoordinate(double initial_rate, const TimeTable& accelerations,
                        const SmoothMotion& function, const HeldInput& input = {});
 
-  bool moves() const { return moves_; }
+  bool moves() const { return moves_ || !input_.is_none(); }
+  const HeldInput& input() const { return input_; }
+  void set_input(const HeldInput& input) { input_ = input; }
   double value(double time_s) const;
   double rate(double time_s) const;
   double second_rate(double time_s) const;

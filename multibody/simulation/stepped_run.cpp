@@ -18,6 +18,13 @@ void each_prescribed(AnyModel& model, const Visit& visit) {
     if (auto* const prescribed = std::get_if<PrescribedBody>(&body.kind)) visit(body, *prescribed);
 }
 
+/// Calls visit(joint, motor) for each.
+template <class AnyModel, class Visit>
+void each_motor(AnyModel& model, const Visit& visit) {
+  for (auto& joint : model.joints)
+    for (auto& motor : joint.motors) visit(joint, motor);
+}
+
 /// Calls visit(name, unit, load) for the loads that have an input, by kinds.
 template <class AnyModel, class Visit>
 void each_load(AnyModel& model, const Visit& visit) {
@@ -34,6 +41,21 @@ HeldInput held(const HeldInput& before, double time_s, double second_rate) {
   return {time_s, before.value_at(time_s), before.rate_at(time_s), second_rate};
 }
 
+double stored_J(const EnergyHistory& energy) {
+  return energy.kinetic_J[0] + energy.gravitational_J[0] + energy.strain_J[0];
+}
+
+std::vector<HeldInput> motions_of(const Model& model) {
+  std::vector<HeldInput> motions;
+  each_prescribed(model, [&](const Body&, const PrescribedBody& body) {
+    motions.push_back(body.input);
+    motions.push_back(body.turn.input);
+  });
+  each_motor(model,
+             [&](const Joint&, const JointMotor& motor) { motions.push_back(motor.path.input()); });
+  return motions;
+}
+
 }  // namespace
 
 std::vector<RunInput> inputs_of(const Model& model) {
@@ -44,107 +66,144 @@ std::vector<RunInput> inputs_of(const Model& model) {
     inputs.push_back({"body." + body.name + ".angular_acceleration", "rad/s^2",
                       "About the body's axis of rotation, besides its own motion"});
   });
+  each_motor(model, [&](const Joint& joint, const JointMotor& motor) {
+    const bool slides = motor.coordinate == JointCoordinate::distance;
+    inputs.push_back({"joint." + joint.name + (slides ? ".acceleration" : ".angular_acceleration"),
+                      slides ? "m/s^2" : "rad/s^2",
+                      "Of the joint's motor '" + motor.name + "', besides its own motion"});
+  });
   each_load(model, [&](const std::string& name, const std::string& unit, const double&) {
     inputs.push_back({name + ".magnitude", unit, "Besides its own magnitude"});
   });
   return inputs;
 }
 
-SteppedRun::SteppedRun(Model model, const SolverOptions& solver, Start start,
+SteppedRun::SteppedRun(Model model, const SolverOptions& solver, Kind kind,
                        const std::vector<double>& inputs)
-    : model_(std::make_unique<Model>(std::move(model))), solver_(solver) {
+    : model_(std::make_unique<Model>(std::move(model))), solver_(solver), kind_(kind) {
   check_start(*model_, solver_);
-  if (start == Start::equilibrium) check_nothing_turns(*model_);
+  if (kind_ == Kind::from_equilibrium) check_nothing_turns(*model_);
   state_.time_s = model_->start.time_s;
   state_.inputs.assign(inputs_of(*model_).size(), 0);
-  each_prescribed(*model_, [&](const Body&, const PrescribedBody& body) {
-    state_.travel.push_back(body.input);
-    state_.turn.push_back(body.turn.input);
-  });
+  state_.motions = motions_of(*model_);
   for (std::size_t k = 0; k < inputs.size(); ++k) set_input(k, inputs[k]);
-  apply_inputs();
-  is_changed_ = false;
-  equations_ = equations_of(*model_, solver_);
-  state_.y =
-      start == Start::equilibrium ? equations_->equilibrium_state() : equations_->given_state();
-  integrator_ = time_integrator(*equations_, state_.time_s, state_.y, solver_);
+  is_changed_ = true;
+  rebuild();
+  switch (kind_) {
+    case Kind::motion:
+      state_.y = equations_->given_state();
+      break;
+    case Kind::from_equilibrium:
+      state_.y = equations_->equilibrium_state();
+      break;
+    case Kind::quasi_static:
+      state_.y = equations_->given_place();
+      settle(state_.time_s);
+      state_.first_energy_J = stored_J(recorded().energy);
+      break;
+  }
 }
 
 void SteppedRun::set_input(std::size_t index, double value) {
   if (state_.inputs.at(index) == value) return;
   state_.inputs[index] = value;
-  const std::size_t body = index / 2;
-  if (body < state_.travel.size()) {
-    HeldInput& input = index % 2 == 0 ? state_.travel[body] : state_.turn[body];
-    input = held(input, state_.time_s, value);
-  }
+  if (index < state_.motions.size())
+    state_.motions[index] = held(state_.motions[index], state_.time_s, value);
+  state_.is_settled = false;
   is_changed_ = true;
 }
 
 void SteppedRun::apply_inputs() {
   std::size_t k = 0;
   each_prescribed(*model_, [&](const Body&, PrescribedBody& body) {
-    body.input = state_.travel[k];
-    body.turn.input = state_.turn[k];
-    ++k;
+    body.input = state_.motions[k++];
+    body.turn.input = state_.motions[k++];
   });
-  k *= 2;
+  each_motor(*model_,
+             [&](const Joint&, JointMotor& motor) { motor.path.set_input(state_.motions[k++]); });
   each_load(*model_, [&](const std::string&, const std::string&, double& load) {
     load = state_.inputs[k++];
   });
 }
 
 void SteppedRun::rebuild() {
-  if (is_changed_) {
-    apply_inputs();
-    equations_ = equations_of(*model_, solver_);
-    is_changed_ = false;
-  }
-  integrator_ = time_integrator(*equations_, state_.time_s, state_.y, solver_);
-  integrator_->set_pace({state_.proposed_s, state_.error});
+  if (!is_changed_) return;
+  apply_inputs();
+  equations_ =
+      equations_of(*model_, solver_, kind_ == Kind::quasi_static ? Drive::held : Drive::prescribed);
+  is_changed_ = false;
 }
 
 void SteppedRun::advance(double end_s) {
+  rebuild();
+  if (kind_ == Kind::quasi_static)
+    settle(end_s);
+  else
+    integrate(end_s);
+}
+
+void SteppedRun::integrate(double end_s) {
   std::vector<double> ends = breakpoints(*model_, state_.time_s, end_s);
   ends.push_back(end_s);
-  rebuild();
+  const std::unique_ptr<TimeIntegrator> integrator =
+      time_integrator(*equations_, state_.time_s, state_.y, solver_);
+  integrator->set_pace({state_.proposed_s, state_.error});
   double begin = state_.time_s;
   for (const double end : ends) {
     equations_->set_interval(begin, end);
-    integrator_->restart();
-    while (integrator_->time_s() < end) {
-      if (integrator_->accepted() + integrator_->rejected() >= solver_.max_steps)
+    integrator->restart();
+    while (integrator->time_s() < end) {
+      if (integrator->accepted() + integrator->rejected() >= solver_.max_steps)
         throw ComputationError("the run was given up after " + std::to_string(solver_.max_steps) +
                                " steps; what limits them is the " +
-                               integrator_->name_of(integrator_->limiting_component()));
-      integrator_->step(end);
+                               integrator->name_of(integrator->limiting_component()));
+      integrator->step(end);
     }
     begin = end;
   }
-  const Pace pace = integrator_->pace();
+  const Pace pace = integrator->pace();
   state_.time_s = end_s;
-  state_.y = integrator_->state();
+  state_.y = integrator->state();
   state_.proposed_s = pace.proposed_s;
   state_.error = pace.error;
 }
 
+void SteppedRun::settle(double time_s) {
+  Eigen::VectorXd y = state_.y;
+  equations_->settle(time_s, y);
+  state_.y = y;
+  state_.time_s = time_s;
+  state_.is_settled = true;
+}
+
 History SteppedRun::output() {
-  if (is_changed_) rebuild();
+  rebuild();
+  if (kind_ == Kind::quasi_static && !state_.is_settled) settle(state_.time_s);
+  return recorded();
+}
+
+History SteppedRun::recorded() {
   OutputOptions one;
   one.begin_time_s = one.end_time_s = state_.time_s;
   Recorder recorder(*model_, one);
   Eigen::VectorXd y = state_.y;
-  Eigen::VectorXd rate(y.size());
-  equations_->set_interval(state_.time_s, state_.time_s);
-  equations_->derivative(state_.time_s, y, rate);
+  if (kind_ != Kind::quasi_static) {
+    Eigen::VectorXd rate(y.size());
+    equations_->set_interval(state_.time_s, state_.time_s);
+    equations_->derivative(state_.time_s, y, rate);
+  }
   equations_->record(state_.time_s, y, recorder, 0);
   recorder.check_turns(0);
-  return recorder.take();
+  History history = recorder.take();
+  // Nothing is lost: the work is what the energies have gained.
+  if (kind_ == Kind::quasi_static)
+    history.energy.work_J[0] = stored_J(history.energy) - state_.first_energy_J;
+  return history;
 }
 
 void SteppedRun::restore(const State& state) {
   if (state.y.size() != state_.y.size() || state.inputs.size() != state_.inputs.size() ||
-      state.travel.size() != state_.travel.size() || state.turn.size() != state_.turn.size())
+      state.motions.size() != state_.motions.size())
     throw InputError("the state is one of another model");
   state_ = state;
   is_changed_ = true;

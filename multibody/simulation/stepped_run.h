@@ -10,26 +10,26 @@
 #include "multibody/equations/equations.h"
 #include "multibody/history/history.h"
 #include "multibody/model/model.h"
-#include "multibody/time/time_integrator.h"
 
 namespace flexneck::multibody {
 
 /// What others may give a model while it runs: the second rate of a prescribed body's travel along
-/// its direction or of its turn about its axis, or the load of a force, torque or line force. It is
-/// added to what the model says itself.
+/// its direction or of its turn about its axis, that of a joint's distance or angle which a motor
+/// gives, or the load of a force, torque or line force. It is added to what the model says itself.
 struct RunInput {
   std::string name;  ///< such as "body.sled.acceleration" or "force.push.magnitude"
   std::string unit;
   std::string what;
 };
-/// Prescribed bodies in their order, then loads by kinds.
+/// Prescribed bodies, then motors in their order, then loads by kinds.
 std::vector<RunInput> inputs_of(const Model& model);
 
 /// A run that others drive: from one time to the next, with inputs that hold from a time on, and a
 /// state that is taken and given back.
 class SteppedRun {
  public:
-  enum class Start { given, equilibrium };
+  /// Which one of simulation.h: simulate(), simulate_from_equilibrium(), settle().
+  enum class Kind { motion, from_equilibrium, quasi_static };
 
   /// All that a run goes on from.
   struct State {
@@ -37,14 +37,17 @@ class SteppedRun {
     Eigen::VectorXd y;      ///< of the equations
     double proposed_s = 0;  ///< see Pace
     double error = 0;
-    std::vector<double> inputs;     ///< their values
-    std::vector<HeldInput> travel;  ///< of the prescribed bodies, and
-    std::vector<HeldInput> turn;
+    std::vector<double> inputs;      ///< their values
+    std::vector<HeldInput> motions;  ///< what those of them that are second rates have come to
+    /// Of a quasi-static run: whether y is the equilibrium under these inputs, and the energy that
+    /// was stored in the first one.
+    bool is_settled = true;
+    double first_energy_J = 0;
   };
 
   /// @param inputs  values from the start on, which an equilibrium is under; empty: zero
-  /// @throws as simulate() and simulate_from_equilibrium() do before their first step.
-  SteppedRun(Model model, const SolverOptions& solver, Start start,
+  /// @throws as the function of this kind does before its first step.
+  SteppedRun(Model model, const SolverOptions& solver, Kind kind,
              const std::vector<double>& inputs = {});
   SteppedRun(const SteppedRun&) = delete;
   SteppedRun& operator=(const SteppedRun&) = delete;
@@ -68,11 +71,15 @@ class SteppedRun {
  private:
   void apply_inputs();
   void rebuild();
+  void integrate(double end_s);
+  /// Looks for the equilibrium at a time. @throws ComputationError, with the state of before.
+  void settle(double time_s);
+  History recorded();
 
   std::unique_ptr<Model> model_;  ///< the equations refer to it
   SolverOptions solver_;
+  Kind kind_;
   std::unique_ptr<Equations> equations_;
-  std::unique_ptr<TimeIntegrator> integrator_;
   State state_;
   bool is_changed_ = false;  ///< inputs have, since the equations were made
 };

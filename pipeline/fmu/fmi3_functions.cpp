@@ -10,16 +10,7 @@
 
 #include "pipeline/fmu/fmi3_instance.h"
 
-// Of libstdc++, which is linked in: its reserve for exceptions, which it keeps to the end of a
-// process.
-namespace __gnu_cxx {  // NOLINT(bugprone-reserved-identifier): the library's own
-void __freeres();      // NOLINT(bugprone-reserved-identifier)
-}
-
 namespace {
-
-/// Behind all other destructors of the shared object, which may be loaded again and again.
-__attribute__((destructor(101))) void free_reserve() { __gnu_cxx::__freeres(); }
 
 using flexneck::InputError;
 using flexneck::pipeline::FmuInstance;

@@ -14,8 +14,8 @@ namespace flexneck::multibody {
 
 template <class A>
 void archive(A& all, SteppedRun::State& x) {
-  auto& [time, y, proposed, error, inputs, travel, turn] = x;
-  all(time, y, proposed, error, inputs, travel, turn);
+  auto& [time, y, proposed, error, inputs, motions, is_settled, first_energy] = x;
+  all(time, y, proposed, error, inputs, motions, is_settled, first_energy);
 }
 
 }  // namespace flexneck::multibody
@@ -55,9 +55,7 @@ const FmuVariable& FmuInstance::variable(Reference reference) const {
 
 SteppedRun& FmuInstance::run() {
   if (run_) return *run_;
-  run_.emplace(model_.model, model_.solver,
-               model_.from_equilibrium ? SteppedRun::Start::equilibrium : SteppedRun::Start::given,
-               inputs_);
+  run_.emplace(model_.model, model_.solver, model_.kind, inputs_);
   return *run_;
 }
 

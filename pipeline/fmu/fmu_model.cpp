@@ -6,13 +6,13 @@
 #include "geometry/foundation/content_hash.h"
 #include "multibody/files/model_archive.h"
 #include "multibody/history/recorder.h"
-#include "multibody/simulation/stepped_run.h"
 
 namespace flexneck::pipeline {
 
 using multibody::DeformableBody;
 using multibody::Model;
 using multibody::RigidBody;
+using multibody::SteppedRun;
 
 template <class A>
 void archive(A& all, ChannelSpec& x) {
@@ -20,15 +20,22 @@ void archive(A& all, ChannelSpec& x) {
   all(name, quantity, source, relative_to, axes, axis, filter);
 }
 template <class A>
+void archive(A& all, FormulaForce& x) {
+  auto& [name, marker_i, marker_j, texts] = x;
+  all(name, marker_i, marker_j, texts);
+}
+template <class A>
 void archive(A& all, FmuModel& x) {
-  auto& [model, solver, from_equilibrium, end_time, interval, channels] = x;
-  all(model, solver, from_equilibrium, end_time, interval, channels);
+  auto& [model, solver, kind, end_time, interval, channels] = x;
+  all(model, solver, kind, end_time, interval, channels);
+  if (kind < SteppedRun::Kind::motion || kind > SteppedRun::Kind::quasi_static)
+    ByteReader::refuse();
 }
 
 namespace {
 
 /// Raised when what is archived changes.
-constexpr std::string_view kHead = "flexneck FMU model 1\n";
+constexpr std::string_view kHead = "flexneck FMU model 2\n";
 
 /// Calls visit(name, unit, what, member) for each parameter.
 template <class Visit>
@@ -69,9 +76,11 @@ multibody::History layout_of(const Model& model) {
 
 }  // namespace
 
-std::string bytes_of(FmuModel& fmu) {
+std::string bytes_of(const FmuModel& fmu, std::vector<FormulaForce> formulas) {
+  FmuModel rest = fmu;
+  rest.model.forces.of<multibody::FunctionForce>().clear();
   ByteWriter writer;
-  archive(writer, fmu);
+  writer(rest, formulas);
   return std::string(kHead) + writer.bytes();
 }
 
@@ -81,8 +90,10 @@ FmuModel fmu_model_of(std::string_view bytes) {
   if (!bytes.starts_with(kHead)) ByteReader::refuse();
   ByteReader reader(bytes.substr(kHead.size()));
   FmuModel fmu;
-  archive(reader, fmu);
+  std::vector<FormulaForce> formulas;
+  reader(fmu, formulas);
   reader.finish();
+  for (const FormulaForce& each : formulas) fmu.model.forces.add(function_force_of(each));
   return fmu;
 }
 

@@ -7,7 +7,9 @@
 
 #include "multibody/equations/solver_options.h"
 #include "multibody/model/model.h"
+#include "multibody/simulation/stepped_run.h"
 #include "pipeline/model/channel.h"
+#include "pipeline/model/formula_force.h"
 
 namespace flexneck::pipeline {
 
@@ -15,14 +17,14 @@ namespace flexneck::pipeline {
 struct FmuModel {
   multibody::Model model;
   multibody::SolverOptions solver;
-  bool from_equilibrium = false;
+  multibody::SteppedRun::Kind kind = multibody::SteppedRun::Kind::motion;
   double end_time_s = 1;
   double interval_s = 1e-3;
   std::vector<ChannelSpec> channels;  ///< without filters, which need the whole of a run
 };
 
-/// @throws InputError naming a force element whose load is a function of the program.
-std::string bytes_of(FmuModel& fmu);
+/// @param formulas  those of the model's function forces, formula_forces_of()
+std::string bytes_of(const FmuModel& fmu, std::vector<FormulaForce> formulas);
 /// The instantiation token of a model's bytes, their hash in braces.
 std::string token_of(const std::string& bytes);
 /// @throws InputError for bytes that are damaged or of another version.

@@ -2,9 +2,9 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/document/table_values.h"
+#include "pipeline/model/formula_force.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/model/resistance_law.h"
-#include "pipeline/model/state_expression.h"
 
 namespace flexneck::pipeline {
 
@@ -199,27 +199,23 @@ void read_cable(const StudyTable& table, Assembly& assembly) {
 }
 
 void read_function_force(const StudyTable& table, Assembly& assembly) {
-  multibody::FunctionForce force;
-  force.name = table.text("name");
-  force.marker_i = marker_named(table, "lower", assembly);
-  force.marker_j = marker_named(table, "upper", assembly);
-  StateExpression::Texts texts;
+  FormulaForce force{table.text("name"),
+                     marker_named(table, "lower", assembly),
+                     marker_named(table, "upper", assembly),
+                     {}};
   bool is_any = false;
-  for (std::size_t k = 0; k < texts.size(); ++k) {
-    texts[k] = table.text(StateExpression::kNames[k]);
-    if (texts[k].empty()) continue;
+  for (std::size_t k = 0; k < force.texts.size(); ++k) {
+    force.texts[k] = table.text(StateExpression::kNames[k]);
+    if (force.texts[k].empty()) continue;
     is_any = true;
     at_key(table, StateExpression::kNames[k], [&] {
       StateExpression::Texts one;
-      one[k] = texts[k];
+      one[k] = force.texts[k];
       return StateExpression(one);
     });
   }
   if (!is_any) table.refuse("Fx", "expected a formula of at least one of Fx to Mz, found none");
-  const StateExpression expression(texts);
-  force.load = expression;
-  force.takes_rotation_vector = expression.takes_rotation_vector();
-  assembly.model.forces.add(std::move(force));
+  assembly.model.forces.add(function_force_of(force));
   table.finish();
 }
 

@@ -26,7 +26,8 @@ struct StateExpression::Impl {
   std::mutex mutex;  ///< of the parsers
 };
 
-StateExpression::StateExpression(const Texts& texts) : impl_(std::make_shared<Impl>()) {
+StateExpression::StateExpression(const Texts& texts)
+    : texts_(texts), impl_(std::make_shared<Impl>()) {
   for (std::size_t k = 0; k < texts.size(); ++k) {
     if (texts[k].empty()) continue;
     impl_->components[k].emplace(texts[k], variables());

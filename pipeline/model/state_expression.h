@@ -23,11 +23,13 @@ class StateExpression {
   /// @throws InputError for what cannot be read: where, and what is wrong.
   explicit StateExpression(const Texts& texts);
   multibody::FunctionLoad operator()(double time_s, const multibody::RelativeMotion& motion) const;
+  const Texts& texts() const { return texts_; }
   /// Whether one of them has rx, ry or rz.
   bool takes_rotation_vector() const;
 
  private:
   struct Impl;
+  Texts texts_;
   std::shared_ptr<Impl> impl_;
 };
 

@@ -194,6 +194,8 @@ TEST_CASE("lumped masses of an MBDyn file are summed, and contradictions refused
   CHECK_THROWS_WITH(
       read(replaced(lumped_bar("2.5"), " 2.\n** RECORD GROUP 11", " 2. 3.\n** RECORD GROUP 11")),
       Contains("expected 1 numbers in RECORD GROUP 10, found 2"));
+  CHECK_THROWS_WITH(read(replaced(lumped_bar("2.5"), "1\n** END OF FILE\n", "")),
+                    Contains("bar.fem:26: expected '** END OF FILE', found none"));
   CHECK_THROWS_WITH(read(replaced(lumped_bar("2.5"), "GROUP 10,", "GROUP 20,")),
                     Contains("bar.fem:19: expected a RECORD GROUP from 1 to 19"));
 }

@@ -119,11 +119,17 @@ def modes_rows(path):
         return rows
 
 
+def invariant_rows(path):
+    """What depends on the shapes, number by number, with signs."""
+    with h5py.File(path) as file:
+        return [row for name, dataset, _ in shape_datasets(file)
+                for row in rows_of(name, dataset[:], unit_of(dataset))]
+
+
 def shapes_rows(path):
     """With signs: of geometric stiffness matrices the trace and the norm."""
+    rows = invariant_rows(path)
     with h5py.File(path) as file:
-        rows = [row for name, dataset, _ in shape_datasets(file)
-                for row in rows_of(name, dataset[:], unit_of(dataset))]
         for name, interface in file["interfaces"].items():
             rows += selected(interface, STATIC_SHAPES, f"interfaces/{name}/")
         for name, matrices in datasets(file, "geometric_stiffness"):

@@ -45,15 +45,13 @@ test -s "$root/usr/share/man/man1/flexneck.1"
 test -s "$root/usr/share/bash-completion/completions/flexneck"
 
 echo '== Python'
-cp -r "$sources/pipeline/python/examples" "$root/tmp/examples"
-cp "$sources/tests/pipeline/python/documented_test.py" "$root/tmp"
-mkdir -p "$root/tmp/sources/pipeline/python"
-cp -r "$sources/pipeline/python/flexneck" "$root/tmp/sources/pipeline/python"
+cp "$sources/tests/pipeline/python/documented_test.py" "$sources/tests/pipeline/fmu/fmu_test.py" "$root/tmp"
 inside sh -c 'apt-get install -y --no-install-recommends /tmp/python3-flexneck_*.deb' >"$out/apt-python.log" 2>&1
-inside sh -c 'cd /tmp/examples && for each in [!p]*.py p[!l]*.py; do python3 -B "$each" /tmp/drawn || exit 1; done' \
-  >"$out/python.log" 2>&1
+inside sh -c 'cd /usr/share/doc/python3-flexneck/examples && test -s ../README.md &&
+  for each in [!p]*.py p[!l]*.py; do python3 -B "$each" /tmp/drawn || exit 1; done' >"$out/python.log" 2>&1
 tail -3 "$out/python.log"
-inside python3 -B /tmp/documented_test.py none /tmp/sources
+inside python3 -B /tmp/documented_test.py
+inside python3 -B /tmp/fmu_test.py flexneck four_bar Formulas
 inside sh -c 'cd /tmp && python3 -c "import flexneck as fn; \
 fn.Study(\"hybrid3\").mesh(\"py\").modes().pendulum(\"flexion-20\")" && \
   flexneck mesh hybrid3 -q -o cmd && flexneck modes hybrid3 -q -o cmd && \

@@ -69,8 +69,6 @@ void export_exudyn_body(const FileInput& input);
 void import_body(const FileInput& input);
 
 /// The model of a file as an FMU 3.0 for co-simulation (fmu/README.md).
-/// @throws InputError for a quasi-static model, or one with a load that is a function of the
-/// program.
 void export_fmu(const FileInput& input);
 
 /// The channels of a run, the only one of input.files, as a test of ISO-MME

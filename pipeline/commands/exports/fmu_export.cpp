@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/commands/exports/fmu_export.h"
+
+#include <dlfcn.h>
 #include <memory>
+#include <muParserDLL.h>
 #include <set>
 #include <string>
 #include <sys/utsname.h>
@@ -21,6 +25,7 @@
 namespace flexneck::pipeline {
 
 namespace fs = std::filesystem;
+using multibody::SteppedRun;
 
 namespace {
 
@@ -73,8 +78,9 @@ void check_variable_names(const fs::path& model, FmuModel& fmu) {
                        variable.name + "'; call a channel otherwise");
 }
 
-/// The channels without those that a filter would need the whole run for.
-std::vector<ChannelSpec> outputs_of(const FileInput& input, const ModelFile& file) {
+/// The channels without filters, which would need the whole of a run.
+std::vector<ChannelSpec> outputs_of(const ModelFile& file, const fs::path& target,
+                                    const Console& console) {
   if (file.output.channels.empty()) {
     multibody::OutputOptions one;
     one.end_time_s = one.begin_time_s = file.model.start.time_s;
@@ -85,10 +91,24 @@ std::vector<ChannelSpec> outputs_of(const FileInput& input, const ModelFile& fil
     channels.push_back(spec);
     channels.back().filter.reset();
     if (spec.filter)
-      input.console.warning(input.target.string() + ": the output '" + spec.name +
-                            "' is not filtered: a filter runs over the whole of a run");
+      console.warning(target.string() + ": the output '" + spec.name +
+                      "' is not filtered: a filter runs over the whole of a run");
   }
   return channels;
+}
+
+SteppedRun::Kind kind_of(const ModelFile& file) {
+  if (file.analysis == ModelFile::Analysis::quasi_static) return SteppedRun::Kind::quasi_static;
+  return file.start == ModelFile::Start::equilibrium ? SteppedRun::Kind::from_equilibrium
+                                                     : SteppedRun::Kind::motion;
+}
+
+/// The file of muParser that this program has loaded.
+fs::path parser_file() {
+  Dl_info found;
+  if (dladdr(reinterpret_cast<const void*>(&mupGetVersion), &found) == 0)
+    throw ComputationError("the file of muParser is not found, which an FMU with formulas needs");
+  return found.dli_fname;
 }
 
 }  // namespace
@@ -97,35 +117,50 @@ void export_fmu(const FileInput& input) {
   const fs::path path = named_file(input.files.front());
   const ModelFile file = read_model_file(path, input.settings);
   for (const std::string& warning : file.warnings) input.console.warning(warning);
-  if (file.analysis == ModelFile::Analysis::quasi_static)
-    throw InputError(path.string() + ": a quasi-static analysis has no motion for an FMU");
+  write_fmu(file, input.target, input.console);
+}
+
+void write_fmu(const ModelFile& file, const fs::path& target, const Console& console) {
   FmuModel fmu{file.model,
                file.solver,
-               file.start == ModelFile::Start::equilibrium,
+               kind_of(file),
                file.end_time_s,
                file.output.interval_s,
-               outputs_of(input, file)};
-  check_variable_names(path, fmu);
-  std::string bytes;
+               outputs_of(file, target, console)};
+  check_variable_names(file.file, fmu);
+  std::vector<FormulaForce> formulas;
   try {
-    bytes = bytes_of(fmu);
+    formulas = formula_forces_of(fmu.model);
   } catch (const InputError& error) {
-    throw InputError(path.string() + ": " + error.what());
+    throw InputError(file.file.string() + ": " + error.what());
   }
-  const std::string name = path.stem().string();
+  const std::string bytes = bytes_of(fmu, formulas);
+  const std::string name = file.file.stem().string();
   const std::string identifier = c_identifier(name);
   const std::string description = model_description(
       {name, identifier, token_of(bytes), fmt::format("flexneck {} ({})", kVersion, kGitHash)},
       fmu);
-  const std::string object = text_of_file(library_file("flexneck_fmu.so"));
+  // Names in the FMU with what is there.
+  std::vector<std::pair<std::string, std::string>> contents = {
+      {"modelDescription.xml", description}, {"resources/model.bin", bytes}};
+  const std::string binaries = fmt::format("binaries/{}/", platform());
+  if (formulas.empty()) {
+    contents.emplace_back(binaries + identifier + ".so",
+                          text_of_file(library_file("flexneck_fmu.so")));
+  } else {
+    contents.emplace_back(binaries + identifier + ".so",
+                          text_of_file(library_file("flexneck_fmu_formulas.so")));
+    contents.emplace_back(binaries + parser_file().filename().string(),
+                          text_of_file(parser_file()));
+    contents.emplace_back("documentation/licenses/muparser.txt",
+                          text_of_file(shipped_file("pipeline/fmu/muparser.txt")));
+  }
   const TemporaryFolder folder;
   const fs::path made = folder / "model.fmu";
   ZipFile zip(made);
-  zip.add("modelDescription.xml", description);
-  zip.add(fmt::format("binaries/{}/{}.so", platform(), identifier), object);
-  zip.add("resources/model.bin", bytes);
+  for (const auto& [each, text] : contents) zip.add(each, text);
   zip.commit();
-  write_text(input.target, text_of_file(made));
+  write_text(target, text_of_file(made));
 }
 
 }  // namespace flexneck::pipeline

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/foundation/names.h"
+#include "pipeline/commands/exports/fmu_export.h"
 #include "pipeline/commands/simulated_model.h"
 #include "pipeline/document/shipped_files.h"
 #include "pipeline/folder/folder_lock.h"
@@ -70,6 +71,17 @@ class Model {
       const pipeline::ResultsFolder results{folder};
       pipeline::simulate_model(
           file, {.files = {}, .settings = {}, .folder = results, .console = console});
+      warnings = messages.warnings();
+    });
+    return warnings;
+  }
+
+  /// @return warnings
+  std::vector<std::string> export_fmu(const std::string& path) const {
+    std::vector<std::string> warnings;
+    compute(Place::own_thread, [&](const Checkpoint& checkpoint) {
+      Messages messages(checkpoint);
+      pipeline::write_fmu(file_, path, messages.console());
       warnings = messages.warnings();
     });
     return warnings;
@@ -148,6 +160,7 @@ void bind_model(py::module_& module) {
       .def_property_readonly("parameters", &Model::parameters)
       .def("add_function", &Model::add_function, py::arg("name"), py::arg("lower"),
            py::arg("upper"), py::arg("function"))
+      .def("export_fmu", &Model::export_fmu, py::arg("path"))
       .def("simulate", &Model::simulate)
       .def("simulate_into", &Model::simulate_into, py::arg("folder"));
 }

@@ -12,31 +12,22 @@
 namespace flexneck::python {
 
 namespace py = pybind11;
+using namespace py::literals;
 
 namespace {
 
 py::dict iso18571(const Eigen::VectorXd& reference, const Eigen::VectorXd& computed) {
   const pipeline::Iso18571Rating rating = pipeline::rate_iso18571(reference, computed);
-  py::dict found;
-  found["overall"] = rating.overall;
-  found["corridor"] = rating.corridor;
-  found["phase"] = rating.phase;
-  found["magnitude"] = rating.magnitude;
-  found["slope"] = rating.slope;
-  found["shift"] = rating.shift;
-  return found;
+  return py::dict("overall"_a = rating.overall, "corridor"_a = rating.corridor,
+                  "phase"_a = rating.phase, "magnitude"_a = rating.magnitude,
+                  "slope"_a = rating.slope, "shift"_a = rating.shift);
 }
 
 py::dict cora(const Eigen::VectorXd& reference, const Eigen::VectorXd& computed) {
   const pipeline::CoraRating rating = pipeline::rate_cora(reference, computed);
-  py::dict found;
-  found["overall"] = rating.overall;
-  found["corridor"] = rating.corridor;
-  found["progression"] = rating.progression;
-  found["size"] = rating.size;
-  found["phase"] = rating.phase;
-  found["shift"] = rating.shift;
-  return found;
+  return py::dict("overall"_a = rating.overall, "corridor"_a = rating.corridor,
+                  "progression"_a = rating.progression, "size"_a = rating.size,
+                  "phase"_a = rating.phase, "shift"_a = rating.shift);
 }
 
 py::dict nij(const Eigen::VectorXd& force_z_N, const Eigen::VectorXd& moment_y_Nm,

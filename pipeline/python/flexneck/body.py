@@ -48,12 +48,20 @@ class ModalBody:
         self._study = None if study is None else study.copy()
         self._folder = folder
         self._path = path
+        self._imported: Folder | None = None  # holds the file of a body of another program
 
     @staticmethod
     def read(path: Path) -> ModalBody:
-        """The body of a file modes.h5. Its experiments are those of the study that made it:
-        Mesh.modes()."""
-        return ModalBody(_core.read_body(str(path)), None, None, str(path))
+        """The body of a file modes.h5, or of one of another program: .fem (MBDyn) or .SID_FEM; a
+        warning tells what such a file does not carry over. Its experiments are those of the study
+        that made it: Mesh.modes()."""
+        if pathlib.Path(path).suffix not in (".fem", ".SID_FEM"):
+            return ModalBody(_core.read_body(str(path)), None, None, str(path))
+        place = Folder(None)
+        execute("export", place, [str(path)], [], target=place.file("modes.h5"))
+        body = ModalBody.read(place.file("modes.h5"))
+        body._imported = place
+        return body
 
     @staticmethod
     def build(path: Path, *, names: typing.Sequence[str], frequencies: npt.ArrayLike,

@@ -11,7 +11,7 @@ from . import _core
 from .errors import IncompleteRunError, InputError, warn
 from .folders import Folder, Path
 from .run import Run
-from .settings import HasSettings
+from .settings import HasSettings, checked
 from .toml_text import document_text
 from .values import Value
 
@@ -44,7 +44,7 @@ class Model(HasSettings):
             self._path = os.path.abspath(pathlib.Path(folder) / (name + ".toml"))
         else:
             self._path = os.path.abspath(_core.named_file(str(model)))
-        self._settings = list(settings)
+        self._settings = checked(settings)
         self._functions: dict[str, tuple[str, str, Function]] = {}
         self._read()
         warn(self._data.warnings)
@@ -99,6 +99,14 @@ class Model(HasSettings):
         if problem:
             raise IncompleteRunError(problem, run)
         return run
+
+    def export(self, path: Path) -> None:
+        """Writes the model as an FMU 3.0 for co-simulation, whose file ends with .fmu, as
+        `flexneck export` does. Raises InputError for a model with a function of Python: such a load
+        has a [[function_force]] in its place."""
+        if pathlib.Path(path).suffix != ".fmu":
+            raise InputError(f"{path}: expected the ending .fmu, which is all that a model is exported to")
+        warn(self._data.export_fmu(str(path)))
 
     @property
     def file(self) -> str:

@@ -8,6 +8,7 @@ import typing
 import numpy as np
 
 from . import _core
+from .errors import InputError
 
 if typing.TYPE_CHECKING:
     import numpy.typing as npt
@@ -58,4 +59,10 @@ def factor(unit: str, to: str) -> float:
 
 
 def _curve(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    return np.ascontiguousarray(values, dtype=float)
+    try:
+        curve = np.ascontiguousarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"expected the numbers of a curve: {error}") from None
+    if curve.ndim != 1:
+        raise InputError(f"expected a curve of the shape (n,), found {curve.shape}")
+    return curve

@@ -5,7 +5,15 @@ from __future__ import annotations
 
 import typing
 
+from .errors import InputError
 from .toml_text import setting
+
+
+def checked(settings: typing.Sequence[str]) -> list[str]:
+    """A list of "key=value", not one of them alone."""
+    if isinstance(settings, str) or not all(isinstance(each, str) for each in settings):
+        raise InputError(f'settings: expected a list such as ["modes.count=6"], found {settings!r}')
+    return list(settings)
 
 
 class HasSettings:

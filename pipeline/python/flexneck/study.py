@@ -13,7 +13,7 @@ from .errors import VerificationWarning, warn
 from .folders import Folder, Path, execute
 from .mesh import Mesh
 from .results import Results
-from .settings import HasSettings
+from .settings import HasSettings, checked
 from .values import Value
 
 
@@ -31,7 +31,7 @@ class Study(HasSettings):
 
     def __init__(self, study: Path = "hybrid3", settings: typing.Sequence[str] = ()) -> None:
         self._file = os.path.abspath(_core.named_file(str(study)))
-        self._settings = list(settings)
+        self._settings = checked(settings)
         self._read()
         warn(self._content["warnings"])
 

@@ -49,6 +49,8 @@ def setting(key: str, value: typing.Any) -> str:
 
 
 def _name(key: str) -> str:
+    if not isinstance(key, str):
+        raise InputError(f"expected the name of a key or table, found {key!r}")
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)
 
 

@@ -3,9 +3,11 @@
 """The file modelDescription.xml of an FMU beside what the standard asks for: by its schema where FLEXNECK_SAMPLES names a
 folder with fmi3/ (xmllint), and in any case by the rules that a schema cannot say.
 
-Usage: fmu_test.py FLEXNECK MODEL.toml
+Usage: fmu_test.py FLEXNECK MODEL.toml [TEST …]
 """
 
+import ctypes
+import math
 import os
 import re
 import subprocess
@@ -18,6 +20,46 @@ from pathlib import Path
 
 FLEXNECK, MODEL = sys.argv[1], sys.argv[2]
 SCHEMA = Path(os.environ.get("FLEXNECK_SAMPLES", "/nonexistent")) / "fmi3/fmi3ModelDescription.xsd"
+
+SPRING = """
+[solver]
+end_time = "1 s"
+relative_tolerance = 1e-10
+absolute_tolerance = 1e-13
+[[body]]
+name = "ground"
+kind = "ground"
+[[body]]
+name = "block"
+kind = "rigid"
+mass = "2 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1e-3 kg*m^2", "1e-3 kg*m^2", "1e-3 kg*m^2"]
+[[marker]]
+body = "ground"
+name = "rail"
+position = ["0 m", "0 m", "0 m"]
+[[marker]]
+body = "block"
+name = "center"
+position = ["0 m", "0 m", "0 m"]
+[[joint]]
+name = "slide"
+kind = "prismatic"
+lower = "ground.rail"
+upper = "block.center"
+axis = [1, 0, 0]
+distance = "0.1 m"
+[[function_force]]
+name = "spring"
+lower = "ground.rail"
+upper = "block.center"
+Fx = "-200 * x"
+[[channel]]
+name = "place"
+quantity = "position"
+marker = "block.center"
+"""
 
 
 class Fmu(unittest.TestCase):
@@ -75,6 +117,37 @@ class Fmu(unittest.TestCase):
         self.assertEqual({name for name in shown if not name.startswith("fmi3")}, set())
         self.assertGreaterEqual(len(shown), 60)
 
+class Formulas(unittest.TestCase):
+    def test_muparser_comes_along(self):
+        """In a process that has none: it is loaded from the FMU's own folder."""
+        with tempfile.TemporaryDirectory(prefix="flexneck-fmu-") as folder:
+            at = Path(folder)
+            (at / "block.toml").write_text(SPRING)
+            subprocess.run([FLEXNECK, "export", "-q", at / "block.toml", "--to", at / "block.fmu"], check=True)
+            with zipfile.ZipFile(at / "block.fmu") as archive:
+                archive.extractall(at)
+            self.assertIn("Redistribution", (at / "documentation/licenses/muparser.txt").read_text())
+            root = ElementTree.parse(at / "modelDescription.xml").getroot()
+            references = {each.get("name"): int(each.get("valueReference")) for each in root.find("ModelVariables")}
+            fmu = ctypes.CDLL(at / "binaries/x86_64-linux/block.so")
+            self.assertIn(f"{folder}/binaries/x86_64-linux/libmuparser.so", Path("/proc/self/maps").read_text())
+            fmu.fmi3InstantiateCoSimulation.restype = ctypes.c_void_p
+            instance = ctypes.c_void_p(fmu.fmi3InstantiateCoSimulation(
+                b"run", root.get("instantiationToken").encode(), f"{folder}/resources/".encode(), False, False, False,
+                False, None, ctypes.c_size_t(0), None, None, None))
+            self.assertTrue(instance)
+            zero = ctypes.c_double(0)
+            self.assertEqual(fmu.fmi3EnterInitializationMode(instance, False, zero, zero, False, zero), 0)
+            self.assertEqual(fmu.fmi3ExitInitializationMode(instance), 0)
+            x, last, flags = ctypes.c_double(), ctypes.c_double(), [ctypes.c_bool() for _ in range(3)]
+            for k in range(1, 101):
+                self.assertEqual(fmu.fmi3DoStep(instance, ctypes.c_double((k - 1) * 0.01), ctypes.c_double(0.01), True,
+                                                *map(ctypes.byref, flags), ctypes.byref(last)), 0)
+                self.assertEqual(fmu.fmi3GetFloat64(instance, ctypes.byref(ctypes.c_uint32(references["place.x"])),
+                                                    ctypes.c_size_t(1), ctypes.byref(x), ctypes.c_size_t(1)), 0)
+                self.assertAlmostEqual(x.value, 0.1 * math.cos(10 * k * 0.01), delta=1e-8)
+            fmu.fmi3FreeInstance(instance)
+
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -94,8 +94,62 @@ quantity = "energy"
 
 const char* const kPulse =
     "acceleration = \"-150 * sin(pi * t / 0.06) * (t < 0.06)\"\ninitial_velocity = \"5 m/s\"";
+const char* const kFormulas = R"toml([[function_force]]
+name = "muscle"
+lower = "sled.hook"
+upper = "head.top"
+Fx = "-200 * x * (1 + 3 * x^2) - 4 * vx"
+Fy = "20 * sin(60 * t)"
+My = "-3 * ry - 0.05 * wy"
+)toml";
 const std::vector<std::string> kOutputs = {"top.x",      "top.y",      "top.z",      "nod",
                                            "condyles.x", "condyles.y", "energy.work"};
+
+/// A block of 2 kg on a rail along x.
+std::string block_text(const std::string& analysis, const std::string& more) {
+  return R"(
+[solver]
+end_time = "1 s"
+analysis = ")" +
+         analysis + R"("
+[output]
+interval = "0.1 s"
+[[body]]
+name = "ground"
+kind = "ground"
+[[body]]
+name = "block"
+kind = "rigid"
+mass = "2 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1e-3 kg*m^2", "1e-3 kg*m^2", "1e-3 kg*m^2"]
+[[marker]]
+body = "ground"
+name = "rail"
+position = ["0 m", "0 m", "0 m"]
+[[marker]]
+body = "block"
+name = "center"
+position = ["0 m", "0 m", "0 m"]
+[[joint]]
+name = "slide"
+kind = "prismatic"
+lower = "ground.rail"
+upper = "block.center"
+axis = [1, 0, 0]
+[[channel]]
+name = "place"
+quantity = "position"
+marker = "block.center"
+[[channel]]
+name = "rail"
+quantity = "force"
+joint = "slide"
+[[channel]]
+name = "energy"
+quantity = "energy"
+)" + more;
+}
 
 /// The FMU of a model in the folder, unpacked.
 std::filesystem::path unpacked(const TemporaryFolder& folder, const std::string& text) {
@@ -114,8 +168,11 @@ std::filesystem::path unpacked(const TemporaryFolder& folder, const std::string&
 
 TEST_CASE(
     "an FMU in 1000 steps has the outputs of simulate, and the same again from saved states") {
+  // Without and with muParser: two shared objects.
+  const std::string formulas = GENERATE(as<std::string>(), "", kFormulas);
+  CAPTURE(formulas);
   const TemporaryFolder folder;
-  LoadedFmu fmu(unpacked(folder, sled_text(kPulse)));
+  LoadedFmu fmu(unpacked(folder, sled_text(kPulse) + formulas));
   CHECK(fmu.function<fmi3GetVersionTYPE>("fmi3GetVersion")() == std::string("3.0"));
   // simulate with its outputs where the steps end.
   const std::string fine = " --set output.interval='0.1 ms' --set solver.relative_tolerance=1e-10";
@@ -197,10 +254,76 @@ TEST_CASE("inputs of an FMU add to the model's own: a constant acceleration and 
   CHECK(run.get("body.sled.acceleration") == -80);
 }
 
+TEST_CASE("an input of a motor adds to its motion, with what its joint bears") {
+  const TemporaryFolder folder;
+  LoadedFmu fmu(unpacked(folder, block_text("motion", R"([[motor]]
+name = "drive"
+joint = "slide"
+coordinate = "distance"
+initial_speed = "0.5 m/s"
+)")));
+  FmuRun run(fmu);
+  run.initialize();
+  REQUIRE(run.step(0, 0.2) == fmi3OK);
+  run.set("joint.slide.acceleration", 3);
+  CHECK(run.get("rail.x") == Approx(6).epsilon(1e-12));  // 2 kg
+  REQUIRE(run.step(0.2, 0.8) == fmi3OK);
+  CHECK(run.get("place.x") == Approx(0.5 + 0.5 * 3 * 0.64).epsilon(1e-9));
+}
+
+TEST_CASE("an FMU of a quasi-static model has the equilibria under its inputs") {
+  const TemporaryFolder folder;
+  LoadedFmu fmu(unpacked(folder, block_text("quasi_static", R"([[resistance]]
+name = "spring"
+joint = "slide"
+coordinate = "distance"
+stiffness = "400 N/m"
+cubic = "9000 N/m^3"
+[[force]]
+name = "push"
+marker = "block.center"
+direction = [1, 0, 0]
+times = ["0 s", "1 s"]
+magnitudes = ["4 N", "44 N"]
+)")));
+  FmuRun run(fmu);
+  run.initialize();
+  const auto check = [](const FmuRun& of, double load_N) {
+    const double x = of.get("place.x");
+    CHECK(400 * x + 9000 * x * x * x == Approx(load_N).epsilon(1e-9));
+    const double first = of.get("energy.strain") - of.get("energy.work");
+    const double x0 = 0.00997765052;  // 400 x0 + 9000 x0^3 = 4
+    CHECK(first == Approx(200 * x0 * x0 + 2250 * std::pow(x0, 4)).epsilon(1e-8));
+  };
+  check(run, 4);
+  REQUIRE(run.step(0, 0.5) == fmi3OK);
+  check(run, 24);
+  run.set("force.push.magnitude", 20);
+  check(run, 44);
+  fmi3FMUState state = run.save();
+  REQUIRE(run.step(0.5, 0.5) == fmi3OK);
+  check(run, 64);
+  // The same again, here and in a new instance.
+  const std::vector<std::string> read = {"place.x", "energy.work"};
+  const std::vector<double> end = run.get(read);
+  FmuRun other(fmu);
+  fmi3FMUState copy = other.state_of(run.bytes_of(state));
+  other.restore(copy);
+  other.free(copy);
+  run.restore(state);
+  run.free(state);
+  check(other, 44);
+  for (FmuRun* each : {&run, &other}) {
+    REQUIRE(each->step(0.5, 0.5) == fmi3OK);
+    CHECK(each->get(read) == end);
+  }
+}
+
 TEST_CASE(
     "what an importer may not do is refused with a message, and an FMU unloads without a rest") {
   const TemporaryFolder folder;
-  LoadedFmu fmu(unpacked(folder, sled_text(kPulse)));
+  const std::string formulas = GENERATE(as<std::string>(), "", kFormulas);
+  LoadedFmu fmu(unpacked(folder, sled_text(kPulse) + formulas));
   {
     FmuRun run(fmu);
     CHECK(run.step(0, 1e-3) == fmi3Error);

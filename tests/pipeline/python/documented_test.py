@@ -2,7 +2,7 @@
 """Every public name has a docstring, which tells the unit of what is a number and the shape of what is an
 array; and the stub has the names and arguments of the compiled module.
 
-Usage: documented_test.py BUILD SOURCES
+Usage: documented_test.py     (PYTHONPATH has the package)
 """
 
 import ast
@@ -78,8 +78,10 @@ def stub_problems(stub):
 
 
 def main():
-    package = pathlib.Path(sys.argv[2]) / "pipeline/python/flexneck"
+    package = pathlib.Path(fn.__file__).parent
     problems, names = list(stub_problems(package / "_core.pyi")), dict(public_names())
+    if not (package / "py.typed").is_file():
+        problems.append("py.typed: missing, so that no checker of types reads the annotations")
     for full, thing in names.items():
         if problem := problem_of(full, thing):
             problems.append(f"{full}: {problem}")
