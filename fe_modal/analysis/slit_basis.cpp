@@ -18,16 +18,30 @@ class ShutBody {
         open_(open),
         dof_map_(dof_map_of(mesh_, options)),
         system_(mesh_, dof_map_, options),
-        inverse_(system_.shift_inverse(0)) {}
+        inverse_(system_.shift_inverse(0)) {
+    if (options.mode_count > 0)
+      modes_ = lowest_eigenpairs(system_.mass(), *inverse_, options.mode_count);
+  }
 
-  /// Static shapes under loads on the open body, both by the open body's degrees of freedom.
-  Eigen::MatrixXd shapes(const Eigen::MatrixXd& loads) const {
-    const Eigen::MatrixXd own = system_.fields().gather(open_.expand(loads));
-    return open_.restrict(
-        system_.fields().expand(static_response_beyond(operators_of(system_, *inverse_), {}, own)));
+  /// By the open body's degrees of freedom, as all that follows.
+  Eigen::MatrixXd modes() const {
+    if (modes_.values.size() == 0) return {};
+    return open_.restrict(system_.fields().expand(modes_.vectors));
+  }
+  /// Static shapes under loads on the open body.
+  Eigen::MatrixXd shapes(const Eigen::MatrixXd& loads) const { return beyond({}, loads); }
+  /// What they have beyond the modes.
+  Eigen::MatrixXd shapes_beyond_modes(const Eigen::MatrixXd& loads) const {
+    return beyond(modes_, loads);
   }
 
  private:
+  Eigen::MatrixXd beyond(const EigenPairs& kept, const Eigen::MatrixXd& loads) const {
+    const Eigen::MatrixXd own = system_.fields().gather(open_.expand(loads));
+    return open_.restrict(system_.fields().expand(
+        static_response_beyond(operators_of(system_, *inverse_), kept, own)));
+  }
+
   static mesher::Mesh tied(mesher::Mesh mesh) {
     for (mesher::Slit& slit : mesh.slits) slit.tied = true;
     return mesh;
@@ -38,6 +52,7 @@ class ShutBody {
   DofMap dof_map_;
   AssembledSystem system_;
   std::unique_ptr<const ShiftInverse> inverse_;
+  EigenPairs modes_;
 };
 
 }  // namespace
@@ -63,8 +78,12 @@ SlitBasis slit_basis(const mesher::Mesh& mesh, const FieldMap& field_map, const 
   const Eigen::MatrixXd jumps = field_map.restrict(parted);
 
   const ShutBody shut(mesh, field_map, options);
-  Eigen::MatrixXd vectors(jumps.rows(), combinations.cols() + jumps.cols());
-  vectors << shut.shapes(shapes.loads * combinations), jumps - shut.shapes(open.stiffness(jumps));
+  const Eigen::MatrixXd modes = shut.modes();
+  Eigen::MatrixXd vectors(jumps.rows(), modes.cols() + combinations.cols() + jumps.cols());
+  if (modes.cols() > 0) vectors.leftCols(modes.cols()) = modes;
+  vectors.rightCols(combinations.cols() + jumps.cols())
+      << shut.shapes_beyond_modes(shapes.loads * combinations),
+      jumps - shut.shapes(open.stiffness(jumps));
   basis.reduction.pairs = ritz_pairs(open, Eigen::MatrixXd(), std::move(vectors));
   basis.reduction.kinds.assign(static_cast<std::size_t>(basis.reduction.pairs.values.size()),
                                std::string(kConstraintMode));

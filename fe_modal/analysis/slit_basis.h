@@ -9,16 +9,17 @@
 
 namespace flexneck::fe_modal {
 
-/// Static shapes of a body with open slits, for slits that open and close.
+/// Shapes of a body with open slits, for slits that open and close.
 struct SlitBasis {
   Reduction reduction;
   std::vector<SlitField> fields;
 };
 
-/// The static shapes of the interfaces with all slits shut, and for each way in which a slit parts
-/// (slit_fields()) the shape of least energy whose jumps are that way's, the interfaces free. With
-/// all amplitudes zero the body is the one without slits, exactly; with openings that loads pull
-/// apart it is the open one as far as its jumps are sums of the fields.
+/// With all slits shut the lowest modes, as many as the options say, and what the static shapes of
+/// the interfaces have beyond them; and for each way in which a slit parts (slit_fields()) the
+/// shape of least energy whose jumps are that way's, the interfaces free. With all amplitudes zero
+/// the body is the one without slits, exactly; with openings that loads pull apart it is the open
+/// one as far as its jumps are sums of the fields.
 /// @param mesh     with slits, none of them tied
 /// @param field_map, open  of that mesh
 /// @param loads    of the interfaces

@@ -19,7 +19,7 @@ enum class BasisKind {
 /// "normal", "residual", "craig-bampton", "inertia-relief": in the order of the enumeration.
 const std::vector<std::string>& basis_names();
 
-/// What open slits are in a basis of static shapes (Craig-Bampton).
+/// What open slits are in a basis with static shapes.
 enum class SlitMotions {
   none,                 ///< cracks without contact
   openings,             ///< two coordinates a slit, not below zero; shut sides stick

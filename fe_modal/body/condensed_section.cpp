@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -77,9 +78,27 @@ MatrixXd without_load(const MatrixXd& stiffness, Eigen::Index count) {
   return all;
 }
 
+/// @throws InputError unless there is sliding, and of one slit: names are those of slit_fields().
+void check_one_sliding_slit(const ModalBody& body) {
+  std::set<std::string> slits;
+  bool slides = false;
+  for (const SlitMotion& motion : body.slits) {
+    slits.insert(motion.name.substr(0, motion.name.rfind(motion.opens ? " opens" : " slides")));
+    slides = slides || !motion.opens;
+  }
+  if (!slides)
+    throw InputError(
+        "friction needs slits whose sides slide: make its modes with slits = "
+        "\"openings-and-sliding\"");
+  if (slits.size() > 1)
+    throw InputError("friction is that of one slit in a section, found " +
+                     std::to_string(slits.size()) + "; cut it into pieces with one each");
+}
+
 }  // namespace
 
-CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top) {
+CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top,
+                          Sliding sliding) {
   if (!body.prestress.empty())
     throw InputError(
         "a section is of a body without prestress, found modes about the stresses of " +
@@ -111,9 +130,13 @@ CondensedSection condense(const ModalBody& body, const std::string& base, const 
   const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
   const auto modes = to_body.bottomRows(m);
   const MatrixXd stiffness = modes.transpose() * omega.cwiseAbs2().asDiagonal() * modes;
-  const auto sliding = std::count_if(body.slits.begin(), body.slits.end(),
-                                     [](const SlitMotion& slit) { return !slit.opens; });
-  const MatrixXd condensed = without_load(stiffness, sliding);
+  const Eigen::Index slides = std::count_if(body.slits.begin(), body.slits.end(),
+                                            [](const SlitMotion& slit) { return !slit.opens; });
+  if (sliding == Sliding::kept) {
+    section.slides = slides;
+    check_one_sliding_slit(body);
+  }
+  const MatrixXd condensed = without_load(stiffness, slides - section.slides);
   section.stiffness = condensed.transpose() * stiffness * condensed;
   const MatrixXd shut = to_body * condensed.leftCols<12>();
   section.mass = shut.transpose() * mass_in_body_frame(body.invariants) * shut;

@@ -15,20 +15,27 @@ namespace flexneck::fe_modal {
 struct CondensedSection {
   Eigen::Vector3d base_m = Eigen::Vector3d::Zero();  ///< where the base's motion is measured
   Eigen::Vector3d top_m = Eigen::Vector3d::Zero();
-  /// (12 + g, 12 + g): after the motions the openings of slits, m, which are not below zero.
+  /// (12 + g + s, 12 + g + s): after the motions the openings of slits, m, which are not below
+  /// zero, and ways in which their sides slide, m, where these are kept.
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(12, 12);
+  Eigen::Index slides = 0;                                                     ///< s
   Eigen::Matrix<double, 12, 12> mass = Eigen::Matrix<double, 12, 12>::Zero();  ///< slits shut
 };
+
+/// What becomes of the sliding of slits.
+enum class Sliding { free, kept };
 
 /// Static condensation (Guyan, AIAA J. 3 (1965) 380) of a body whose base is fixed and whose modes
 /// are the static shapes of one interface, and of the ways in which its slits part: the base's
 /// rigid motion and the modes become the motions of base and top and the openings. Ways in which
-/// slits slide follow without load. Small motions about the undeformed shape.
+/// slits slide follow without load, or are kept for friction. Small motions about the undeformed
+/// shape.
 /// @param base  the interface on the fixed nodes
 /// @param top   the other
 /// @throws InputError unless there are six modes and one for each way in which a slit parts, and
-/// unless they move the top and the slits independently.
-CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top);
+/// unless they move the top and the slits independently; for kept sliding of none or several slits.
+CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top,
+                          Sliding sliding = Sliding::free);
 
 /// How far a face is from moving as a rigid one does: of the body's motions that move the interface
 /// in one of six ways with the slits shut, the largest rms distance of the face's nodes from the

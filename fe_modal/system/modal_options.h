@@ -45,8 +45,8 @@ struct ModalOptions {
   BasisKind basis = BasisKind::normal;
   /// Interfaces whose static shapes join the basis; empty: all.
   std::vector<std::string> basis_interfaces;
-  SlitMotions slit_motions = SlitMotions::none;
-  bool geometric_stiffness = false;  ///< of the modes under unit loads; of a fixed body
+  SlitMotions slit_motions = SlitMotions::none;  ///< with the modes of the body with slits shut
+  bool geometric_stiffness = false;              ///< of the modes under unit loads; of a fixed body
   /// Count the modes by inertia too, which costs a factorisation by MUMPS, and estimate the error
   /// of the mesh, which costs a solution with eight times the elements. Not of Craig-Bampton.
   bool certify = false;

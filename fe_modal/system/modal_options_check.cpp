@@ -106,10 +106,15 @@ void check_basis(const mesher::Mesh& mesh, const ModalOptions& options, Eigen::I
 
 void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
   if (options.slit_motions == SlitMotions::none) return;
-  if (options.basis != BasisKind::craig_bampton || options.mode_count > 0)
+  const bool statics = options.basis == BasisKind::craig_bampton && options.mode_count == 0;
+  if (options.basis != BasisKind::residual && !statics)
     throw InputError(
-        "slits that open and close join static shapes alone: take the basis 'craig-bampton' and no "
-        "modes");
+        "slits that open and close need static shapes: take the basis 'residual', or "
+        "'craig-bampton' with no modes");
+  if (options.certify || options.geometric_stiffness)
+    throw InputError(
+        "slits that open and close are offered neither with a certificate, which is that of modes "
+        "of one stiffness, nor with stress_stiffening");
   if (std::all_of(mesh.slits.begin(), mesh.slits.end(),
                   [](const mesher::Slit& slit) { return slit.tied; }))
     throw InputError("slits that open and close: the mesh has no open slit");

@@ -131,6 +131,7 @@ void update_right_hand_side(const BodyConstants& body, const Vector3d& gravity_m
     if (!body.stiffens()) terms.u[6 + l] -= body.springs.load(l, terms.a[l], adot[l]);
   }
   if (body.stiffens()) body.springs.add_loads(terms.a, adot, -1, terms.u.tail(m));
+  body.springs.add_gap_loads(terms.a, -1, terms.u.tail(m));
 }
 
 double kinetic_energy_J(const BodyTerms& terms, const Eigen::Ref<const VectorXd>& velocity) {

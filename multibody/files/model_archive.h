@@ -49,8 +49,8 @@ void archive(A& all, ModeRecord& x) {
   auto& [name, kind, shares, residual, mesh_error] = x;
   all(name, kind, shares, residual, mesh_error);
 }
-/// What a run has no use for is left out: slits, which models refuse, and frequencies with attached
-/// bodies.
+/// What a run has no use for is left out: slits, which models have as gaps, and frequencies with
+/// attached bodies.
 template <class A>
 void archive(A& all, ModalBody& x) {
   auto& [hertz, modes, boundary, prestress, of_prestress, certificate, solver, orthogonality, nodes,
@@ -81,9 +81,14 @@ void archive(A& all, RigidBody& x) {
   all(mass, center, inertia);
 }
 template <class A>
+void archive(A& all, SlitGaps& x) {
+  auto& [stiffness, coupling] = x;
+  all(stiffness, coupling);
+}
+template <class A>
 void archive(A& all, DeformableBody& x) {
-  auto& [modes, damping, offset, stiffening, modal, modal_rate] = x;
-  all(modes, damping, offset, stiffening, modal, modal_rate);
+  auto& [modes, damping, offset, stiffening, modal, modal_rate, gaps] = x;
+  all(modes, damping, offset, stiffening, modal, modal_rate, gaps);
 }
 template <class A>
 void archive(A& all, SmoothMotion::Piece& x) {
@@ -175,9 +180,14 @@ void archive(A& all, Section::Branch& x) {
   all(stiffness, relaxation_time);
 }
 template <class A>
+void archive(A& all, SlitFriction& x) {
+  auto& [slides, coefficient, sliding_time] = x;
+  all(slides, coefficient, sliding_time);
+}
+template <class A>
 void archive(A& all, Section& x) {
-  auto& [name, marker_i, marker_j, rest, stiffness, branches, bending_curve] = x;
-  all(name, marker_i, marker_j, rest, stiffness, branches, bending_curve);
+  auto& [name, marker_i, marker_j, rest, stiffness, branches, bending_curve, friction] = x;
+  all(name, marker_i, marker_j, rest, stiffness, branches, bending_curve, friction);
 }
 template <class A>
 void archive(A& all, Cable& x) {

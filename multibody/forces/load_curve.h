@@ -29,6 +29,7 @@ class LoadCurve {
   bool is_none() const { return c1_ == 0 && c2_ == 0 && c3_ == 0 && x_.empty(); }
   /// Slope at zero.
   double first_slope() const { return x_.empty() ? c1_ : load_[1] / x_[1]; }
+  double last_row() const { return x_.empty() ? 0 : x_.back(); }  ///< its deflection
   /// Whether the load falls anywhere as the deflection grows.
   bool falls() const;
   /// Whether it and `other`, one for each direction, make one smooth curve through zero.

@@ -9,6 +9,7 @@
 
 #include "multibody/forces/arc.h"
 #include "multibody/forces/least_gaps.h"
+#include "multibody/forces/sliding_slit.h"
 #include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody {
@@ -131,19 +132,62 @@ auto sized(const Section& section, const Work& work) {
   }
 }
 
+/// As Sized::stress(), with friction in the slit.
+Vector6d stress_with_friction(const Section& section, const Vector6d& e, InternalVariables internal,
+                              LawPiece& piece, ForceEnergies& sums) {
+  const SlidingSlit slit = sliding_slit(section, e, internal, piece.deflection);
+  Section::Strain sum = section.stiffness * slit.strain;
+  sums.stored_J += slit.strain.dot(sum) / 2;
+  for (const Section::Branch& branch : section.branches) {
+    const Section::Strain spring = branch.spring<Section::Strain>(internal).of(slit.strain);
+    const Section::Strain part = branch.stiffness * spring;
+    sum += part;
+    sums.stored_J += spring.dot(part) / 2;
+    sums.lost_W += spring.dot(part) / branch.relaxation_time_s;
+    branch.answer(slit.strain, spring, internal);
+    internal = internal.behind(section.branch_size());
+  }
+  sums.lost_W += slit.lost_W;
+  if (internal.found_values != nullptr) {
+    using Map = Eigen::Map<Section::Strain>;
+    Map slides(internal.found_values, section.branch_size());
+    slides = slit.strain;
+    slides.head(section.branch_size() - section.friction.slides).setZero();
+    Map(internal.found_rates, section.branch_size()) = slit.rate;
+  }
+  piece = {slit.which_open, slit.slips ? 1 : 0};
+  return sum.head<6>();
+}
+
+void check_friction(const std::string& who, const Section& section) {
+  const SlitFriction& friction = section.friction;
+  if (friction.slides == 0) return;
+  if (friction.slides < 0 || friction.slides > Section::kMaxSlides)
+    refuse_force(who, "a slit's sides slide in at most " + std::to_string(Section::kMaxSlides) +
+                          " ways, found " + std::to_string(friction.slides));
+  if (section.gap_count() < 1 || section.gap_count() > Section::kMaxGapsOfSlit)
+    refuse_force(who, "friction is that of one slit, with one or two gaps");
+  if (!(friction.coefficient >= 0 && std::isfinite(friction.coefficient)))
+    refuse_force(who, "coefficient of friction must not be negative");
+  if (!(friction.sliding_time_s > 0 && std::isfinite(friction.sliding_time_s)))
+    refuse_force(who, "sliding time must be positive");
+}
+
 }  // namespace
 
 void Section::check(const std::string& who, const ForceSites& sites) const {
   check_pair(who, marker_i, marker_j, sites);
   if (!rest_m.allFinite()) refuse_force(who, "rest length is not finite");
+  check_friction(who, *this);
   const Eigen::Index gaps = gap_count();
   if (gaps < 0 || gaps > kMaxGaps || stiffness.cols() != stiffness.rows())
     refuse_force(who, "stiffness must be square, of six motions and at most " +
                           std::to_string(kMaxGaps) + " gaps");
   check_stiffness(who, "stiffness", stiffness);
-  const auto diagonal = stiffness.bottomRightCorner(gaps, gaps);
+  const Eigen::Index inner = gaps + friction.slides;
+  const auto diagonal = stiffness.bottomRightCorner(inner, inner);
   if (gaps > 0 && Eigen::MatrixXd(diagonal).llt().info() != Eigen::Success)
-    refuse_force(who, "stiffness of the gaps must be positive");
+    refuse_force(who, "stiffness of the gaps must be positive, and so must that of what slides");
   for (std::size_t k = 0; k < branches.size(); ++k) {
     const std::string which = "branch " + std::to_string(k + 1);
     if (branches[k].stiffness.rows() != stiffness.rows())
@@ -181,10 +225,12 @@ void Section::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums)
     e.tail<3>() += added;
     e.head<3>() += added.cross(rest_m) / 2;
   }
-  int which_open = load.piece.deflection;
-  const Vector6d stress =
-      sized(*this, [&](const auto& of) { return of.stress(e, input.internal, which_open, sums); });
-  load.piece = {which_open, curved ? curved->piece : 0};
+  const Vector6d stress = has_friction()
+                              ? stress_with_friction(*this, e, input.internal, load.piece, sums)
+                              : sized(*this, [&](const auto& of) {
+                                  return of.stress(e, input.internal, load.piece.deflection, sums);
+                                });
+  load.piece.rate = 2 * (curved ? curved->piece : 0) + (has_friction() ? load.piece.rate : 0);
 
   // Virtual work (equations.md section 8): of w and theta, then of the motion of j against i.
   const Vector3d f = stress.head<3>();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "multibody/forces/force_element.h"
 #include "multibody/forces/load_curve.h"
+#include "multibody/forces/slit_friction.h"
 
 namespace flexneck::multibody {
 
@@ -17,7 +19,8 @@ namespace flexneck::multibody {
 ///
 /// Slits add gaps g >= 0 (openings without friction): the energy is the least of
 /// [e; g]^T K [e; g] / 2 over them, so that loads follow from it exactly, whatever the rotation
-/// (below pi), and closing and opening creates no energy. Maxwell branches add stiffness that
+/// (below pi), and closing and opening creates no energy. With friction the sides of one slit slide
+/// by coordinates of their own behind the gaps (SlitFriction). Maxwell branches add stiffness that
 /// relaxes: sum s^T K_b s / 2, s the strain of the branch's spring (MaxwellBranch).
 ///
 /// A bending curve, moment over angle as a nonlinear solution has it, stretches the part of theta
@@ -26,36 +29,44 @@ struct Section {
   static constexpr std::string_view kName = "section";
   static constexpr bool kHolds = true;
   static constexpr bool kHasKinks = true;  ///< where a gap opens or closes
-  static constexpr std::string_view kKink = "a gap opens or closes, or a row of its bending curve";
+  static constexpr std::string_view kKink =
+      "a gap opens or closes, its sides stick or slip, or a row of its bending curve";
 
   static constexpr int kMaxGaps = 4;
-  using Strain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6 + kMaxGaps, 1>;
-  using Stiffness =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6 + kMaxGaps, 6 + kMaxGaps>;
+  static constexpr int kMaxGapsOfSlit = 2;  ///< with friction
+  static constexpr int kMaxSlides = 8;
+  static constexpr int kMaxSize = 6 + std::max(kMaxGaps, kMaxGapsOfSlit + kMaxSlides);
+  using Strain = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxSize, 1>;
+  using Stiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
   using Branch = MaxwellBranch<Stiffness>;
 
   std::string name;
   std::size_t marker_i = 0;
   std::size_t marker_j = 0;
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< r: from i to j without load, i's axes
-  /// K, that of slow motions, (6 + gaps): loads on j over its motion, both at j in i's axes, above
-  /// forces of gaps over openings; N, N m; m, rad.
+  /// K, that of slow motions, (6 + gaps + slides): loads on j over its motion, both at j in i's
+  /// axes, above forces of gaps over openings and those of slides; N, N m; m, rad.
   Stiffness stiffness = Stiffness::Zero(6, 6);
   std::vector<Branch> branches = {};  ///< of the same size
   LoadCurve bending_curve = {};       ///< table of N m over rad; none: in proportion
+  SlitFriction friction = {};
 
-  Eigen::Index gap_count() const { return stiffness.rows() - 6; }
+  Eigen::Index gap_count() const { return stiffness.rows() - 6 - friction.slides; }
+  bool has_friction() const { return friction.slides > 0; }
   void check(const std::string& who, const ForceSites& sites) const;
   std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
     return {marker_i, marker_j};
   }
   static bool resists_turning() { return true; }
-  std::size_t branch_count() const { return branches.size(); }
+  /// With friction, s and its sliding time stand behind the branches as one of them.
+  std::size_t branch_count() const { return branches.size() + (has_friction() ? 1 : 0); }
   Eigen::Index branch_size() const { return stiffness.rows(); }
-  double relaxation_time_s(std::size_t branch) const { return branches[branch].relaxation_time_s; }
+  double relaxation_time_s(std::size_t branch) const {
+    return branch < branches.size() ? branches[branch].relaxation_time_s : friction.sliding_time_s;
+  }
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
 
-  /// [e; g] with the gaps that go with the motion e.
+  /// [e; g] with the gaps that go with the motion e, without friction.
   /// @param which_open  answer: a bit each; as it comes, it is tried first
   Strain with_gaps(const Eigen::Matrix<double, 6, 1>& e, const InternalVariables& internal,
                    int& which_open) const;

@@ -8,7 +8,7 @@
 namespace flexneck::multibody {
 
 ModalSprings::ModalSprings(const DeformableBody& body)
-    : offset(body.offset), curvatures(modal_curvatures(body)) {
+    : offset(body.offset), curvatures(modal_curvatures(body)), gaps(body.gaps) {
   const Eigen::VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
   stiffness = omega.cwiseAbs2();
   damping = 2 * body.damping_ratio.cwiseProduct(omega);

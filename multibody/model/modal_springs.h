@@ -9,7 +9,8 @@ namespace flexneck::multibody {
 
 /// What draws the m modal coordinates of a body back, equations.md section 3: mode l feels
 /// -stiffness_l (a_l - offset_l) - damping_l a_l'. With stress stiffening springs and dampers act
-/// on e = a - 1/2 [a^T T_k a] in place of a (section 3a). A rigid body has none.
+/// on e = a - 1/2 [a^T T_k a] in place of a (section 3a). Slits that open and close take from the
+/// energy what SlitGaps says. A rigid body has none.
 struct ModalSprings {
   ModalSprings() = default;
   explicit ModalSprings(const DeformableBody& body);
@@ -31,9 +32,15 @@ struct ModalSprings {
       if (curved()) loads.noalias() -= load * curvature(k) * a;
     }
   }
+  /// Adds `factor` times what gaps add to the loads against growing a.
+  template <typename Modal, typename Loads>
+  void add_gap_loads(const Modal& a, double factor, Loads&& loads) const {
+    if (gaps.count() > 0)
+      loads.noalias() += factor * gaps.coupling.transpose() * gaps.openings_m(a - offset);
+  }
   template <typename Modal>
   double energy_J(const Modal& a) const {
-    double energy = 0;
+    double energy = gap_energy_J(a);
     for (Eigen::Index l = 0; l < stiffness.size(); ++l) {
       const double from_rest = stretch(l, a) - stretch(l, offset);
       energy += 0.5 * stiffness[l] * from_rest * from_rest;
@@ -54,8 +61,16 @@ struct ModalSprings {
   Eigen::VectorXd damping;     ///< 2 zeta omega, 1/s
   Eigen::VectorXd offset;      ///< coordinates without load
   Eigen::MatrixXd curvatures;  ///< (m m, m): T_k, one below the other; empty if e is a
+  SlitGaps gaps;
 
  private:
+  /// Not above zero. At the least, g^T K_g g is -g^T C a.
+  template <typename Modal>
+  double gap_energy_J(const Modal& a) const {
+    if (gaps.count() == 0) return 0;
+    const Eigen::VectorXd from_rest = a - offset;
+    return 0.5 * gaps.openings_m(from_rest).dot(gaps.coupling * from_rest);
+  }
   Eigen::Block<const Eigen::MatrixXd> curvature(Eigen::Index k) const {
     return curvatures.middleRows(k * stiffness.size(), stiffness.size());
   }

@@ -11,6 +11,7 @@
 #include "fe_modal/body/modal_body.h"
 #include "multibody/forces/force_kinds.h"
 #include "multibody/joints/joint.h"
+#include "multibody/model/slit_gaps.h"
 #include "multibody/numerics/prescribed_coordinate.h"
 #include "multibody/numerics/smooth_motion.h"
 #include "multibody/numerics/time_table.h"
@@ -41,6 +42,8 @@ struct DeformableBody {
   /// rest.
   Eigen::VectorXd initial_modal = {};
   Eigen::VectorXd initial_modal_rate = {};
+  /// Of slits that open and close; the modes are those with all of them shut.
+  SlitGaps gaps = {};
 };
 
 /// Rotation of a prescribed body about an axis through a point, which translates with the body. The

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include <Eigen/Cholesky>
@@ -136,6 +137,26 @@ void check_invariants(const std::string& who, const fe_modal::InertiaInvariants&
   }
 }
 
+void check_gaps(const std::string& who, const DeformableBody& deformable) {
+  const SlitGaps& gaps = deformable.gaps;
+  const Eigen::Index m = deformable.modes.mode_count();
+  if (gaps.count() == 0 && gaps.coupling.size() == 0) return;
+  if (gaps.stiffness.cols() != gaps.count() || gaps.coupling.rows() != gaps.count() ||
+      gaps.coupling.cols() != m)
+    refuse(who, "the stiffness and coupling of its gaps do not fit " +
+                    std::to_string(gaps.count()) + " gaps and its modes");
+  check_finite(who, "stiffness of its gaps", gaps.stiffness);
+  check_finite(who, "coupling of its gaps", gaps.coupling);
+  Eigen::MatrixXd all(m + gaps.count(), m + gaps.count());
+  const Eigen::VectorXd omega = 2 * std::numbers::pi * deformable.modes.frequencies_Hz;
+  all << omega.cwiseAbs2().asDiagonal().toDenseMatrix(), gaps.coupling.transpose(), gaps.coupling,
+      gaps.stiffness;
+  if (Eigen::LLT<Eigen::MatrixXd>(all).info() != Eigen::Success)
+    refuse(who, "the stiffness of its modes and gaps is not positive definite");
+  if (deformable.stress_stiffening)
+    refuse(who, "stress_stiffening is not offered with slits that open and close");
+}
+
 void check_kind(const std::string& who, const DeformableBody& deformable) {
   const Eigen::Index m = deformable.modes.mode_count();
   check_shapes(who, deformable.modes);
@@ -146,12 +167,13 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
                     "stress_stiffening, which follows the loads of the motion");
   if (!deformable.modes.slits.empty())
     refuse(who,
-           "its slits would open and close without contact, which only a section keeps; make "
-           "its modes with slits = \"cracks\" in [substructures]");
+           "its slits would open and close without contact; their openings must be its gaps "
+           "(fe_modal/body/gap_coordinates.h)");
   if (!deformable.modes.frequencies_Hz.allFinite() ||
       !(deformable.modes.frequencies_Hz.array() > 0).all()) {
     refuse(who, "its frequencies must be positive");
   }
+  check_gaps(who, deformable);
   if (deformable.damping_ratio.size() != m) {
     refuse(who, "there must be one damping ratio per mode, " + std::to_string(m) +
                     ", but there are " + std::to_string(deformable.damping_ratio.size()));

@@ -62,6 +62,11 @@ History simulate_from_equilibrium(const Model& model, const SolverOptions& solve
 }
 
 History settle(const Model& model, const SolverOptions& solver, const OutputOptions& output) {
+  for (const Section& section : model.forces.of<Section>())
+    if (section.has_friction())
+      throw InputError(title(section) +
+                       ": a quasi-static run has no friction in slits, which depends on the way to "
+                       "a place; take a slow run in time, or no friction");
   check_start(model, solver);
   check_outputs(output);
   check_memory(model, output);

@@ -137,6 +137,7 @@ void update(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate, 
       add_slopes_of_inertia(body, a, a_rate, sums, terms);
       body.springs.add_loads(a, a_rate, 1, terms.bias_a);
     }
+    body.springs.add_gap_loads(a, 1, terms.bias_a);
     terms.M_aa = body.Maa;
   }
   const Matrix3d inertia = unpacked(sums.J);
@@ -165,6 +166,7 @@ void update_modes(const BodyInertia& body, const VectorXd& a, const VectorXd& a_
     terms.M_ra.block<3, 1>(3, l).setZero();
     terms.bias_a[l] = body.springs.load(l, a[l], a_rate[l]);
   }
+  body.springs.add_gap_loads(a, 1, terms.bias_a);
   terms.M_aa = body.Maa;
   terms.M_rr.setZero();
   terms.M_rr.topLeftCorner<3, 3>().diagonal().setConstant(body.mass);

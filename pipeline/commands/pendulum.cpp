@@ -7,6 +7,7 @@
 #include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/experiments/pulse_tables.h"
 #include "pipeline/experiments/relaxation_table.h"
+#include "pipeline/experiments/section_table.h"
 #include "pipeline/experiments/rigid_neck.h"
 #include "pipeline/experiments/variant_tables.h"
 #include "pipeline/isolation/result_files.h"
@@ -71,6 +72,8 @@ void write_pendulum_tables(const CommandInput& input, const PendulumResults& kno
                                      velocity_table(entries),
                                      spectrum_table(modes.study, entries, modes.body)};
   tables.insert(tables.end(), variants.begin(), variants.end());
+  if (ResultTable sections = section_table(modes.study); !sections.rows.empty())
+    tables.push_back(std::move(sections));
   if (ResultTable relaxation = relaxation_table(modes.study); !relaxation.rows.empty())
     tables.push_back(std::move(relaxation));
   std::vector<ResultTable> measured;

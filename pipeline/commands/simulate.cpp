@@ -11,6 +11,7 @@
 #include "pipeline/commands/file_commands.h"
 #include "pipeline/commands/simulated_model.h"
 #include "pipeline/document/shipped_files.h"
+#include "pipeline/experiments/relaxation_table.h"
 #include "pipeline/folder/results_folder.h"
 #include "pipeline/output/campbell_output.h"
 #include "pipeline/output/simulated_output.h"
@@ -84,12 +85,14 @@ ResultPaths paths_of(const FileInput& input, const fs::path& model) {
   return {name, input.folder.file(name + ".h5"), input.folder.file(name + ".csv")};
 }
 
-void tell(const FileInput& input, const ResultPaths& paths, const multibody::HistoryFile& result,
-          const PeakTable& peaks) {
+void tell(const FileInput& input, const ModelFile& file, const ResultPaths& paths,
+          const multibody::HistoryFile& result, const PeakTable& peaks) {
   input.console.result(paths.name + ": " + paths.history.string() + ", " + paths.table.string() +
                        "\n" + run_summary(result.history) + "\n\n" +
                        (result.linearisation ? mode_summary(*result.linearisation) + "\n\n" : "") +
                        peaks.text());
+  const ResultTable relaxation = relaxation_table(file.model, file.relaxations);
+  if (!relaxation.rows.empty()) input.console.result("\n" + printed(relaxation));
   for (const std::string& warning : result.history.warnings)
     input.console.warning(paths.name + ": " + warning);
   if (!result.linearisation || result.linearisation->modes.empty()) return;
@@ -128,7 +131,7 @@ void simulate_model(const ModelFile& file, const FileInput& input) {
   options.sink = [&](const multibody::History& block) { output.append(block); };
   options.block = std::max<Eigen::Index>(1, kBlockNumbers / numbers_per_output(file.model));
   const auto finish = [&](const multibody::History& last) {
-    tell(input, paths, output.finish(last, linearisation), output.peaks());
+    tell(input, file, paths, output.finish(last, linearisation), output.peaks());
     if (diagram) write(input, paths.name, *diagram);
   };
   try {

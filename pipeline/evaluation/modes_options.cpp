@@ -99,6 +99,7 @@ fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
   options.formulation = formulation_of(study);
   options.basis = study.modes.basis;
   options.basis_interfaces = study.modes.basis_interfaces;
+  options.slit_motions = study.modes.slit_motions;
   options.geometric_stiffness = study.modes.stress_stiffening;
   if (study.modes.prestress) options.prestress = study.loads;
   options.certify = study.modes.certify;

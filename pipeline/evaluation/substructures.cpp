@@ -85,7 +85,7 @@ fe_modal::ModalOptions options_of(const SubstructuresSection& section,
   options.basis = fe_modal::BasisKind::craig_bampton;
   options.basis_interfaces.clear();
   options.mode_count = section.modes;
-  if (has_open_slit(mesh)) options.slit_motions = section.slit_motions;
+  options.slit_motions = has_open_slit(mesh) ? section.slit_motions : fe_modal::SlitMotions::none;
   options.certify = false;
   options.rigid_parts.clear();
   options.interfaces.clear();

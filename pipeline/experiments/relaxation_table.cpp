@@ -55,24 +55,19 @@ Alike alone(const Section& section, const Relaxation& relaxation) {
   return found;
 }
 
-std::vector<Alike> relaxing_sections(const Study& study) {
-  std::vector<Alike> all;
-  for (const CaseSection& experiment : study.cases) {
-    if (experiment.kind != CaseSection::Kind::pendulum) continue;
-    const auto& sections = experiment.model.model.forces.of<Section>();
-    for (const auto& [index, relaxation] : experiment.model.relaxations) {
-      const Alike found = alone(sections[index], relaxation);
-      const auto same = std::find_if(all.begin(), all.end(),
-                                     [&](const Alike& each) { return each.is_like(found); });
-      if (same == all.end()) {
-        all.push_back(found);
-      } else if (std::find(same->names.begin(), same->names.end(), found.names.front()) ==
-                 same->names.end()) {
-        same->names.push_back(found.names.front());
-      }
+void add_sections(const multibody::Model& model,
+                  const std::map<std::size_t, Relaxation>& relaxations, std::vector<Alike>& all) {
+  for (const auto& [index, relaxation] : relaxations) {
+    const Alike found = alone(model.forces.of<Section>()[index], relaxation);
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const Alike& each) { return each.is_like(found); });
+    if (same == all.end()) {
+      all.push_back(found);
+    } else if (std::find(same->names.begin(), same->names.end(), found.names.front()) ==
+               same->names.end()) {
+      same->names.push_back(found.names.front());
     }
   }
-  return all;
 }
 
 std::string band_note(const Alike& sections, const std::string& names) {
@@ -85,15 +80,13 @@ std::string band_note(const Alike& sections, const std::string& names) {
       names, sections.relaxation.band_Hz->first, sections.relaxation.band_Hz->second);
 }
 
-}  // namespace
-
-ResultTable relaxation_table(const Study& study) {
+ResultTable table_of(const std::vector<Alike>& all) {
   ResultTable table;
   table.name = "relaxation";
   table.title = "Sections that relax, bending stiffness against frequency";
   table.columns = {
       {"sections", ""}, {"frequency", "Hz"}, {"storage over quick", "1"}, {"loss factor", "1"}};
-  for (const Alike& sections : relaxing_sections(study)) {
+  for (const Alike& sections : all) {
     const std::string names = fmt::format("{}", fmt::join(sections.names, ", "));
     for (const std::vector<std::string>& cells : sections.cells) {
       table.rows.push_back({names});
@@ -104,8 +97,26 @@ ResultTable relaxation_table(const Study& study) {
     if (!fit.empty()) table.notes.push_back(names + ": Maxwell branches, " + fit + ".");
   }
   table.notes.emplace_back(
-      "With slits shut. Quick: the stiffness of motions quicker than all branches.");
+      "Bending about y, with slits shut. Quick: the stiffness of motions quicker than all "
+      "branches.");
   return table;
+}
+
+}  // namespace
+
+ResultTable relaxation_table(const Study& study) {
+  std::vector<Alike> all;
+  for (const CaseSection& experiment : study.cases)
+    if (experiment.kind == CaseSection::Kind::pendulum)
+      add_sections(experiment.model.model, experiment.model.relaxations, all);
+  return table_of(all);
+}
+
+ResultTable relaxation_table(const multibody::Model& model,
+                             const std::map<std::size_t, Relaxation>& relaxations) {
+  std::vector<Alike> all;
+  add_sections(model, relaxations, all);
+  return table_of(all);
 }
 
 }  // namespace flexneck::pipeline

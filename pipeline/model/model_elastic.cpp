@@ -67,6 +67,15 @@ constexpr auto kSectionKeys = joined(
             "In a study in place of modes_file: the piece of [substructures] that the section is"),
         Key::text("base", kNone, "Of the piece or modes_file: the interface on the fixed nodes"),
         Key::text("top", kNone, "Of the piece or modes_file: the interface of the static shapes"),
+        Key::number("slit_friction", "0",
+                    "Coefficient of Coulomb friction between the sides of its one slit while it is "
+                    "shut, of a piece or modes_file with slits = \"openings-and-sliding\"; 0: they "
+                    "slide freely",
+                    {.range = at_least(0)}),
+        Key::quantity("slit_sliding_time", "s", "0.0001",
+                      "With slit_friction: within this time sides of an open slit slide to where "
+                      "no load acts on them, and shut ones to where friction holds them",
+                      {.range = kPositive}),
         Key::file("slow_modes_file", kNone,
                   "As modes_file, with the moduli of slow motions; without it the whole stiffness "
                   "relaxes by the shares"),
@@ -143,11 +152,12 @@ SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
 }
 
 fe_modal::CondensedSection condensed(const StudyTable& table, const std::string& key,
-                                     Assembly& assembly) {
+                                     fe_modal::Sliding sliding, Assembly& assembly) {
   const std::filesystem::path path = modes_path(table, key);
   assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
   return at_key(table, key, [&] {
-    return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"));
+    return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"),
+                              sliding);
   });
 }
 
@@ -155,7 +165,8 @@ fe_modal::CondensedSection condensed(const StudyTable& table, const std::string&
 SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section& quick,
                                double shares, Assembly& assembly) {
   if (!table.has("slow_modes_file")) return shares * quick.stiffness;
-  const fe_modal::CondensedSection slow = condensed(table, "slow_modes_file", assembly);
+  const fe_modal::CondensedSection slow =
+      condensed(table, "slow_modes_file", sliding_of(quick), assembly);
   const Eigen::Index size = slow.stiffness.rows() - 6;
   if ((slow.top_m - slow.base_m - quick.rest_m).norm() > 1e-9 * quick.rest_m.norm() ||
       size != quick.stiffness.rows())
@@ -174,6 +185,13 @@ multibody::LoadCurve bending_curve(const StudyTable& table) {
   return at_key(table, "bending_moments", [&] {
     return multibody::LoadCurve::table(angles, table.quantities("bending_moments", angles.size()));
   });
+}
+
+multibody::SlitFriction read_friction(const StudyTable& table) {
+  const double coefficient = table.number("slit_friction");
+  if (!(coefficient > 0))
+    table.refuse_given({"slit_sliding_time"}, "it belongs to slit_friction, which is 0");
+  return {0, coefficient, table.quantity("slit_sliding_time")};
 }
 
 /// The section's stiffness from the source that its table names; of a piece later.
@@ -198,9 +216,11 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
   }
   if (table.has("modes_file")) {
     table.refuse_given(own, "modes_file gives it already");
-    use_condensed(condensed(table, "modes_file", assembly), table, "modes_file", index, assembly);
+    const multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];
+    use_condensed(condensed(table, "modes_file", sliding_of(section), assembly), table,
+                  "modes_file", index, assembly);
   } else {
-    table.refuse_given({"base", "top", "slow_modes_file", "made_by"},
+    table.refuse_given({"base", "top", "slow_modes_file", "made_by", "slit_friction"},
                        "it belongs to modes_file, which is not there");
     if (!table.has("length"))
       table.refuse("length", "expected length and stiffness, or modes_file");
@@ -218,6 +238,7 @@ void read_section(const StudyTable& table, Assembly& assembly) {
   section.marker_i = marker_named(table, "lower", assembly);
   section.marker_j = marker_named(table, "upper", assembly);
   section.bending_curve = bending_curve(table);
+  section.friction = read_friction(table);
   assembly.model.forces.add(std::move(section));
   read_stiffness(table, assembly.model.forces.of<multibody::Section>().size() - 1, assembly);
   table.finish();

@@ -132,6 +132,7 @@ void assemble(Assembly& assembly, ModelFile& file) {
     throw InputError(file.file.string() + ": " + error.what());
   }
   file.model = std::move(assembly.model);
+  file.relaxations = std::move(assembly.relaxations);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 #include "pipeline/document/document_source.h"
 #include "pipeline/document/key.h"
 #include "pipeline/model/channel.h"
+#include "pipeline/model/relaxation.h"
 
 namespace flexneck::pipeline {
 
@@ -45,7 +47,8 @@ struct ModelFile {
   Analysis analysis = Analysis::motion;
   Start start = Start::given;
   std::optional<multibody::LinearisedAt> linearised_at;
-  std::vector<double> rates_rad_s;  ///< of a Campbell diagram; empty for none
+  std::map<std::size_t, Relaxation> relaxations;  ///< of sections that relax
+  std::vector<double> rates_rad_s;                ///< of a Campbell diagram; empty for none
   double end_time_s = 1;
   OutputSection output;
 

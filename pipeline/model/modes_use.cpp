@@ -2,8 +2,11 @@
 #include "pipeline/model/modes_use.h"
 
 #include <numbers>
+#include <utility>
 
 #include "fe_modal/body/basis_kind.h"
+#include "fe_modal/body/gap_coordinates.h"
+#include "geometry/foundation/error.h"
 #include "pipeline/model/model_sections.h"
 
 namespace flexneck::pipeline {
@@ -57,6 +60,23 @@ Eigen::VectorXd damping_ratios(const ModesUse& use, const fe_modal::ModalBody& m
   return ratios;
 }
 
+/// Slits that open and close have gaps, and the modes with all of them shut.
+void use_gaps(const ModesUse& use, const fe_modal::ModalBody& all, const std::string& from,
+              multibody::DeformableBody& body) {
+  if (use.modes)
+    use.table.refuse("modes",
+                     "the slits of " + from + " open and close, which takes all its modes");
+  if (use.stress_stiffening)
+    use.table.refuse("stress_stiffening", "it is not offered with slits that open and close");
+  try {
+    fe_modal::GapBody gaps = fe_modal::with_gap_coordinates(all);
+    body.modes = std::move(gaps.modes);
+    body.gaps = {std::move(gaps.stiffness), std::move(gaps.coupling)};
+  } catch (const InputError& error) {
+    throw InputError(from + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 std::span<const Key> modes_use_keys() { return kKeys; }
@@ -82,9 +102,13 @@ ModesUse read_modes_use(const StudyTable& body) {
 multibody::DeformableBody use_modes(const ModesUse& use, const fe_modal::ModalBody& all,
                                     const std::string& from) {
   multibody::DeformableBody body;
-  body.modes = use.modes ? at_key(use.table, "modes",
-                                  [&] { return fe_modal::select_modes(all, *use.modes); })
-                         : all;
+  if (!all.slits.empty()) {
+    use_gaps(use, all, from, body);
+  } else {
+    body.modes = use.modes ? at_key(use.table, "modes",
+                                    [&] { return fe_modal::select_modes(all, *use.modes); })
+                           : all;
+  }
   body.damping_ratio = damping_ratios(use, body.modes);
   const auto take = [&](const std::string& key, const std::vector<double>& values,
                         Eigen::VectorXd& into) {

@@ -36,9 +36,14 @@ void use_condensed(const fe_modal::CondensedSection& piece, const StudyTable& ta
                    const std::string& key, std::size_t index, Assembly& assembly) {
   Section& section = assembly.model.forces.of<Section>()[index];
   const Eigen::Index size = piece.stiffness.rows() - 6;
-  if (size > 6 + Section::kMaxGaps)
-    table.refuse(key, "the body's slits open in " + std::to_string(size - 6) +
+  const Eigen::Index gaps = size - 6 - piece.slides;
+  if (gaps > Section::kMaxGaps)
+    table.refuse(key, "the body's slits open in " + std::to_string(gaps) +
                           " ways, expected at most " + std::to_string(Section::kMaxGaps));
+  if (piece.slides > Section::kMaxSlides)
+    table.refuse(key, "the sides of the body's slit slide in " + std::to_string(piece.slides) +
+                          " ways, expected at most " + std::to_string(Section::kMaxSlides));
+  section.friction.slides = piece.slides;
   section.rest_m = piece.top_m - piece.base_m;
   section.stiffness = piece.stiffness.bottomRightCorner(size, size);
   const std::array<fe_modal::LumpedMass, 2> ends = fe_modal::lumped_masses(piece);
@@ -54,6 +59,10 @@ void use_condensed(const fe_modal::CondensedSection& piece, const StudyTable& ta
   }
 }
 
+fe_modal::Sliding sliding_of(const Section& section) {
+  return section.friction.coefficient > 0 ? fe_modal::Sliding::kept : fe_modal::Sliding::free;
+}
+
 void attach_pieces(const Pieces& pieces, Assembly& assembly) {
   for (const PieceUse& use : assembly.of_pieces) {
     const auto piece = pieces.find(use.piece);
@@ -63,8 +72,10 @@ void attach_pieces(const Pieces& pieces, Assembly& assembly) {
       at_key(use.table, "piece",
              [&] { return find_name(names, use.piece, "piece of [substructures]"); });
     }
-    const fe_modal::CondensedSection condensed = at_key(
-        use.table, "piece", [&] { return fe_modal::condense(piece->second, use.base, use.top); });
+    const fe_modal::CondensedSection condensed = at_key(use.table, "piece", [&] {
+      const Section& section = assembly.model.forces.of<Section>()[use.section];
+      return fe_modal::condense(piece->second, use.base, use.top, sliding_of(section));
+    });
     use_condensed(condensed, use.table, "piece", use.section, assembly);
     Section& section = assembly.model.forces.of<Section>()[use.section];
     use.relaxation.apply(use.relaxation.sum_of_shares() * section.stiffness, section);

@@ -7,6 +7,7 @@
 
 #include "fe_modal/body/condensed_section.h"
 #include "fe_modal/body/modal_body.h"
+#include "multibody/forces/section.h"
 #include "pipeline/document/study_document.h"
 #include "pipeline/model/relaxation.h"
 
@@ -30,6 +31,9 @@ using Pieces = std::map<std::string, fe_modal::ModalBody>;
 /// @throws InputError at the key for more openings of slits than a section has gaps
 void use_condensed(const fe_modal::CondensedSection& piece, const StudyTable& table,
                    const std::string& key, std::size_t section, Assembly& assembly);
+
+/// Kept where the section has a coefficient of friction.
+fe_modal::Sliding sliding_of(const multibody::Section& section);
 
 /// Gives the sections that are pieces of the structure their stiffness.
 /// @throws InputError for a piece that is not there or is no section.

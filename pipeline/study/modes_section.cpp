@@ -35,6 +35,11 @@ constexpr Key kModesKeys[] = {
     Key::text("stress_stiffening", "none",
               "Geometric stiffness of the modes under unit loads at the interfaces",
               {.choices = stiffenings}),
+    Key::text(
+        "slits", "cracks",
+        "What open slits are: cracks without contact; or openings, for a body whose slits open and "
+        "close and stick while they are shut; or openings whose sides slide without friction",
+        {.choices = [] { return fe_modal::slit_motion_names(); }}),
     Key::text("prestress", "none",
               "Stresses that the modes are about: none, or those of a linear static step under all "
               "[[load]]",
@@ -94,6 +99,7 @@ ModesSection read_modes(const StudyTable& table) {
   modes.rigid_interfaces = table.texts("rigid_interfaces");
   modes.basis_interfaces = table.texts("basis_interfaces");
   modes.stress_stiffening = table.choice("stress_stiffening") == 1;
+  modes.slit_motions = static_cast<fe_modal::SlitMotions>(table.choice("slits"));
   modes.prestress = table.choice("prestress") == 1;
   modes.solver =
       table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;

@@ -42,6 +42,7 @@ struct ModesSection {
   fe_modal::Formulation formulation = fe_modal::Formulation::mixed_pressure;
   fe_modal::Solver solver = fe_modal::Solver::direct;
   fe_modal::BasisKind basis = fe_modal::BasisKind::normal;
+  fe_modal::SlitMotions slit_motions = fe_modal::SlitMotions::none;
   bool prestress = false;                     ///< about the stresses of the study's loads
   bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
   std::vector<std::string> rigid_interfaces;  ///< whose nodes are tied to move rigidly

@@ -2,6 +2,7 @@
 // A block of rubber with a slit from its front to its middle: shut it is the whole block, open the
 // cracked one.
 #include <algorithm>
+#include <numbers>
 #include <random>
 
 #include <Eigen/Dense>
@@ -9,6 +10,7 @@
 
 #include "fe_modal/analysis/modal_analysis.h"
 #include "fe_modal/body/condensed_section.h"
+#include "fe_modal/body/gap_coordinates.h"
 #include "geometry/foundation/error.h"
 #include "mesher/slits/slits.h"
 #include "tests/support/block_mesh.h"
@@ -132,6 +134,71 @@ TEST_CASE("openings are the edges of all that keeps the sides of a slit apart") 
   CHECK(stiffness.bottomRightCorner<2, 2>().selfadjointView<Eigen::Lower>().eigenvalues()[0] > 0);
 }
 
+TEST_CASE("sides whose sliding is kept, and that no load holds, are sides that slide freely") {
+  const ModalBody body = block(SlitMotions::openings_and_sliding);
+  const CondensedSection free = condense(body, "base", "top");
+  const CondensedSection kept = condense(body, "base", "top", Sliding::kept);
+  REQUIRE(kept.slides > 0);
+  REQUIRE(kept.stiffness.rows() == free.stiffness.rows() + kept.slides);
+  const Eigen::Index n = free.stiffness.rows();
+  const MatrixXd to_slides = kept.stiffness.bottomLeftCorner(kept.slides, n);
+  const MatrixXd released =
+      kept.stiffness.topLeftCorner(n, n) -
+      to_slides.transpose() *
+          kept.stiffness.bottomRightCorner(kept.slides, kept.slides).llt().solve(to_slides);
+  CHECK((released - free.stiffness).norm() < 1e-9 * free.stiffness.norm());
+  CHECK_THROWS_WITH(condense(block(SlitMotions::openings), "base", "top", Sliding::kept),
+                    Catch::Matchers::Contains("openings-and-sliding"));
+}
+
+TEST_CASE("with its openings as coordinates a body is the bonded one, and the open one") {
+  const auto motions = GENERATE(SlitMotions::openings, SlitMotions::openings_and_sliding);
+  ModalOptions options = options_with(motions);
+  options.basis = BasisKind::residual;
+  options.mode_count = 4;
+  const GapBody found = with_gap_coordinates(analyse_modes(slit_block(false), options, {}));
+  const ModalBody& shut = found.modes;
+  REQUIRE(shut.mode_count() == 10);
+  REQUIRE(found.stiffness.rows() == 2);
+  CHECK((shut.invariants.Maa - MatrixXd::Identity(10, 10)).norm() < 1e-9);
+
+  // Shut: the modes and the compliance of the body without a slit; sides that slide soften it.
+  options.slit_motions = SlitMotions::none;
+  const ModalBody bonded = analyse_modes(slit_block(true), options, {});
+  const auto compliance = [](const ModalBody& body) -> Matrix6d {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> top(6, body.mode_count());
+    top << body.interface("top").translation, body.interface("top").rotation;
+    const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;
+    return top * omega.cwiseAbs2().cwiseInverse().asDiagonal() * top.transpose();
+  };
+  if (motions == SlitMotions::openings) {
+    for (Eigen::Index k = 0; k < 4; ++k)
+      CHECK(shut.frequencies_Hz[k] == Approx(bonded.frequencies_Hz[k]).epsilon(1e-8));
+    CHECK((compliance(shut) - compliance(bonded)).norm() < 1e-8 * compliance(bonded).norm());
+    const InertiaInvariants& a = shut.invariants;
+    const InertiaInvariants& b = bonded.invariants;
+    for (std::size_t k = 0; k < 4; ++k) {  // up to the signs of modes
+      CHECK(a.G[k * 10 + k].norm() == Approx(b.G[k * 10 + k].norm()).epsilon(1e-7));
+      CHECK(a.S2.col(static_cast<Eigen::Index>(k)).norm() ==
+            Approx(b.S2.col(static_cast<Eigen::Index>(k)).norm()).margin(1e-9));
+    }
+  } else {
+    CHECK(shut.frequencies_Hz[0] < bonded.frequencies_Hz[0] * (1 + 1e-9));
+  }
+
+  // Pulled open: the compliance of the section.
+  MatrixXd stiffness(12, 12);
+  const Eigen::VectorXd omega = 2 * std::numbers::pi * shut.frequencies_Hz;
+  stiffness << omega.cwiseAbs2().asDiagonal().toDenseMatrix(), found.coupling.transpose(),
+      found.coupling, found.stiffness;
+  MatrixXd top = MatrixXd::Zero(6, 12);
+  top.topLeftCorner(3, 10) = shut.interface("top").translation;
+  top.bottomLeftCorner(3, 10) = shut.interface("top").rotation;
+  const Matrix6d open = top * stiffness.inverse() * top.transpose();
+  const Matrix6d expected = open_compliance(top_stiffness(block(motions)));
+  CHECK((open - expected).norm() < 1e-8 * expected.norm());
+}
+
 TEST_CASE("slits that open and close are refused where they cannot be") {
   using Catch::Matchers::Contains;
   const auto refused = [](const mesher::Mesh& mesh, const ModalOptions& options,
@@ -141,7 +208,10 @@ TEST_CASE("slits that open and close are refused where they cannot be") {
   ModalOptions options = options_with(SlitMotions::openings);
   refused(slit_block(true), options, "no open slit");
   options.mode_count = 2;
-  refused(slit_block(false), options, "no modes");
+  refused(slit_block(false), options, "with no modes");
+  options.basis = BasisKind::residual;
+  options.certify = true;
+  refused(slit_block(false), options, "certificate");
   options = options_with(SlitMotions::openings);
   options.interfaces.front().is_rigid = true;
   refused(slit_block(false), options, "no rigid interface");

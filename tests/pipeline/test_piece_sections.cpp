@@ -166,6 +166,27 @@ TEST_CASE("the certification test keeps its books, and finer steps change no fig
   }
 }
 
+TEST_CASE("friction in the slits holds the neck, keeps the books, and vanishes as it should") {
+  const Made made({});
+  const auto peak_rad = [&](const std::string& friction) {
+    const Study study = made.study({"variables.slit_friction=" + friction});
+    const PendulumRun run = run_pendulum(study, flexion(study), {});
+    REQUIRE(run.history.incomplete.empty());
+    const multibody::EnergyHistory& energy = run.history.energy;
+    const Eigen::VectorXd balance = energy.kinetic_J + energy.strain_J + energy.gravitational_J +
+                                    energy.dissipated_J - energy.work_J;
+    CHECK((balance.array() - balance[0]).abs().maxCoeff() <
+          2e-3 * (energy.kinetic_J.maxCoeff() - energy.kinetic_J.minCoeff()));
+    return figures_of(study, study.tests.front(), run).front().value.value();
+  };
+  const double none = peak_rad("0");
+  const double held = peak_rad("1000");
+  CHECK(held < none * (1 - 1e-4));
+  CHECK(peak_rad("1e-6") == Approx(none).epsilon(1e-3));
+  const double some = peak_rad("0.02");
+  CHECK((held * (1 - 1e-5) < some && some < none * (1 + 1e-3)));
+}
+
 TEST_CASE("the report moves the mesh of a neck of plates as its markers move") {
   const Made made({});
   const Study study =

@@ -59,6 +59,28 @@ TEST_CASE("simulate writes histories and a table, tells what it took, and does s
     CHECK(bytes_of(folder / "out" / name) == bytes_of(folder / "again" / name));
 }
 
+TEST_CASE("simulate tells what branches were fitted to, how well, and their loss factor") {
+  const TemporaryFolder folder;
+  const fs::path model = write_text(
+      folder / "rubber.toml",
+      "[solver]\nend_time = \"10 ms\"\n[[body]]\nname = \"ground\"\nkind = \"ground\"\n" +
+          testing::origin_marker_text("ground", "hook") + testing::box_text("box", "at") + R"(
+[[section]]
+name = "rubber"
+lower = "ground.hook"
+upper = "box.at"
+length = ["0 m", "0 mm", "20 mm"]
+translation_stiffness = ["1 N/m", "1 N/m", "1 N/m"]
+rotation_stiffness = ["1 N*m/rad", "1 N*m/rad", "1 N*m/rad"]
+relaxation_law = { branches = 5, share = 0.6, time = "30 ms", order = 0.5, from = "1 Hz", to = "20 Hz", largest_error = 0.1 }
+)");
+  const CommandOutcome outcome = simulate(model, folder / "out");
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.text, Contains("loss factor") && Contains("rubber: Maxwell branches") &&
+                               Contains("largest error"));
+}
+
 TEST_CASE("simulate tells the modes of small motions and keeps their shapes") {
   const TemporaryFolder folder;
   const fs::path model =
