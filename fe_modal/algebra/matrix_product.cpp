@@ -41,6 +41,11 @@ void multiply_by_transpose(double factor, const MatrixView& a, const MatrixView&
   product("N", "T", a.cols(), factor, a, b, keep, result);
 }
 
+void multiply_transpose(double factor, const MatrixView& a, const MatrixView& b, double keep,
+                        Eigen::Ref<Eigen::MatrixXd> result) {
+  product("T", "N", a.rows(), factor, a, b, keep, result);
+}
+
 Eigen::MatrixXd inner_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   product("T", "N", a.rows(), 1, a, b, 0, result);

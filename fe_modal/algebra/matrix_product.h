@@ -17,6 +17,9 @@ void multiply(double factor, const MatrixView& a, const MatrixView& b, double ke
 /// result = factor a b^T + keep result
 void multiply_by_transpose(double factor, const MatrixView& a, const MatrixView& b, double keep,
                            Eigen::Ref<Eigen::MatrixXd> result);
+/// result = factor a^T b + keep result
+void multiply_transpose(double factor, const MatrixView& a, const MatrixView& b, double keep,
+                        Eigen::Ref<Eigen::MatrixXd> result);
 /// a^T b over the rows of all ranks. Collective.
 Eigen::MatrixXd inner_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b);
 /// Each column of a with that of b, over the rows of all ranks. Collective.

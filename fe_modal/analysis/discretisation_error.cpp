@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -11,9 +10,8 @@
 #include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/analysis/prestress.h"
-#include "fe_modal/solve/assembled_system.h"
-#include "fe_modal/solve/block_lanczos.h"
-#include "fe_modal/solve/mechanism.h"
+#include "fe_modal/solve/refined/refined_modes.h"
+#include "fe_modal/solve/refined/refined_system.h"
 #include "mesher/mesh/refinement.h"
 
 namespace flexneck::fe_modal {
@@ -26,10 +24,6 @@ constexpr double kLowestOrder = 1;
 /// For meshes so coarse that they do not show their order yet (Roache, J. Fluids Eng. 116 (1994)
 /// 405, multiplies likewise): a 20-node mesh of two elements through bonded rubber needs 1.25.
 constexpr double kSafety = 1.5;
-/// Iterations stop when they change no eigenvalue by more than this share of the change that the
-/// finer mesh made, or by more than rounding.
-constexpr double kSettled = 1e-2;
-constexpr double kRounding = 1e-8;
 /// Modes this close in frequency may turn into one another from mesh to mesh: they are one shape.
 constexpr double kOneShape = 1e-2;
 /// Less similar shapes are not the same mode, and nothing is known of the error.
@@ -38,6 +32,14 @@ constexpr double kUnknown = 1;
 
 double hertz(double eigenvalue) {
   return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi);
+}
+
+/// What is farther from each coarse eigenvalue: the finer mode's upper bound, or that less what it
+/// may be above the eigenvalue.
+Eigen::VectorXd farthest(const Eigen::VectorXd& coarse, const RefinedModes& refined) {
+  const Eigen::VectorXd lower = refined.values - refined.excess;
+  return ((lower - coarse).array().abs() > (refined.values - coarse).array().abs())
+      .select(lower, refined.values);
 }
 
 /// Finds a coarse mode among the finer ones.
@@ -89,33 +91,11 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   fine_options.element_ranks.clear();
   fine_options.node_order.clear();
   fine_options = with_prestress(fine.mesh, std::move(fine_options), progress);
-  const AssembledSystem system(fine.mesh, dof_map, fine_options);
-  const std::unique_ptr<const ShiftInverse> inverse =
-      system.shift_inverse(solved.is_fixed ? 0 : -eigenvalue_scale(solved.mesh));
+  const RefinedSystem system(solved.system, solved.inverse, fine, dof_map, fine_options);
+  const RefinedModes refined = refined_modes(system, solved.pairs, solved.rigid_count);
 
-  std::vector<Eigen::Matrix3Xd> prolonged = solved.system.fields().expand(solved.pairs.vectors);
-  for (Eigen::Matrix3Xd& field : prolonged) {
-    field = (fine.prolongation * field.transpose()).transpose().eval();
-  }
-  Eigen::MatrixXd start = system.fields().restrict(prolonged);
-  prolonged.clear();
-  const Eigen::ArrayXd coarse = solved.pairs.values;
-  const Settled settled = [&](const RitzState& state) {
-    if (state.before.size() == 0) return false;
-    const Eigen::ArrayXd allowed =
-        kSettled * (state.values.array() - coarse).abs() +
-        kRounding * (state.values.array().abs() + std::abs(inverse->shift()));
-    return ((state.values - state.before).array().abs() <= allowed).all();
-  };
-  const Eigen::Index count = start.cols();
-  // Its own method needs no exact solves, which are dear there.
-  std::optional<EigenPairs> own = inverse->iterate(system.mass(), count);
-  const EigenPairs pairs =
-      own ? *std::move(own)
-          : block_lanczos(system.mass(), *inverse, std::move(start), count, settled);
-
-  const Eigen::MatrixXd similarity = similarities(solved, system.fields(), pairs.vectors);
-  const Eigen::VectorXd fine_Hz = pairs.values.unaryExpr(&hertz);
+  const Eigen::MatrixXd similarity = similarities(solved, system.fields(), refined.vectors);
+  const Eigen::VectorXd fine_Hz = farthest(solved.pairs.values, refined).unaryExpr(&hertz);
   std::vector<MeshError> errors;
   for (Eigen::Index k = 0; k < similarity.rows(); ++k) {
     const double coarse_Hz = hertz(solved.pairs.values[k]);

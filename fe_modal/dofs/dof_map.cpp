@@ -171,7 +171,7 @@ Eigen::Vector3d DofMap::motion_of(std::int32_t site,
 }
 
 void DofMap::add_force(std::int32_t site, const Eigen::Vector3d& force,
-                       Eigen::VectorXd& values) const {
+                       Eigen::Ref<Eigen::VectorXd> values) const {
   if (is_plain(site)) {
     if (index(site) >= 0) values.segment<3>(3 * index(site)) += force;
     return;

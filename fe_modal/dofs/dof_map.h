@@ -79,7 +79,8 @@ class DofMap {
   /// expand(). Forces on tied nodes add.
   Eigen::VectorXd gather(const Eigen::Matrix3Xd& forces) const;
   /// Adds the force on one site, of a rotation a moment.
-  void add_force(std::int32_t site, const Eigen::Vector3d& force, Eigen::VectorXd& values) const;
+  void add_force(std::int32_t site, const Eigen::Vector3d& force,
+                 Eigen::Ref<Eigen::VectorXd> values) const;
 
  private:
   DofMap() = default;

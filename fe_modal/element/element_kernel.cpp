@@ -102,7 +102,7 @@ void ElementKernel::locate(const Eigen::Matrix3Xd& nodes_m, ElementPoints& of_st
   }
 }
 
-void ElementKernel::project_divergence(const Eigen::Matrix3Xd& nodes_m) {
+void ElementKernel::find_pressures(const Eigen::Matrix3Xd& nodes_m) {
   pressures_.col(0) = points_.roots;
   if (scheme_.pressures == PressureSpace::along_axis) {
     pressures_.col(1) = points_.roots.cwiseProduct(points_.reference.row(2).transpose());
@@ -120,6 +120,10 @@ void ElementKernel::project_divergence(const Eigen::Matrix3Xd& nodes_m) {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> gram =
       pressures_.transpose() * pressures_;
   gram.llt().matrixL().transpose().solveInPlace<Eigen::OnTheRight>(pressures_);
+}
+
+void ElementKernel::project_divergence(const Eigen::Matrix3Xd& nodes_m) {
+  find_pressures(nodes_m);
   multiply(1, gradients_, pressures_, 0, divergence_);
 }
 
@@ -194,6 +198,61 @@ void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Mater
   weighted_ = points.values * points.roots.asDiagonal();
   result.mass.resize(weighted_.rows(), weighted_.rows());
   multiply_by_transpose(material.density_kg_m3, weighted_, weighted_, 0, result.mass);
+}
+
+void ElementKernel::turn_to_stress(const Moduli& moduli) {
+  const Eigen::Index k = volumetric_.cols();
+  const auto gradient = [&](Eigen::Index a, std::size_t b) {
+    return at_points_[b].middleCols(a * k, k);
+  };
+  volumetric_ = gradient(0, 0) + gradient(1, 1) + gradient(2, 2);
+  const double projected = projected_modulus(scheme_, moduli);
+  if (projected == 0) {
+    volumetric_ *= moduli.lambda;
+  } else {
+    const Eigen::MatrixXd coefficients = projected * (pressures_.transpose() * volumetric_);
+    volumetric_ *= moduli.lambda - projected;
+    volumetric_ += pressures_ * coefficients;
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto row = static_cast<Eigen::Index>(a);
+    gradient(row, a) = 2 * moduli.mu * gradient(row, a) + volumetric_;
+    for (std::size_t b = a + 1; b < 3; ++b) {
+      const auto column = static_cast<Eigen::Index>(b);
+      gradient(row, b) = moduli.mu * (gradient(row, b) + gradient(column, a));
+      gradient(column, a) = gradient(row, b);
+    }
+  }
+}
+
+void ElementKernel::apply(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+                          const Eigen::MatrixXd& fields, Eigen::MatrixXd& forces,
+                          Eigen::MatrixXd* momenta) {
+  const Eigen::Index n = points_.values.rows();
+  const Eigen::Index q = points_.values.cols();
+  map(nodes_m, points_);
+  differentiate(points_, gradients_);
+  volumetric_.resize(q, fields.cols() / 3);
+  for (std::size_t b = 0; b < 3; ++b) {
+    at_points_[b].resize(q, fields.cols());
+    const auto first = static_cast<Eigen::Index>(b) * n;
+    multiply_transpose(1, gradients_.middleRows(first, n), fields, 0, at_points_[b]);
+  }
+  if (scheme_.pressures != PressureSpace::none) find_pressures(nodes_m);
+  turn_to_stress(moduli_of(material));
+  for (std::size_t b = 0; b < 3; ++b) {
+    const auto first = static_cast<Eigen::Index>(b) * n;
+    multiply(1, gradients_.middleRows(first, n), at_points_[b], b == 0 ? 0 : 1, forces);
+  }
+
+  if (momenta == nullptr) return;
+  const bool shared = scheme_.strength == kMassStrength;
+  if (!shared) map(nodes_m, mass_points_);
+  const Points& points = shared ? points_ : mass_points_;
+  weighted_ = points.values * points.roots.asDiagonal();
+  at_points_[0].resize(points.values.cols(), fields.cols());
+  multiply_transpose(1, weighted_, fields, 0, at_points_[0]);
+  multiply(material.density_kg_m3, weighted_, at_points_[0], 0, *momenta);
 }
 
 }  // namespace flexneck::fe_modal

@@ -28,6 +28,8 @@ class AssembledSystem : public ModalSystem {
 
   const FieldMap& fields() const { return fields_; }
   const Ranks& ranks() const { return fields_.ranks(); }
+  /// Of elements, springs and masses, as for_each_element() counts them; empty alone.
+  const std::vector<std::int32_t>& rank_of_element() const { return sharing_.rank_of_element; }
 
   Mat stiffness() const override { return stiffness_->get(); }
   Mat mass() const override { return mass_->get(); }

@@ -2,6 +2,8 @@
 #include "fe_modal/system/modal_options_check.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "fe_modal/dofs/rigid_motions.h"
 #include "geometry/foundation/error.h"
@@ -147,6 +149,25 @@ void check_prestress(const mesher::Mesh& mesh, const ModalOptions& options,
   }
 }
 
+/// Local solves of the finer mesh (solve/refined/), for which other elements have too few nodes.
+void check_certificate(const mesher::Mesh& mesh, const ModalOptions& options) {
+  constexpr double kNearlyIncompressible = 0.495;
+  if (!options.certify) return;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    const mesher::Material& material = mesh.materials.at(block.material);
+    if (block.kind == mesher::ElementKind::hex27 ||
+        !(material.poissons_ratio > kNearlyIncompressible)) {
+      continue;
+    }
+    std::array<char, 32> ratio{};
+    std::snprintf(ratio.data(), ratio.size(), "%g", material.poissons_ratio);
+    throw InputError("the mesh's error is not estimated for elements of kind " +
+                     std::string(mesher::name_of(block.kind)) + " with a Poisson's ratio above " +
+                     "0.495, and that of '" + material.name + "' in part '" + block.part + "' is " +
+                     ratio.data() + ": take hex27 there, or leave out modes.certify");
+  }
+}
+
 }  // namespace
 
 void require_supports(const RigidMotions& rigid, const std::string& who) {
@@ -173,6 +194,7 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_basis(mesh, options, dofs, rigid);
   check_slit_motions(mesh, options);
   check_prestress(mesh, options, rigid);
+  check_certificate(mesh, options);
   if (options.geometric_stiffness)
     refuse_turning_forces(mesh, options, "the geometric stiffness under unit loads");
   if (options.geometric_stiffness && rigid.count() > 0) {

@@ -248,17 +248,40 @@ ByKind<std::int32_t> cut(ElementKind kind, std::span<const std::int32_t> connect
   return result;
 }
 
-/// Appends elements of a part to its block of their kind.
-void append_block(Mesh& mesh, const ElementBlock& added) {
-  const auto found = std::find_if(mesh.blocks.begin(), mesh.blocks.end(), [&](const auto& block) {
-    return block.part == added.part && block.kind == added.kind;
-  });
-  if (found == mesh.blocks.end()) {
-    mesh.blocks.push_back(added);
-  } else {
-    found->nodes.insert(found->nodes.end(), added.nodes.begin(), added.nodes.end());
+/// Blocks of the finer mesh, and of each block's elements those that they were cut from.
+class FinerBlocks {
+ public:
+  explicit FinerBlocks(Mesh& mesh) : mesh_(mesh) {}
+
+  /// Appends elements of a part to its block of their kind.
+  /// @param first_parent, parent_count of which each has as many of them
+  void append(ElementBlock added, std::int32_t first_parent, std::size_t parent_count) {
+    const std::size_t pieces = added.size() / parent_count;
+    auto found = std::find_if(mesh_.blocks.begin(), mesh_.blocks.end(), [&](const auto& block) {
+      return block.part == added.part && block.kind == added.kind;
+    });
+    const auto place = static_cast<std::size_t>(found - mesh_.blocks.begin());
+    if (found == mesh_.blocks.end()) {
+      mesh_.blocks.push_back(std::move(added));
+      parents_.emplace_back();
+    } else {
+      found->nodes.insert(found->nodes.end(), added.nodes.begin(), added.nodes.end());
+    }
+    for (std::size_t k = 0; k < parent_count; ++k) {
+      parents_[place].insert(parents_[place].end(), pieces,
+                             first_parent + static_cast<std::int32_t>(k));
+    }
   }
-}
+  std::vector<std::int32_t> parents() const {
+    std::vector<std::int32_t> all;
+    for (const auto& block : parents_) all.insert(all.end(), block.begin(), block.end());
+    return all;
+  }
+
+ private:
+  Mesh& mesh_;
+  std::vector<std::vector<std::int32_t>> parents_;
+};
 
 NodeSet refine_set(const NodeSet& set, const std::vector<Weights>& positions) {
   NodeSet result{set.name, {}};
@@ -340,10 +363,15 @@ RefinedMesh refine(const Mesh& mesh) {
   RefinedMesh result;
   NodeNumbers numbers(mesh.nodes.size());
   result.mesh.materials = mesh.materials;
+  FinerBlocks blocks(result.mesh);
+  std::int32_t first = 0;
   for (const ElementBlock& block : mesh.blocks) {
-    for (auto& [kind, nodes] : cut(block.kind, block.nodes, numbers))
-      append_block(result.mesh, {block.part, kind, block.material, std::move(nodes)});
+    for (auto& [kind, nodes] : cut(block.kind, block.nodes, numbers)) {
+      blocks.append({block.part, kind, block.material, std::move(nodes)}, first, block.size());
+    }
+    first += static_cast<std::int32_t>(block.size());
   }
+  result.parents = blocks.parents();
   for (const FaceSet& set : mesh.face_sets) {
     FaceSet& refined = result.mesh.face_sets.emplace_back(FaceSet{set.name, {}});
     for (const FaceBlock& block : set.blocks) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/SparseCore>
 
@@ -15,6 +16,8 @@ struct RefinedMesh {
   /// (nodes, nodes of the mesh before): the shape functions of the mesh before at each node, so
   /// that it carries fields and positions over.
   Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t> prolongation;
+  /// Of each element of `mesh` the one that it was cut from, both counted block by block.
+  std::vector<std::int32_t> parents;
 };
 
 /// Cuts every element along the planes that halve its reference element. The geometry stays what

@@ -30,6 +30,31 @@ std::set<std::array<long, 3>> places(const Mesh& mesh) {
   return result;
 }
 
+/// Whether each node of each element hangs on nodes of the element's parent alone.
+bool hang_on_parents(const Mesh& mesh, const RefinedMesh& fine) {
+  std::vector<std::set<std::int32_t>> parents;
+  for (const ElementBlock& block : mesh.blocks) {
+    const auto width = static_cast<std::ptrdiff_t>(nodes_per_element(block.kind));
+    for (auto first = block.nodes.begin(); first != block.nodes.end(); first += width) {
+      parents.emplace_back(first, first + width);
+    }
+  }
+  std::size_t element = 0;
+  for (const ElementBlock& block : fine.mesh.blocks) {
+    const std::size_t width = nodes_per_element(block.kind);
+    for (std::size_t k = 0; k < block.nodes.size(); ++k) {
+      const auto& parent =
+          parents.at(static_cast<std::size_t>(fine.parents.at(element + k / width)));
+      for (decltype(fine.prolongation)::InnerIterator entry(fine.prolongation, block.nodes[k]);
+           entry; ++entry) {
+        if (parent.count(static_cast<std::int32_t>(entry.col())) == 0) return false;
+      }
+    }
+    element += block.size();
+  }
+  return element == fine.parents.size();
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -56,6 +81,7 @@ TEST_CASE(
       CHECK(fine.mesh.node_sets[k].nodes == nodes_of(fine.mesh.face_sets[k]).nodes);
     }
     CHECK(std::equal(mesh.nodes.begin(), mesh.nodes.end(), fine.mesh.nodes.begin()));
+    CHECK(hang_on_parents(mesh, fine));
   }
 }
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/refined/mesh_transfer.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// A row for each node, column a k + c: direction a of field c.
+using FieldRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+}  // namespace
+
+MeshTransfer::MeshTransfer(const FieldMap& coarse, const FieldMap& fine,
+                           const Prolongation& prolongation)
+    : coarse_(coarse), fine_(fine), prolongation_(prolongation) {
+  const DofMap& dof_map = fine.dof_map();
+  site_of_block_.assign(static_cast<std::size_t>(dof_map.free_count()), -1);
+  for (auto site = static_cast<std::int32_t>(dof_map.site_count()) - 1; site >= 0; --site) {
+    const std::int32_t block = dof_map.index(site);
+    if (block >= 0) site_of_block_[static_cast<std::size_t>(block)] = site;
+  }
+}
+
+template <typename Action>
+void MeshTransfer::for_each_own(const Action& action) const {
+  const DofLayout& layout = fine_.layout();
+  for (std::size_t k = 0; k < site_of_block_.size(); ++k) {
+    const auto block = static_cast<std::int32_t>(k);
+    if (layout.owner(block) != layout.ranks().own() || site_of_block_[k] < 0) continue;
+    action(3 * static_cast<Eigen::Index>(layout.place(block)), block, site_of_block_[k]);
+  }
+}
+
+Eigen::MatrixXd MeshTransfer::to_fine(const Eigen::MatrixXd& vectors) const {
+  const DofMap& coarse = coarse_.dof_map();
+  const DofMap& fine = fine_.dof_map();
+  const Eigen::MatrixXd whole = coarse_.layout().whole(vectors);
+  const Eigen::Index k = vectors.cols();
+  FieldRows before(coarse.node_count(), 3 * k);
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(before.rows()); ++node) {
+    for (Eigen::Index c = 0; c < k; ++c) {
+      const Eigen::Vector3d motion = coarse.motion_of(node, whole.col(c));
+      for (Eigen::Index a = 0; a < 3; ++a) before(node, a * k + c) = motion[a];
+    }
+  }
+  const FieldRows after = prolongation_ * before;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(fine_.own_dof_count(), k);
+  for_each_own([&](Eigen::Index row, std::int32_t block, std::int32_t site) {
+    const bool is_point = site >= fine.node_count();
+    const std::int32_t same =
+        is_point ? coarse.index(site -
+                                static_cast<std::int32_t>(fine.node_count() - coarse.node_count()))
+                 : -1;
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (fine.is_dependent(block, a)) continue;
+      for (Eigen::Index c = 0; c < k; ++c) {
+        result(row + a, c) = is_point ? whole(3 * same + a, c) : after(site, a * k + c);
+      }
+    }
+  });
+  return result;
+}
+
+Eigen::MatrixXd MeshTransfer::to_coarse(const Eigen::MatrixXd& forces) const {
+  const DofMap& coarse = coarse_.dof_map();
+  const DofMap& fine = fine_.dof_map();
+  const Eigen::Index k = forces.cols();
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(coarse.dof_count(), k);
+  FieldRows after = FieldRows::Zero(fine.node_count(), 3 * k);
+  for_each_own([&](Eigen::Index row, std::int32_t block, std::int32_t site) {
+    const bool is_point = site >= fine.node_count();
+    const std::int32_t same =
+        is_point ? coarse.index(site -
+                                static_cast<std::int32_t>(fine.node_count() - coarse.node_count()))
+                 : -1;
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (fine.is_dependent(block, a)) continue;
+      for (Eigen::Index c = 0; c < k; ++c) {
+        if (is_point) {
+          whole(3 * same + a, c) += forces(row + a, c);
+        } else {
+          after(site, a * k + c) = forces(row + a, c);
+        }
+      }
+    }
+  });
+  const FieldRows before = prolongation_.transpose() * after;
+  for (std::int32_t node = 0; node < static_cast<std::int32_t>(before.rows()); ++node) {
+    for (Eigen::Index c = 0; c < k; ++c) {
+      coarse.add_force(node, {before(node, c), before(node, k + c), before(node, 2 * k + c)},
+                       whole.col(c));
+    }
+  }
+  coarse_.ranks().sum(whole);
+  return coarse_.layout().own_rows(whole);
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "fe_modal/system/field_map.h"
+
+namespace flexneck::fe_modal {
+
+/// Carries fields of a mesh over to its refinement, and forces back: free values of the one to
+/// those of the other, and the transpose. Every member is collective.
+class MeshTransfer {
+ public:
+  using Prolongation = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
+
+  /// @param prolongation of mesher::refine(); all must outlive this
+  MeshTransfer(const FieldMap& coarse, const FieldMap& fine, const Prolongation& prolongation);
+
+  /// (own coarse dofs, k) -> (own fine dofs, k)
+  Eigen::MatrixXd to_fine(const Eigen::MatrixXd& vectors) const;
+  /// (own fine dofs, k) -> (own coarse dofs, k)
+  Eigen::MatrixXd to_coarse(const Eigen::MatrixXd& forces) const;
+
+ private:
+  /// Calls action(row of the own fine vectors, fine block, its site) for each own block.
+  template <typename Action>
+  void for_each_own(const Action& action) const;
+
+  const FieldMap& coarse_;
+  const FieldMap& fine_;
+  const Prolongation& prolongation_;
+  std::vector<std::int32_t> site_of_block_;  ///< (fine blocks) one that moves as the block does
+};
+
+}  // namespace flexneck::fe_modal

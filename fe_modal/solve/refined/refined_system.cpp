@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/refined/refined_system.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Of the elements, springs and masses of the refined mesh; empty in a process alone.
+std::vector<std::int32_t> ranks_of_pieces(const AssembledSystem& coarse,
+                                          const mesher::RefinedMesh& refined) {
+  std::vector<std::int32_t> ranks;
+  if (!coarse.ranks().are_many()) return ranks;
+  for (const std::int32_t parent : refined.parents) {
+    ranks.push_back(coarse.rank_of_element()[static_cast<std::size_t>(parent)]);
+  }
+  ranks.resize(element_count(refined.mesh), 0);
+  return ranks;
+}
+
+RankPart own_part(const Ranks& ranks, const mesher::Mesh& mesh, const DofMap& dof_map,
+                  const std::vector<std::int32_t>& rank_of_element) {
+  if (!ranks.are_many()) return {mesh, dof_map};
+  return {mesh, dof_map, rank_of_element, ranks.own()};
+}
+
+/// Nodes whose lowest rank is this one.
+std::vector<bool> own_nodes(const Ranks& ranks, const mesher::Mesh& mesh,
+                            const std::vector<std::int32_t>& rank_of_element) {
+  std::vector<std::int32_t> lowest(mesh.nodes.size(), ranks.count());
+  for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> sites) {
+    for (const std::int32_t site : sites) {
+      if (static_cast<std::size_t>(site) >= lowest.size()) continue;
+      std::int32_t& rank = lowest[static_cast<std::size_t>(site)];
+      rank = std::min(rank, rank_of_element[element]);
+    }
+  });
+  std::vector<bool> is_own;
+  for (const std::int32_t rank : lowest) is_own.push_back(rank == ranks.own());
+  return is_own;
+}
+
+/// 1 for each element, spring and mass that has one of the nodes.
+std::vector<std::int32_t> elements_at(const mesher::Mesh& mesh, const std::vector<bool>& is_one) {
+  std::vector<std::int32_t> marks;
+  for_each_element(mesh, [&](std::size_t /*element*/, std::span<const std::int32_t> sites) {
+    marks.push_back(std::any_of(sites.begin(), sites.end(),
+                                [&](std::int32_t site) {
+                                  return static_cast<std::size_t>(site) < is_one.size() &&
+                                         is_one[static_cast<std::size_t>(site)];
+                                })
+                        ? 1
+                        : 0);
+  });
+  return marks;
+}
+
+/// Those of the nodes of a part.
+std::vector<bool> of_part(const RankPart& part, const std::vector<bool>& is_one) {
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(is_one.size()), 1);
+  for (std::size_t k = 0; k < is_one.size(); ++k) {
+    values(static_cast<Eigen::Index>(k), 0) = is_one[k] ? 1 : 0;
+  }
+  std::vector<bool> result;
+  const Eigen::MatrixXd own = part.rows_of_nodes(values);
+  for (Eigen::Index k = 0; k < own.rows(); ++k) result.push_back(own(k, 0) > 0);
+  return result;
+}
+
+}  // namespace
+
+RefinedSystem::RefinedSystem(const AssembledSystem& coarse, const ShiftInverse& inverse,
+                             const mesher::RefinedMesh& refined, const DofMap& dof_map,
+                             const ModalOptions& options)
+    : inverse_(inverse),
+      rank_of_element_(ranks_of_pieces(coarse, refined)),
+      fields_(dof_map, layout_of(coarse.ranks(), refined.mesh, dof_map, rank_of_element_)),
+      part_(own_part(coarse.ranks(), refined.mesh, dof_map, rank_of_element_)),
+      exchange_(fields_.layout(), rows_of(part_.blocks())),
+      transfer_(coarse.fields(), fields_, refined.prolongation) {
+  const auto operator_of = [&](const RankPart& part) {
+    return ElementOperator(part.mesh(), part.dof_map(), options.formulation,
+                           part.columns_of_nodes(options.prestress_m));
+  };
+  operator_.emplace(operator_of(part_));
+  if (!ranks().are_many()) {
+    stars_ = std::make_unique<const StarPatches>(
+        StarMesh{refined.mesh, dof_map, refined.parents, {}}, *operator_);
+    return;
+  }
+  const std::vector<bool> is_own = own_nodes(ranks(), refined.mesh, rank_of_element_);
+  const std::vector<std::int32_t> marks = elements_at(refined.mesh, is_own);
+  RankPart around(refined.mesh, dof_map, marks, 1);
+  GhostExchange exchange(fields_.layout(), rows_of(around.blocks()));
+  ranks().together([&] {
+    StarMesh mesh{around.mesh(), around.dof_map(), {}, of_part(around, is_own)};
+    for (std::size_t e = 0; e < refined.parents.size(); ++e) {
+      if (marks[e] == 1) mesh.parents.push_back(refined.parents[e]);
+    }
+    stars_ = std::make_unique<const StarPatches>(mesh, operator_of(around));
+  });
+  around_.emplace(Around{std::move(around), std::move(exchange)});
+}
+
+ElementOperator::Products RefinedSystem::products(const Eigen::MatrixXd& columns) const {
+  if (!ranks().are_many()) return operator_->apply(columns);
+  const ElementOperator::Products own = operator_->apply(exchange_.to_local(columns));
+  return {exchange_.sum_to_own(own.forces), exchange_.sum_to_own(own.momenta)};
+}
+
+Eigen::MatrixXd RefinedSystem::forces(const Eigen::MatrixXd& columns) const {
+  return exchange_.summed(columns,
+                          [&](const Eigen::MatrixXd& rows) { return operator_->forces(rows); });
+}
+
+Eigen::MatrixXd RefinedSystem::precondition(const Eigen::MatrixXd& residuals) const {
+  Eigen::MatrixXd result = transfer_.to_fine(inverse_.precondition(transfer_.to_coarse(residuals)));
+  result +=
+      around_ ? around_->exchange.sum_to_own(stars_->smooth(around_->exchange.to_local(residuals)))
+              : stars_->smooth(residuals);
+  return result;
+}
+
+Eigen::MatrixXd RefinedSystem::solve_cells(const Eigen::MatrixXd& residuals) const {
+  if (!around_) return stars_->solve_cells(residuals);
+  return around_->exchange.sum_to_own(stars_->solve_cells(around_->exchange.to_local(residuals)));
+}
+
+}  // namespace flexneck::fe_modal

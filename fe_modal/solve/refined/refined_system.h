@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "fe_modal/algebra/ghost_exchange.h"
+#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/solve/refined/mesh_transfer.h"
+#include "fe_modal/solve/refined/star_patches.h"
+#include "fe_modal/system/element_operator.h"
+#include "mesher/mesh/refinement.h"
+
+namespace flexneck::fe_modal {
+
+/// A body whose mesh is refined: products with its stiffness and mass, and what takes the place of
+/// a factor, which would be some thirty times that of the mesh before: stars, and corrections by
+/// that mesh's inverse. Elements are of the ranks that had their parents. Vectors are this rank's
+/// rows; every member is collective.
+class RefinedSystem {
+ public:
+  /// @param coarse, inverse of the mesh before; all must outlive this
+  /// @param dof_map of the refined mesh
+  /// @param options of the refined mesh: formulation and displacements of the prestress
+  /// @throws what assemble() throws, or ComputationError if the stiffness is not definite.
+  RefinedSystem(const AssembledSystem& coarse, const ShiftInverse& inverse,
+                const mesher::RefinedMesh& refined, const DofMap& dof_map,
+                const ModalOptions& options);
+  RefinedSystem(const RefinedSystem&) = delete;
+  RefinedSystem& operator=(const RefinedSystem&) = delete;
+
+  const FieldMap& fields() const { return fields_; }
+  const Ranks& ranks() const { return fields_.ranks(); }
+
+  ElementOperator::Products products(const Eigen::MatrixXd& columns) const;
+  Eigen::MatrixXd forces(const Eigen::MatrixXd& columns) const;
+  Eigen::MatrixXd prolonged(const Eigen::MatrixXd& coarse) const {
+    return transfer_.to_fine(coarse);
+  }
+  /// By the stars and the mesh before, additively: symmetric.
+  Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const;
+  /// Solves within the elements of the mesh before, StarPatches::solve_cells().
+  Eigen::MatrixXd solve_cells(const Eigen::MatrixXd& residuals) const;
+
+ private:
+  /// Elements around the corners that this rank has, whose stars are whole there.
+  struct Around {
+    RankPart part;
+    GhostExchange exchange;
+  };
+
+  const ShiftInverse& inverse_;
+  std::vector<std::int32_t> rank_of_element_;
+  FieldMap fields_;
+  RankPart part_;
+  GhostExchange exchange_;
+  MeshTransfer transfer_;
+  std::optional<ElementOperator> operator_;
+  std::optional<Around> around_;  ///< nothing in a process alone
+  std::unique_ptr<const StarPatches> stars_;
+};
+
+}  // namespace flexneck::fe_modal
