@@ -235,7 +235,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
     times.start("refine and solve again");
     const EigenPairs normal = {pairs.values.head(eigenvectors),
                                pairs.vectors.leftCols(eigenvectors)};
-    const auto errors = mesh_errors({mesh, system, normal, *inverse, rigid.count()}, options, progress);
+    const auto errors =
+        mesh_errors({mesh, system, normal, *inverse, rigid.count()}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       body.modes[k].mesh_error = errors[k];
     }
