@@ -63,7 +63,7 @@ Eigen::VectorXd damping_ratios(const ModesUse& use, const fe_modal::ModalBody& m
 /// Slits that open and close have gaps, and the modes with all of them shut.
 void use_gaps(const ModesUse& use, const fe_modal::ModalBody& all, const std::string& from,
               multibody::DeformableBody& body) {
-  if (use.modes)
+  if (use.modes && *use.modes != std::vector<std::string>{"all"})
     use.table.refuse("modes",
                      "the slits of " + from + " open and close, which takes all its modes");
   if (use.stress_stiffening)
