@@ -156,7 +156,8 @@ TEST_CASE("what a study gets wrong is told with file, line, column, key and reme
   CHECK_THROWS_WITH(table("ratio = nan").number("ratio"), Contains("finite"));
   CHECK_THROWS_WITH(table("count = 0").count("count"), Contains("at least 1, found 0"));
   CHECK_THROWS_WITH(table("count = 1.5").count("count"), Contains("whole number"));
-  CHECK_THROWS_WITH(table("").number("ratio"), Contains("part.ratio: expected this key, found none (A number)"));
+  CHECK_THROWS_WITH(table("").number("ratio"),
+                    Contains("part.ratio: expected this key, found none (A number)"));
   CHECK_THROWS_WITH(table("position = [\"1 m\"]").quantities("position"), Contains("list of 3"));
   CHECK_THROWS_WITH(table("w = { value = 1, origin = \"guessed\" }").number("w"),
                     Contains("part.w: expected the origin published, inferred"));
