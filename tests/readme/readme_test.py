@@ -104,6 +104,11 @@ class Session:
         self.top = Path(tempfile.mkdtemp(prefix="flexneck-readme-"))
         self.problems, self.count, self.used = [], 0, set()
 
+    def tell(self, problem):
+        """At once, too: a campaign takes hours and may be ended before."""
+        print(f"PROBLEM {problem}", flush=True)
+        self.problems.append(problem)
+
     def folder_for(self, readme, with_run):
         folder = self.top / re.sub(r"\W+", "_", readme.path)
         folder.mkdir()
@@ -129,7 +134,7 @@ class Session:
                                  stderr=subprocess.STDOUT, text=True, check=False, executable="/bin/bash")
         print(f"{time.monotonic() - begin:6.1f} s  {command}", flush=True)
         if outcome.returncode not in fine:
-            self.problems.append(f"{folder.name}: exit code {outcome.returncode}: {line}\n{outcome.stdout[-2000:]}")
+            self.tell(f"{folder.name}: exit code {outcome.returncode}: {line}\n{outcome.stdout[-2000:]}")
 
     def command(self, command, folder):
         for pattern in LEFT_OUT:
@@ -150,7 +155,7 @@ class Session:
                                  stderr=subprocess.STDOUT, text=True, check=False,
                                  env={**ENVIRONMENT, "PYTHONPATH": path})
         if outcome.returncode != 0:
-            self.problems.append(f"{folder.name}: {text}\n{outcome.stdout}")
+            self.tell(f"{folder.name}: {text}\n{outcome.stdout}")
 
 
 def main():
