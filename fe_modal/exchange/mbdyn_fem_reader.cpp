@@ -219,8 +219,8 @@ InertiaInvariants lumped_invariants(const Groups& file, const Extents& extents,
   InertiaInvariants sum;
   sum.S1.setZero();
   sum.J0.setZero();
-  sum.S2.setZero(3, m);
-  sum.N0.setZero(3, m);
+  sum.S2.setZero(3, static_cast<Index>(m));
+  sum.N0.setZero(3, static_cast<Index>(m));
   sum.G0.assign(m, Eigen::Matrix3d::Zero());
   sum.G.assign(m * m, Eigen::Matrix3d::Zero());
   sum.N.assign(m * m, Eigen::Vector3d::Zero());
