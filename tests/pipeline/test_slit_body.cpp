@@ -8,8 +8,8 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/files/history_file.h"
 #include "pipeline/study/study.h"
-#include "tests/support/model_text.h"
 #include "tests/support/flexneck_command.h"
+#include "tests/support/model_text.h"
 
 using Catch::Matchers::Contains;
 using namespace flexneck;
