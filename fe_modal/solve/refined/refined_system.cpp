@@ -115,7 +115,7 @@ Eigen::MatrixXd RefinedSystem::forces(const Eigen::MatrixXd& columns) const {
 }
 
 Eigen::MatrixXd RefinedSystem::precondition(const Eigen::MatrixXd& residuals) const {
-  Eigen::MatrixXd result = transfer_.to_fine(inverse_.precondition(transfer_.to_coarse(residuals)));
+  Eigen::MatrixXd result = transfer_.to_fine(inverse_.solve(transfer_.to_coarse(residuals)));
   result +=
       around_ ? around_->exchange.sum_to_own(stars_->smooth(around_->exchange.to_local(residuals)))
               : stars_->smooth(residuals);
