@@ -7,6 +7,7 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 sh cmake/setup.sh test
+cores=$(nproc)  # before OMP_NUM_THREADS is set, which nproc obeys
 
 echo '== format'
 git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror
@@ -22,14 +23,14 @@ tidy() { # FOLDER OF THE BUILD, pathspecs
   build=$1
   shift
   changed=$(git diff --name-only --diff-filter=d HEAD~1 -- "$@" 2>/dev/null || true)
-  [ -z "$changed" ] || echo "$changed" | xargs -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet
+  [ -z "$changed" ] || echo "$changed" | xargs -n 1 -P "$cores" clang-tidy -p "$build" --quiet
 }
 tidy build-tidy '*.cpp' ':!tests/reliability/fuzz' ':!tests/install/consumer'  # a project of its own
 tidy build-fuzz 'tests/reliability/fuzz/*.cpp'
 
 echo '== tests'
 export OMP_NUM_THREADS=1
-ctest --preset ci --parallel "$(nproc)"
+ctest --preset ci --parallel "$cores"
 
 echo '== fuzz'
 cmake --build --preset fuzz

@@ -26,8 +26,8 @@ class Slit {
       : count_(section.friction.slides),
         friction_(section.friction),
         H_(section.stiffness),
-        stiffness_(H_.diagonal().tail(count_).mean()),
         load_(Section::Strain::Zero(section.branch_size())),
+        stiffness_(H_.diagonal().tail(count_).mean()),
         which_open_(tried_first) {
     for (const Section::Branch& branch : section.branches) {
       const auto spring = branch.spring<Section::Strain>(internal);
@@ -128,14 +128,14 @@ class Slit {
   Eigen::Index count_;
   const SlitFriction& friction_;
   Section::Stiffness H_;  ///< with what branches add, over a step
-  double stiffness_;      ///< the mean of quick motions of s, N/m
   Section::Strain load_;  ///< at g = s = 0
+  Slides begin_m_ = Slides::Zero(count_);
+  Slides slides_m_, force_N_;
+  double stiffness_;  ///< the mean of quick motions of s, N/m
+  Eigen::Matrix<double, kGaps, 1> openings_m_;
+  double normal_N_ = 0;
   InternalVariables internal_;
   int which_open_;
-  Slides begin_m_ = Slides::Zero(count_);
-  Eigen::Matrix<double, kGaps, 1> openings_m_;
-  Slides slides_m_, force_N_;
-  double normal_N_ = 0;
 };
 
 }  // namespace

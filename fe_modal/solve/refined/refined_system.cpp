@@ -37,6 +37,7 @@ std::vector<bool> own_nodes(const Ranks& ranks, const mesher::Mesh& mesh,
     }
   });
   std::vector<bool> is_own;
+  is_own.reserve(lowest.size());
   for (const std::int32_t rank : lowest) is_own.push_back(rank == ranks.own());
   return is_own;
 }

@@ -112,6 +112,7 @@ std::vector<std::size_t> find_cells(const StarMesh& body, const PatchLists& star
     if (!is_new && stars[s].size() > stars[place->second].size()) place->second = s;
   }
   std::vector<std::size_t> numbers;
+  numbers.reserve(cells.size());
   for (const auto& [parent, star] : cells) numbers.push_back(star);
   return numbers;
 }

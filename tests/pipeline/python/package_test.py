@@ -337,12 +337,14 @@ class Leaks(unittest.TestCase):
             fn.Run.read(history).time.sum()
             with self.assertRaises(fn.InputError):
                 fn.Model({"solver": {}})
-        for _ in range(self.COUNT // 4):  # fills what is kept for good
-            call()
-        before = in_use()
-        for _ in range(self.COUNT):
-            call()
-        more_bytes, more_blocks = (after - was for after, was in zip(in_use(), before))
+        def more():
+            before = in_use()
+            for _ in range(self.COUNT):
+                call()
+            return [after - was for after, was in zip(in_use(), before)]
+        more()  # fills what is kept for good
+        # Caches of Python still fill now and then; a leak shows in each repetition.
+        more_bytes, more_blocks = (min(each) for each in zip(more(), more()))
         print(f"{self.COUNT} calls, {more_bytes} bytes and {more_blocks} blocks of Python more")
         # The C library keeps some that are free for each thread. A leak of 16 bytes a call shows in 10^4.
         self.assertLess(more_bytes, 100_000)
