@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fe_modal/algebra/operator_matrix.h"
+#include "fe_modal/algebra/vector_clones.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -20,7 +21,7 @@ using ThreeEntries = std::array<const double*, 3>;
 
 /// sum += A x and y += A^T x', with the 3 x 3 block A whose rows begin at `entries`.
 template <std::size_t lanes>
-void multiply_both_ways(const ThreeEntries& entries, const ThreeRows<lanes>& x,
+[[gnu::always_inline]] inline void multiply_both_ways(const ThreeEntries& entries, const ThreeRows<lanes>& x,
                         ThreeRows<lanes>& __restrict sum, const ThreeRows<lanes>& own_x,
                         ThreeRows<lanes>& __restrict y) {
   const auto& [a, b, c] = entries;
@@ -36,7 +37,7 @@ void multiply_both_ways(const ThreeEntries& entries, const ThreeRows<lanes>& x,
 
 /// y += A x by the upper half of A.
 template <std::size_t lanes>
-void add_product(const SymmetricMatrix& matrix, const std::vector<ThreeRows<lanes>>& x,
+[[gnu::always_inline]] inline void add_product_here(const SymmetricMatrix& matrix, const std::vector<ThreeRows<lanes>>& x,
                  std::vector<ThreeRows<lanes>>& y) {
   for (std::size_t node = 0; node < x.size(); ++node) {
     const ThreeRows<lanes> own = x[node];
@@ -67,7 +68,7 @@ void add_product(const SymmetricMatrix& matrix, const std::vector<ThreeRows<lane
 
 /// y += M x.
 template <std::size_t lanes>
-void add_product(const NodalMass& mass, const std::vector<ThreeRows<lanes>>& x,
+[[gnu::always_inline]] inline void add_product_here(const NodalMass& mass, const std::vector<ThreeRows<lanes>>& x,
                  std::vector<ThreeRows<lanes>>& y) {
   for (std::size_t row = 0; row < x.size(); ++row) {
     ThreeRows<lanes> sum{};
@@ -80,6 +81,22 @@ void add_product(const NodalMass& mass, const std::vector<ThreeRows<lanes>>& x,
     }
     y[row] = sum;
   }
+}
+
+// One column fills no vector; eight are compiled for each width.
+template <typename Matrix>
+void add_product(const Matrix& matrix, const std::vector<ThreeRows<1>>& x,
+                 std::vector<ThreeRows<1>>& y) {
+  add_product_here(matrix, x, y);
+}
+FLEXNECK_VECTOR_CLONES void add_product(const SymmetricMatrix& matrix,
+                                        const std::vector<ThreeRows<8>>& x,
+                                        std::vector<ThreeRows<8>>& y) {
+  add_product_here(matrix, x, y);
+}
+FLEXNECK_VECTOR_CLONES void add_product(const NodalMass& mass, const std::vector<ThreeRows<8>>& x,
+                                        std::vector<ThreeRows<8>>& y) {
+  add_product_here(mass, x, y);
 }
 
 /// The product with so many columns at a time.

@@ -11,6 +11,7 @@
 
 #include <petscpkg_version.h>
 
+#include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "geometry/foundation/error.h"
 
@@ -83,6 +84,7 @@ PetscSession::PetscSession(Start /*start*/) {
     return;
   }
   const StartAlone alone;
+  choose_blas_kernels();
   give_memory_back();
   int finalized = 0;
   MPI_Finalized(&finalized);
@@ -130,6 +132,7 @@ std::map<std::string, std::string> library_versions() {
     return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
   };
   return {
+      {"BLAS", blas_version()},
       {"PETSc", join(PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
       {"SLEPc", join(SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
       {"SuiteSparse", join(PETSC_PKG_SUITESPARSE_VERSION_MAJOR, PETSC_PKG_SUITESPARSE_VERSION_MINOR,

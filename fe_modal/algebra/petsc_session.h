@@ -23,7 +23,7 @@ class PetscSession {
   bool is_outer_ = true;  ///< which ends what it has begun
 };
 
-/// Versions of PETSc, SLEPc and MUMPS, for the provenance.
+/// Versions of the BLAS with its kernels, PETSc, SLEPc and SuiteSparse, for the provenance.
 std::map<std::string, std::string> library_versions();
 
 }  // namespace flexneck::fe_modal

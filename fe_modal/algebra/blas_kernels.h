@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace flexneck::fe_modal {
+
+/// OpenBLAS takes the kernels of the processor's model when it is loaded. For a model that is newer
+/// than itself it takes those of 2004, of two numbers a register. This has it take those of the
+/// vector units that the processor has, which are up to four times as fast. Nothing happens where
+/// OPENBLAS_CORETYPE is set, where OpenBLAS knows the model, and with another BLAS.
+/// Call it while no other thread calls the BLAS.
+void choose_blas_kernels();
+
+/// "OpenBLAS 0.3.21, SkylakeX", by which results differ in rounding; "unknown" of another BLAS.
+std::string blas_version();
+
+}  // namespace flexneck::fe_modal
