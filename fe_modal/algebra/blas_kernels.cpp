@@ -25,7 +25,7 @@ std::string chosen_kernels() {
   return name == nullptr ? "" : name();
 }
 
-/// The name that OpenBLAS has for kernels that the processor can run, empty if it has old ones only.
+/// What OpenBLAS calls kernels that the processor can run; empty where it can run old ones only.
 const char* kernels_for_this_processor() {
 #ifdef __x86_64__
   __builtin_cpu_init();

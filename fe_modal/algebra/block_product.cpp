@@ -21,9 +21,11 @@ using ThreeEntries = std::array<const double*, 3>;
 
 /// sum += A x and y += A^T x', with the 3 x 3 block A whose rows begin at `entries`.
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void multiply_both_ways(const ThreeEntries& entries, const ThreeRows<lanes>& x,
-                        ThreeRows<lanes>& __restrict sum, const ThreeRows<lanes>& own_x,
-                        ThreeRows<lanes>& __restrict y) {
+[[gnu::always_inline]] inline void multiply_both_ways(const ThreeEntries& entries,
+                                                      const ThreeRows<lanes>& x,
+                                                      ThreeRows<lanes>& __restrict sum,
+                                                      const ThreeRows<lanes>& own_x,
+                                                      ThreeRows<lanes>& __restrict y) {
   const auto& [a, b, c] = entries;
   for (std::size_t k = 0; k < lanes; ++k) {
     sum[0][k] += a[0] * x[0][k] + a[1] * x[1][k] + a[2] * x[2][k];
@@ -37,8 +39,9 @@ template <std::size_t lanes>
 
 /// y += A x by the upper half of A.
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void add_product_here(const SymmetricMatrix& matrix, const std::vector<ThreeRows<lanes>>& x,
-                 std::vector<ThreeRows<lanes>>& y) {
+[[gnu::always_inline]] inline void add_product_here(const SymmetricMatrix& matrix,
+                                                    const std::vector<ThreeRows<lanes>>& x,
+                                                    std::vector<ThreeRows<lanes>>& y) {
   for (std::size_t node = 0; node < x.size(); ++node) {
     const ThreeRows<lanes> own = x[node];
     ThreeRows<lanes> sum{};
@@ -68,8 +71,9 @@ template <std::size_t lanes>
 
 /// y += M x.
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void add_product_here(const NodalMass& mass, const std::vector<ThreeRows<lanes>>& x,
-                 std::vector<ThreeRows<lanes>>& y) {
+[[gnu::always_inline]] inline void add_product_here(const NodalMass& mass,
+                                                    const std::vector<ThreeRows<lanes>>& x,
+                                                    std::vector<ThreeRows<lanes>>& y) {
   for (std::size_t row = 0; row < x.size(); ++row) {
     ThreeRows<lanes> sum{};
     for (std::int32_t k = mass.outerIndexPtr()[row]; k < mass.outerIndexPtr()[row + 1]; ++k) {

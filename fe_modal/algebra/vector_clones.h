@@ -7,8 +7,7 @@
 /// The choice is made before a sanitizer has begun, which some do not survive.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__clang__)
-#define FLEXNECK_VECTOR_CLONES \
-  [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#define FLEXNECK_VECTOR_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 #else
 #define FLEXNECK_VECTOR_CLONES
 #endif

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/algebra/blas_kernels.h"
-
 #include <cstdlib>
 
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/algebra/petsc_session.h"
 
