@@ -7,9 +7,9 @@ namespace flexneck::fe_modal {
 
 /// OpenBLAS takes the kernels of the processor's model when it is loaded. For a model that is newer
 /// than itself it takes those of 2004, of two numbers a register. This has it take those of the
-/// vector units that the processor has, which are up to four times as fast. Nothing happens where
-/// OPENBLAS_CORETYPE is set, where OpenBLAS knows the model, and with another BLAS.
-/// Call it while no other thread calls the BLAS.
+/// vector units that the processor has: large products take a quarter of the time. Nothing happens
+/// where OPENBLAS_CORETYPE is set, where OpenBLAS knows the model, and with another BLAS. A session
+/// begins with it. Call it while no other thread is in the BLAS.
 void choose_blas_kernels();
 
 /// "OpenBLAS 0.3.21, SkylakeX", by which results differ in rounding; "unknown" of another BLAS.

@@ -14,6 +14,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kMultiplying = "multiplying with a matrix";
+constexpr std::size_t kTogether = 8;  ///< columns: as many numbers as the widest register holds
 /// A node's three rows of so many columns.
 template <std::size_t lanes>
 using ThreeRows = std::array<std::array<double, lanes>, 3>;
@@ -39,9 +40,9 @@ template <std::size_t lanes>
 
 /// y += A x by the upper half of A.
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void add_product_here(const SymmetricMatrix& matrix,
-                                                    const std::vector<ThreeRows<lanes>>& x,
-                                                    std::vector<ThreeRows<lanes>>& y) {
+[[gnu::always_inline]] inline void add_product_inline(const SymmetricMatrix& matrix,
+                                                      const std::vector<ThreeRows<lanes>>& x,
+                                                      std::vector<ThreeRows<lanes>>& y) {
   for (std::size_t node = 0; node < x.size(); ++node) {
     const ThreeRows<lanes> own = x[node];
     ThreeRows<lanes> sum{};
@@ -69,11 +70,11 @@ template <std::size_t lanes>
   }
 }
 
-/// y += M x.
+/// y = M x.
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void add_product_here(const NodalMass& mass,
-                                                    const std::vector<ThreeRows<lanes>>& x,
-                                                    std::vector<ThreeRows<lanes>>& y) {
+[[gnu::always_inline]] inline void add_product_inline(const NodalMass& mass,
+                                                      const std::vector<ThreeRows<lanes>>& x,
+                                                      std::vector<ThreeRows<lanes>>& y) {
   for (std::size_t row = 0; row < x.size(); ++row) {
     ThreeRows<lanes> sum{};
     for (std::int32_t k = mass.outerIndexPtr()[row]; k < mass.outerIndexPtr()[row + 1]; ++k) {
@@ -91,16 +92,17 @@ template <std::size_t lanes>
 template <typename Matrix>
 void add_product(const Matrix& matrix, const std::vector<ThreeRows<1>>& x,
                  std::vector<ThreeRows<1>>& y) {
-  add_product_here(matrix, x, y);
+  add_product_inline(matrix, x, y);
 }
 FLEXNECK_VECTOR_CLONES void add_product(const SymmetricMatrix& matrix,
-                                        const std::vector<ThreeRows<8>>& x,
-                                        std::vector<ThreeRows<8>>& y) {
-  add_product_here(matrix, x, y);
+                                        const std::vector<ThreeRows<kTogether>>& x,
+                                        std::vector<ThreeRows<kTogether>>& y) {
+  add_product_inline(matrix, x, y);
 }
-FLEXNECK_VECTOR_CLONES void add_product(const NodalMass& mass, const std::vector<ThreeRows<8>>& x,
-                                        std::vector<ThreeRows<8>>& y) {
-  add_product_here(mass, x, y);
+FLEXNECK_VECTOR_CLONES void add_product(const NodalMass& mass,
+                                        const std::vector<ThreeRows<kTogether>>& x,
+                                        std::vector<ThreeRows<kTogether>>& y) {
+  add_product_inline(mass, x, y);
 }
 
 /// The product with so many columns at a time.
@@ -125,10 +127,9 @@ void multiply_by_lanes(const Matrix& matrix, const Eigen::Ref<const Eigen::Matri
 
 template <typename Matrix>
 Eigen::MatrixXd product(const Matrix& matrix, const Eigen::MatrixXd& columns) {
-  constexpr Eigen::Index kTogether = 8;
   Eigen::MatrixXd result(columns.rows(), columns.cols());
   // A few columns by themselves take less time than eight of which most are empty.
-  const Eigen::Index rest = columns.cols() % kTogether;
+  const Eigen::Index rest = columns.cols() % static_cast<Eigen::Index>(kTogether);
   const Eigen::Index alone = rest < 3 ? rest : 0;
   multiply_by_lanes<kTogether>(matrix, columns.leftCols(columns.cols() - alone),
                                result.leftCols(columns.cols() - alone));

@@ -12,7 +12,7 @@ namespace flexneck::pipeline {
 /// Where a document's TOML comes from: a file, or a text that stands for one of this path, from
 /// whose folder it names others. A path alone is a file.
 struct DocumentSource {
-  // NOLINTNEXTLINE(google-explicit-constructor): as a rule a document is a file
+  // Converts: as a rule a document is a file.
   template <std::convertible_to<std::filesystem::path> File>
   DocumentSource(const File& file) : path(file) {}
   DocumentSource(std::filesystem::path stands_for, std::string toml)

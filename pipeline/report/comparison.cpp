@@ -180,6 +180,12 @@ Results all_runs(const std::vector<ComparedStudy>& studies) {
   return all;
 }
 
+/// How many points of a run are shown where several studies share a page, which is to stay small.
+Eigen::Index share_of(Eigen::Index alone, const std::vector<ComparedStudy>& studies) {
+  constexpr Eigen::Index kLeast = 100;
+  return std::max(kLeast, alone / static_cast<Eigen::Index>(studies.size()));
+}
+
 std::string warnings_of(const std::vector<ComparedStudy>& studies) {
   std::vector<std::string> warnings;
   for (const ComparedStudy& study : studies)
@@ -212,12 +218,12 @@ void write_comparison(const std::filesystem::path& path,
   std::string pictures;
   for (const ComparedStudy& study : studies) {
     names += (names.empty() ? "" : ", ") + study.label;
-    Json scene = scene_of(study.results, study.study);
+    Json scene = scene_of(study.results, study.study, share_of(kMaxFrames, studies));
     if (scene.is_null()) continue;
     scenes.push_back({{"label", study.label}, {"scene", std::move(scene)}});
     pictures += mesh_picture_html(study.folder, study.label);
   }
-  Json curves = curves_of(all_runs(studies), {});
+  Json curves = curves_of(all_runs(studies), {}, share_of(kMaxSamples, studies));
   if (!curves.is_null())
     for (const ComparedStudy& study : studies) curves["folders"].push_back(study.label);
   std::map<std::string, std::string> texts = {{"head", page_head(html_text(names))},

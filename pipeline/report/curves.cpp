@@ -17,9 +17,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Of a run: a screen has hardly more points in a row. Every value shown is one of the file's.
-constexpr Eigen::Index kMaxSamples = 1001;
-
 const char* name_of(Experiment::Kind kind) {
   return kind == Experiment::Kind::pendulum ? "pendulum" : "static";
 }
@@ -41,9 +38,10 @@ Json channels_json(const Experiment& experiment, Eigen::Index stride) {
   return channels;
 }
 
-Json run_json(const Experiment& experiment) {
+/// Every value shown is one of the file's.
+Json run_json(const Experiment& experiment, Eigen::Index most_samples) {
   const Eigen::VectorXd& time_s = experiment.file.history.time_s;
-  const Eigen::Index stride = (time_s.size() + kMaxSamples - 1) / kMaxSamples;
+  const Eigen::Index stride = (time_s.size() + most_samples - 1) / most_samples;
   const Eigen::VectorXd shown = time_s(Eigen::seq(0, time_s.size() - 1, stride));
   return {{"name", experiment.name},
           {"kind", name_of(experiment.kind)},
@@ -129,10 +127,10 @@ std::string shown_unit(const std::string& si_unit, Experiment::Kind kind) {
   return customary_unit(si_unit, kind == Experiment::Kind::pendulum ? "lbf*ft" : "in*lbf");
 }
 
-Json curves_of(const Results& results, const Study& study) {
+Json curves_of(const Results& results, const Study& study, Eigen::Index most_samples) {
   Json runs = Json::array();
   for (const Experiment& experiment : results.experiments) {
-    if (!experiment.file.channels.empty()) runs.push_back(run_json(experiment));
+    if (!experiment.file.channels.empty()) runs.push_back(run_json(experiment, most_samples));
   }
   if (runs.empty()) return nullptr;
   return {{"runs", std::move(runs)},

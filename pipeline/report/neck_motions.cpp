@@ -18,9 +18,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// More than a screen shows at a tenth of the real speed.
-constexpr Index kMaxFrames = 400;
-
 /// A run with what is known of it.
 struct Run {
   const Experiment& experiment;
@@ -157,14 +154,15 @@ Json rigid_json(const Run& run, const fe_modal::ModalBody& body) {
 
 }  // namespace
 
-Json motions_of(const Results& results, const Study& study, const mesher::Surface& surface) {
+Json motions_of(const Results& results, const Study& study, const mesher::Surface& surface,
+                Index most_frames) {
   const fe_modal::ModalBody& body = *results.modes;
   Json motions = Json::array();
   for (const Experiment& experiment : results.experiments) {
     const Index times = experiment.file.history.time_s.size();
     if (times < 2) continue;
     const Run run{experiment, section_of(study, experiment.name),
-                  (times + kMaxFrames - 1) / kMaxFrames};
+                  (times + most_frames - 1) / most_frames};
     Json motion = modal_json(run, body);
     if (motion.is_null() && run.section != nullptr)
       motion = plates_json(run, plates_of(study, *run.section, *results.mesh, surface));

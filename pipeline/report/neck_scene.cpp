@@ -91,7 +91,7 @@ Json head_json(const Study& study) {
 
 }  // namespace
 
-Json scene_of(const Results& results, const Study& study) {
+Json scene_of(const Results& results, const Study& study, Eigen::Index most_frames) {
   if (!results.mesh || !results.modes || results.modes->modes.empty()) return nullptr;
   const fe_modal::ModalBody& body = *results.modes;
   if (body.nodes_m.cols() != static_cast<Eigen::Index>(results.mesh->nodes.size())) return nullptr;
@@ -101,7 +101,7 @@ Json scene_of(const Results& results, const Study& study) {
     scale.push_back(fmt::format("#{:06x}", colour));
   return {{"surface", surface_json(*results.mesh, surface, body.nodes_m)},
           {"modes", modes_json(surface, body)},
-          {"motions", motions_of(results, study, surface)},
+          {"motions", motions_of(results, study, surface, most_frames)},
           {"shown", study.tests.empty() ? "" : study.tests.front().experiment},
           {"scale", std::move(scale)},
           {"head", head_json(study)}};

@@ -44,6 +44,28 @@ TEST_CASE("the mesh file holds the partitions and the order that the study asks 
                 "mesh.partitions: expected numbers of processes");
 }
 
+TEST_CASE(
+    "kernels of the BLAS change frequencies by rounding alone, and the modes file names them") {
+  const TemporaryFolder folder;
+  const std::string arguments = " -q -o " + folder.path().string() + kCoarse;
+  REQUIRE(run_flexneck("mesh" + arguments).exit_code == 0);
+  REQUIRE(run_flexneck("modes" + arguments).exit_code == 0);
+  const auto own = fe_modal::read_modal_body(folder / "modes.h5");
+  CHECK_THAT(own.provenance.libraries.at("BLAS"), Contains("OpenBLAS"));
+  // Those that every x86-64 processor can run: what the user sets is obeyed.
+  const CommandOutcome outcome = testing::run_shell(
+      "OPENBLAS_CORETYPE=Prescott " + testing::flexneck_program() + " modes" + arguments);
+  INFO(outcome.text);
+  REQUIRE(outcome.exit_code == 0);
+  const auto oldest = fe_modal::read_modal_body(folder / "modes.h5");
+#ifdef __x86_64__
+  CHECK_THAT(oldest.provenance.libraries.at("BLAS"), Contains("Prescott"));
+#endif
+  const Eigen::VectorXd& expected = own.body.frequencies_Hz;
+  CHECK((oldest.body.frequencies_Hz - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff() <
+        1e-9);
+}
+
 TEST_CASE("what a stage leaves is read by the next one, or refused in one line") {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
