@@ -158,7 +158,8 @@ void describe(CLI::App& app, const Command& command, CommandLine& line) {
     if (std::count(command.options.begin(), command.options.end(), row.option) > 0)
       row.add(app, line);
   }
-  CLI::Option* const quiet = app.add_flag("-q,--quiet", line.is_quiet, "Print errors and warnings only");
+  CLI::Option* const quiet =
+      app.add_flag("-q,--quiet", line.is_quiet, "Print errors and warnings only");
   app.add_flag("-v,--verbose", line.is_verbose, "Print all tables, and what each stage does")
       ->excludes(quiet);
 }
