@@ -5,29 +5,39 @@
 #include <cstdio>
 #include <vector>
 
+#include "fe_modal/algebra/cholmod_handles.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kFactorising = "factorising the stiffness matrix";
-constexpr const char* kOtherwise =
-    "take a coarser mesh, --solver iterative, or more ranks with mpirun";
+constexpr const char* kReading = "reading the stiffness matrix";
 
-/// The order of nodes as one of degrees of freedom.
-IsHandle expand_order(std::span<const std::int32_t> node_order) {
-  std::vector<PetscInt> dofs;
-  dofs.reserve(3 * node_order.size());
-  for (const std::int32_t node : node_order) {
-    for (PetscInt a = 0; a < 3; ++a) dofs.push_back(3 * node + a);
-  }
-  IsHandle order;
-  require(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(dofs.size()), dofs.data(),
-                          PETSC_COPY_VALUES, order.out()),
-          kFactorising);
-  require(ISSetPermutation(order.get()), kFactorising);
-  return order;
+/// The matrix must outlive it.
+cholmod_sparse view_of(Mat matrix) {
+  PetscInt size = 0;
+  const PetscInt* offsets = nullptr;
+  const PetscInt* columns = nullptr;
+  PetscScalar* values = nullptr;
+  PetscBool done = PETSC_FALSE;
+  require(MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_TRUE, &size, &offsets, &columns, &done),
+          kReading);
+  require(MatSeqSBAIJGetArray(matrix, &values), kReading);
+  const auto rows = static_cast<std::size_t>(size);
+  const auto entries = static_cast<std::size_t>(offsets[rows]);
+  return cholmod_view({offsets, rows + 1}, {columns, entries}, {values, entries});
+}
+
+cholmod_dense view_of(const Eigen::MatrixXd& columns) {
+  cholmod_dense view{};
+  view.nrow = view.d = static_cast<std::size_t>(columns.rows());
+  view.ncol = static_cast<std::size_t>(columns.cols());
+  view.nzmax = static_cast<std::size_t>(columns.size());
+  view.x = const_cast<double*>(columns.data());
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  return view;
 }
 
 std::string millions_text(double entries) {
@@ -38,46 +48,52 @@ std::string millions_text(double entries) {
 
 }  // namespace
 
+struct CholeskyFactor::Handles {
+  explicit Handles(CholmodOrder order) : session(order), factor(nullptr, {&session}) {}
+
+  CholmodSession session;
+  CholmodFactor factor;
+};
+
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
                                std::span<const std::int32_t> node_order)
-    : ShiftInverse(shift) {
-  const bool given = !node_order.empty();
-  require(MatSetOptionsPrefixFactor(shifted_stiffness, given ? kGivenOrderPrefix : nullptr),
-          kFactorising);
-  require(MatGetFactor(shifted_stiffness, MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY, factor_.out()),
-          kFactorising);
-  const IsHandle order = given ? expand_order(node_order) : IsHandle();
-  MatFactorInfo settings;
-  require(MatFactorInfoInitialize(&settings), kFactorising);
-  require(MatCholeskyFactorSymbolic(factor_.get(), shifted_stiffness, order.get(), &settings),
-          kFactorising);
-  MatInfo info;
-  require(MatGetInfo(factor_.get(), MAT_LOCAL, &info), kFactorising);
-  nonzeros_ = info.nz_used;
+    : ShiftInverse(shift),
+      handles_(std::make_unique<Handles>(node_order.empty() ? CholmodOrder::best
+                                                            : CholmodOrder::given)) {
+  make(shifted_stiffness, order_of_dofs(node_order));
+}
+
+CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered)
+    : ShiftInverse(shift), handles_(std::make_unique<Handles>(CholmodOrder::numbering)) {
+  make(shifted_stiffness, {});
+}
+
+CholeskyFactor::~CholeskyFactor() = default;
+
+void CholeskyFactor::make(Mat shifted_stiffness, std::span<const int> dof_order) {
+  auto& [session, factor] = *handles_;
+  const cholmod_sparse view = view_of(shifted_stiffness);
+  factor = analyse(view, dof_order, session);
+  nonzeros_ = session.get()->lnz;
   require_memory("the factor of " + millions_text(nonzeros_), kBytesPerFactorEntry * nonzeros_,
-                 kOtherwise);
-  const PetscErrorCode code = MatCholeskyFactorNumeric(factor_.get(), shifted_stiffness, &settings);
-  if (code != PETSC_ERR_MAT_CH_ZRPVT) require(code, kFactorising);
-  MatFactorError error = MAT_FACTOR_NOERROR;
-  require(MatFactorGetError(factor_.get(), &error), kFactorising);
-  if (code != 0 || error != MAT_FACTOR_NOERROR) {
-    throw ComputationError(kNotDefinite);
-  }
+                 kOrAnotherSolution);
+  factorise(view, factor, session);
 }
 
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  constexpr const char* kSolving = "solving with the factor";
   Eigen::MatrixXd solutions(right_hand_sides.rows(), right_hand_sides.cols());
-  const auto rows = static_cast<PetscInt>(right_hand_sides.rows());
-  const auto columns = static_cast<PetscInt>(right_hand_sides.cols());
-  MatHandle in;
-  MatHandle out;
-  // PETSc takes memory that is not const; it only reads this.
-  require(MatCreateSeqDense(PETSC_COMM_SELF, rows, columns,
-                            const_cast<double*>(right_hand_sides.data()), in.out()),
-          kSolving);
-  require(MatCreateSeqDense(PETSC_COMM_SELF, rows, columns, solutions.data(), out.out()), kSolving);
-  require(MatMatSolve(factor_.get(), in.get(), out.get()), kSolving);
+  if (solutions.size() == 0) return solutions;
+  cholmod_common* const session = handles_->session.get();
+  cholmod_dense in = view_of(right_hand_sides);
+  cholmod_dense out = view_of(solutions);
+  cholmod_dense* found = &out;
+  cholmod_dense* permuted = nullptr;
+  cholmod_dense* block = nullptr;
+  cholmod_solve2(CHOLMOD_A, handles_->factor.get(), &in, nullptr, &found, nullptr, &permuted,
+                 &block, session);
+  cholmod_free_dense(&permuted, session);
+  cholmod_free_dense(&block, session);
+  if (session->status < 0) throw ComputationError("memory runs out while solving with the factor");
   return solutions;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -21,18 +22,26 @@ inline constexpr const char* kNotDefinite =
     "the stiffness matrix is not positive definite: a part of the body is not fixed, or elements "
     "with reduced integration stand in a single row, or Poisson's ratio is too near 1/2";
 
+/// The matrix is numbered as it is eliminated, in a postorder
+/// (fe_modal/system/elimination_order.h).
+struct AsNumbered {};
+
 /// Sparse Cholesky factor of K - shift M, made once and used by every solve, by CHOLMOD.
 class CholeskyFactor : public ShiftInverse {
  public:
-  /// @param shifted_stiffness K - shift M, symmetric with the upper half stored, N degrees of
-  /// freedom
+  /// @param shifted_stiffness K - shift M, symmetric with the upper half stored by scalar rows, N
+  /// degrees of freedom
   /// @param node_order order of elimination: entry k is the node, three degrees of freedom each,
   /// that comes k-th; a permutation of 0 … N/3 - 1. Empty: CHOLMOD tries AMD, and METIS on all
   /// degrees of freedom where AMD fills much, and keeps the better one.
-  /// @throws InputError if memory does not hold the factor, before it is made.
+  /// @throws InputError if memory does not hold the factor, before it is made, or its entries are
+  /// more than CHOLMOD's integers count.
   /// @throws ComputationError if the matrix is not positive definite or memory runs out.
   CholeskyFactor(Mat shifted_stiffness, double shift,
                  std::span<const std::int32_t> node_order = {});
+  /// The same without a copy of the matrix in another order: a sixth of the factor's size.
+  CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered);
+  ~CholeskyFactor() override;
 
   /// Entries of the factor, as CHOLMOD counts them.
   double nonzeros() const { return nonzeros_; }
@@ -41,8 +50,11 @@ class CholeskyFactor : public ShiftInverse {
   std::string describe() const override;
 
  private:
+  struct Handles;
+  void make(Mat shifted_stiffness, std::span<const int> dof_order);
+
   double nonzeros_ = 0;
-  MatHandle factor_;
+  std::unique_ptr<Handles> handles_;
 };
 
 }  // namespace flexneck::fe_modal

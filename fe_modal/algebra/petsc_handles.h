@@ -51,9 +51,6 @@ class PetscHandle {
   Object object_ = nullptr;
 };
 
-/// Prefix of PETSc's options for factors whose order of elimination is given.
-inline constexpr const char* kGivenOrderPrefix = "given_order_";
-
 using MatHandle = PetscHandle<Mat, MatDestroy>;
 using IsHandle = PetscHandle<IS, ISDestroy>;
 using VecHandle = PetscHandle<Vec, VecDestroy>;

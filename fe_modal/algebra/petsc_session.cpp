@@ -111,16 +111,9 @@ PetscSession::PetscSession(Start /*start*/) {
 // A constructor that delegates ends like any object if what comes after throws: finalised.
 PetscSession::PetscSession() : PetscSession(Start()) {
   if (!is_outer_) return;
-  // Errors come back as codes, without a trace on the terminal, nor what CHOLMOD says of them.
+  // Errors come back as codes, without a trace on the terminal.
   PetscErrorPrintf = PetscErrorPrintfNone;
   require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
-  require(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"), "silencing CHOLMOD");
-  const std::string given = "-" + std::string(kGivenOrderPrefix);
-  require(PetscOptionsSetValue(nullptr, (given + "mat_cholmod_print").c_str(), "0"),
-          "silencing CHOLMOD");
-  // Left to itself CHOLMOD also tries orders of its own and keeps the one it likes best.
-  require(PetscOptionsSetValue(nullptr, (given + "mat_cholmod_nmethods").c_str(), "1"),
-          "telling CHOLMOD to keep a given order");
 }
 
 PetscSession::~PetscSession() {

@@ -23,6 +23,7 @@
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/solve/sturm_check.h"
 #include "fe_modal/system/assembly.h"
+#include "fe_modal/system/elimination_order.h"
 #include "fe_modal/system/memory_needs.h"
 #include "fe_modal/system/modal_options_check.h"
 #include "fe_modal/system/rigid_average.h"
@@ -177,7 +178,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
   }
   if (!given.prestress.empty()) times.start("static step");
   const ModalOptions options = with_prestress(mesh, given, progress);
-  const DofMap dof_map = dof_map_of(mesh, options);
+  times.start("order and factorise");
+  const DofMap dof_map = numbered_dof_map_of(mesh, options);
   const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);
   const bool fixed = rigid.count() == 0;
   report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +

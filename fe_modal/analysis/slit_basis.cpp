@@ -5,6 +5,7 @@
 #include "fe_modal/reduction/static_response.h"
 #include "fe_modal/reduction/static_shapes.h"
 #include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/system/elimination_order.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -16,7 +17,7 @@ class ShutBody {
   ShutBody(mesher::Mesh mesh, const FieldMap& open, const ModalOptions& options)
       : mesh_(tied(std::move(mesh))),
         open_(open),
-        dof_map_(dof_map_of(mesh_, options)),
+        dof_map_(numbered_dof_map_of(mesh_, options)),
         system_(mesh_, dof_map_, options),
         inverse_(system_.shift_inverse(0)) {
     if (options.mode_count > 0)

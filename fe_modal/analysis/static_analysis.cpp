@@ -13,6 +13,7 @@
 #include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/system/assembly.h"
+#include "fe_modal/system/elimination_order.h"
 #include "fe_modal/system/memory_needs.h"
 #include "fe_modal/system/modal_options_check.h"
 #include "fe_modal/system/point_forces.h"
@@ -40,7 +41,7 @@ void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& sys
 StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
                        const std::vector<Load>& loads, const Progress& progress) {
   require_supports(rigid_motions_of(mesh, options), "a static step");
-  const DofMap dof_map = dof_map_of(mesh, options);
+  const DofMap dof_map = numbered_dof_map_of(mesh, options);
   const Eigen::Matrix3Xd moved_m = support_displacements(mesh, options, loads);
   if (progress) {
     progress("static step, " + std::to_string(dof_map.dof_count()) + " degrees of freedom");

@@ -143,6 +143,16 @@ DofMap DofMap::part(std::span<const std::int32_t> nodes, std::span<const std::in
   return result;
 }
 
+void DofMap::renumber(std::span<const std::int32_t> order) {
+  std::vector<std::int32_t> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    place[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
+  for (std::int32_t& block : indices_) {
+    if (block >= 0) block = place[static_cast<std::size_t>(block)];
+  }
+  is_renumbered_ = true;
+}
+
 std::span<const DofTerm> DofMap::terms(std::int32_t site, int a) const {
   const auto row = 3 * static_cast<std::size_t>(composite_of_[static_cast<std::size_t>(site)]) +
                    static_cast<std::size_t>(a);

@@ -16,9 +16,9 @@ namespace flexneck::fe_modal {
 /// Numbers the degrees of freedom that constraints leave, in blocks of three. Sites have three
 /// each: the nodes of the mesh, then of each reference point its translation and its rotation
 /// (mesher/mesh/connections.h). A site has a block if one of its degrees of freedom is independent;
-/// nodes tied to one another share it. Blocks keep the order of the sites. Degree of freedom
-/// 3 block + a is direction a of its site; a dependent one keeps its place, without stiffness or
-/// mass, and is zero.
+/// nodes tied to one another share it. Blocks keep the order of the sites until renumber(). Degree
+/// of freedom 3 block + a is direction a of its site; a dependent one keeps its place, without
+/// stiffness or mass, and is zero.
 class DofMap {
  public:
   /// @param fixed nodes fixed in all directions, in range; a node tied to one of them is fixed too
@@ -39,6 +39,11 @@ class DofMap {
   /// @param numbers takes what the blocks are in the whole
   DofMap part(std::span<const std::int32_t> nodes, std::span<const std::int32_t> more,
               std::vector<std::int32_t>& numbers) const;
+
+  /// Numbers the blocks in an order, a permutation of them: entry k becomes block k.
+  /// @pre not constrained
+  void renumber(std::span<const std::int32_t> order);
+  bool is_renumbered() const { return is_renumbered_; }
 
   Eigen::Index node_count() const { return node_count_; }
   Eigen::Index site_count() const { return static_cast<Eigen::Index>(indices_.size()); }
@@ -91,6 +96,7 @@ class DofMap {
   std::vector<std::int32_t> indices_;  ///< (sites)
   Eigen::Index node_count_ = 0;
   Eigen::Index free_count_ = 0;
+  bool is_renumbered_ = false;
   std::int32_t first_point_block_ = 0;
   std::vector<std::int32_t> composite_of_;  ///< (sites), empty if all are plain
   std::vector<std::size_t> offsets_ = {0};  ///< of the terms of each composite's three directions

@@ -2,6 +2,7 @@
 #include "fe_modal/solve/assembled_system.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "fe_modal/solve/iterative/schwarz_inverse.h"
 #include "fe_modal/solve/mumps_inverse.h"
 #include "fe_modal/system/assembly.h"
+#include "fe_modal/system/elimination_order.h"
 #include "geometry/foundation/error.h"
 #include "mesher/partition/element_partition.h"
 #include "mesher/partition/node_order.h"
@@ -34,21 +36,11 @@ void require_work_for_all(const std::vector<std::int32_t>& rank_of_element, int 
                    std::to_string(rank_of_element.size()) + " elements: start fewer ranks");
 }
 
-/// The order of all nodes as one of the free ones; of tied nodes the first one counts.
-std::vector<std::int32_t> order_of_free(const std::vector<std::int32_t>& node_order,
-                                        const DofMap& dof_map) {
-  std::vector<std::int32_t> order;
-  std::vector<bool> has_come(static_cast<std::size_t>(dof_map.free_count()));
-  for (const std::int32_t node : node_order) {
-    const std::int32_t index = dof_map.index(node);
-    if (index < 0 || has_come[static_cast<std::size_t>(index)]) continue;
-    has_come[static_cast<std::size_t>(index)] = true;
-    order.push_back(index);
-  }
-  // Rigid couplings last: they couple all of a face.
-  for (std::size_t k = 0; !order.empty() && k < has_come.size(); ++k) {
-    if (!has_come[k]) order.push_back(static_cast<std::int32_t>(k));
-  }
+/// Known from the beginning; else empty.
+std::vector<std::int32_t> given_order(const ModalOptions& options, const DofMap& dof_map) {
+  if (!dof_map.is_renumbered()) return order_of_blocks(options.node_order, dof_map);
+  std::vector<std::int32_t> order(static_cast<std::size_t>(dof_map.free_count()));
+  std::iota(order.begin(), order.end(), 0);
   return order;
 }
 
@@ -87,7 +79,7 @@ AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map
       fields_(dof_map, layout_of(options.ranks, mesh, dof_map, sharing_.rank_of_element)),
       part_(part_of(ranks(), mesh, dof_map, sharing_.rank_of_element)),
       exchange_(fields_.layout(), rows_of(part_.blocks())),
-      order_(order_of_free(options.node_order, dof_map)),
+      order_(given_order(options, dof_map)),
       has_order_(!order_.empty()) {
   ranks().together([&] {
     matrices_ = std::make_unique<SystemMatrices>(assemble(
@@ -130,11 +122,13 @@ std::unique_ptr<ShiftInverse> AssembledSystem::shift_inverse(double shift) const
     return std::make_unique<MumpsInverse>(fields_.layout(), *matrices_, shift, part_.blocks(),
                                           order());
   }
-  if (shift == 0) {
-    return std::make_unique<CholeskyFactor>(matrices_->stiffness.get(), shift, order());
-  }
-  return std::make_unique<CholeskyFactor>(shifted_stiffness(*matrices_, shift).get(), shift,
-                                          order());
+  const auto factor_of = [&](Mat matrix) -> std::unique_ptr<ShiftInverse> {
+    if (fields_.dof_map().is_renumbered())
+      return std::make_unique<CholeskyFactor>(matrix, shift, AsNumbered());
+    return std::make_unique<CholeskyFactor>(matrix, shift, order());
+  };
+  return factor_of(shift == 0 ? matrices_->stiffness.get()
+                              : shifted_stiffness(*matrices_, shift).get());
 }
 
 std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) const {

@@ -24,7 +24,7 @@ const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 MatHandle diagonal_matrix(const Eigen::VectorXd& diagonal) {
   MatHandle matrix;
   const auto size = static_cast<PetscInt>(diagonal.size());
-  require(MatCreateSeqAIJ(PETSC_COMM_SELF, size, size, 1, nullptr, matrix.out()), "making");
+  require(MatCreateSeqSBAIJ(PETSC_COMM_SELF, 1, size, size, 1, nullptr, matrix.out()), "making");
   for (PetscInt k = 0; k < size; ++k) {
     require(MatSetValue(matrix.get(), k, k, diagonal[k], INSERT_VALUES), "filling");
   }

@@ -2,11 +2,8 @@
 #include "fe_modal/solve/iterative/subdomain_factor.h"
 
 #include <algorithm>
-#include <cholmod.h>
-#include <memory>
 
-#include "fe_modal/algebra/cholesky_factor.h"
-#include "geometry/foundation/error.h"
+#include "fe_modal/algebra/cholmod_handles.h"
 
 // The BLAS in single precision: PETSc declares that of its own precision only.
 extern "C" {
@@ -19,72 +16,14 @@ void strsm_(const char* side, const char* triangle, const char* transpose, const
 }
 
 namespace flexneck::fe_modal {
-namespace {
-
-/// CHOLMOD's settings and workspace.
-class Session {
- public:
-  Session() {
-    cholmod_start(&common_);
-    common_.print = 0;
-    common_.nmethods = 1;
-    common_.method[0].ordering = CHOLMOD_GIVEN;
-    common_.supernodal = CHOLMOD_SUPERNODAL;
-  }
-  ~Session() { cholmod_finish(&common_); }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
-  cholmod_common* get() { return &common_; }
-
- private:
-  cholmod_common common_{};
-};
-
-struct FreeFactor {
-  Session* session;
-  void operator()(cholmod_factor* factor) const { cholmod_free_factor(&factor, session->get()); }
-};
-using Factor = std::unique_ptr<cholmod_factor, FreeFactor>;
-
-/// The upper half by rows is, to CHOLMOD, the lower half by columns; it only reads.
-cholmod_sparse view_of(const SymmetricMatrix& matrix) {
-  cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<std::size_t>(matrix.size());
-  view.nzmax = matrix.values().size();
-  view.p = const_cast<int*>(matrix.offsets().data());
-  view.i = const_cast<int*>(matrix.columns().data());
-  view.x = const_cast<double*>(matrix.values().data());
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
-}
-
-Factor factorise(const SymmetricMatrix& matrix, std::span<const std::int32_t> node_order,
-                 Session& session) {
-  std::vector<int> order;
-  order.reserve(3 * node_order.size());
-  for (const std::int32_t node : node_order) {
-    for (int a = 0; a < 3; ++a) order.push_back(3 * node + a);
-  }
-  cholmod_sparse view = view_of(matrix);
-  Factor factor(cholmod_analyze_p(&view, order.data(), nullptr, 0, session.get()), {&session});
-  if (factor) cholmod_factorize(&view, factor.get(), session.get());
-  if (session.get()->status == CHOLMOD_NOT_POSDEF) throw ComputationError(kNotDefinite);
-  if (session.get()->status < 0) throw ComputationError("a subdomain has not been factorised");
-  return factor;
-}
-
-}  // namespace
 
 SubdomainFactor::SubdomainFactor(const SymmetricMatrix& matrix,
                                  std::span<const std::int32_t> node_order) {
-  Session session;
-  const Factor factor = factorise(matrix, node_order, session);
+  CholmodSession session(CholmodOrder::given);
+  session.get()->supernodal = CHOLMOD_SUPERNODAL;
+  const cholmod_sparse view = cholmod_view(matrix.offsets(), matrix.columns(), matrix.values());
+  CholmodFactor factor = analyse(view, order_of_dofs(node_order), session);
+  factorise(view, factor, session);
   const auto* const permutation = static_cast<const int*>(factor->Perm);
   order_.assign(permutation, permutation + factor->n);
   const auto* const rows = static_cast<const int*>(factor->s);
