@@ -12,6 +12,7 @@
 #include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/analysis/static_analysis.h"
 #include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -123,13 +124,13 @@ ModalOptions with_prestress(const mesher::Mesh& mesh, ModalOptions options,
 
 std::optional<double> buckling_factor(const mesher::Mesh& mesh, const DofMap& dof_map,
                                       const ModalOptions& options) {
-  const AssembledSystem stressed(mesh, dof_map, alone(options));
+  const SymmetricMatrix geometric =
+      assemble_geometric(mesh, dof_map, options.formulation, options.prestress_m);
   const AssembledSystem system(mesh, dof_map, alone(without_prestress(options)));
   const std::unique_ptr<const ShiftInverse> factor = system.shift_inverse(0);
   Inverse inverse{factor.get(), {}};
   const OperatorMatrix compression(dof_map.dof_count(), [&](const Eigen::MatrixXd& columns) {
-    return Eigen::MatrixXd(block_product(system.stiffness(), columns) -
-                           block_product(stressed.stiffness(), columns));
+    return Eigen::MatrixXd(-block_product(geometric, columns));
   });
   const double value = largest_eigenvalue(compression.get(), system.stiffness(), inverse);
   if (!(value * kLargestFactor > 1)) return std::nullopt;

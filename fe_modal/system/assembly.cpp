@@ -180,6 +180,37 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
   return system;
 }
 
+SymmetricMatrix assemble_geometric(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                   const FormulationChoice& formulation,
+                                   const Eigen::Matrix3Xd& prestress_m) {
+  SymmetricMatrix result{NodeGraph(mesh, dof_map)};
+  SortedNodes sorted;
+  Eigen::MatrixXd displacements_m;
+  for (const mesher::ElementBlock& block : mesh.blocks) {
+    const mesher::Material& material = mesh.materials.at(block.material);
+    GeometricKernel kernel(element_scheme(block.kind, formulation.of(material)));
+    const std::size_t width = mesher::nodes_per_element(block.kind);
+    Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
+    Eigen::MatrixXd element(3 * coordinates.cols(), 3 * coordinates.cols());
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      const auto nodes = std::span(block.nodes).subspan(width * e, width);
+      mesher::copy_positions(mesh, nodes, coordinates);
+      gather(nodes, {&prestress_m}, displacements_m);
+      element.setZero();
+      kernel.add(coordinates, material, displacements_m, element);
+      if (dof_map.is_constrained()) {
+        const ConstrainedElement constrained(nodes, dof_map);
+        sorted.assign(constrained.numbers(), [](std::int32_t number) { return number; });
+        add_stiffness(sorted, constrained.reduced(element), result);
+      } else {
+        sorted.assign(nodes, [&](std::int32_t node) { return dof_map.index(node); });
+        add_stiffness(sorted, element, result);
+      }
+    }
+  }
+  return result;
+}
+
 SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift) {
   SymmetricMatrix result = system.stiffness.clone();
   if (system.constrained_mass) {

@@ -35,6 +35,14 @@ SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
                         const FormulationChoice& formulation = {},
                         const Eigen::Matrix3Xd& prestress_m = Eigen::Matrix3Xd());
 
+/// Geometric stiffness alone, N/m, of the stresses of a displacement field: as the difference of
+/// two stiffnesses it would have their rounding errors, which in a slender body are large beside
+/// it.
+/// @param prestress_m displacements of all nodes, (3, n)
+SymmetricMatrix assemble_geometric(const mesher::Mesh& mesh, const DofMap& dof_map,
+                                   const FormulationChoice& formulation,
+                                   const Eigen::Matrix3Xd& prestress_m);
+
 /// K - shift M.
 SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift);
 
