@@ -95,7 +95,7 @@ ElementOperator::ElementOperator(const mesher::Mesh& mesh, const DofMap& dof_map
 
 ElementOperator::Products ElementOperator::multiply(const Eigen::MatrixXd& columns,
                                                     bool with_mass) const {
-  const NodalRows motions = rows_of_nodes(dof_map_, columns);
+  NodalRows motions = rows_of_nodes(dof_map_, columns);
   NodalRows forces = NodalRows::Zero(motions.rows(), motions.cols());
   NodalRows momenta;
   if (with_mass) momenta.setZero(motions.rows(), motions.cols());
@@ -130,7 +130,11 @@ ElementOperator::Products ElementOperator::multiply(const Eigen::MatrixXd& colum
                    }
                  });
   Products products;
+  // What is done with gives its memory to the next: these are as large as the vectors of a
+  // solution.
+  motions.resize(0, 0);
   products.forces = gathered(dof_map_, forces);
+  forces.resize(0, 0);
   if (with_mass) products.momenta = gathered(dof_map_, momenta);
   for (const Point& point : points_) {
     const std::span<const std::int32_t> numbers = point.element.numbers();

@@ -173,9 +173,10 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
               columns.vectors()};
     }
     columns.combine(step == 0 ? ritz.vectors : with_directions(ritz.vectors, rigid_count));
-    const Eigen::MatrixXd residuals = residuals_of(columns, ritz.values, rigid_count);
+    Eigen::MatrixXd residuals = residuals_of(columns, ritz.values, rigid_count);
     Eigen::MatrixXd directions = system.precondition(residuals);
-    directions += system.solve_cells(residuals - system.forces(directions));
+    residuals -= system.forces(directions);
+    directions += system.solve_cells(residuals);
     columns.append(directions, system.products(directions));
   }
   throw ComputationError(
