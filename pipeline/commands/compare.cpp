@@ -60,12 +60,13 @@ bool compare_command(const FileInput& input) {
     // Without a study of its own: a folder is what it is, not to be measured by today's values.
     studies.push_back(
         {label_of(folder, input.files), read_results(folder, Study()), study_of(folder), folder});
-    if (studies.back().results.files.empty()) {
-      throw InputError(folder.string() + ": holds no results; make them with 'flexneck run -o " +
-                       folder.string() + "'");
-    }
-    for (const std::string& warning : studies.back().results.warnings)
+    const Results& results = studies.back().results;
+    if (results.files.empty()) refuse_without_results(folder);
+    for (const std::string& warning : results.warnings)
       input.console.warning(studies.back().label + ": " + warning);
+    if (const std::size_t count = results.run_warnings.size(); count > 0)
+      input.console.warning(fmt::format("{}: its runs have {} warning{}, which the page shows",
+                                        studies.back().label, count, count == 1 ? "" : "s"));
   }
   input.folder.make();
   const std::vector<ResultTable> tables = compared_tables(studies);

@@ -4,6 +4,7 @@
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/pendulum_cases.h"
 #include "pipeline/commands/shown_tables.h"
+#include "pipeline/console/wrapped_text.h"
 #include "pipeline/experiments/pendulum_tables.h"
 #include "pipeline/experiments/pulse_tables.h"
 #include "pipeline/experiments/relaxation_table.h"
@@ -90,6 +91,11 @@ void write_pendulum_tables(const CommandInput& input, const PendulumResults& kno
   tables.insert(tables.end(), measured.begin(), measured.end());
   show_tables(input, tables);
   input.console.result("\nAll figures: " + input.folder.file("pendulum.json").string());
+  for (const std::string& line : scaling_lines(entries)) {
+    std::string text = wrapped(line, "");
+    text.pop_back();
+    input.console.result(text);
+  }
   for (const std::string& warning : pulse_warnings(entries)) input.console.warning(warning);
 }
 

@@ -9,12 +9,10 @@ namespace flexneck::pipeline {
 bool report_command(const CommandInput& input) {
   const std::filesystem::path page = input.folder.file("report.html");
   const Results results = read_results(page.parent_path(), input.study);
-  if (results.files.empty() && results.warnings.empty())
-    throw InputError(page.parent_path().string() +
-                     ": there are no results to report; 'flexneck run -o " +
-                     page.parent_path().string() + "' makes them");
+  if (results.files.empty() && results.warnings.empty()) refuse_without_results(page.parent_path());
   input.console.step("Writing the report");
-  for (const std::string& warning : results.warnings) input.console.warning(warning);
+  for (const std::string& warning : input.is_run ? results.warnings : results.all_warnings())
+    input.console.warning(warning);
   write_report(page, results, input.study);
   input.console.result("\nReport: " + page.string());
   return true;

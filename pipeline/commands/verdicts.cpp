@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/commands/shown_tables.h"
 #include "pipeline/experiments/test_curves.h"
@@ -23,9 +24,13 @@ std::optional<multibody::HistoryFile> run_of(const CommandInput& input,
   const std::filesystem::path path = input.folder.history(section);
   if (!std::filesystem::exists(path)) return {};
   multibody::HistoryFile file = read_history(path);
-  const bool swings = section.kind == CaseSection::Kind::pendulum;
+  const std::string made_by =
+      section.kind == CaseSection::Kind::pendulum ? "flexneck pendulum" : "flexneck static";
   require_same_inputs(path, file.provenance, study, case_provenance(study, section).parameters,
-                      swings ? "flexneck pendulum" : "flexneck static");
+                      made_by);
+  if (const std::string source = replaced_source(path, file.provenance); !source.empty())
+    throw InputError(path.string() + ": was made from another " + source +
+                     " than the one beside it; make it again with '" + made_by + "'");
   require_whole_run(path, file.history);
   return file;
 }
@@ -91,6 +96,8 @@ void write_verdicts(const CommandInput& input) {
   Provenance provenance = provenance_of(input.study);
   const std::vector<InputFile> regulations = regulation_files(input.study);
   provenance.inputs.insert(provenance.inputs.end(), regulations.begin(), regulations.end());
+  if (const std::filesystem::path modes = input.folder.modes(); std::filesystem::exists(modes))
+    provenance.inputs.push_back({modes.filename().string(), hash_of_file(modes.string())});
   std::vector<ResultTable> tables;
   if (!tests.empty()) tables.push_back(verdict_table(tests, input.study));
   if (ResultTable figures = verdict_figure_table(tests); !figures.rows.empty())

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -53,18 +55,20 @@ bool has_own_pulse(const PendulumEntry& entry, const std::vector<PendulumEntry>&
   });
 }
 
+double largest_deceleration_m_s2(const FittedPulse& pulse) {
+  return *std::max_element(pulse.deceleration_m_s2.begin(), pulse.deceleration_m_s2.end());
+}
+
 std::vector<std::string> pulse_cells(const PendulumEntry& entry) {
   const double in = factor_from_si("m", "in");
   const FittedPulse& pulse = entry.pulse;
-  const double largest =
-      *std::max_element(pulse.deceleration_m_s2.begin(), pulse.deceleration_m_s2.end());
   return {entry.experiment.pulse,
           fmt::format("{:.1f}", pulse.area_m_s * in),
           fmt::format("{:+.1f}", 100 * (pulse.area_m_s / entry.experiment.impact_velocity_m_s - 1)),
           fmt::format("{:.4f}", pulse.amplitude_factor),
           fmt::format("{:.4f}", pulse.duration_factor),
           fmt::format("{:.1f}", pulse.velocity_left_m_s * in),
-          fmt::format("{:.2f}", largest * factor_from_si("m/s^2", "gn")),
+          fmt::format("{:.2f}", largest_deceleration_m_s2(pulse) * factor_from_si("m/s^2", "gn")),
           fmt::format("{:.1f}", pulse.times_s.back() * 1e3)};
 }
 
@@ -123,6 +127,49 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
   for (const std::string& warning : pulse_warnings(entries))
     table.notes.push_back("Warning: " + warning);
   return table;
+}
+
+namespace {
+
+struct Span {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+
+  void take(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  bool is_one() const { return std::abs(least - 1) < 5e-3 && std::abs(most - 1) < 5e-3; }
+  std::string text() const {
+    const std::string one = fmt::format("{:.3g}", least);
+    const std::string other = fmt::format("{:.3g}", most);
+    return one == other ? one : one + " to " + other;
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> scaling_lines(const std::vector<PendulumEntry>& entries) {
+  struct Scaling {
+    Span amplitude, duration, largest_gn;
+  };
+  std::map<std::string, Scaling> of_pulses;
+  for (const PendulumEntry& entry : entries) {
+    Scaling& scaling = of_pulses[entry.experiment.pulse];
+    scaling.amplitude.take(entry.pulse.amplitude_factor);
+    scaling.duration.take(entry.pulse.duration_factor);
+    scaling.largest_gn.take(largest_deceleration_m_s2(entry.pulse) * factor_from_si("m/s^2", "gn"));
+  }
+  std::vector<std::string> lines;
+  for (const auto& [pulse, scaling] : of_pulses) {
+    if (scaling.amplitude.is_one() && scaling.duration.is_one()) continue;
+    lines.push_back(fmt::format(
+        "Pulse '{}', scaled to stop the arm: {}{}largest {} gn", pulse,
+        scaling.amplitude.is_one() ? "" : "amplitude times " + scaling.amplitude.text() + ", ",
+        scaling.duration.is_one() ? "" : "duration times " + scaling.duration.text() + ", ",
+        scaling.largest_gn.text()));
+  }
+  return lines;
 }
 
 std::vector<std::string> pulse_warnings(const std::vector<PendulumEntry>& entries) {

@@ -13,6 +13,8 @@ namespace flexneck::pipeline {
 /// to the pulse.
 ResultTable velocity_table(const std::vector<PendulumEntry>& entries);
 
+/// A line for each pulse that is scaled to take the arm's velocity.
+std::vector<std::string> scaling_lines(const std::vector<PendulumEntry>& entries);
 /// Warnings: pulses whose area is not the velocity and that are used as they are.
 std::vector<std::string> pulse_warnings(const std::vector<PendulumEntry>& entries);
 

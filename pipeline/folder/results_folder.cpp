@@ -160,6 +160,17 @@ Provenance case_provenance(const Study& study, const CaseSection& experiment) {
   return provenance_using(study, named_by(experiment));
 }
 
+std::string replaced_source(const fs::path& file, const Provenance& made_from) {
+  if (made_from.program.empty()) return {};
+  for (const InputFile& input : made_from.inputs) {
+    const fs::path source = file.parent_path() / input.name;
+    if (source.extension() == ".h5" && fs::exists(source) &&
+        hash_of_file(source.string()) != input.hash)
+      return input.name;
+  }
+  return {};
+}
+
 void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,
                          const std::vector<Parameter>& expected, const std::string& made_by) {
   if (made_from.program.empty() || study.parameters.empty()) return;

@@ -76,6 +76,10 @@ void require_same_inputs(const std::filesystem::path& file, const Provenance& ma
                          const Study& study, const std::vector<Parameter>& expected,
                          const std::string& made_by);
 
+/// The name of a file of its folder that a result was made from, if another one is there now; else
+/// empty.
+std::string replaced_source(const std::filesystem::path& file, const Provenance& made_from);
+
 /// A warning if a file is about to be replaced by one that is made from other values; else empty.
 std::string replaced_values(const std::filesystem::path& file, const FileFormat& format,
                             const Provenance& now);

@@ -189,7 +189,7 @@ Eigen::Index share_of(Eigen::Index alone, const std::vector<ComparedStudy>& stud
 std::string warnings_of(const std::vector<ComparedStudy>& studies) {
   std::vector<std::string> warnings;
   for (const ComparedStudy& study : studies)
-    for (const std::string& warning : study.results.warnings)
+    for (const std::string& warning : study.results.all_warnings())
       warnings.push_back(study.label + ": " + warning);
   return html_list(warnings);
 }

@@ -235,7 +235,7 @@ std::map<std::string, std::string> page_sections(const Results& results, const S
   const std::vector<std::string> on_pulses = pulse_remarks(study);
   if (!remarks.empty()) remarks.insert(remarks.end(), on_pulses.begin(), on_pulses.end());
   return {{"study", html_text(study.file.filename().string())},
-          {"warnings", html_list(results.warnings)},
+          {"warnings", html_list(results.all_warnings())},
           {"subject", study.neck() != nullptr
                           ? "From the geometry of a crash-test dummy's neck to its motion: "
                             "modes by finite elements, the static neck tester and the "

@@ -110,10 +110,9 @@ std::string verification_summary(const VerificationTable& table) {
 
 std::string summary_html(const Results& results, const Study& study) {
   std::string items;
-  if (!results.warnings.empty())
-    items +=
-        item("warnings", "Warnings", badge("failed", "⚠", std::to_string(results.warnings.size())),
-             "Read these before you use the results.");
+  if (const std::size_t count = results.all_warnings().size(); count > 0)
+    items += item("warnings", "Warnings", badge("failed", "⚠", std::to_string(count)),
+                  "Read these before you use the results.");
   if (results.verification) items += verification_item(*results.verification);
   items += certification_items(results);
   std::string made_by;

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/folder/results_folder.h"
@@ -75,7 +76,7 @@ class Reader {
     require("verification.json", "the comparison with published figures", "flexneck verify",
             [&](const fs::path& path) {
               VerificationFile file = read_verification(path);
-              results_.verification = std::move(file.table);
+              if (belongs(path, file.provenance)) results_.verification = std::move(file.table);
               return file.provenance;
             });
   }
@@ -86,6 +87,7 @@ class Reader {
       read(name, command, [&](const fs::path& path) {
         multibody::HistoryFile file = read_history(path);
         Provenance provenance = file.provenance;
+        if (!belongs(path, provenance)) return provenance;
         add_warnings(name, file.history);
         results_.experiments.push_back(
             {kind, path.stem().string().substr(prefix.size()), std::move(file)});
@@ -107,7 +109,8 @@ class Reader {
       if (!name.ends_with(".json") || !holds_tables(folder_ / name)) continue;
       read(name, "flexneck run", [&](const fs::path& path) {
         TableFile file = read_tables(path);
-        std::move(file.tables.begin(), file.tables.end(), std::back_inserter(results_.tables));
+        if (belongs(path, file.provenance))
+          std::move(file.tables.begin(), file.tables.end(), std::back_inserter(results_.tables));
         return file.provenance;
       });
     }
@@ -124,6 +127,19 @@ class Reader {
     for (const std::string& program : programs) list += (list.empty() ? "" : ", ") + program;
     results_.warnings.push_back("The files in this folder were made by different versions: " +
                                 list + ". Make them again with 'flexneck run --force'.");
+  }
+
+  void tell_left_out() {
+    constexpr std::size_t kShown = 3;
+    for (const auto& [source, names] : left_out_) {
+      const auto shown = static_cast<std::ptrdiff_t>(std::min(kShown, names.size()));
+      results_.warnings.push_back(fmt::format(
+          "{} of this folder, made from another {} than the one in it, {} left out: {}{}; "
+          "'flexneck run' makes all of one study.",
+          names.size() == 1 ? "A file" : fmt::format("{} files", names.size()), source,
+          names.size() == 1 ? "is" : "are", fmt::join(names.begin(), names.begin() + shown, ", "),
+          names.size() > kShown ? ", …" : ""));
+    }
   }
 
  private:
@@ -144,6 +160,10 @@ class Reader {
     const fs::path path = folder_ / name;
     try {
       const Provenance provenance = read_file(path);
+      if (!belongs(path, provenance)) {
+        left_out_[replaced_source(path, provenance)].push_back(name);
+        return;
+      }
       results_.files.push_back({name, hash_of_file(path.string()), provenance});
       require_same_inputs(name, provenance, study_, {}, command);
     } catch (const InputError& error) {
@@ -163,14 +183,19 @@ class Reader {
 
   void add_warnings(const std::string& name, const multibody::History& history) {
     for (const std::string& warning : history.warnings)
-      results_.warnings.push_back(name + ": " + warning);
+      results_.run_warnings.push_back(name + ": " + warning);
     if (!history.incomplete.empty())
-      results_.warnings.push_back(name + ": the run ended early: " + history.incomplete);
+      results_.run_warnings.push_back(name + ": the run ended early: " + history.incomplete);
+  }
+
+  static bool belongs(const fs::path& path, const Provenance& provenance) {
+    return replaced_source(path, provenance).empty();
   }
 
   fs::path folder_;
   const Study& study_;
   Results results_;
+  std::map<std::string, std::vector<std::string>> left_out_;  ///< by what was replaced
 };
 
 }  // namespace
@@ -197,6 +222,26 @@ bool comes_before(const std::string& a, const std::string& b) {
   return a.size() - i < b.size() - j;
 }
 
+std::vector<std::string> Results::all_warnings() const {
+  std::vector<std::string> all = warnings;
+  all.insert(all.end(), run_warnings.begin(), run_warnings.end());
+  return all;
+}
+
+void refuse_without_results(const fs::path& folder) {
+  const std::vector<std::string> names = names_in(folder);
+  const auto run = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return name.ends_with(".h5") && fs::exists((folder / name).replace_extension(".csv"));
+  });
+  if (run != names.end())
+    throw InputError(folder.string() +
+                     ": holds runs of models, which have no page; 'flexneck info " +
+                     (folder / *run).string() + "' shows one, and its curves are in " +
+                     fs::path(*run).replace_extension(".csv").string());
+  throw InputError(folder.string() + ": holds no results; 'flexneck run -o " + folder.string() +
+                   "' makes those of the built-in study");
+}
+
 const Experiment* Results::find(Experiment::Kind kind, const std::string& name) const {
   const auto found =
       std::find_if(experiments.begin(), experiments.end(),
@@ -213,6 +258,7 @@ Results read_results(const fs::path& folder, const Study& study) {
   reader.verification();
   reader.tables();
   reader.compare_versions();
+  reader.tell_left_out();
   return std::move(reader).take();
 }
 

@@ -36,8 +36,13 @@ MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Ma
     if (material.has("formulation")) model.formulation = read_formulation(material);
     model.static_modulus_ratio = material.number("static_modulus_ratio");
     for (const std::string& part : material.texts("parts")) {
-      if (!material_of_part.emplace(part, name).second) {
-        material.refuse("parts", "the part '" + part + "' has another material already");
+      const auto [known, is_new] = material_of_part.emplace(part, name);
+      if (!is_new) {
+        const std::string& other = known->second;
+        material.refuse("parts", "the part '" + part + "' is of the material '" + other +
+                                     "' already; take it away there, e.g. parts = [] in "
+                                     "[geometry.materials." +
+                                     other + "]");
       }
     }
     material.finish();

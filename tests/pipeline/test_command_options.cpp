@@ -97,6 +97,12 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
   CHECK(modes.exit_code == 0);
   CHECK_THAT(modes.text,
              Contains("Study of " + (folder / "out").string() + ": the built-in one --set mesh."));
+  // Runs of the modes before are neither shown nor judged beside these.
+  CHECK_THAT(run_flexneck("report" + out).text,
+             Contains("made from another modes.h5 than the one in it, are left out"));
+  check_refused(run_flexneck("verify" + out),
+                "was made from another modes.h5 than the one beside it; make it again with "
+                "'flexneck pendulum'");
   const CommandOutcome tester = run_flexneck("static" + out);
   CHECK(tester.exit_code == 0);
   CHECK_THAT(tester.text, Contains("--set modes.count=8"));
@@ -145,7 +151,7 @@ made_by = "flexneck run cantilever -o out/bar"
 TEST_CASE("a folder of results is described, and one without results has no report") {
   const TemporaryFolder folder;
   check_refused(told_by(folder, "report -o none"),
-                "none: there are no results to report; 'flexneck run -o none' makes them");
+                "none: holds no results; 'flexneck run -o none' makes those of the built-in study");
   CHECK_FALSE(fs::exists(folder / "none"));
   check_refused(told_by(folder, "info ."), "expected a folder of results");
   REQUIRE(printed_by(folder, "run -q cantilever -o bar").exit_code == 0);

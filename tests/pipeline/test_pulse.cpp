@@ -10,6 +10,7 @@
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/pulse_spectrum.h"
+#include "pipeline/experiments/pulse_tables.h"
 #include "pipeline/model/pulse.h"
 #include "tests/support/beam_experiment.h"
 
@@ -84,4 +85,23 @@ TEST_CASE("a user's pulse comes from a CSV file with its units") {
   const testing::BeamExperiment built_in;
   const FittedPulse pulse = case_pulse(study, built_in.named("flexion-120"));
   CHECK(pulse.area_m_s == Approx(0.5 * 0.05 * 20 * 9.80665));
+}
+
+TEST_CASE("what is done to a pulse is told in a line, where anything is") {
+  const auto entry_with = [](double velocity_m_s, PulseFit fit) {
+    PendulumEntry entry;
+    entry.experiment.pulse = "mine";
+    entry.pulse = fitted_pulse(kTimes, kValues, velocity_m_s, fit);
+    return entry;
+  };
+  const double own_m_s = area(kTimes, kValues);
+  CHECK(scaling_lines({entry_with(own_m_s, PulseFit::amplitude)}).empty());
+  CHECK(scaling_lines({entry_with(own_m_s / 2, PulseFit::none)}).empty());
+  CHECK(scaling_lines({entry_with(own_m_s / 2, PulseFit::amplitude),
+                       entry_with(own_m_s / 4, PulseFit::amplitude)}) ==
+        std::vector<std::string>{"Pulse 'mine', scaled to stop the arm: amplitude times 0.25 to "
+                                 "0.5, largest 5.1 to 10.2 gn"});
+  CHECK(scaling_lines({entry_with(2 * own_m_s, PulseFit::duration)}) ==
+        std::vector<std::string>{"Pulse 'mine', scaled to stop the arm: duration times 2, largest "
+                                 "20.4 gn"});
 }

@@ -122,6 +122,10 @@ void export_motion_csv(const FileInput& input) {
 void export_motion_pvd(const FileInput& input) {
   const fs::path& file = input.files.front();
   const multibody::History history = whole_run(input).history;
+  if (history.modal.empty())
+    throw InputError(file.string() +
+                     ": expected a run with a deformable body, whose mesh is drawn, "
+                     "found rigid ones only");
   const ResultsFolder folder(file.parent_path());
   const mesher::Mesh mesh = read_mesh(folder.mesh()).mesh;
   const fe_modal::ModalBody body = read_modal_body(folder.modes()).body;
