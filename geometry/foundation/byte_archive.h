@@ -113,6 +113,7 @@ class ByteReader {
  private:
   void get_raw(void* data, std::size_t size) {
     if (size > rest_.size()) refuse();
+    if (size == 0) return;  // then either may be null, which memcpy() does not take
     std::memcpy(data, rest_.data(), size);
     rest_.remove_prefix(size);
   }

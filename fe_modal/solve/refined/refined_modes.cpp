@@ -36,6 +36,7 @@ class Columns {
       : vectors_(rows, capacity), forces_(rows, capacity), momenta_(rows, capacity) {}
 
   Eigen::Index count() const { return count_; }
+  void clear() { count_ = 0; }
   auto vectors() const { return vectors_.leftCols(count_); }
   auto forces() const { return forces_.leftCols(count_); }
   auto momenta() const { return momenta_.leftCols(count_); }
@@ -68,7 +69,8 @@ class Columns {
   Eigen::Index count_ = 0;
 };
 
-/// The lowest pairs of the projection on the columns, as combinations of them.
+/// The lowest pairs of the projection on the columns, as combinations of them; fewer where the
+/// columns depend on one another.
 EigenPairs ritz_pairs(const Ranks& ranks, const Columns& columns, Eigen::Index count) {
   const Eigen::MatrixXd stiffness = inner_products(ranks, columns.vectors(), columns.forces());
   const Eigen::MatrixXd mass = inner_products(ranks, columns.vectors(), columns.momenta());
@@ -80,6 +82,7 @@ EigenPairs ritz_pairs(const Ranks& ranks, const Columns& columns, Eigen::Index c
       scale.asDiagonal() * lengths.eigenvectors().rightCols(kept) *
       lengths.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.transpose() * stiffness * basis);
+  count = std::min(count, kept);
   return {ritz.eigenvalues().head(count), basis * ritz.eigenvectors().leftCols(count)};
 }
 
@@ -147,10 +150,16 @@ Eigen::MatrixXd with_directions(const Eigen::MatrixXd& best, Eigen::Index rigid_
   return combination;
 }
 
-/// The modes of the mesh before, with what is within its elements as it must be.
+/// The modes of the mesh before, with what is within its elements as it must be. Where nothing is
+/// left of some, which were within an element, all are taken as they were.
 void start(const RefinedSystem& system, const EigenPairs& coarse, Columns& columns) {
   Eigen::MatrixXd vectors = system.prolonged(coarse.vectors);
   vectors -= system.solve_cells(system.forces(vectors));
+  columns.append(vectors, system.products(vectors));
+  const Eigen::Index count = coarse.values.size();
+  if (ritz_pairs(system.ranks(), columns, count).values.size() == count) return;
+  columns.clear();
+  vectors = system.prolonged(coarse.vectors);
   columns.append(vectors, system.products(vectors));
 }
 
