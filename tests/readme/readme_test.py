@@ -168,7 +168,7 @@ def main():
             folder = session.folder_for(readme, with_run=not begins)
             for command in readme.commands:
                 session.command(command, folder)
-            for text in readme.python:
+            for text in readme.python if (BUILD / "python").exists() else []:
                 session.python(text, folder)
         if not ONLY:
             session.problems += [f"no README has a command like {each}: take it off the list"
