@@ -72,7 +72,8 @@ std::string html_of(const DrawnFigure& drawn) {
   const bool is_of_paper = figure.number > 0;
   const std::string name = is_of_paper ? fmt::format("Figure {}", figure.number) : "Picture";
   std::string html = "<figure id=\"" + stem_of(figure) + "\"" +
-                     (shows_neck(figure) ? " data-shows=\"neck\"" : "") + ">\n";
+                     (shows_neck(figure) && !drawn.svg.empty() ? " data-shows=\"neck\"" : "") +
+                     ">\n";
   if (!drawn.svg.empty()) {
     html += "<img loading=\"lazy\" alt=\"" + name + ": " + html_text(figure.caption) +
             "\" src=\"data:image/svg+xml;base64," + base64(std::as_bytes(std::span(drawn.svg))) +

@@ -558,6 +558,21 @@ class WithoutWebGL(Page, unittest.TestCase):
         self.assertGreaterEqual(len(sizes), 3)
         self.assertGreater(min(sizes), 100)
 
+    def test_figures_that_are_not_drawn_do_not_stand_in(self):
+        workshop = tempfile.TemporaryDirectory()
+        self.addCleanup(workshop.cleanup)
+        folder = Path(workshop.name) / "less"
+        shutil.copytree(self.folder, folder)
+        for run in folder.glob("static-*"):
+            run.unlink()
+        subprocess.run([FLEXNECK, "report", "-q", "-o", folder], check=True)
+        page = (folder / "report.html").read_text()
+        self.assertIn("Not drawn:", page)
+        type(self).browser = open_browser("disable-3d-apis", "disable-gpu")
+        self.addCleanup(self.browser.quit)
+        self.browser.get((folder / "report.html").as_uri())
+        self.wait(lambda _: self.browser.find_elements(By.CSS_SELECTOR, ".viewer figure img"))
+
 
 if __name__ == "__main__":
     for program in ("chromium", "chromedriver"):
