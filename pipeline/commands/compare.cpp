@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/core.h>
+
 #include "geometry/foundation/error.h"
 #include "pipeline/commands/file_commands.h"
 #include "pipeline/folder/remembered_study.h"

@@ -70,20 +70,21 @@ void SubdomainFactor::backward(Eigen::MatrixXf& x) const {
   const float one = 1;
   const float minus_one = -1;
   Eigen::MatrixXf below;
-  for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
-    const float* const block = values_.data() + node->block;
-    float* const own = x.data() + node->first;
-    const int more = node->rows - node->columns;
+  for (std::size_t k = supernodes_.size(); k-- > 0;) {
+    const Supernode& node = supernodes_[k];
+    const float* const block = values_.data() + node.block;
+    float* const own = x.data() + node.first;
+    const int more = node.rows - node.columns;
     if (more > 0) {
       below.resize(more, count);
-      const int* const rows = rows_.data() + node->row_list + node->columns;
+      const int* const rows = rows_.data() + node.row_list + node.columns;
       for (int j = 0; j < count; ++j) {
         for (int i = 0; i < more; ++i) below(i, j) = x(rows[i], j);
       }
-      sgemm_("T", "N", &node->columns, &count, &more, &minus_one, block + node->columns,
-             &node->rows, below.data(), &more, &one, own, &size);
+      sgemm_("T", "N", &node.columns, &count, &more, &minus_one, block + node.columns, &node.rows,
+             below.data(), &more, &one, own, &size);
     }
-    strsm_("L", "L", "T", "N", &node->columns, &count, &one, block, &node->rows, own, &size);
+    strsm_("L", "L", "T", "N", &node.columns, &count, &one, block, &node.rows, own, &size);
   }
 }
 
