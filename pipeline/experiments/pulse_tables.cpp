@@ -139,7 +139,7 @@ struct Span {
     least = std::min(least, value);
     most = std::max(most, value);
   }
-  bool is_one() const { return std::abs(least - 1) < 5e-3 && std::abs(most - 1) < 5e-3; }
+  bool is_one() const { return text() == "1"; }
   std::string text() const {
     const std::string one = fmt::format("{:.3g}", least);
     const std::string other = fmt::format("{:.3g}", most);

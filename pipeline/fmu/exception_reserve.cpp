@@ -2,9 +2,11 @@
 // Of the shared object that has libstdc++ in itself.
 
 // Its reserve for exceptions, which libstdc++ keeps to the end of a process.
-namespace __gnu_cxx {  // NOLINT(bugprone-reserved-identifier): the library's own
-void __freeres();      // NOLINT(bugprone-reserved-identifier)
+// NOLINTBEGIN(bugprone-reserved-identifier): the library's own names
+namespace __gnu_cxx {
+void __freeres();
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace {
 

@@ -59,7 +59,7 @@ class Reader {
   void mesh() {
     require("mesh.h5", "the mesh", "flexneck mesh", [&](const fs::path& path) {
       mesher::MeshFile file = read_mesh(path);
-      results_.mesh = std::move(file.mesh);
+      if (belongs("mesh.h5", file.provenance)) results_.mesh = std::move(file.mesh);
       return file.provenance;
     });
   }
@@ -67,7 +67,7 @@ class Reader {
   void modes() {
     require("modes.h5", "the modes", "flexneck modes", [&](const fs::path& path) {
       fe_modal::ModalBodyFile file = read_modal_body(path);
-      results_.modes = std::move(file.body);
+      if (belongs("modes.h5", file.provenance)) results_.modes = std::move(file.body);
       return file.provenance;
     });
   }
@@ -76,7 +76,8 @@ class Reader {
     require("verification.json", "the comparison with published figures", "flexneck verify",
             [&](const fs::path& path) {
               VerificationFile file = read_verification(path);
-              if (belongs(path, file.provenance)) results_.verification = std::move(file.table);
+              if (belongs("verification.json", file.provenance))
+                results_.verification = std::move(file.table);
               return file.provenance;
             });
   }
@@ -87,7 +88,7 @@ class Reader {
       read(name, command, [&](const fs::path& path) {
         multibody::HistoryFile file = read_history(path);
         Provenance provenance = file.provenance;
-        if (!belongs(path, provenance)) return provenance;
+        if (!belongs(name, provenance)) return provenance;
         add_warnings(name, file.history);
         results_.experiments.push_back(
             {kind, path.stem().string().substr(prefix.size()), std::move(file)});
@@ -109,7 +110,7 @@ class Reader {
       if (!name.ends_with(".json") || !holds_tables(folder_ / name)) continue;
       read(name, "flexneck run", [&](const fs::path& path) {
         TableFile file = read_tables(path);
-        if (belongs(path, file.provenance))
+        if (belongs(name, file.provenance))
           std::move(file.tables.begin(), file.tables.end(), std::back_inserter(results_.tables));
         return file.provenance;
       });
@@ -134,7 +135,7 @@ class Reader {
     for (const auto& [source, names] : left_out_) {
       const auto shown = static_cast<std::ptrdiff_t>(std::min(kShown, names.size()));
       results_.warnings.push_back(fmt::format(
-          "{} of this folder, made from another {} than the one in it, {} left out: {}{}; "
+          "{} of this folder, not made from the {} in it, {} left out: {}{}; "
           "'flexneck run' makes all of one study.",
           names.size() == 1 ? "A file" : fmt::format("{} files", names.size()), source,
           names.size() == 1 ? "is" : "are", fmt::join(names.begin(), names.begin() + shown, ", "),
@@ -160,10 +161,7 @@ class Reader {
     const fs::path path = folder_ / name;
     try {
       const Provenance provenance = read_file(path);
-      if (!belongs(path, provenance)) {
-        left_out_[replaced_source(path, provenance)].push_back(name);
-        return;
-      }
+      if (is_left_out(name)) return;
       results_.files.push_back({name, hash_of_file(path.string()), provenance});
       require_same_inputs(name, provenance, study_, {}, command);
     } catch (const InputError& error) {
@@ -188,8 +186,21 @@ class Reader {
       results_.run_warnings.push_back(name + ": the run ended early: " + history.incomplete);
   }
 
-  static bool belongs(const fs::path& path, const Provenance& provenance) {
-    return replaced_source(path, provenance).empty();
+  /// Whether a file was made from those that the folder has, and they from theirs; else it is left
+  /// out. Files come after those that they are made from.
+  bool belongs(const std::string& name, const Provenance& provenance) {
+    std::string source = replaced_source(folder_ / name, provenance);
+    for (const InputFile& input : provenance.inputs)
+      if (source.empty() && is_left_out(input.name)) source = input.name;
+    if (!source.empty()) left_out_[source].push_back(name);
+    return source.empty();
+  }
+
+  bool is_left_out(const std::string& name) const {
+    return std::any_of(left_out_.begin(), left_out_.end(), [&](const auto& of_source) {
+      const std::vector<std::string>& names = of_source.second;
+      return std::find(names.begin(), names.end(), name) != names.end();
+    });
   }
 
   fs::path folder_;

@@ -99,7 +99,7 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
              Contains("Study of " + (folder / "out").string() + ": the built-in one --set mesh."));
   // Runs of the modes before are neither shown nor judged beside these.
   CHECK_THAT(run_flexneck("report" + out).text,
-             Contains("made from another modes.h5 than the one in it, are left out"));
+             Contains("files of this folder, not made from the modes.h5 in it, are left out"));
   const CommandOutcome judged = run_flexneck("verify" + out);
   CHECK(judged.exit_code == 2);
   CHECK_THAT(judged.text, Contains("was made from another modes.h5 than the one beside it; make it "
@@ -111,6 +111,12 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
   check_refused(run_flexneck("static " + std::string(FLEXNECK_SOURCE_DIR) +
                              "/pipeline/studies/hybrid3.toml" + out),
                 "was made with");
+  // Nor are modes of the mesh before, with all that was made from them.
+  REQUIRE(run_flexneck("mesh --set mesh.quadrant=3" + out).exit_code == 0);
+  CHECK_THAT(run_flexneck("report" + out).text,
+             Contains("A file of this folder, not made from the mesh.h5 in it, is left out: "
+                      "modes.h5;") &&
+                 Contains("not made from the modes.h5 in it, are left out"));
   std::ofstream(folder / "out/study.json") << "{ half a";
   check_refused(run_flexneck("static" + out), "out/study.json: expected the study");
 }
