@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/body/gap_coordinates.h"
 
+#include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -116,6 +118,15 @@ InertiaInvariants transformed(const InertiaInvariants& from, const MatrixXd& T) 
   return to;
 }
 
+/// Shares of kinetic energy of a combination of modes, each of which has its own.
+std::array<double, 4> mixed_shares(const std::vector<ModeRecord>& modes, const VectorXd& weights) {
+  std::array<double, 4> shares{};
+  for (std::size_t l = 0; l < modes.size(); ++l)
+    for (std::size_t kind = 0; kind < shares.size(); ++kind)
+      shares[kind] += std::pow(weights[static_cast<Index>(l)], 2) * modes[l].shares_percent[kind];
+  return shares;
+}
+
 /// @param statics  how many of the new modes, the last, only complete the static compliance
 ModalBody transformed(const ModalBody& body, const MatrixXd& T, const VectorXd& values,
                       Index statics) {
@@ -129,8 +140,9 @@ ModalBody transformed(const ModalBody& body, const MatrixXd& T, const VectorXd& 
   to.invariants = transformed(body.invariants, T);
   for (Index k = 0; k < T.cols(); ++k) {
     const bool is_mode = k < T.cols() - statics;
-    to.modes.push_back(
-        {"shut " + std::to_string(k + 1), std::string(is_mode ? kRitzMode : kConstraintMode)});
+    to.modes.push_back({"shut " + std::to_string(k + 1),
+                        std::string(is_mode ? kRitzMode : kConstraintMode),
+                        mixed_shares(body.modes, T.col(k))});
     Eigen::Matrix3Xd shape = Eigen::Matrix3Xd::Zero(3, body.nodes_m.cols());
     for (Index l = 0; l < T.rows(); ++l)
       shape += T(l, k) * body.shapes[static_cast<std::size_t>(l)];

@@ -111,8 +111,7 @@ void show_verification(const CommandInput& input, const VerificationTable& table
   if (std::any_of(table.rows.begin(), table.rows.end(), [](const VerificationRow& row) {
         return row.status == VerificationRow::Status::unjudged;
       }))
-    input.console.result("  nothing is judged: " + own_value_of_geometry(input.study.parameters) +
-                         " is your own, not that of the published neck");
+    input.console.result("  nothing is judged: " + why_unjudged(input.study));
   if (others > 0 && !input.console.is_verbose())
     input.console.result(fmt::format("  and {} figures without a verdict (--verbose)", others));
 }

@@ -187,16 +187,18 @@ bool is_fore_aft(const fe_modal::ModeRecord& mode) {
 /// about its x-z plane, so the others take no part.
 void keep_modes(bool fore_aft, multibody::DeformableBody& body) {
   std::vector<std::string> names;
-  std::vector<double> ratios;
+  std::vector<Eigen::Index> kept;
   for (Eigen::Index k = 0; k < body.modes.mode_count(); ++k) {
     const fe_modal::ModeRecord& mode = body.modes.modes[static_cast<std::size_t>(k)];
     if (is_fore_aft(mode) != fore_aft) continue;
     names.push_back(mode.name);
-    ratios.push_back(body.damping_ratio[k]);
+    kept.push_back(k);
   }
   body.modes = fe_modal::select_modes(body.modes, names);
-  body.damping_ratio =
-      Eigen::Map<const Eigen::VectorXd>(ratios.data(), static_cast<Eigen::Index>(ratios.size()));
+  for (Eigen::VectorXd* const each :
+       {&body.damping_ratio, &body.offset, &body.initial_modal, &body.initial_modal_rate})
+    if (each->size() > 0) *each = each->operator()(kept).eval();
+  if (body.gaps.count() > 0) body.gaps.coupling = body.gaps.coupling(Eigen::all, kept).eval();
 }
 
 /// Fixes the pins that turn across the plane of a case, and takes their springs away.

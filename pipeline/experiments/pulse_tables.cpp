@@ -198,6 +198,19 @@ double share_left(const PulseSection& pulse, double frequency_Hz) {
   return at(frequency_Hz) / at(0);
 }
 
+/// Names of the structure's modes that a body of a case has. One whose slits open takes them all.
+std::set<std::string> used_modes(const std::vector<PendulumEntry>& entries,
+                                 const fe_modal::ModalBody& body) {
+  std::set<std::string> used;
+  for (const PendulumEntry& entry : entries)
+    for (const auto& [ignored, use] : entry.experiment.model.of_structure) {
+      const fe_modal::ModalBody modes =
+          body.slits.empty() ? use_modes(use, body, "the study's structure").modes : body;
+      for (const fe_modal::ModeRecord& mode : modes.modes) used.insert(mode.name);
+    }
+  return used;
+}
+
 }  // namespace
 
 ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>& entries,
@@ -223,10 +236,7 @@ ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>&
       continue;
     add("neck and head, " + experiment.name, entry.hanging.frequency_Hz, true);
   }
-  std::set<std::string> used;
-  for (const auto& [ignored, use] : study.model.of_structure)
-    for (const fe_modal::ModeRecord& mode : use_modes(use, body, "").modes.modes)
-      used.insert(mode.name);
+  const std::set<std::string> used = used_modes(entries, body);
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {
     const std::string& name = body.modes[static_cast<std::size_t>(k)].name;
     add("neck alone, " + name, body.frequencies_Hz[k], used.contains(name));

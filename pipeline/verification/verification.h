@@ -44,9 +44,12 @@ struct PendulumEvidence {
   std::optional<PendulumResult> run;
 };
 
+/// Why published frequencies do not judge a study's structure: a dimension or a material is the
+/// user's own, or a fit with other targets made the neck. Empty if they do.
+std::string why_unjudged(const Study& study);
+
 /// The six frequencies, paired by kind and rank, pass or fail; the rest is shown beside. Against
-/// published figures a geometry with dimensions or materials of the user's own is shown, not
-/// judged.
+/// published figures a neck is shown, not judged, where why_unjudged() has a reason.
 VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
                          const std::vector<PendulumEvidence>& pendulum, const Reference& reference);
 

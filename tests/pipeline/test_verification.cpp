@@ -85,6 +85,23 @@ TEST_CASE("a frequency beyond the tolerance, or missing, fails the verification"
   CHECK(row(missing, "torsion 1").status == Status::failed);
 }
 
+TEST_CASE("a neck that was fitted to other figures is shown beside published ones") {
+  const fe_modal::ModalBody body =
+      body_with({{"lateral bending 1", 15}, {"fore-aft bending 1", 16}});
+  Study study;
+  NeckSection& neck = study.structure.emplace().neck.emplace();
+  neck.fitted_values = "the hash of a fit";
+  const auto is_judged = [&](const std::vector<std::string>& fitted_to) {
+    neck.fitted_to = fitted_to;
+    const VerificationTable table = verify(study, body, {}, example());
+    CHECK(why_unjudged(study).empty() != table.passed());
+    return !table.passed();
+  };
+  CHECK_FALSE(is_judged({}));
+  CHECK_FALSE(is_judged({"weight", "system frequency"}));
+  CHECK(is_judged({"weight", "bending 1"}));
+}
+
 TEST_CASE("a geometry of the user's own is shown beside published figures, not judged by them") {
   const fe_modal::ModalBody body =
       body_with({{"lateral bending 1", 15}, {"fore-aft bending 1", 16}});
