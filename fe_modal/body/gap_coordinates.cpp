@@ -2,7 +2,6 @@
 #include "fe_modal/body/gap_coordinates.h"
 
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -118,12 +117,15 @@ InertiaInvariants transformed(const InertiaInvariants& from, const MatrixXd& T) 
   return to;
 }
 
-/// Shares of kinetic energy of a combination of modes, each of which has its own.
+/// Mean of the modes' shares by their kinetic energy in a combination. It leaves out what modes of
+/// different kinds have in common, which is nothing where only modes of one kind are combined, as
+/// of a body that is symmetric about a plane.
 std::array<double, 4> mixed_shares(const std::vector<ModeRecord>& modes, const VectorXd& weights) {
+  const VectorXd energies = weights.cwiseAbs2();
   std::array<double, 4> shares{};
   for (std::size_t l = 0; l < modes.size(); ++l)
     for (std::size_t kind = 0; kind < shares.size(); ++kind)
-      shares[kind] += std::pow(weights[static_cast<Index>(l)], 2) * modes[l].shares_percent[kind];
+      shares[kind] += energies[static_cast<Index>(l)] * modes[l].shares_percent[kind];
   return shares;
 }
 

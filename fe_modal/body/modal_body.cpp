@@ -48,22 +48,6 @@ GeometricStiffness select(const GeometricStiffness& all, const std::vector<Eigen
   return selected;
 }
 
-/// With kinds replaced by the names of their modes.
-std::vector<std::string> expand_kinds(const ModalBody& body,
-                                      const std::vector<std::string>& names) {
-  std::vector<std::string> expanded;
-  for (const std::string& name : names) {
-    bool is_kind = false;
-    for (const ModeRecord& mode : body.modes) {
-      if (mode.kind != name && (name != kAllModes || mode.kind == kRigidMode)) continue;
-      expanded.push_back(mode.name);
-      is_kind = true;
-    }
-    if (!is_kind) expanded.push_back(name);
-  }
-  return expanded;
-}
-
 }  // namespace
 
 const Interface& ModalBody::interface(const std::string& name) const {
@@ -74,8 +58,23 @@ Eigen::Index ModalBody::mode_index(const std::string& name) const {
   return static_cast<Eigen::Index>(find_name(names_of(modes), name, "mode"));
 }
 
+std::vector<std::string> selected_names(const ModalBody& body,
+                                        const std::vector<std::string>& names) {
+  std::vector<std::string> selected;
+  for (const std::string& name : names) {
+    bool is_kind = false;
+    for (const ModeRecord& mode : body.modes) {
+      if (mode.kind != name && (name != kAllModes || mode.kind == kRigidMode)) continue;
+      selected.push_back(mode.name);
+      is_kind = true;
+    }
+    if (!is_kind) selected.push_back(name);
+  }
+  return selected;
+}
+
 ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& wanted) {
-  const std::vector<std::string> names = expand_kinds(body, wanted);
+  const std::vector<std::string> names = selected_names(body, wanted);
   check_names(names, "mode");
   std::vector<Eigen::Index> kept;
   kept.reserve(names.size());

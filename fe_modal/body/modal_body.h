@@ -126,9 +126,12 @@ struct ModalBody {
   Eigen::Index mode_index(const std::string& name) const;
 };
 
-/// The body reduced further to the named modes, in the order given. A kind (basis_kind.h) in place
-/// of a name stands for all modes of that kind, "all" for all that are not rigid motions.
-/// @throws InputError for a name that the body has not, or one that comes twice.
+/// The names that a selection of modes stands for, in the order given: a kind (basis_kind.h) in
+/// place of a name stands for all modes of that kind, "all" for all that are not rigid motions.
+std::vector<std::string> selected_names(const ModalBody& body,
+                                        const std::vector<std::string>& names);
+/// The body reduced further to these. @throws InputError for a name that the body has not, or one
+/// that comes twice.
 ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& names);
 
 }  // namespace flexneck::fe_modal

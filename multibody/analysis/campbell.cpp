@@ -54,6 +54,7 @@ ModesAtRate modes_at(const Model& model, const TurningFrame& frame, const ModesA
       eigenmodes_of(second_order(reduced.stiffness(), reduced.damping()), reduced.count());
   for (const Eigenmode& each : modes) {
     found.modes.push_back(each.mode);
+    found.modes.back().kink = reduced.kink();
     found.signed_Hz.push_back(each.mode.frequency_Hz);
     // The basis is orthonormal in the masses.
     found.shapes.push_back(

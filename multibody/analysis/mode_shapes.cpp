@@ -117,8 +117,12 @@ class TreeLinearisation {
     for (Index i = 0; i < n; ++i) {
       const double step = kDifference * std::max(1.0, std::abs(state_[i]));
       const auto side = [&](double distance) -> RatesAndPieces {
-        VectorXd rates = rate_at(i, distance).head(n);
-        return {std::move(rates), dynamics_.forces().pieces()};
+        RatesAndPieces result{rate_at(i, distance).head(n), dynamics_.forces().pieces(), {}};
+        for (std::size_t b = 0; b < tree_.bodies.size(); ++b)
+          if (const ModalSprings& springs = tree_.bodies[b].inertia.springs;
+              springs.gaps.count() > 0)
+            result.slits.emplace_back(tree_.bodies[b].name, springs, dynamics_.modal(b));
+        return result;
       };
       const RatesAndPieces ahead = side(step);
       const RatesAndPieces behind = side(-step);

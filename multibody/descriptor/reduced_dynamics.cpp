@@ -9,7 +9,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
-#include "multibody/equations/kink.h"
 #include "multibody/numerics/rotation.h"
 
 namespace flexneck::multibody {
@@ -176,11 +175,17 @@ VectorXd ReducedDynamics::accelerations_at(const VectorXd& xi, const VectorXd& r
 
 MatrixXd ReducedDynamics::stiffness() {
   MatrixXd result(count(), count());
+  kink_.clear();
+  if (count() == 0) return result;
+  const VectorXd there = rates_at(VectorXd::Zero(count()));
   for (Index i = 0; i < count(); ++i) {
     VectorXd xi = VectorXd::Unit(count(), i);
     const double step = kDifference / extent(xi);
     xi *= step;
-    result.col(i) = (accelerations_at(-xi) - accelerations_at(xi)) / (2 * step);
+    const RatesAndPieces ahead = state_at(xi);
+    const RatesAndPieces behind = state_at(-xi);
+    result.col(i) = (behind.rates - ahead.rates).head(count()) / (2 * step);
+    if (kink_.empty()) kink_ = kink_between(equations_.forces(), ahead, there, behind);
   }
   return result;
 }
@@ -202,6 +207,15 @@ VectorXd ReducedDynamics::rates_at(const VectorXd& xi) {
   return rates;
 }
 
+RatesAndPieces ReducedDynamics::state_at(const VectorXd& xi) {
+  RatesAndPieces result{rates_at(xi), equations_.forces().pieces(), {}};
+  const std::vector<FreeBody>& bodies = equations_.system().bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (const ModalSprings& springs = bodies[b].constants.springs; springs.gaps.count() > 0)
+      result.slits.emplace_back(bodies[b].name, springs, equations_.body(b).a);
+  return result;
+}
+
 MatrixXd ReducedDynamics::state_matrix() {
   const Index k = count();
   const Index internal = equations_.system().internal_count;
@@ -218,16 +232,12 @@ MatrixXd ReducedDynamics::state_matrix() {
   A.block(k, k, k, k) = -damping();
   kink_.clear();
   const VectorXd there = rates_at(at_rest);
-  const auto side = [&](const VectorXd& xi) -> RatesAndPieces {
-    VectorXd rates = rates_at(xi);
-    return {std::move(rates), equations_.forces().pieces()};
-  };
   for (Index i = 0; i < k; ++i) {
     VectorXd xi = VectorXd::Unit(k, i);
     const double step = kDifference / extent(xi);
     xi *= step;
-    const RatesAndPieces ahead = side(xi);
-    const RatesAndPieces behind = side(-xi);
+    const RatesAndPieces ahead = state_at(xi);
+    const RatesAndPieces behind = state_at(-xi);
     A.block(k, 0, k + internal, k).col(i) = (ahead.rates - behind.rates) / (2 * step);
     if (kink_.empty()) kink_ = kink_between(equations_.forces(), ahead, there, behind);
   }

@@ -7,6 +7,7 @@
 
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/projection.h"
+#include "multibody/equations/kink.h"
 
 namespace flexneck::multibody {
 
@@ -55,7 +56,8 @@ class ReducedDynamics {
   /// A of y' = A y, y = [xi; xi'; z], z the internal variables of force elements about those they
   /// have at rest, (2k + internal); in a frame at rest.
   Eigen::MatrixXd state_matrix();
-  /// What had a kink there when state_matrix() was made, see kink_between(); else empty.
+  /// What had a kink there when stiffness() or state_matrix() was made, see kink_between(); else
+  /// empty.
   const std::string& kink() const { return kink_; }
   /// Velocities that the positions set last have with the frame.
   Eigen::VectorXd carried_velocities() const;
@@ -63,6 +65,7 @@ class ReducedDynamics {
  private:
   /// Accelerations of xi and rates of the internal variables, (k + internal), at rest.
   Eigen::VectorXd rates_at(const Eigen::VectorXd& xi);
+  RatesAndPieces state_at(const Eigen::VectorXd& xi);
   /// Accelerations of xi at the positions set last.
   /// @param velocities  against the frame
   Eigen::VectorXd solve(const Eigen::VectorXd& velocities);

@@ -7,18 +7,31 @@
 #include <Eigen/Core>
 
 #include "multibody/equations/force_set.h"
+#include "multibody/model/modal_springs.h"
 
 namespace flexneck::multibody {
 
-/// Rates of a state, and on which pieces of their laws force elements were (ForceSet::pieces()).
+/// Which slits of a deformable body are open.
+struct OpenSlits {
+  std::string body;
+  std::vector<bool> open;
+
+  /// @param a  the body's modal coordinates
+  OpenSlits(std::string body, const ModalSprings& springs, const Eigen::VectorXd& a);
+  bool operator==(const OpenSlits&) const = default;
+};
+
+/// Rates of a state, and what tells the smooth pieces of its loads apart.
 struct RatesAndPieces {
   Eigen::VectorXd rates;
-  std::vector<int> pieces;
+  std::vector<int> pieces;       ///< of force elements, ForceSet::pieces()
+  std::vector<OpenSlits> slits;  ///< of the deformable bodies whose slits open and close
 };
 
 /// What has a kink at a state, where derivatives by central differences are the mean of both sides:
-/// a force element that is on different pieces ahead and behind, where differences to the one side
-/// and to the other are not the same. Empty if nothing has.
+/// a force element that is on different pieces ahead and behind, or a body whose slits are open on
+/// one side only, where differences to the one side and to the other are not the same. Empty if
+/// nothing has.
 /// @param ahead, behind  equally far from the state
 std::string kink_between(const ForceSet& forces, const RatesAndPieces& ahead,
                          const Eigen::VectorXd& at_state, const RatesAndPieces& behind);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "multibody/analysis/campbell.h"
@@ -85,6 +87,13 @@ ResultPaths paths_of(const FileInput& input, const fs::path& model) {
   return {name, input.folder.file(name + ".h5"), input.folder.file(name + ".csv")};
 }
 
+void warn_of_kink(const FileInput& input, const std::string& name,
+                  const multibody::SystemMode& mode) {
+  if (!mode.kink.empty())
+    input.console.warning(
+        name + ": modes are of the mean stiffness of both sides of a kink: " + mode.kink);
+}
+
 void tell(const FileInput& input, const ModelFile& file, const ResultPaths& paths,
           const multibody::HistoryFile& result, const PeakTable& peaks) {
   input.console.result(paths.name + ": " + paths.history.string() + ", " + paths.table.string() +
@@ -95,10 +104,8 @@ void tell(const FileInput& input, const ModelFile& file, const ResultPaths& path
   if (!relaxation.rows.empty()) input.console.result("\n" + printed(relaxation));
   for (const std::string& warning : result.history.warnings)
     input.console.warning(paths.name + ": " + warning);
-  if (!result.linearisation || result.linearisation->modes.empty()) return;
-  if (const std::string& kink = result.linearisation->modes.front().mode.kink; !kink.empty())
-    input.console.warning(paths.name +
-                          ": modes are of the mean stiffness of both sides of a kink: " + kink);
+  if (result.linearisation && !result.linearisation->modes.empty())
+    warn_of_kink(input, paths.name, result.linearisation->modes.front().mode);
 }
 
 multibody::OutputOptions outputs_of(const ModelFile& file) {
@@ -117,6 +124,12 @@ void write(const FileInput& input, const std::string& model,
   write_campbell_table(table, diagram);
   draw_campbell(picture, diagram);
   input.console.result("Campbell diagram: " + table.string() + ", " + picture.string());
+  for (std::size_t r = 0; r < diagram.rates_rad_s.size(); ++r)
+    for (const auto& mode : diagram.modes)
+      if (!mode[r].kink.empty())
+        return warn_of_kink(
+            input, fmt::format("{}-campbell at {:.6g} rad/s", model, diagram.rates_rad_s[r]),
+            mode[r]);
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ void keep_modes(bool fore_aft, multibody::DeformableBody& body) {
   body.modes = fe_modal::select_modes(body.modes, names);
   for (Eigen::VectorXd* const each :
        {&body.damping_ratio, &body.offset, &body.initial_modal, &body.initial_modal_rate})
-    if (each->size() > 0) *each = each->operator()(kept).eval();
+    if (each->size() > 0) *each = (*each)(kept).eval();
   if (body.gaps.count() > 0) body.gaps.coupling = body.gaps.coupling(Eigen::all, kept).eval();
 }
 
@@ -239,7 +239,8 @@ multibody::SystemMode first_system_mode(const Study& study, const CaseSection& e
     throw InputError("case." + experiment.name +
                      ": none of the modes chosen moves in the plane of the case");
   }
-  if (modes.front().is_unstable()) {
+  // About a kink the mean stiffness is not symmetric and may make a motion grow by itself.
+  if (modes.front().is_unstable() && modes.front().kink.empty()) {
     throw ComputationError("case." + experiment.name +
                            ": the equilibrium of neck and head is not stable");
   }

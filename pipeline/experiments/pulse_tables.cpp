@@ -201,12 +201,13 @@ double share_left(const PulseSection& pulse, double frequency_Hz) {
 /// Names of the structure's modes that a body of a case has. One whose slits open takes them all.
 std::set<std::string> used_modes(const std::vector<PendulumEntry>& entries,
                                  const fe_modal::ModalBody& body) {
+  const std::vector<std::string> all = names_of(body.modes);
   std::set<std::string> used;
   for (const PendulumEntry& entry : entries)
     for (const auto& [ignored, use] : entry.experiment.model.of_structure) {
-      const fe_modal::ModalBody modes =
-          body.slits.empty() ? use_modes(use, body, "the study's structure").modes : body;
-      for (const fe_modal::ModeRecord& mode : modes.modes) used.insert(mode.name);
+      const bool takes_all = !use.modes || !body.slits.empty();
+      const auto names = takes_all ? all : fe_modal::selected_names(body, *use.modes);
+      used.insert(names.begin(), names.end());
     }
   return used;
 }

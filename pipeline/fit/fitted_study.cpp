@@ -15,6 +15,7 @@
 #include "pipeline/fit/fit_tables.h"
 #include "pipeline/fit/uniqueness.h"
 #include "pipeline/folder/results_folder.h"
+#include "pipeline/verification/verification.h"
 
 namespace flexneck::pipeline {
 
@@ -95,9 +96,9 @@ void put_fitted(toml::table& root, const FitParameter& parameter, const FittedPa
 std::string verified_name(const StudyFit& fit, const FitTarget& target) {
   if (target.output.empty()) return {};
   const OutputName output = output_name(target.output, fit.evaluator().base());
-  if (output.figure == kSystemFrequency) return "system frequency";
+  if (output.figure == kSystemFrequency) return kSystemFrequencyRow;
   if (output.of != OutputName::Of::modes) return {};
-  if (output.figure == kMass) return "weight";
+  if (output.figure == kMass) return kWeightRow;
   return output.figure.substr(output.figure.find('.') + 1);  // "bending 1", or a mode's name
 }
 

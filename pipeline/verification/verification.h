@@ -44,9 +44,14 @@ struct PendulumEvidence {
   std::optional<PendulumResult> run;
 };
 
+// What rows are called, which is how `fitted_to` of a neck names its targets, too.
+inline constexpr const char* kWeightRow = "weight";
+inline constexpr const char* kSystemFrequencyRow = "system frequency";
+
 /// Why published frequencies do not judge a study's structure: a dimension or a material is the
-/// user's own, or a fit with other targets made the neck. Empty if they do.
-std::string why_unjudged(const Study& study);
+/// user's own, or a fit made the neck and none of the frequencies is its target. Empty if they do.
+/// @param table  of verify()
+std::string why_unjudged(const Study& study, const VerificationTable& table);
 
 /// The six frequencies, paired by kind and rank, pass or fail; the rest is shown beside. Against
 /// published figures a neck is shown, not judged, where why_unjudged() has a reason.

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
+#include "multibody/analysis/linearisation.h"
 #include "multibody/forces/least_gaps.h"
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
@@ -42,6 +43,24 @@ DeformableBody slit_body(RandomNumbers& random, Index gaps) {
   return body;
 }
 
+constexpr double kTaken = 0.4;  // of the stiffness, by the open slit
+
+/// A body of one mode of 3 Hz, whose slit opens as its coordinate grows, clamped to the ground.
+Model clamped_slit_body(double coordinate, double rate) {
+  ModelBuilder build;
+  DeformableBody body = deformable(make_point_mass_body(54, 1).body, 0);
+  body.modes.frequencies_Hz[0] = 3;
+  body.gaps.stiffness = MatrixXd::Constant(1, 1, 7);
+  const double omega = 2 * std::numbers::pi * 3;
+  body.gaps.coupling = MatrixXd::Constant(1, 1, -omega * std::sqrt(7 * kTaken));
+  body.initial_modal = VectorXd::Constant(1, coordinate);
+  body.initial_modal_rate = VectorXd::Constant(1, rate);
+  const auto ground = build.marker("ground", build.ground());
+  const auto root = build.interface_marker("root", build.body("body", body), "root");
+  build.joint("clamp", &kFixedJoint, ground, root);
+  return build.model;
+}
+
 }  // namespace
 
 TEST_CASE("openings are the least of their energy, as among all choices of open ones") {
@@ -56,24 +75,31 @@ TEST_CASE("openings are the least of their energy, as among all choices of open 
 }
 
 TEST_CASE("a body on one mode swings half a period with its slit shut, and half with it open") {
-  RandomNumbers random(53);
-  ModelBuilder build;
-  DeformableBody body = deformable(make_point_mass_body(54, 1).body, 0);
-  body.modes.frequencies_Hz[0] = 3;
-  const double omega = 2 * std::numbers::pi * 3;
-  constexpr double kTaken = 0.4;  // of the stiffness, by the open slit
-  body.gaps.stiffness = MatrixXd::Constant(1, 1, 7);
-  body.gaps.coupling = MatrixXd::Constant(1, 1, -omega * std::sqrt(7 * kTaken));
-  body.initial_modal_rate = VectorXd::Constant(1, 0.01);
-  const auto ground = build.marker("ground", build.ground());
-  const auto root = build.interface_marker("root", build.body("body", body), "root");
-  build.joint("clamp", &kFixedJoint, ground, root);
-  const double period = std::numbers::pi / omega * (1 + 1 / std::sqrt(1 - kTaken));
-  const History history = simulate(build.model, solver_of(1e-9, 1e-13),
+  const double period = 1.0 / 6 * (1 + 1 / std::sqrt(1 - kTaken));
+  const History history = simulate(clamped_slit_body(0, 0.01), solver_of(1e-9, 1e-13),
                                    {.end_time_s = 4 * period, .interval_s = period / 2});
   for (Index k = 0; k <= 8; k += 2)
     CHECK(std::abs(history.modal.front().coordinates(0, k)) < 1e-7 * 0.01);
   CHECK(history.energy.strain_J[0] == 0);
+}
+
+TEST_CASE("small motions about a slit that is just shut have the mean stiffness, and say so") {
+  const auto mode_at = [](double coordinate, LinearisedAt at) {
+    Model model = clamped_slit_body(coordinate, 0);
+    model.gravity_m_s2.setZero();
+    return linearise(model, at).front().mode;
+  };
+  for (const LinearisedAt at : {LinearisedAt::equilibrium, LinearisedAt::given}) {
+    const SystemMode just_shut = mode_at(0, at);
+    CHECK(just_shut.frequency_Hz == Approx(3 * std::sqrt(1 - kTaken / 2)).epsilon(1e-9));
+    CHECK(just_shut.kink == "body 'body': a slit opens or closes");
+  }
+  const SystemMode open = mode_at(0.01, LinearisedAt::given);
+  CHECK(open.frequency_Hz == Approx(3 * std::sqrt(1 - kTaken)).epsilon(1e-9));
+  CHECK(open.kink.empty());
+  const SystemMode shut = mode_at(-0.01, LinearisedAt::given);
+  CHECK(shut.frequency_Hz == Approx(3).epsilon(1e-9));
+  CHECK(shut.kink.empty());
 }
 
 TEST_CASE("a body with slits keeps its energy, and both formulations agree") {

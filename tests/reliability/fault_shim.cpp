@@ -16,12 +16,15 @@
 
 using namespace fault;
 
-// NOLINTBEGIN(bugprone-reserved-identifier): the names of the C library
+// Of the C library, under names of our own.
 extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* libc_malloc(std::size_t size) __asm__("__libc_malloc");
+void* libc_calloc(std::size_t count, std::size_t size) __asm__("__libc_calloc");
+void* libc_realloc(void* block, std::size_t size) __asm__("__libc_realloc");
+void* libc_memalign(std::size_t alignment, std::size_t size) __asm__("__libc_memalign");
+using Main = int (*)(int, char**, char**);
+int libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*finish)(),
+                    void (*finish_loader)(), void* stack_end) __asm__("__libc_start_main");
 }
 
 namespace {
@@ -33,7 +36,7 @@ ssize_t transferred(Kind kind, int file, std::size_t size, const Transfer& trans
   return errno == 0 ? transfer(size > 1 ? size / 2 : size) : -1;
 }
 
-int (*program_main)(int, char**, char**) = nullptr;
+Main program_main = nullptr;
 
 int begin(int argc, char** argv, char** environment) {
   begin_main();
@@ -59,28 +62,26 @@ FILE* open_stream(const char* path, const char* mode) {
 
 extern "C" {
 
-int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(),
-                      void (*finish)(), void (*finish_loader)(), void* stack_end) {
-  using Start =
-      int (*)(int (*)(int, char**, char**), int, char**, void (*)(), void (*)(), void (*)(), void*);
+int libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*finish)(),
+                    void (*finish_loader)(), void* stack_end) {
   program_main = main;
-  return next<Start>("__libc_start_main")(begin, argc, argv, init, finish, finish_loader,
-                                          stack_end);
+  static const auto original = next<decltype(&libc_start_main)>("__libc_start_main");
+  return original(begin, argc, argv, init, finish, finish_loader, stack_end);
 }
 
-void* malloc(std::size_t size) { return memory_fails(size) ? nullptr : __libc_malloc(size); }
+void* malloc(std::size_t size) { return memory_fails(size) ? nullptr : libc_malloc(size); }
 void* calloc(std::size_t count, std::size_t size) {
-  return memory_fails(count * size) ? nullptr : __libc_calloc(count, size);
+  return memory_fails(count * size) ? nullptr : libc_calloc(count, size);
 }
 void* realloc(void* block, std::size_t size) {
-  return memory_fails(size) ? nullptr : __libc_realloc(block, size);
+  return memory_fails(size) ? nullptr : libc_realloc(block, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  return memory_fails(size) ? nullptr : __libc_memalign(alignment, size);
+  return memory_fails(size) ? nullptr : libc_memalign(alignment, size);
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
   if (memory_fails(size)) return ENOMEM;
-  *block = __libc_memalign(alignment, size);
+  *block = libc_memalign(alignment, size);
   return *block == nullptr ? ENOMEM : 0;
 }
 
@@ -165,4 +166,3 @@ int mkdir(const char* path, mode_t mode) noexcept {
 }
 
 }  // extern "C"
-// NOLINTEND(bugprone-reserved-identifier)

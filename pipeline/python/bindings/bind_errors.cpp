@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exception>
 #include <new>
+#include <utility>
 
 #include "geometry/foundation/error.h"
 #include "pipeline/python/bindings/bindings.h"
@@ -20,10 +21,9 @@ void raise(const char* name, const char* text) {
 }  // namespace
 
 void bind_errors(py::module_& /*module*/) {
-  // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 wants it so
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const InputError& error) {
       raise("InputError", error.what());
     } catch (const ComputationError& error) {
