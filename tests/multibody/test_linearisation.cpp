@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
+#include "multibody/analysis/campbell.h"
 #include "multibody/analysis/linearisation.h"
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/numerics/rotation.h"
@@ -290,4 +291,13 @@ TEST_CASE("about a kink a model swings on the mean stiffness of both sides, and 
   const SystemMode below = linearise(model, at).front().mode;
   CHECK(below.frequency_Hz == Approx(hertz(std::sqrt(100.0 / 2))).epsilon(kTolerance));
   CHECK(below.kink.empty());
+
+  model.gravity_m_s2.setZero();
+  model.bodies[1].initial_pose = {};
+  auto& ground = std::get<PrescribedBody>(model.bodies[0].kind);
+  ground.turn.axis = Vector3d::UnitZ();
+  ground.turn.initial_rate_rad_s = 1;
+  const SystemMode turning = campbell_diagram(model, {3}).modes.front().front();
+  CHECK(turning.frequency_Hz == Approx(hertz(std::sqrt(250.0 / 2))));
+  CHECK_THAT(turning.kink, Catch::Matchers::Contains("resistance 'spring'"));
 }
