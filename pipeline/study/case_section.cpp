@@ -145,7 +145,8 @@ Assembly read_model(const CaseSource& source, const CaseSection& experiment,
   return model;
 }
 
-CaseSection read_case(CaseSource& source, const StudyModels& models) {
+/// Without its model.
+CaseSection read_case(CaseSource& source) {
   const StudyTable& table = source.table;
   CaseSection experiment;
   experiment.name = table.text("name");
@@ -155,33 +156,43 @@ CaseSection read_case(CaseSource& source, const StudyModels& models) {
   if (experiment.kind == CaseSection::Kind::pendulum) read_pendulum(table, experiment);
   source.tables.bodies = table.texts("bodies");
   source.tables.forces = experiment.forces = table.texts("forces");
-  experiment.model = read_model(source, experiment, models);
-  table.finish();
   return experiment;
 }
 
+/// Cases with what they are made of.
+struct ReadCases {
+  std::vector<CaseSource> sources;
+  std::vector<CaseSection> cases;
+
+  void add(CaseSource source) {
+    cases.push_back(read_case(source));
+    sources.push_back(std::move(source));
+  }
+};
+
 /// The cases that a variant makes, in the order of those it is made of.
-void add_variants(const StudyTable& variant, const std::vector<CaseSource>& sources,
-                  const StudyModels& models, std::vector<CaseSection>& cases) {
+/// @param own  how many cases are no variants
+void add_variants(const StudyTable& variant, std::size_t own, ReadCases& all) {
+  std::vector<CaseSection>& cases = all.cases;
   const std::string name = variant.text("name");
   const std::string suffix = variant.has("suffix") ? variant.text("suffix") : name;
   for (const std::string& pattern : variant.texts("of")) {
     bool found = false;
-    for (std::size_t k = 0; k < sources.size(); ++k) {
+    for (std::size_t k = 0; k < own; ++k) {
       const std::string of = cases[k].name;
       if (!fits(of, pattern)) continue;
       found = true;
-      CaseSource merged{variant.over(sources[k].table), sources[k].tables};
+      CaseSource merged{variant.over(all.sources[k].table), all.sources[k].tables};
       merged.tables.layers.push_back(variant);
-      CaseSection made = read_case(merged, models);
+      all.add(std::move(merged));
+      CaseSection& made = cases.back();
       made.name = of + "-" + suffix;
       made.variant_of = of;
       made.variant = suffix;
       made.made_by = name;
-      cases.push_back(std::move(made));
     }
     std::vector<std::string> names;
-    for (std::size_t k = 0; k < sources.size(); ++k) names.push_back(cases[k].name);
+    for (std::size_t k = 0; k < own; ++k) names.push_back(cases[k].name);
     if (!found)
       variant.refuse("of", "there is no case '" + pattern + "'" + did_you_mean(names, pattern));
   }
@@ -207,18 +218,25 @@ std::span<const Key> variant_keys() {
   return keys;
 }
 
-std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models) {
+std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models,
+                                    CasesRead which) {
   const StudyTable pendulum = root.table("pendulum");
   const StudyTable tester = root.table("static");
-  std::vector<CaseSource> sources;
-  std::vector<CaseSection> cases;
+  ReadCases all;
   for (const StudyTable& own : root.tables("case")) {
     const StudyTable& shared = own.choice("kind") == 0 ? pendulum : tester;
-    sources.push_back({own.over(shared), {.layers = {shared, own}, .bodies = {}, .forces = {}}});
-    cases.push_back(read_case(sources.back(), models));
+    all.add({own.over(shared), {.layers = {shared, own}, .bodies = {}, .forces = {}}});
   }
-  for (const StudyTable& variant : root.tables("variant"))
-    add_variants(variant, sources, models, cases);
+  const std::size_t own = all.cases.size();
+  for (const StudyTable& variant : root.tables("variant")) add_variants(variant, own, all);
+  std::vector<CaseSection>& cases = all.cases;
+  const std::set<std::string> chosen = chosen_cases(root, cases);
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    if (which == CasesRead::chosen && !chosen.contains(cases[k].name)) continue;
+    cases[k].model = read_model(all.sources[k], cases[k], models);
+    all.sources[k].table.finish();
+  }
+  if (which == CasesRead::chosen) return cases;
   const auto is_there = [&](CaseSection::Kind kind) {
     for (const CaseSection& experiment : cases)
       if (experiment.kind == kind) return true;

@@ -7,11 +7,12 @@
 
 namespace flexneck::pipeline {
 
-namespace {
-
-/// Names of the cases that a list of patterns chooses, with those that variants are made of.
-std::set<std::string> chosen(const StudyTable& root, const std::vector<CaseSection>& cases) {
+std::set<std::string> chosen_cases(const StudyTable& root, const std::vector<CaseSection>& cases) {
   std::set<std::string> names;
+  if (!root.has("cases")) {
+    for (const CaseSection& each : cases) names.insert(each.name);
+    return names;
+  }
   for (const std::string& pattern : root.texts("cases")) {
     bool found = false;
     for (const CaseSection& experiment : cases) {
@@ -27,8 +28,6 @@ std::set<std::string> chosen(const StudyTable& root, const std::vector<CaseSecti
   return names;
 }
 
-}  // namespace
-
 bool fits(const std::string& name, const std::string& pattern) {
   if (!pattern.ends_with('*')) return name == pattern;
   return name.starts_with(pattern.substr(0, pattern.size() - 1));
@@ -36,7 +35,7 @@ bool fits(const std::string& name, const std::string& pattern) {
 
 void select_cases(const StudyTable& root, Study& study) {
   if (!root.has("cases")) return;
-  const std::set<std::string> names = chosen(root, study.cases);
+  const std::set<std::string> names = chosen_cases(root, study.cases);
   std::erase_if(study.cases,
                 [&](const CaseSection& experiment) { return !names.contains(experiment.name); });
   const auto is_gone = [&](const auto& test) { return !names.contains(test.experiment); };

@@ -103,10 +103,11 @@ void add_file(std::vector<InputFile>& files, const InputFile& file) {
 }
 
 /// Bodies, joints and forces, and the cases that are made of them.
-void read_experiments(const StudyTable& root, const std::vector<TestSection>& known, Study& study) {
+void read_experiments(const StudyTable& root, const std::vector<TestSection>& known,
+                      CasesRead which, Study& study) {
   study.pulses = read_all(root, "pulse", read_pulse, study.tables);
   const StudyModels models(root, names_of(study.interfaces));
-  study.cases = read_cases(root, models);
+  study.cases = read_cases(root, models, which);
   check_names(names_of(study.cases), "case");
   double longest_s = 0;
   for (const CaseSection& experiment : study.cases) {
@@ -149,7 +150,7 @@ namespace {
 
 /// @param known  tests of an earlier reading
 Study study_of(const StudyDocument& document, const std::filesystem::path& path,
-               const std::vector<std::string>& settings,
+               const std::vector<std::string>& settings, CasesRead which = CasesRead::all,
                const std::vector<TestSection>& known = {}) {
   const StudyTable root = document.root();
   Study study;
@@ -169,7 +170,7 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   study.interfaces = read_all(root, "interface", read_interface);
   study.loads = read_all(root, "load", read_load);
   check_loads(root, study);
-  read_experiments(root, known, study);
+  read_experiments(root, known, which, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   // For what is wrong with them.
@@ -212,7 +213,8 @@ StudyReader::StudyReader(std::filesystem::path path, std::vector<std::string> se
 Study StudyReader::read(const std::vector<std::string>& more) {
   std::vector<std::string> all = settings_;
   all.insert(all.end(), more.begin(), more.end());
-  if (std::any_of(more.begin(), more.end(), concerns_variables)) return read_study(path_, all);
+  if (std::any_of(more.begin(), more.end(), concerns_variables))
+    return study_of(StudyDocument(path_, all, study_keys()), path_, all, CasesRead::chosen);
   std::vector<std::string> keys = keys_of(more);
   if (!document_ || keys != keys_) {
     document_.emplace(path_, all, study_keys());
@@ -221,7 +223,7 @@ Study StudyReader::read(const std::vector<std::string>& more) {
   } else {
     for (const std::string& setting : more) document_->set(setting);
   }
-  Study study = study_of(*document_, path_, all, tests_);
+  Study study = study_of(*document_, path_, all, CasesRead::chosen, tests_);
   if (tests_.empty()) tests_ = study.tests;
   return study;
 }

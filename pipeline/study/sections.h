@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <set>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "pipeline/document/study_document.h"
 #include "pipeline/study/case_tables.h"
@@ -45,12 +48,20 @@ ModesConnections read_modes_connections(const StudyTable& modes);
 PulseSection read_pulse(const StudyTable& pulse, std::vector<InputFile>& files);
 /// The tables [[body]], [[marker]], … as a study has them.
 std::vector<Key> model_table_keys();
+/// Which cases of a study get their models and are checked whole.
+enum class CasesRead {
+  all,
+  chosen  ///< by the key cases: for what has been read whole before
+};
 /// [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
-std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models);
+std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models,
+                                    CasesRead which);
 /// Whether a name is that of a pattern, whose end may be a *.
 bool fits(const std::string& name, const std::string& pattern);
-/// The key cases: leaves the study those that it names, and the tests that judge them.
-/// @throws InputError for a name that no case has.
+/// Names of the cases that the key cases chooses, with those that variants are made of; all without
+/// the key. @throws InputError for a name that no case has.
+std::set<std::string> chosen_cases(const StudyTable& root, const std::vector<CaseSection>& cases);
+/// Leaves the study the cases chosen, and the tests that judge them.
 void select_cases(const StudyTable& root, Study& study);
 /// [dummy] and [[test]] of the cases that have been read.
 /// @param known  tests of an earlier reading of the study, whose regulations are not read again

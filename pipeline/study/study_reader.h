@@ -11,8 +11,10 @@
 
 namespace flexneck::pipeline {
 
-/// Reads a study again and again with other values of the same keys: its files are parsed once,
-/// unless the values are of variables. The studies are those of read_study(). For one thread.
+/// Reads a study that read_study() has read and checked again and again with other values of the
+/// same keys: its files are parsed once, unless the values are of variables. The studies are those
+/// of read_study(), but that cases which the study's key `cases` does not choose are not looked at
+/// again, nor recorded among the parameters. For one thread.
 class StudyReader {
  public:
   /// @param settings  that hold every time

@@ -45,6 +45,24 @@ TEST_CASE("a study that is read again with other values is the one that is read 
   check_same(reader.read({}), read_study(built_in_study(), base));
 }
 
+TEST_CASE("a study that is read again leaves out the models of cases that it does not choose") {
+  const std::vector<std::string> other = {"variables.relaxation_time=9 ms"};
+  const auto durations = [](const Study& study) {
+    std::vector<double> values;
+    for (const CaseSection& each : study.cases) {
+      values.push_back(each.duration_s);
+      CHECK(each.model.model.bodies.size() == 7);
+    }
+    return values;
+  };
+  StudyReader reader(built_in_qualification(), {});
+  const Study again = reader.read(other);
+  CHECK(durations(again) == durations(read_study(built_in_qualification(), other)));
+  CHECK_NOTHROW(reader.read({"case.flexion-20.bodies=[\"no such body\"]"}));
+  CHECK_THROWS_AS(reader.read({"case.certification-flexion.bodies=[\"no such body\"]"}),
+                  InputError);
+}
+
 TEST_CASE("a value that is refused does not stay for the next reading") {
   StudyReader reader(built_in_study(), {});
   REQUIRE(damping_ratio(reader.read({"body.neck.damping_ratio=0.7"})) == 0.7);
