@@ -140,6 +140,14 @@ Eigen::MatrixXd residuals_of(const Columns& columns, const Eigen::VectorXd& valu
          columns.momenta().middleCols(rigid_count, elastic) * values.tail(elastic).asDiagonal();
 }
 
+/// Where vectors with these residuals are to go.
+Eigen::MatrixXd directions_against(const RefinedSystem& system, Eigen::MatrixXd residuals) {
+  Eigen::MatrixXd directions = system.precondition(residuals);
+  residuals -= system.forces(directions);
+  directions += system.solve_cells(residuals);
+  return directions;
+}
+
 /// Ritz vectors, and behind them of the elastic ones what they have of other columns than the Ritz
 /// vectors before: the directions that they went.
 Eigen::MatrixXd with_directions(const Eigen::MatrixXd& best, Eigen::Index rigid_count) {
@@ -182,10 +190,8 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
               columns.vectors()};
     }
     columns.combine(step == 0 ? ritz.vectors : with_directions(ritz.vectors, rigid_count));
-    Eigen::MatrixXd residuals = residuals_of(columns, ritz.values, rigid_count);
-    Eigen::MatrixXd directions = system.precondition(residuals);
-    residuals -= system.forces(directions);
-    directions += system.solve_cells(residuals);
+    const Eigen::MatrixXd directions =
+        directions_against(system, residuals_of(columns, ritz.values, rigid_count));
     columns.append(directions, system.products(directions));
   }
   throw ComputationError(
