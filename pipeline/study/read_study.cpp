@@ -116,7 +116,7 @@ void read_experiments(const StudyTable& root, const std::vector<TestSection>& kn
   }
   study.model = models.whole(longest_s > 0 ? longest_s : 1);
   for (const InputFile& file : study.model.files) add_file(study.tables, file);
-  read_tests(root, known, study);
+  read_tests(root, known, which, study);
   select_cases(root, study);
 }
 
@@ -213,13 +213,10 @@ StudyReader::StudyReader(std::filesystem::path path, std::vector<std::string> se
 Study StudyReader::read(const std::vector<std::string>& more) {
   std::vector<std::string> all = settings_;
   all.insert(all.end(), more.begin(), more.end());
-  if (std::any_of(more.begin(), more.end(), concerns_variables))
-    return study_of(StudyDocument(path_, all, study_keys()), path_, all, CasesRead::chosen);
   std::vector<std::string> keys = keys_of(more);
-  if (!document_ || keys != keys_) {
+  if (!document_ || keys != keys_ || std::ranges::any_of(more, concerns_variables)) {
     document_.emplace(path_, all, study_keys());
     keys_ = std::move(keys);
-    tests_.clear();
   } else {
     for (const std::string& setting : more) document_->set(setting);
   }

@@ -48,7 +48,7 @@ ModesConnections read_modes_connections(const StudyTable& modes);
 PulseSection read_pulse(const StudyTable& pulse, std::vector<InputFile>& files);
 /// The tables [[body]], [[marker]], … as a study has them.
 std::vector<Key> model_table_keys();
-/// Which cases of a study get their models and are checked whole.
+/// Which cases of a study get their models and are checked whole, with the tests that judge them.
 enum class CasesRead {
   all,
   chosen  ///< by the key cases: for what has been read whole before
@@ -65,7 +65,8 @@ std::set<std::string> chosen_cases(const StudyTable& root, const std::vector<Cas
 void select_cases(const StudyTable& root, Study& study);
 /// [dummy] and [[test]] of the cases that have been read.
 /// @param known  tests of an earlier reading of the study, whose regulations are not read again
-void read_tests(const StudyTable& root, const std::vector<TestSection>& known, Study& study);
+void read_tests(const StudyTable& root, const std::vector<TestSection>& known, CasesRead which,
+                Study& study);
 void read_solver(const StudyTable& solver, Study& study);
 
 }  // namespace flexneck::pipeline

@@ -29,7 +29,7 @@ class StudyReader {
   std::vector<std::string> settings_;
   std::vector<std::string> keys_;  ///< that the document has been given values of
   std::optional<StudyDocument> document_;
-  std::vector<TestSection> tests_;  ///< of the first reading of the document
+  std::vector<TestSection> tests_;  ///< of an earlier reading: their regulations stay
 };
 
 }  // namespace flexneck::pipeline

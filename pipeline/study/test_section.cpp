@@ -95,14 +95,17 @@ std::span<const Key> test_keys() {
   return keys;
 }
 
-void read_tests(const StudyTable& root, const std::vector<TestSection>& known, Study& study) {
+void read_tests(const StudyTable& root, const std::vector<TestSection>& known, CasesRead which,
+                Study& study) {
   if (root.has("dummy")) {
     const StudyTable dummy = root.table("dummy");
     study.dummy = dummy.text("name");
     dummy.finish();
   }
+  const std::set<std::string> chosen = chosen_cases(root, study.cases);
   std::vector<std::string> names;
   for (const StudyTable& table : root.tables("test")) {
+    if (which == CasesRead::chosen && !chosen.contains(table.text("case"))) continue;
     names.push_back(table.text("name"));
     read_test(table, known, study);
     table.finish();
