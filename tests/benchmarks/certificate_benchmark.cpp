@@ -9,6 +9,7 @@
 
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/analysis/modal_analysis.h"
+#include "mesher/exchange/mesh_import.h"
 #include "mesher/mesh/refinement.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
@@ -49,6 +50,16 @@ mesher::Mesh neck(const std::string& set, int layers) {
   return testing::neck_mesh(set, divisions);
 }
 
+/// A clamped bar of tetrahedra, as a user brings it.
+mesher::Mesh imported_bar() {
+  mesher::ImportOptions options;
+  options.file = FLEXNECK_SOURCE_DIR "/geometry/examples/cantilever.msh";
+  options.length_unit_m = 1e-3;
+  options.materials = {{"aluminium", 70e9, 0.33, 2700}};
+  options.material_of_part["bar"] = "aluminium";
+  return mesher::import_mesh(options, {});
+}
+
 /// Frequencies with every element cut in eight so many times.
 Eigen::VectorXd reference_Hz(const mesher::Mesh& mesh, const ModalOptions& options, int cuts) {
   mesher::Mesh finest = mesh;
@@ -75,34 +86,63 @@ void print_problem(const char* title, const mesher::Mesh& mesh, ModalOptions opt
   std::fflush(stdout);
 }
 
+/// Runs what the command line asks for.
+struct Benchmark {
+  int effort = 1;
+  std::string wanted;  ///< part of the title; empty: all
+
+  bool wants(const std::string& title) const { return title.find(wanted) != std::string::npos; }
+
+  void rings() const {
+    const ModalOptions bottom = options_of("bottom", 6);
+    const mesher::Mesh ring = bonded_ring(1);
+    if (wants("bonded rubber ring"))
+      print_problem("bonded rubber ring", ring, bottom,
+                    reference_Hz(ring, bottom, effort > 0 ? 3 : 1));
+    for (const ElementKind kind : {ElementKind::tet10, ElementKind::hex20, ElementKind::hex8})
+      if (const std::string title(mesher::name_of(kind)); wants(title))
+        print_problem(title.c_str(), testing::with_kind(ring, kind), bottom,
+                      reference_Hz(ring, bottom, effort > 0 ? 2 : 1));
+  }
+
+  void bars() const {
+    const ModalOptions bottom = options_of("bottom", 6);
+    const mesher::Mesh steel = tube({"steel", 2.1e11, 0.3, 7850});
+    if (wants("steel tube"))
+      print_problem("steel tube", steel, bottom, reference_Hz(steel, bottom, effort > 0 ? 2 : 1));
+    ModalOptions clamp = options_of("clamp", 6);
+    for (const Formulation formulation : {Formulation::displacement, Formulation::mixed_pressure}) {
+      clamp.formulation.of_others = formulation;
+      const std::string title = "imported tetrahedra, " + std::string(name_of(formulation));
+      if (!wants(title)) continue;
+      const mesher::Mesh bar = imported_bar();
+      print_problem(title.c_str(), bar, clamp, reference_Hz(bar, clamp, effort > 0 ? 2 : 1));
+    }
+  }
+
+  void necks() const {
+    const ModalOptions bolts = options_of("bolts", 10);
+    for (const std::string set : {"A", "C"}) {
+      if (!wants("neck " + set)) continue;
+      const mesher::Mesh usual = neck(set, 3);
+      const Eigen::VectorXd reference = reference_Hz(usual, bolts, 1);
+      print_problem(("neck " + set + ", coarse").c_str(), neck(set, 2), bolts, reference);
+      print_problem(("neck " + set + ", default").c_str(), usual, bolts, reference);
+    }
+  }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int effort = argc > 1 ? std::atoi(argv[1]) : 1;
+  Benchmark benchmark;
+  if (argc > 1) benchmark.effort = std::atoi(argv[1]);
+  if (argc > 2) benchmark.wanted = argv[2];
   try {
     const PetscSession session;
-    const ModalOptions bottom = options_of("bottom", 6);
-    const int cuts = effort > 0 ? 2 : 1;
-    const mesher::Mesh ring = bonded_ring(1);
-    print_problem("bonded rubber ring", ring, bottom,
-                  reference_Hz(ring, bottom, effort > 0 ? 3 : 1));
-    for (const ElementKind kind : {ElementKind::tet10, ElementKind::hex20, ElementKind::hex8}) {
-      const mesher::Mesh other = testing::with_kind(ring, kind);
-      print_problem(std::string(mesher::name_of(kind)).c_str(), other, bottom,
-                    reference_Hz(ring, bottom, cuts));
-    }
-    const mesher::Mesh steel = tube({"steel", 2.1e11, 0.3, 7850});
-    print_problem("steel tube", steel, bottom, reference_Hz(steel, bottom, cuts));
-    if (effort > 0) {
-      const ModalOptions bolts = options_of("bolts", 10);
-      for (const char* set : {"A", "C"}) {
-        const mesher::Mesh coarse = neck(set, 2);
-        const mesher::Mesh usual = neck(set, 3);
-        const Eigen::VectorXd reference = reference_Hz(usual, bolts, 1);
-        print_problem("neck, coarse", coarse, bolts, reference);
-        print_problem("neck, default", usual, bolts, reference);
-      }
-    }
+    benchmark.rings();
+    benchmark.bars();
+    if (benchmark.effort > 0) benchmark.necks();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
