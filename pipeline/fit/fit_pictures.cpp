@@ -87,7 +87,7 @@ class Drawing {
     const HistoryMatch& history = result_.history;
     const auto count = static_cast<std::size_t>(history.places.rows());
     if (history.places.cols() == 0 || count < 2) return;
-    constexpr Index kMostPoints = 4000;
+    constexpr Index kMostPoints = 1500;  // of those that miss: a page holds them for each pair
     std::string csv;
     Index missed = 0;
     for (Index k = 0; k < history.places.cols(); ++k) {
@@ -104,7 +104,7 @@ class Drawing {
         script_ += fmt::format(
             "set xlabel {}\nset ylabel {}\nplot 'fit-history.csv' using (${}==0?${}:NaN):{} with "
             "points pt 7 ps 0.2 lc rgb '#cccccc' notitle, '' using (${}==1?${}:NaN):{} with "
-            "points pt 7 ps 0.4 lc rgb '#0072b2' notitle\n",
+            "points pt 7 ps 0.6 lc rgb '#0072b2' notitle\n",
             label_of(i), label_of(j), count + 1, i + 1, j + 1, count + 1, i + 1, j + 1);
     script_ += "unset multiplot\n";
   }
