@@ -239,8 +239,10 @@ multibody::SystemMode first_system_mode(const Study& study, const CaseSection& e
     throw InputError("case." + experiment.name +
                      ": none of the modes chosen moves in the plane of the case");
   }
-  // About a kink the mean stiffness is not symmetric and may make a motion grow by itself.
-  if (modes.front().is_unstable() && modes.front().kink.empty()) {
+  // About a kink the mean stiffness is not symmetric, by which an oscillation may grow, but nothing
+  // falls over.
+  const bool falls_over = modes.front().damped_frequency_Hz == 0;
+  if (modes.front().is_unstable() && (modes.front().kink.empty() || falls_over)) {
     throw ComputationError("case." + experiment.name +
                            ": the equilibrium of neck and head is not stable");
   }
