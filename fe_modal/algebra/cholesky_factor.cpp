@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fe_modal/algebra/cholmod_handles.h"
+#include "fe_modal/algebra/supernodes.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
@@ -29,17 +30,6 @@ cholmod_sparse view_of(Mat matrix) {
   return cholmod_view({offsets, rows + 1}, {columns, entries}, {values, entries});
 }
 
-cholmod_dense view_of(const Eigen::MatrixXd& columns) {
-  cholmod_dense view{};
-  view.nrow = view.d = static_cast<std::size_t>(columns.rows());
-  view.ncol = static_cast<std::size_t>(columns.cols());
-  view.nzmax = static_cast<std::size_t>(columns.size());
-  view.x = const_cast<double*>(columns.data());
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  return view;
-}
-
 std::string millions_text(double entries) {
   std::array<char, 80> text{};
   std::snprintf(text.data(), text.size(), "%.4g million entries", entries / 1e6);
@@ -53,6 +43,7 @@ struct CholeskyFactor::Handles {
 
   CholmodSession session;
   CholmodFactor factor;
+  Supernodes supernodes;
 };
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
@@ -71,29 +62,22 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered)
 CholeskyFactor::~CholeskyFactor() = default;
 
 void CholeskyFactor::make(Mat shifted_stiffness, std::span<const int> dof_order) {
-  auto& [session, factor] = *handles_;
+  auto& [session, factor, supernodes] = *handles_;
   const cholmod_sparse view = view_of(shifted_stiffness);
   factor = analyse(view, dof_order, session);
   nonzeros_ = session.get()->lnz;
   require_memory("the factor of " + millions_text(nonzeros_), kBytesPerFactorEntry * nonzeros_,
                  kOrAnotherSolution);
   factorise(view, factor, session);
+  supernodes = Supernodes(*factor);
 }
 
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  Eigen::MatrixXd solutions(right_hand_sides.rows(), right_hand_sides.cols());
-  if (solutions.size() == 0) return solutions;
-  cholmod_common* const session = handles_->session.get();
-  cholmod_dense in = view_of(right_hand_sides);
-  cholmod_dense out = view_of(solutions);
-  cholmod_dense* found = &out;
-  cholmod_dense* permuted = nullptr;
-  cholmod_dense* block = nullptr;
-  cholmod_solve2(CHOLMOD_A, handles_->factor.get(), &in, nullptr, &found, nullptr, &permuted,
-                 &block, session);
-  cholmod_free_dense(&permuted, session);
-  cholmod_free_dense(&block, session);
-  if (session->status < 0) throw ComputationError("memory runs out while solving with the factor");
+  const Supernodes& supernodes = handles_->supernodes;
+  Eigen::MatrixXd x = right_hand_sides(supernodes.order(), Eigen::all);
+  supernodes.solve(values_of(*handles_->factor), x);
+  Eigen::MatrixXd solutions(x.rows(), x.cols());
+  solutions(supernodes.order(), Eigen::all) = x;
   return solutions;
 }
 

@@ -54,7 +54,11 @@ std::vector<int> order_of_dofs(std::span<const std::int32_t> node_order);
 /// @throws InputError if CHOLMOD's integers do not count them, ComputationError if memory runs out.
 CholmodFactor analyse(const cholmod_sparse& matrix, std::span<const int> order,
                       CholmodSession& session);
+/// A supernodal factor.
 /// @throws ComputationError if the matrix is not positive definite or memory runs out.
 void factorise(const cholmod_sparse& matrix, CholmodFactor& factor, CholmodSession& session);
+
+/// Of a supernodal factor, where fe_modal/algebra/supernodes.h has the places.
+std::span<const double> values_of(const cholmod_factor& factor);
 
 }  // namespace flexneck::fe_modal

@@ -13,7 +13,6 @@ namespace {
 std::vector<std::int32_t> postordered(const NodeGraph& graph,
                                       const std::vector<std::int32_t>& order) {
   CholmodSession session(CholmodOrder::given);
-  session.get()->supernodal = CHOLMOD_SUPERNODAL;
   const CholmodFactor factor =
       analyse(cholmod_view(graph.offsets(), graph.columns(), {}), order, session);
   const auto* const permutation = static_cast<const int*>(factor->Perm);

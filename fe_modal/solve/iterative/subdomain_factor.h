@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/supernodes.h"
 #include "fe_modal/algebra/symmetric_matrix.h"
 
 namespace flexneck::fe_modal {
@@ -30,22 +30,7 @@ class SubdomainFactor {
   double nonzeros() const { return static_cast<double>(values_.size()); }
 
  private:
-  /// Columns that have the same rows below them; a dense block of `rows` by `columns` numbers,
-  /// column by column, whose first rows are the columns themselves.
-  struct Supernode {
-    int first = 0;  ///< column
-    int columns = 0;
-    int rows = 0;
-    std::size_t row_list = 0;  ///< where the rows begin in rows_
-    std::size_t block = 0;     ///< where the block begins in values_
-  };
-
-  void forward(Eigen::MatrixXf& x) const;
-  void backward(Eigen::MatrixXf& x) const;
-
-  std::vector<int> order_;  ///< entry k is the degree of freedom that comes k-th
-  std::vector<Supernode> supernodes_;
-  std::vector<int> rows_;
+  Supernodes supernodes_;
   std::vector<float> values_;
 };
 
