@@ -47,15 +47,18 @@ struct CholeskyFactor::Handles {
 };
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
-                               std::span<const std::int32_t> node_order)
+                               std::span<const std::int32_t> node_order, unsigned threads)
     : ShiftInverse(shift),
+      threads_(threads),
       handles_(std::make_unique<Handles>(node_order.empty() ? CholmodOrder::best
                                                             : CholmodOrder::given)) {
   make(shifted_stiffness, order_of_dofs(node_order));
 }
 
-CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered)
-    : ShiftInverse(shift), handles_(std::make_unique<Handles>(CholmodOrder::numbering)) {
+CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered, unsigned threads)
+    : ShiftInverse(shift),
+      threads_(threads),
+      handles_(std::make_unique<Handles>(CholmodOrder::numbering)) {
   make(shifted_stiffness, {});
 }
 
@@ -75,7 +78,7 @@ void CholeskyFactor::make(Mat shifted_stiffness, std::span<const int> dof_order)
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
   const Supernodes& supernodes = handles_->supernodes;
   Eigen::MatrixXd x = right_hand_sides(supernodes.order(), Eigen::all);
-  supernodes.solve(values_of(*handles_->factor), x);
+  supernodes.solve(values_of(*handles_->factor), x, threads_);
   Eigen::MatrixXd solutions(x.rows(), x.cols());
   solutions(supernodes.order(), Eigen::all) = x;
   return solutions;

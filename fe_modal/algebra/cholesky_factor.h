@@ -34,13 +34,14 @@ class CholeskyFactor : public ShiftInverse {
   /// @param node_order order of elimination: entry k is the node, three degrees of freedom each,
   /// that comes k-th; a permutation of 0 … N/3 - 1. Empty: CHOLMOD tries AMD, and METIS on all
   /// degrees of freedom where AMD fills much, and keeps the better one.
+  /// @param threads that solve
   /// @throws InputError if memory does not hold the factor, before it is made, or its entries are
   /// more than CHOLMOD's integers count.
   /// @throws ComputationError if the matrix is not positive definite or memory runs out.
-  CholeskyFactor(Mat shifted_stiffness, double shift,
-                 std::span<const std::int32_t> node_order = {});
+  CholeskyFactor(Mat shifted_stiffness, double shift, std::span<const std::int32_t> node_order = {},
+                 unsigned threads = 1);
   /// The same without a copy of the matrix in another order: a sixth of the factor's size.
-  CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered);
+  CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered, unsigned threads = 1);
   ~CholeskyFactor() override;
 
   /// Entries of the factor, as CHOLMOD counts them.
@@ -54,6 +55,7 @@ class CholeskyFactor : public ShiftInverse {
   void make(Mat shifted_stiffness, std::span<const int> dof_order);
 
   double nonzeros_ = 0;
+  unsigned threads_;
   std::unique_ptr<Handles> handles_;
 };
 

@@ -45,10 +45,9 @@ class WithoutOpenMp {
 
  private:
   // Of the run-time library that CHOLMOD brings along, if it was built with one.
-  int (*levels_)() =
-      reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
-  void (*set_levels_)(int) =
-      reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+  int (*levels_)() = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
+  void (*set_levels_)(int) = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT,
+                                                                   "omp_set_max_active_levels"));
   int before_ = 0;
 };
 

@@ -7,8 +7,8 @@
 
 namespace flexneck::fe_modal {
 
-DofLayout::DofLayout(Eigen::Index block_count)
-    : block_count_(block_count), own_block_count_(block_count) {}
+DofLayout::DofLayout(Eigen::Index block_count, const Ranks& alone)
+    : ranks_(alone), block_count_(block_count), own_block_count_(block_count) {}
 
 DofLayout::DofLayout(const Ranks& ranks, std::vector<std::int32_t> owner_of_block)
     : ranks_(ranks), block_count_(static_cast<Eigen::Index>(owner_of_block.size())) {

@@ -15,7 +15,7 @@ namespace flexneck::fe_modal {
 class DofLayout {
  public:
   /// All on this process.
-  explicit DofLayout(Eigen::Index block_count);
+  explicit DofLayout(Eigen::Index block_count, const Ranks& alone = {});
   /// @param owner_of_block (blocks) the rank that owns each; the same on all ranks
   DofLayout(const Ranks& ranks, std::vector<std::int32_t> owner_of_block);
 

@@ -45,6 +45,12 @@ std::string current_failure() {
   }
 }
 
+Ranks Ranks::with_threads(unsigned count) const {
+  Ranks ranks = *this;
+  ranks.threads_ = count;
+  return ranks;
+}
+
 Ranks Ranks::all() {
   Ranks ranks;
   MPI_Comm_rank(MPI_COMM_WORLD, &ranks.own_);

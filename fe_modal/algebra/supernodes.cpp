@@ -2,151 +2,20 @@
 #include "fe_modal/algebra/supernodes.h"
 
 #include <algorithm>
+#include <numeric>
 
-#include "fe_modal/algebra/vector_clones.h"
+#include "fe_modal/algebra/block_elimination.h"
+#include "geometry/foundation/in_parallel.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-/// Columns of x that are worked on together, a row of them in one or two registers. The block's
-/// are taken four at a time, whose rows of x stay there.
-constexpr int kWidth = 8;
-constexpr int kPanel = 4;
-
-template <typename Scalar>
-struct alignas(kWidth * sizeof(Scalar)) RowOf {
-  // An attribute, since no type of the standard is a register.
-  typedef Scalar Type __attribute__((vector_size(kWidth * sizeof(Scalar))));
-  Type row;
-};
-
-using Supernode = Supernodes::Supernode;
-
-/// The block's own rows of x become L^-1 x, `below` becomes what the rows below lose by that.
-template <typename Scalar, typename Row>
-[[gnu::always_inline]] inline void eliminate(const Supernode& node, const Scalar* block, Row* own,
-                                             Row* below) {
-  const int more = node.rows - node.columns;
-  for (int i = 0; i < more; ++i) below[i] = Row{};
-  int j = 0;
-  for (; j + kPanel <= node.columns; j += kPanel) {
-    const Scalar* const a = block + static_cast<std::size_t>(j) * node.rows;
-    const Scalar* const b = a + node.rows;
-    const Scalar* const c = b + node.rows;
-    const Scalar* const d = c + node.rows;
-    const Row x0 = own[j] / a[j];
-    const Row x1 = (own[j + 1] - a[j + 1] * x0) / b[j + 1];
-    const Row x2 = (own[j + 2] - a[j + 2] * x0 - b[j + 2] * x1) / c[j + 2];
-    const Row x3 = (own[j + 3] - a[j + 3] * x0 - b[j + 3] * x1 - c[j + 3] * x2) / d[j + 3];
-    own[j] = x0;
-    own[j + 1] = x1;
-    own[j + 2] = x2;
-    own[j + 3] = x3;
-    for (int i = j + kPanel; i < node.columns; ++i) {
-      own[i] -= a[i] * x0 + b[i] * x1 + c[i] * x2 + d[i] * x3;
-    }
-    for (int i = 0; i < more; ++i) {
-      const int r = node.columns + i;
-      below[i] += a[r] * x0 + b[r] * x1 + c[r] * x2 + d[r] * x3;
-    }
-  }
-  for (; j < node.columns; ++j) {
-    const Scalar* const a = block + static_cast<std::size_t>(j) * node.rows;
-    const Row x0 = own[j] / a[j];
-    own[j] = x0;
-    for (int i = j + 1; i < node.columns; ++i) own[i] -= a[i] * x0;
-    for (int i = 0; i < more; ++i) below[i] += a[node.columns + i] * x0;
-  }
-}
-
-/// The block's own rows of x become those of L^-T x, of which the rows below are known.
-template <typename Scalar, typename Row>
-[[gnu::always_inline]] inline void substitute(const Supernode& node, const Scalar* block, Row* own,
-                                              const Row* below) {
-  const int more = node.rows - node.columns;
-  int j = node.columns;
-  for (; j % kPanel != 0; --j) {
-    const Scalar* const a = block + static_cast<std::size_t>(j - 1) * node.rows;
-    Row sum = own[j - 1];
-    for (int i = j; i < node.columns; ++i) sum -= a[i] * own[i];
-    for (int i = 0; i < more; ++i) sum -= a[node.columns + i] * below[i];
-    own[j - 1] = sum / a[j - 1];
-  }
-  for (; j > 0; j -= kPanel) {
-    const int k = j - kPanel;
-    const Scalar* const a = block + static_cast<std::size_t>(k) * node.rows;
-    const Scalar* const b = a + node.rows;
-    const Scalar* const c = b + node.rows;
-    const Scalar* const d = c + node.rows;
-    Row s0 = own[k];
-    Row s1 = own[k + 1];
-    Row s2 = own[k + 2];
-    Row s3 = own[k + 3];
-    const auto subtract = [&](int i, const Row& x) __attribute__((always_inline)) {
-      s0 -= a[i] * x;
-      s1 -= b[i] * x;
-      s2 -= c[i] * x;
-      s3 -= d[i] * x;
-    };
-    for (int i = j; i < node.columns; ++i) subtract(i, own[i]);
-    for (int i = 0; i < more; ++i) subtract(node.columns + i, below[i]);
-    s3 /= d[k + 3];
-    s2 = (s2 - c[k + 3] * s3) / c[k + 2];
-    s1 = (s1 - b[k + 2] * s2 - b[k + 3] * s3) / b[k + 1];
-    s0 = (s0 - a[k + 1] * s1 - a[k + 2] * s2 - a[k + 3] * s3) / a[k];
-    own[k] = s0;
-    own[k + 1] = s1;
-    own[k + 2] = s2;
-    own[k + 3] = s3;
-  }
-}
-
-/// x = (L L^T)^-1 x.
-/// @param below room for the rows below any block
-template <typename Scalar, typename Row>
-[[gnu::always_inline]] inline void solve_inline(std::span<const Supernode> supernodes,
-                                                const int* rows, const Scalar* values, Row* x,
-                                                Row* below) {
-  for (const Supernode& node : supernodes) {
-    eliminate(node, values + node.block, x + node.first, below);
-    const int* const places = rows + node.row_list + node.columns;
-    for (int i = 0; i < node.rows - node.columns; ++i) x[places[i]] -= below[i];
-  }
-  for (std::size_t k = supernodes.size(); k-- > 0;) {
-    const Supernode& node = supernodes[k];
-    const int* const places = rows + node.row_list + node.columns;
-    for (int i = 0; i < node.rows - node.columns; ++i) below[i] = x[places[i]];
-    substitute(node, values + node.block, x + node.first, below);
-  }
-}
-
-FLEXNECK_VECTOR_CLONES void solve_eight(std::span<const Supernode> supernodes, const int* rows,
-                                        const double* values, RowOf<double>* x,
-                                        RowOf<double>* below) {
-  solve_inline(supernodes, rows, values, &x->row, &below->row);
-}
-FLEXNECK_VECTOR_CLONES void solve_eight(std::span<const Supernode> supernodes, const int* rows,
-                                        const float* values, RowOf<float>* x, RowOf<float>* below) {
-  solve_inline(supernodes, rows, values, &x->row, &below->row);
-}
-
-template <typename Scalar, typename Matrix>
-void solve_all(std::span<const Supernode> supernodes, const int* rows, const Scalar* values,
-               Matrix& x) {
-  int most = 0;
-  for (const Supernode& node : supernodes) most = std::max(most, node.rows - node.columns);
-  std::vector<RowOf<Scalar>> eight(static_cast<std::size_t>(x.rows()));
-  std::vector<RowOf<Scalar>> below(static_cast<std::size_t>(most));
-  using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, kWidth, Eigen::RowMajor>;
-  Eigen::Map<RowMajor> columns(reinterpret_cast<Scalar*>(eight.data()), x.rows(), kWidth);
-  for (Eigen::Index first = 0; first < x.cols(); first += kWidth) {
-    const Eigen::Index width = std::min<Eigen::Index>(kWidth, x.cols() - first);
-    columns.leftCols(width) = x.middleCols(first, width);
-    columns.rightCols(kWidth - width).setZero();
-    solve_eight(supernodes, rows, values, eight.data(), below.data());
-    x.middleCols(first, width) = columns.leftCols(width);
-  }
-}
+constexpr Eigen::Index kEight = 8;
+/// A branch with a larger share of the factor's entries is divided.
+constexpr double kShareOfBranch = 1.0 / 32;
+/// Entries of a factor that is too small to be shared out: its solve takes less than a thread's
+/// start.
+constexpr double kFewEntries = 1e5;
 
 }  // namespace
 
@@ -162,18 +31,185 @@ Supernodes::Supernodes(const cholmod_factor& factor) {
   order_.assign(order.begin(), order.end());
   rows_.assign(rows.begin(), rows.end());
   for (std::size_t k = 0; k < factor.nsuper; ++k) {
-    supernodes_.push_back({columns[k], columns[k + 1] - columns[k], row_lists[k + 1] - row_lists[k],
+    const int count = row_lists[k + 1] - row_lists[k];
+    supernodes_.push_back({columns[k], columns[k + 1] - columns[k], count,
                            static_cast<std::size_t>(row_lists[k]),
                            static_cast<std::size_t>(blocks[k])});
+    most_rows_ = std::max(most_rows_, count);
+  }
+  find_branches();
+  number_rows_beyond();
+}
+
+void Supernodes::find_branches() {
+  const std::size_t count = supernodes_.size();
+  std::vector<std::size_t> supernode_of(order_.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    for (int j = supernodes_[k].first; j < supernodes_[k].end(); ++j) supernode_of[j] = k;
+  }
+  // Of each subtree: its first supernode, how many it has, and the entries of the factor in it.
+  std::vector<std::size_t> first(count);
+  std::vector<std::size_t> size(count, 1);
+  std::vector<double> entries(count);
+  std::vector<std::vector<std::size_t>> children(count);
+  std::vector<std::size_t> candidates;
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  for (std::size_t k = 0; k < count; ++k) {
+    const Supernode& node = supernodes_[k];
+    entries[k] += static_cast<double>(node.rows) * node.columns;
+    if (node.rows == node.columns) {
+      candidates.push_back(k);
+      continue;
+    }
+    const std::size_t parent = supernode_of[rows_of(node)[node.columns]];
+    children[parent].push_back(k);
+    first[parent] = std::min(first[parent], first[k]);
+    size[parent] += size[k];
+    entries[parent] += entries[k];
+  }
+  double all = 0;
+  for (const std::size_t root : candidates) all += entries[root];
+  while (!candidates.empty()) {
+    const std::size_t k = candidates.back();
+    candidates.pop_back();
+    const bool are_neighbours = first[k] + size[k] == k + 1;
+    if (all > kFewEntries && are_neighbours && entries[k] <= kShareOfBranch * all) {
+      const Supernode& root = supernodes_[k];
+      branches_.push_back(
+          {first[k], k + 1, root.end(), {rows_of(root) + root.columns, rows_of(root) + root.rows}});
+    } else {
+      trunk_.push_back(k);
+      candidates.insert(candidates.end(), children[k].begin(), children[k].end());
+    }
+  }
+  std::sort(trunk_.begin(), trunk_.end());
+  std::sort(branches_.begin(), branches_.end(),
+            [](const Branch& one, const Branch& other) { return one.begin < other.begin; });
+}
+
+void Supernodes::number_rows_beyond() {
+  std::vector<int> numbers(order_.size());
+  for (const Branch& branch : branches_) {
+    for (std::size_t k = 0; k < branch.beyond.size(); ++k) {
+      numbers[branch.beyond[k]] = branch.end_row + static_cast<int>(k);
+    }
+    for (std::size_t k = branch.begin; k < branch.end; ++k) {
+      const Supernode& node = supernodes_[k];
+      for (int& row : std::span(rows_).subspan(node.row_list, node.rows)) {
+        if (row >= branch.end_row) row = numbers[row];
+      }
+    }
   }
 }
 
-void Supernodes::solve(std::span<const double> values, Eigen::MatrixXd& x) const {
-  solve_all(supernodes_, rows_.data(), values.data(), x);
+/// Eight columns on their way through the factor.
+template <typename Scalar>
+class Supernodes::Solve {
+ public:
+  Solve(const Supernodes& factor, const Scalar* values)
+      : factor_(factor), values_(values), x_(factor.order_.size()) {
+    for (const Branch& branch : factor.branches_) beyond_.emplace_back(branch.beyond.size());
+  }
+
+  auto columns() {
+    using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, kEight, Eigen::RowMajor>;
+    return Eigen::Map<RowMajor>(x_.front().value, static_cast<Eigen::Index>(x_.size()), kEight);
+  }
+
+  void run(unsigned threads) {
+    const std::vector<Branch>& branches = factor_.branches_;
+    in_parallel(branches.size(), threads, [&](std::size_t b) { forward(branches[b], beyond_[b]); });
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+      for (std::size_t k = 0; k < beyond_[b].size(); ++k) {
+        add(beyond_[b][k], x_[branches[b].beyond[k]]);
+      }
+    }
+    Workspace trunk = workspace(static_cast<int>(x_.size()), nullptr);
+    for (const std::size_t k : factor_.trunk_) forward(factor_.supernodes_[k], trunk);
+    for (std::size_t k = factor_.trunk_.size(); k-- > 0;) {
+      backward(factor_.supernodes_[factor_.trunk_[k]], trunk);
+    }
+    in_parallel(branches.size(), threads,
+                [&](std::size_t b) { backward(branches[b], beyond_[b]); });
+  }
+
+ private:
+  using Row = RowOfEight<Scalar>;
+
+  /// Where a branch, or the trunk, finds the rows of its lists.
+  struct Workspace {
+    Row* x;
+    int end_row;
+    Row* beyond;
+    std::vector<Row> block_x;
+
+    Row& at(int row) { return row < end_row ? x[row] : beyond[row - end_row]; }
+  };
+  Workspace workspace(int end_row, Row* beyond) {
+    return {x_.data(), end_row, beyond, std::vector<Row>(factor_.most_rows_)};
+  }
+
+  static void add(const Row& more, Row& sum) {
+    for (Eigen::Index c = 0; c < kEight; ++c) sum.value[c] += more.value[c];
+  }
+
+  void forward(const Branch& branch, std::vector<Row>& beyond) {
+    std::fill(beyond.begin(), beyond.end(), Row{});
+    Workspace places = workspace(branch.end_row, beyond.data());
+    for (std::size_t k = branch.begin; k < branch.end; ++k) {
+      forward(factor_.supernodes_[k], places);
+    }
+  }
+  void forward(const Supernode& node, Workspace& places) const {
+    Row* const block_x = places.block_x.data();
+    std::copy_n(places.x + node.first, node.columns, block_x);
+    std::fill_n(block_x + node.columns, node.rows - node.columns, Row{});
+    eliminate(FactorBlock<Scalar>{values_ + node.block, node.rows, node.columns}, block_x);
+    std::copy_n(block_x, node.columns, places.x + node.first);
+    const int* const rows = factor_.rows_of(node);
+    for (int i = node.columns; i < node.rows; ++i) add(block_x[i], places.at(rows[i]));
+  }
+
+  void backward(const Branch& branch, std::vector<Row>& beyond) {
+    for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] = x_[branch.beyond[k]];
+    Workspace places = workspace(branch.end_row, beyond.data());
+    for (std::size_t k = branch.end; k-- > branch.begin;) {
+      backward(factor_.supernodes_[k], places);
+    }
+  }
+  void backward(const Supernode& node, Workspace& places) const {
+    Row* const block_x = places.block_x.data();
+    const int* const rows = factor_.rows_of(node);
+    for (int i = 0; i < node.rows; ++i) block_x[i] = places.at(rows[i]);
+    substitute(FactorBlock<Scalar>{values_ + node.block, node.rows, node.columns}, block_x);
+    std::copy_n(block_x, node.columns, places.x + node.first);
+  }
+
+  const Supernodes& factor_;
+  const Scalar* values_;
+  std::vector<Row> x_;
+  std::vector<std::vector<Row>> beyond_;  ///< of each branch
+};
+
+void Supernodes::solve(std::span<const double> values, Eigen::MatrixXd& x, unsigned threads) const {
+  solve_by_eight<double>(values, x, threads);
 }
 
-void Supernodes::solve(std::span<const float> values, Eigen::MatrixXf& x) const {
-  solve_all(supernodes_, rows_.data(), values.data(), x);
+void Supernodes::solve(std::span<const float> values, Eigen::MatrixXf& x, unsigned threads) const {
+  solve_by_eight<float>(values, x, threads);
+}
+
+template <typename Scalar, typename Matrix>
+void Supernodes::solve_by_eight(std::span<const Scalar> values, Matrix& x, unsigned threads) const {
+  if (x.size() == 0) return;
+  Solve<Scalar> eight(*this, values.data());
+  for (Eigen::Index first = 0; first < x.cols(); first += kEight) {
+    const Eigen::Index width = std::min(kEight, x.cols() - first);
+    eight.columns().leftCols(width) = x.middleCols(first, width);
+    eight.columns().rightCols(kEight - width).setZero();
+    eight.run(threads);
+    x.middleCols(first, width) = eight.columns().leftCols(width);
+  }
 }
 
 }  // namespace flexneck::fe_modal

@@ -11,9 +11,8 @@
 
 namespace flexneck::fe_modal {
 
-/// The places of the entries of a supernodal Cholesky factor, P A P^T = L L^T, and the triangular
-/// solves with it, eight columns at a time: the factor, which no cache holds, is read once for
-/// eight columns. A BLAS packs it first, which here takes as long as the product.
+/// The places of the entries of a supernodal Cholesky factor, P A P^T = L L^T, and the solves with
+/// it.
 class Supernodes {
  public:
   Supernodes() = default;
@@ -22,12 +21,13 @@ class Supernodes {
 
   /// Entry k is the row of A that comes k-th.
   std::span<const int> order() const { return order_; }
-  /// x = (L L^T)^-1 x.
+  /// x = (L L^T)^-1 x, the same to the last bit by any number of threads.
   /// @param values of the factor, as CHOLMOD stores them
   /// @param x (n, k), rows in the order of elimination
-  void solve(std::span<const double> values, Eigen::MatrixXd& x) const;
-  void solve(std::span<const float> values, Eigen::MatrixXf& x) const;
+  void solve(std::span<const double> values, Eigen::MatrixXd& x, unsigned threads) const;
+  void solve(std::span<const float> values, Eigen::MatrixXf& x, unsigned threads) const;
 
+ private:
   /// Columns that have the same rows below them; a dense block of `rows` by `columns` numbers,
   /// column by column, whose first rows are the columns themselves.
   struct Supernode {
@@ -36,12 +36,33 @@ class Supernodes {
     int rows = 0;
     std::size_t row_list = 0;  ///< where the rows begin in the list of all
     std::size_t block = 0;     ///< where the block begins in the values
-  };
 
- private:
+    int end() const { return first + columns; }
+  };
+  /// A supernode with all below it in the tree of elimination: neighbours. In the row lists of a
+  /// branch, row end_row + k stands for row beyond[k] of the factor.
+  struct Branch {
+    std::size_t begin = 0;  ///< supernodes
+    std::size_t end = 0;
+    int end_row = 0;
+    std::vector<int> beyond;  ///< rows after its own that it has to do with, ascending
+  };
+  template <typename Scalar>
+  class Solve;
+  template <typename Scalar, typename Matrix>
+  void solve_by_eight(std::span<const Scalar> values, Matrix& x, unsigned threads) const;
+
+  /// Into which branches the tree falls, and its trunk.
+  void find_branches();
+  void number_rows_beyond();
+  const int* rows_of(const Supernode& node) const { return rows_.data() + node.row_list; }
+
   std::vector<int> order_;
   std::vector<Supernode> supernodes_;
   std::vector<int> rows_;
+  int most_rows_ = 0;               ///< of a block
+  std::vector<Branch> branches_;    ///< that know nothing of one another, ascending
+  std::vector<std::size_t> trunk_;  ///< all other supernodes, ascending
 };
 
 }  // namespace flexneck::fe_modal

@@ -124,8 +124,8 @@ std::unique_ptr<ShiftInverse> AssembledSystem::shift_inverse(double shift) const
   }
   const auto factor_of = [&](Mat matrix) -> std::unique_ptr<ShiftInverse> {
     if (fields_.dof_map().is_renumbered())
-      return std::make_unique<CholeskyFactor>(matrix, shift, AsNumbered());
-    return std::make_unique<CholeskyFactor>(matrix, shift, order());
+      return std::make_unique<CholeskyFactor>(matrix, shift, AsNumbered(), ranks().threads());
+    return std::make_unique<CholeskyFactor>(matrix, shift, order(), ranks().threads());
   };
   return factor_of(shift == 0 ? matrices_->stiffness.get()
                               : shifted_stiffness(*matrices_, shift).get());

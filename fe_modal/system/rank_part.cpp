@@ -142,7 +142,7 @@ void for_each_element(
 
 DofLayout layout_of(const Ranks& ranks, const mesher::Mesh& mesh, const DofMap& dof_map,
                     const std::vector<std::int32_t>& rank_of_element) {
-  if (!ranks.are_many()) return DofLayout(dof_map.free_count());
+  if (!ranks.are_many()) return DofLayout(dof_map.free_count(), ranks);
   std::vector<std::int32_t> owners(static_cast<std::size_t>(dof_map.free_count()), ranks.count());
   for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
     for (const std::int32_t node : nodes) {

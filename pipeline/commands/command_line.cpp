@@ -127,7 +127,8 @@ void add_shards(CLI::App& app, CommandLine& line) {
 }
 
 void add_threads(CLI::App& app, CommandLine& line) {
-  app.add_option("--threads", line.shares.threads, "That compute rows; all processors if not given")
+  app.add_option("--threads", line.shares.threads,
+                 "That compute; all processors if not given, one a rank")
       ->option_text("N")
       ->check(CLI::Range(1, 1024));
 }

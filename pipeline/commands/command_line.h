@@ -41,7 +41,7 @@ struct CommandLine {
   bool is_binary = false;
   CurveChoice curves;
   NeckLoadChoice neck_loads;
-  RowShares shares;
+  WorkShares shares;
 
   /// Whether anything goes into the folder.
   bool writes() const { return command->writes_results && !show && !folder.empty(); }

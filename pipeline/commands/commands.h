@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "fe_modal/algebra/ranks.h"
@@ -12,9 +14,9 @@
 
 namespace flexneck::pipeline {
 
-/// How the work of a sweep or a fit is shared out; empty and 0 where nothing is said.
-struct RowShares {
-  std::string shard;  ///< "2/8"
+/// How the work is shared out; empty and 0 where nothing is said.
+struct WorkShares {
+  std::string shard;  ///< of a sweep's rows: "2/8"
   int threads = 0;
 };
 
@@ -30,11 +32,17 @@ struct CommandInput {
   bool redo = false;                  ///< of run: even what has not changed
   bool is_run = false;                ///< all that follows is made anew, too
   bool sensitivity = false;           ///< of modes: their derivatives, too
-  RowShares shares = {};              ///< of sweep and fit
+  WorkShares shares = {};
 };
 
 /// Whether this process writes files.
 inline bool writes(const CommandInput& input) { return input.ranks.is_first(); }
+
+/// As many as are asked for, otherwise as there are processors.
+inline unsigned threads_of(const CommandInput& input) {
+  if (input.shares.threads > 0) return static_cast<unsigned>(input.shares.threads);
+  return std::max(1U, std::thread::hardware_concurrency());
+}
 
 /// Options that some commands have and others have not.
 enum class CommandOption {

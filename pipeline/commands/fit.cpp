@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <thread>
 
 #include <fmt/core.h>
 
@@ -18,11 +17,6 @@
 namespace flexneck::pipeline {
 
 namespace {
-
-unsigned threads_of(const CommandInput& input) {
-  return input.shares.threads > 0 ? static_cast<unsigned>(input.shares.threads)
-                                  : std::max(1U, std::thread::hardware_concurrency());
-}
 
 Provenance provenance_of_fit(const Study& study) {
   Provenance provenance = provenance_of(study);

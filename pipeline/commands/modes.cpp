@@ -57,7 +57,8 @@ mesher::MeshFile read_mesh_together(const CommandInput& input) {
 void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
                 fe_modal::ModalOptions& options) {
   options.solver = input.study.modes.solver;
-  options.ranks = input.ranks;
+  const bool each_has_one = input.ranks.are_many() && input.shares.threads == 0;
+  options.ranks = input.ranks.with_threads(each_has_one ? 1 : threads_of(input));
   options.node_order = mesh.node_order;
   const auto partition = mesh.partitions.find(input.ranks.count());
   if (partition != mesh.partitions.end()) options.element_ranks = partition->second;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "pipeline/commands/substructures.h"
@@ -38,7 +37,7 @@ PendulumCases::PendulumCases(const CommandInput& input, std::vector<const CaseSe
 }
 
 void PendulumCases::compute_ahead() {
-  const std::size_t ahead = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t ahead = threads_of(input_);
   while (running_.size() < ahead && written_ + running_.size() < cases_.size())
     running_.push_back(std::async(std::launch::async, run_pendulum, std::cref(modes_.study),
                                   std::cref(*cases_[written_ + running_.size()]),

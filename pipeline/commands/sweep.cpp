@@ -3,7 +3,6 @@
 #include <charconv>
 #include <map>
 #include <optional>
-#include <thread>
 
 #include <fmt/core.h>
 
@@ -40,8 +39,7 @@ std::optional<Shard> shard_from(const std::string& text) {
 SweepShare share_of(const CommandInput& input) {
   SweepShare share;
   share.shard = shard_from(input.shares.shard);
-  share.threads = input.shares.threads > 0 ? static_cast<unsigned>(input.shares.threads)
-                                           : std::max(1U, std::thread::hardware_concurrency());
+  share.threads = threads_of(input);
   share.is_stopped = &Interrupt::is_asked();
   return share;
 }

@@ -2,13 +2,11 @@
 #include "pipeline/fit/fit_objective.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <new>
-#include <thread>
 #include <utility>
+
+#include "geometry/foundation/in_parallel.h"
 
 namespace flexneck::pipeline {
 
@@ -17,29 +15,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-/// Calls work(0) … work(count - 1) by several threads. @throws what the first of them throws
-void in_parallel(Index count, unsigned threads, const std::function<void(Index)>& work) {
-  std::atomic<Index> next = 0;
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto run = [&] {
-    for (Index k = next++; k < count; k = next++) {
-      try {
-        work(k);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  std::vector<std::jthread> others;
-  for (unsigned k = 1; k < threads && static_cast<Index>(k) < count; ++k) others.emplace_back(run);
-  run();
-  others.clear();  // joins them
-  if (failure) std::rethrow_exception(failure);
-}
 
 /// Where a parameter is moved to: one step to either side, or one and two to one side.
 std::pair<double, double> steps_of(const FitRange& range, double at, double step) {
@@ -78,13 +53,14 @@ std::function<ModelSlopes(const VectorXd&)> central_differences(
       const FitRange& range = ranges[static_cast<std::size_t>(k)];
       return steps_of(range, at[k], kStep * range.width());
     };
-    in_parallel(2 * count + 1, threads, [&](Index task) {
+    in_parallel(found.size(), threads, [&](std::size_t number) {
+      const auto task = static_cast<Index>(number);
       VectorXd place = at;
       if (task > 0) {
         const auto [one, other] = moved_steps((task - 1) / 2);
         place[(task - 1) / 2] += task % 2 == 1 ? one : other;
       }
-      found[static_cast<std::size_t>(task)] = values(place);
+      found[number] = values(place);
     });
     ModelSlopes slopes{found.front(), MatrixXd(found.front().size(), count)};
     for (Index k = 0; k < count; ++k) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fe_modal/solve/iterative/submatrix.h"
+#include "geometry/foundation/in_parallel.h"
 #include "mesher/partition/node_order.h"
 
 namespace flexneck::fe_modal {
@@ -30,12 +31,14 @@ SchwarzPreconditioner::SchwarzPreconditioner(const CutBody& body, const PartMatr
     for (std::size_t s = 0; s < body.subdomains.blocks.size(); ++s) {
       const std::vector<std::int32_t>& subdomain = body.subdomains.blocks[s];
       if (body.rank_of_subdomain[s] != ranks_.own() || subdomain.empty()) continue;
-      std::vector<std::int32_t> nodes = extended(around.graph, places_in(around.blocks, subdomain));
+      const std::vector<std::int32_t> nodes =
+          extended(around.graph, places_in(around.blocks, subdomain));
       const NodeGraph graph = restrict_to(around.graph, nodes);
       SubdomainFactor factor(principal_part(around.matrix, graph, nodes),
                              mesher::nested_dissection(graph.offsets(), graph.columns()));
       nonzeros_ += factor.nonzeros();
-      regions_.push_back({std::move(nodes), std::move(factor)});
+      std::vector<Eigen::Index> rows = factor.rows_of(nodes);
+      regions_.push_back({std::move(factor), std::move(rows)});
     }
   });
   nonzeros_ = ranks_.sum(nonzeros_);
@@ -46,7 +49,13 @@ Eigen::MatrixXd SchwarzPreconditioner::apply(const Eigen::MatrixXd& residuals) c
   const Eigen::MatrixXd scaled = residuals * scales.cwiseInverse().asDiagonal();
   const Eigen::MatrixXf local = exchange_.to_local(scaled).cast<float>();
   Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(local.rows(), local.cols());
-  for (const Region& region : regions_) region.factor.add_solution(local, region.nodes, sums);
+  std::vector<Eigen::MatrixXf> solutions(regions_.size());
+  in_parallel(regions_.size(), ranks_.threads(), [&](std::size_t k) {
+    solutions[k] = regions_[k].factor.solve(local(regions_[k].rows, Eigen::all));
+  });
+  for (std::size_t k = 0; k < regions_.size(); ++k) {
+    sums(regions_[k].rows, Eigen::all) += solutions[k];
+  }
   Eigen::MatrixXf coarse = Eigen::MatrixXf::Zero(residuals.rows(), residuals.cols());
   coarse_.add_correction(scaled.cast<float>(), coarse);
   return (exchange_.sum_to_own(sums.cast<double>()) + coarse.cast<double>()) * scales.asDiagonal();

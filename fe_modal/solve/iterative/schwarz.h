@@ -37,8 +37,8 @@ class SchwarzPreconditioner {
 
  private:
   struct Region {
-    std::vector<std::int32_t> nodes;  ///< by their numbers in `around`
     SubdomainFactor factor;
+    std::vector<Eigen::Index> rows;  ///< of `around`, in the order of elimination
   };
 
   Ranks ranks_;

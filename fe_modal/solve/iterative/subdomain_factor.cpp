@@ -20,17 +20,19 @@ SubdomainFactor::SubdomainFactor(const SymmetricMatrix& matrix,
                  [](double value) { return static_cast<float>(value); });
 }
 
-void SubdomainFactor::add_solution(const Eigen::MatrixXf& residuals,
-                                   const std::vector<std::int32_t>& nodes,
-                                   Eigen::MatrixXf& result) const {
-  std::vector<Eigen::Index> rows;  // of the whole, in the order of elimination
+std::vector<Eigen::Index> SubdomainFactor::rows_of(const std::vector<std::int32_t>& nodes) const {
+  std::vector<Eigen::Index> rows;
   rows.reserve(supernodes_.order().size());
   for (const int dof : supernodes_.order()) {
     rows.push_back(3 * nodes[static_cast<std::size_t>(dof / 3)] + dof % 3);
   }
-  Eigen::MatrixXf x = residuals(rows, Eigen::all);
-  supernodes_.solve(values_, x);
-  result(rows, Eigen::all) += x;
+  return rows;
+}
+
+Eigen::MatrixXf SubdomainFactor::solve(Eigen::MatrixXf right_hand_sides) const {
+  constexpr unsigned kAlone = 1;  // each subdomain has a thread
+  supernodes_.solve(values_, right_hand_sides, kAlone);
+  return right_hand_sides;
 }
 
 }  // namespace flexneck::fe_modal

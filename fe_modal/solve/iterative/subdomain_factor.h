@@ -22,10 +22,11 @@ class SubdomainFactor {
   /// @throws ComputationError if the matrix is not positive definite or memory runs out.
   SubdomainFactor(const SymmetricMatrix& matrix, std::span<const std::int32_t> node_order);
 
-  /// Of the residuals takes the rows of some nodes, in the order of the matrix, and adds what they
-  /// give there, to about seven digits of the largest one. For each column.
-  void add_solution(const Eigen::MatrixXf& residuals, const std::vector<std::int32_t>& nodes,
-                    Eigen::MatrixXf& result) const;
+  /// Of a field the rows of some nodes, which are the matrix's in its order, as the factor
+  /// eliminates them.
+  std::vector<Eigen::Index> rows_of(const std::vector<std::int32_t>& nodes) const;
+  /// To about seven digits of the largest one, for each column of right-hand sides in that order.
+  Eigen::MatrixXf solve(Eigen::MatrixXf right_hand_sides) const;
   /// Numbers that are kept.
   double nonzeros() const { return static_cast<double>(values_.size()); }
 
