@@ -2,6 +2,7 @@
 #include "fe_modal/algebra/supernodes.h"
 
 #include <algorithm>
+#include <cholmod.h>
 #include <numeric>
 
 #include "fe_modal/algebra/block_elimination.h"
@@ -12,14 +13,14 @@ namespace {
 
 constexpr Eigen::Index kEight = 8;
 /// A branch with a larger share of the factor's entries is divided.
-constexpr double kShareOfBranch = 1.0 / 32;
+constexpr double kShareOfBranch = 1.0 / 8;
 /// Entries of a factor that is too small to be shared out: its solve takes less than a thread's
 /// start.
 constexpr double kFewEntries = 1e5;
 
 }  // namespace
 
-Supernodes::Supernodes(const cholmod_factor& factor) {
+Supernodes::Supernodes(const cholmod_factor_struct& factor) {
   const auto list = [](const void* data, std::size_t count) {
     return std::span(static_cast<const int*>(data), count);
   };

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cholmod.h>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
+
+struct cholmod_factor_struct;  // of CHOLMOD, whose header stays in the .cpp files
 
 namespace flexneck::fe_modal {
 
@@ -17,7 +18,7 @@ class Supernodes {
  public:
   Supernodes() = default;
   /// @param factor may go afterwards
-  explicit Supernodes(const cholmod_factor& factor);
+  explicit Supernodes(const cholmod_factor_struct& factor);
 
   /// Entry k is the row of A that comes k-th.
   std::span<const int> order() const { return order_; }

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
+#include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/system/assembly.h"
 #include "mesher/partition/node_order.h"
@@ -79,6 +80,22 @@ TEST_CASE("solutions do not depend on the order of elimination") {
   for (const auto& given : {order, std::vector<std::int32_t>()}) {
     const CholeskyFactor factor(system.stiffness.get(), 0, given);
     CHECK((factor.solve(force) - expected).norm() < 1e-9 * expected.norm());
+  }
+}
+
+TEST_CASE("branches of the tree by several threads solve as one thread does, to the last bit") {
+  const mesher::Mesh mesh = testing::box({5, 5, 24}, {0.1, 0.1, 0.5}, kSteel).make();
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
+  const auto order = mesher::nested_dissection(system.graph.offsets(), system.graph.columns());
+  const CholeskyFactor alone(system.stiffness.get(), 0, order, 1);
+  const CholeskyFactor together(system.stiffness.get(), 0, order, 3);
+  REQUIRE(alone.nonzeros() > 1e6);  // enough for branches
+  for (const Eigen::Index count : {1, 8, 11}) {
+    const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(size_of(system.stiffness.get()), count);
+    const Eigen::MatrixXd forces = block_product(system.stiffness, truth);
+    const Eigen::MatrixXd solution = alone.solve(forces);
+    CHECK((solution - truth).norm() < 1e-9 * truth.norm());
+    CHECK(together.solve(forces) == solution);
   }
 }
 
