@@ -10,37 +10,10 @@ namespace {
 constexpr int kNode = 3;
 constexpr int kRowsFetched = 8;  ///< a line of the cache, in single precision half of it
 
-/// A row of eight in registers of so many bytes. Wider ones than the processor has would be taken
-/// apart number by number.
-template <typename Number, std::size_t bytes>
-struct RegisterRow {
-  using Scalar = Number;
-  // An attribute, since no type of the standard is a register.
-  typedef Scalar Register __attribute__((vector_size(bytes), may_alias));
-  static constexpr std::size_t kRegisters = sizeof(RowOfEight<Scalar>) / bytes;
-  /// Columns of a block that are worked on together: their rows take twelve registers of the
-  /// sixteen that there are at least.
-  static constexpr int kPanel = kRegisters <= 2 ? 2 * kNode : kNode;
-
-  Register part[kRegisters];
-
-  [[gnu::always_inline]] void load(const RowOfEight<Scalar>& row) {
-    for (std::size_t k = 0; k < kRegisters; ++k) {
-      part[k] = reinterpret_cast<const Register*>(row.value)[k];
-    }
-  }
-  [[gnu::always_inline]] void store(RowOfEight<Scalar>& row) const {
-    for (std::size_t k = 0; k < kRegisters; ++k) {
-      reinterpret_cast<Register*>(row.value)[k] = part[k];
-    }
-  }
-  [[gnu::always_inline]] void subtract(Scalar factor, const RegisterRow& other) {
-    for (std::size_t k = 0; k < kRegisters; ++k) part[k] -= factor * other.part[k];
-  }
-  [[gnu::always_inline]] void divide(Scalar divisor) {
-    for (std::size_t k = 0; k < kRegisters; ++k) part[k] /= divisor;
-  }
-};
+/// Columns of a block that are worked on together: their rows take at most twelve registers of the
+/// sixteen that there are at least.
+template <typename Row>
+constexpr int kPanel = Row::kRegisters <= 2 ? 2 * kNode : kNode;
 
 /// Some columns of a block, from their diagonal down. The next, and the ones before, follow in
 /// memory, mostly those of another block, and so they are fetched while these are worked on: the
@@ -64,7 +37,7 @@ struct Columns {
 
 template <typename Row, int count>
 [[gnu::always_inline]] inline void eliminate_columns(const Columns<typename Row::Scalar>& columns,
-                                                     RowOfEight<typename Row::Scalar>* x) {
+                                                     RowOf<typename Row::Scalar>* x) {
   Row own[count];
   for (int c = 0; c < count; ++c) {
     own[c].load(x[c]);
@@ -88,7 +61,7 @@ template <typename Row, int count>
 
 template <typename Row, int count>
 [[gnu::always_inline]] inline void substitute_columns(const Columns<typename Row::Scalar>& columns,
-                                                      RowOfEight<typename Row::Scalar>* x) {
+                                                      RowOf<typename Row::Scalar>* x) {
   Row own[count];
   for (int c = 0; c < count; ++c) own[c].load(x[c]);
   const auto take = [&](int i) __attribute__((always_inline)) {
@@ -118,10 +91,10 @@ template <typename Scalar>
 
 template <typename Row>
 [[gnu::always_inline]] inline void eliminate_with(const FactorBlock<typename Row::Scalar>& block,
-                                                  RowOfEight<typename Row::Scalar>* x) {
+                                                  RowOf<typename Row::Scalar>* x) {
   int j = 0;
-  for (; j + Row::kPanel <= block.columns; j += Row::kPanel) {
-    eliminate_columns<Row, Row::kPanel>(columns_from(block, j), x + j);
+  for (; j + kPanel<Row> <= block.columns; j += kPanel<Row>) {
+    eliminate_columns<Row, kPanel<Row>>(columns_from(block, j), x + j);
   }
   for (; j + kNode <= block.columns; j += kNode) {
     eliminate_columns<Row, kNode>(columns_from(block, j), x + j);
@@ -131,71 +104,49 @@ template <typename Row>
 
 template <typename Row>
 [[gnu::always_inline]] inline void substitute_with(const FactorBlock<typename Row::Scalar>& block,
-                                                   RowOfEight<typename Row::Scalar>* x) {
+                                                   RowOf<typename Row::Scalar>* x) {
   int j = block.columns;
   for (; j % kNode != 0; --j) {
     substitute_columns<Row, 1>(columns_from(block, j - 1), x + j - 1);
   }
-  for (; j % Row::kPanel != 0; j -= kNode) {
+  for (; j % kPanel<Row> != 0; j -= kNode) {
     substitute_columns<Row, kNode>(columns_from(block, j - kNode), x + j - kNode);
   }
-  for (; j > 0; j -= Row::kPanel) {
-    substitute_columns<Row, Row::kPanel>(columns_from(block, j - Row::kPanel), x + j - Row::kPanel);
+  for (; j > 0; j -= kPanel<Row>) {
+    substitute_columns<Row, kPanel<Row>>(columns_from(block, j - kPanel<Row>), x + j - kPanel<Row>);
   }
 }
 
-#ifdef __x86_64__
 template <typename Scalar>
-[[gnu::target("avx2,fma")]] void eliminate_by_32_bytes(const FactorBlock<Scalar>& block,
-                                                       RowOfEight<Scalar>* x) {
-  eliminate_with<RegisterRow<Scalar, 32>>(block, x);
-}
-template <typename Scalar>
-[[gnu::target("avx2,fma")]] void substitute_by_32_bytes(const FactorBlock<Scalar>& block,
-                                                        RowOfEight<Scalar>* x) {
-  substitute_with<RegisterRow<Scalar, 32>>(block, x);
-}
-#endif
-
-template <typename Scalar>
-void eliminate_block(const FactorBlock<Scalar>& block, RowOfEight<Scalar>* x,
-                     [[maybe_unused]] VectorRegisters registers) {
-#ifdef __x86_64__
-  if (registers == VectorRegisters::of_32_bytes) return eliminate_by_32_bytes(block, x);
-#endif
-  eliminate_with<RegisterRow<Scalar, 16>>(block, x);
+void eliminate_block(const FactorBlock<Scalar>& block, RowOf<Scalar>* x,
+                     VectorRegisters registers) {
+  run_with(
+      registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
+        eliminate_with<RegisterRow<Scalar, bytes>>(block, x);
+      });
 }
 
 template <typename Scalar>
-void substitute_block(const FactorBlock<Scalar>& block, RowOfEight<Scalar>* x,
-                      [[maybe_unused]] VectorRegisters registers) {
-#ifdef __x86_64__
-  if (registers == VectorRegisters::of_32_bytes) return substitute_by_32_bytes(block, x);
-#endif
-  substitute_with<RegisterRow<Scalar, 16>>(block, x);
+void substitute_block(const FactorBlock<Scalar>& block, RowOf<Scalar>* x,
+                      VectorRegisters registers) {
+  run_with(
+      registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
+        substitute_with<RegisterRow<Scalar, bytes>>(block, x);
+      });
 }
 
 }  // namespace
 
-VectorRegisters widest_registers() {
-#ifdef __x86_64__
-  static const bool has_32_bytes = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (has_32_bytes) return VectorRegisters::of_32_bytes;
-#endif
-  return VectorRegisters::of_16_bytes;
-}
-
-void eliminate(const FactorBlock<double>& block, RowOfEight<double>* x, VectorRegisters registers) {
+void eliminate(const FactorBlock<double>& block, RowOf<double>* x, VectorRegisters registers) {
   eliminate_block(block, x, registers);
 }
-void eliminate(const FactorBlock<float>& block, RowOfEight<float>* x, VectorRegisters registers) {
+void eliminate(const FactorBlock<float>& block, RowOf<float>* x, VectorRegisters registers) {
   eliminate_block(block, x, registers);
 }
-void substitute(const FactorBlock<double>& block, RowOfEight<double>* x,
-                VectorRegisters registers) {
+void substitute(const FactorBlock<double>& block, RowOf<double>* x, VectorRegisters registers) {
   substitute_block(block, x, registers);
 }
-void substitute(const FactorBlock<float>& block, RowOfEight<float>* x, VectorRegisters registers) {
+void substitute(const FactorBlock<float>& block, RowOf<float>* x, VectorRegisters registers) {
   substitute_block(block, x, registers);
 }
 

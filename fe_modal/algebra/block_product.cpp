@@ -2,107 +2,91 @@
 #include "fe_modal/algebra/block_product.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "fe_modal/algebra/operator_matrix.h"
-#include "fe_modal/algebra/vector_clones.h"
+#include "fe_modal/algebra/register_row.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kMultiplying = "multiplying with a matrix";
-constexpr std::size_t kTogether = 8;  ///< columns: as many numbers as the widest register holds
-/// A node's three rows of so many columns.
-template <std::size_t lanes>
-using ThreeRows = std::array<std::array<double, lanes>, 3>;
-using ThreeEntries = std::array<const double*, 3>;
-
-/// sum += A x and y += A^T x', with the 3 x 3 block A whose rows begin at `entries`.
-template <std::size_t lanes>
-[[gnu::always_inline]] inline void multiply_both_ways(const ThreeEntries& entries,
-                                                      const ThreeRows<lanes>& x,
-                                                      ThreeRows<lanes>& __restrict sum,
-                                                      const ThreeRows<lanes>& own_x,
-                                                      ThreeRows<lanes>& __restrict y) {
-  const auto& [a, b, c] = entries;
-  for (std::size_t k = 0; k < lanes; ++k) {
-    sum[0][k] += a[0] * x[0][k] + a[1] * x[1][k] + a[2] * x[2][k];
-    sum[1][k] += b[0] * x[0][k] + b[1] * x[1][k] + b[2] * x[2][k];
-    sum[2][k] += c[0] * x[0][k] + c[1] * x[1][k] + c[2] * x[2][k];
-    y[0][k] += a[0] * own_x[0][k] + b[0] * own_x[1][k] + c[0] * own_x[2][k];
-    y[1][k] += a[1] * own_x[0][k] + b[1] * own_x[1][k] + c[1] * own_x[2][k];
-    y[2][k] += a[2] * own_x[0][k] + b[2] * own_x[1][k] + c[2] * own_x[2][k];
-  }
-}
-
-/// y += A x by the upper half of A.
-template <std::size_t lanes>
-[[gnu::always_inline]] inline void add_product_inline(const SymmetricMatrix& matrix,
-                                                      const std::vector<ThreeRows<lanes>>& x,
-                                                      std::vector<ThreeRows<lanes>>& y) {
-  for (std::size_t node = 0; node < x.size(); ++node) {
-    const ThreeRows<lanes> own = x[node];
-    ThreeRows<lanes> sum{};
-    ThreeEntries entries{};
+/// y += A x by the upper half of A; three rows a node.
+template <typename Row>
+[[gnu::always_inline]] inline void add_product(const SymmetricMatrix& matrix,
+                                               const std::vector<RowOf<double, Row::kLanes>>& x,
+                                               std::vector<RowOf<double, Row::kLanes>>& y) {
+  for (std::size_t node = 0; 3 * node < x.size(); ++node) {
+    Row own[3];
+    Row sum[3];
+    const double* entries[3];
+    for (std::size_t a = 0; a < 3; ++a) own[a].load(x[3 * node + a]);
     for (std::size_t a = 0; a < 3; ++a) {
       const double* const row =
           matrix.values().data() + matrix.offsets()[3 * node + a];  // begins on the diagonal
       for (std::size_t b = a; b < 3; ++b) {
-        const double entry = row[b - a];
-        for (std::size_t k = 0; k < lanes; ++k) {
-          sum[a][k] += entry * own[b][k];
-          if (b != a) sum[b][k] += entry * own[a][k];
-        }
+        sum[a].add(row[b - a], own[b]);
+        if (b != a) sum[b].add(row[b - a], own[a]);
       }
       entries[a] = row + (3 - a);
     }
     for (const std::int32_t other : matrix.later(static_cast<std::int32_t>(node))) {
-      const auto place = static_cast<std::size_t>(other);
-      multiply_both_ways(entries, x[place], sum, own, y[place]);
+      const auto place = 3 * static_cast<std::size_t>(other);
+      for (std::size_t b = 0; b < 3; ++b) {
+        Row there;
+        Row result;
+        there.load(x[place + b]);
+        result.load(y[place + b]);
+        for (std::size_t a = 0; a < 3; ++a) {
+          sum[a].add(entries[a][b], there);
+          result.add(entries[a][b], own[a]);
+        }
+        result.store(y[place + b]);
+      }
       for (const double*& next : entries) next += 3;
     }
     for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t k = 0; k < lanes; ++k) y[node][a][k] += sum[a][k];
+      Row result;
+      result.load(y[3 * node + a]);
+      result.add(1, sum[a]);
+      result.store(y[3 * node + a]);
     }
   }
 }
 
 /// y = M x.
-template <std::size_t lanes>
-[[gnu::always_inline]] inline void add_product_inline(const NodalMass& mass,
-                                                      const std::vector<ThreeRows<lanes>>& x,
-                                                      std::vector<ThreeRows<lanes>>& y) {
-  for (std::size_t row = 0; row < x.size(); ++row) {
-    ThreeRows<lanes> sum{};
-    for (std::int32_t k = mass.outerIndexPtr()[row]; k < mass.outerIndexPtr()[row + 1]; ++k) {
-      const double entry = mass.valuePtr()[k];
-      const ThreeRows<lanes>& other = x[static_cast<std::size_t>(mass.innerIndexPtr()[k])];
+template <typename Row>
+[[gnu::always_inline]] inline void add_product(const NodalMass& mass,
+                                               const std::vector<RowOf<double, Row::kLanes>>& x,
+                                               std::vector<RowOf<double, Row::kLanes>>& y) {
+  for (std::size_t node = 0; 3 * node < x.size(); ++node) {
+    Row sum[3];
+    for (std::int32_t k = mass.outerIndexPtr()[node]; k < mass.outerIndexPtr()[node + 1]; ++k) {
+      const auto place = 3 * static_cast<std::size_t>(mass.innerIndexPtr()[k]);
       for (std::size_t a = 0; a < 3; ++a) {
-        for (std::size_t c = 0; c < lanes; ++c) sum[a][c] += entry * other[a][c];
+        Row other;
+        other.load(x[place + a]);
+        sum[a].add(mass.valuePtr()[k], other);
       }
     }
-    y[row] = sum;
+    for (std::size_t a = 0; a < 3; ++a) sum[a].store(y[3 * node + a]);
   }
 }
 
-// One column fills no vector; eight are compiled for each width.
 template <typename Matrix>
-void add_product(const Matrix& matrix, const std::vector<ThreeRows<1>>& x,
-                 std::vector<ThreeRows<1>>& y) {
-  add_product_inline(matrix, x, y);
+void add_product(const Matrix& matrix, const std::vector<RowOf<double, 1>>& x,
+                 std::vector<RowOf<double, 1>>& y) {
+  add_product<SingleRow>(matrix, x, y);
 }
-FLEXNECK_VECTOR_CLONES void add_product(const SymmetricMatrix& matrix,
-                                        const std::vector<ThreeRows<kTogether>>& x,
-                                        std::vector<ThreeRows<kTogether>>& y) {
-  add_product_inline(matrix, x, y);
-}
-FLEXNECK_VECTOR_CLONES void add_product(const NodalMass& mass,
-                                        const std::vector<ThreeRows<kTogether>>& x,
-                                        std::vector<ThreeRows<kTogether>>& y) {
-  add_product_inline(mass, x, y);
+template <typename Matrix>
+void add_product(const Matrix& matrix, const std::vector<RowOf<double>>& x,
+                 std::vector<RowOf<double>>& y) {
+  run_with(
+      widest_registers(), [&]<std::size_t bytes>() __attribute__((always_inline)) {
+        add_product<RegisterRow<double, bytes>>(matrix, x, y);
+      });
 }
 
 /// The product with so many columns at a time.
@@ -111,19 +95,21 @@ void multiply_by_lanes(const Matrix& matrix, const Eigen::Ref<const Eigen::Matri
                        Eigen::Ref<Eigen::MatrixXd> result) {
   if (columns.size() == 0) return;
   constexpr auto kLanes = static_cast<Eigen::Index>(lanes);
-  std::vector<ThreeRows<lanes>> in(static_cast<std::size_t>(columns.rows() / 3));
-  std::vector<ThreeRows<lanes>> out(in.size());
+  std::vector<RowOf<double, lanes>> in(static_cast<std::size_t>(columns.rows()));
+  std::vector<RowOf<double, lanes>> out(in.size());
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, kLanes, lanes == 1 ? 0 : Eigen::RowMajor>;
-  Eigen::Map<Rows> in_rows(in.front().front().data(), columns.rows(), kLanes);
-  const Eigen::Map<const Rows> out_rows(out.front().front().data(), columns.rows(), kLanes);
+  Eigen::Map<Rows> in_rows(in.front().value, columns.rows(), kLanes);
+  const Eigen::Map<const Rows> out_rows(out.front().value, columns.rows(), kLanes);
   for (Eigen::Index first = 0; first < columns.cols(); first += kLanes) {
     const Eigen::Index width = std::min(kLanes, columns.cols() - first);
     in_rows.leftCols(width) = columns.middleCols(first, width);
-    std::fill(out.begin(), out.end(), ThreeRows<lanes>{});
+    std::fill(out.begin(), out.end(), RowOf<double, lanes>{});
     add_product(matrix, in, out);
     result.middleCols(first, width) = out_rows.leftCols(width);
   }
 }
+
+constexpr std::size_t kTogether = 8;  ///< columns
 
 template <typename Matrix>
 Eigen::MatrixXd product(const Matrix& matrix, const Eigen::MatrixXd& columns) {

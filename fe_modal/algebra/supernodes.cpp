@@ -18,6 +18,9 @@ constexpr double kShareOfBranch = 1.0 / 8;
 /// start.
 constexpr double kFewEntries = 1e5;
 
+/// CHOLMOD counts rows by int.
+constexpr std::size_t index(int row) { return static_cast<std::size_t>(row); }
+
 }  // namespace
 
 Supernodes::Supernodes(const cholmod_factor_struct& factor) {
@@ -33,9 +36,8 @@ Supernodes::Supernodes(const cholmod_factor_struct& factor) {
   rows_.assign(rows.begin(), rows.end());
   for (std::size_t k = 0; k < factor.nsuper; ++k) {
     const int count = row_lists[k + 1] - row_lists[k];
-    supernodes_.push_back({columns[k], columns[k + 1] - columns[k], count,
-                           static_cast<std::size_t>(row_lists[k]),
-                           static_cast<std::size_t>(blocks[k])});
+    supernodes_.push_back(
+        {columns[k], columns[k + 1] - columns[k], count, index(row_lists[k]), index(blocks[k])});
     most_rows_ = std::max(most_rows_, count);
   }
   find_branches();
@@ -46,7 +48,7 @@ void Supernodes::find_branches() {
   const std::size_t count = supernodes_.size();
   std::vector<std::size_t> supernode_of(order_.size());
   for (std::size_t k = 0; k < count; ++k) {
-    for (int j = supernodes_[k].first; j < supernodes_[k].end(); ++j) supernode_of[j] = k;
+    for (int j = supernodes_[k].first; j < supernodes_[k].end(); ++j) supernode_of[index(j)] = k;
   }
   // Of each subtree: its first supernode, how many it has, and the entries of the factor in it.
   std::vector<std::size_t> first(count);
@@ -62,7 +64,7 @@ void Supernodes::find_branches() {
       candidates.push_back(k);
       continue;
     }
-    const std::size_t parent = supernode_of[rows_of(node)[node.columns]];
+    const std::size_t parent = supernode_of[index(rows_of(node)[node.columns])];
     children[parent].push_back(k);
     first[parent] = std::min(first[parent], first[k]);
     size[parent] += size[k];
@@ -92,12 +94,12 @@ void Supernodes::number_rows_beyond() {
   std::vector<int> numbers(order_.size());
   for (const Branch& branch : branches_) {
     for (std::size_t k = 0; k < branch.beyond.size(); ++k) {
-      numbers[branch.beyond[k]] = branch.end_row + static_cast<int>(k);
+      numbers[index(branch.beyond[k])] = branch.end_row + static_cast<int>(k);
     }
     for (std::size_t k = branch.begin; k < branch.end; ++k) {
       const Supernode& node = supernodes_[k];
-      for (int& row : std::span(rows_).subspan(node.row_list, node.rows)) {
-        if (row >= branch.end_row) row = numbers[row];
+      for (int& row : std::span(rows_).subspan(node.row_list, index(node.rows))) {
+        if (row >= branch.end_row) row = numbers[index(row)];
       }
     }
   }
@@ -122,7 +124,7 @@ class Supernodes::Solve {
     in_parallel(branches.size(), threads, [&](std::size_t b) { forward(branches[b], beyond_[b]); });
     for (std::size_t b = 0; b < branches.size(); ++b) {
       for (std::size_t k = 0; k < beyond_[b].size(); ++k) {
-        add(beyond_[b][k], x_[branches[b].beyond[k]]);
+        add(beyond_[b][k], x_[index(branches[b].beyond[k])]);
       }
     }
     Workspace trunk = workspace(static_cast<int>(x_.size()), nullptr);
@@ -135,7 +137,7 @@ class Supernodes::Solve {
   }
 
  private:
-  using Row = RowOfEight<Scalar>;
+  using Row = RowOf<Scalar>;
 
   /// Where a branch, or the trunk, finds the rows of its lists.
   struct Workspace {
@@ -147,7 +149,7 @@ class Supernodes::Solve {
     Row& at(int row) { return row < end_row ? x[row] : beyond[row - end_row]; }
   };
   Workspace workspace(int end_row, Row* beyond) {
-    return {x_.data(), end_row, beyond, std::vector<Row>(factor_.most_rows_)};
+    return {x_.data(), end_row, beyond, std::vector<Row>(index(factor_.most_rows_))};
   }
 
   static void add(const Row& more, Row& sum) {
@@ -172,7 +174,7 @@ class Supernodes::Solve {
   }
 
   void backward(const Branch& branch, std::vector<Row>& beyond) {
-    for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] = x_[branch.beyond[k]];
+    for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] = x_[index(branch.beyond[k])];
     Workspace places = workspace(branch.end_row, beyond.data());
     for (std::size_t k = branch.end; k-- > branch.begin;) {
       backward(factor_.supernodes_[k], places);
