@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "fe_modal/algebra/operator_matrix.h"
@@ -13,11 +15,12 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kMultiplying = "multiplying with a matrix";
-/// y += A x by the upper half of A; three rows a node.
+/// y = A x by the upper half of A; three rows a node.
 template <typename Row>
-[[gnu::always_inline]] inline void add_product(const SymmetricMatrix& matrix,
-                                               const std::vector<RowOf<double, Row::kLanes>>& x,
-                                               std::vector<RowOf<double, Row::kLanes>>& y) {
+[[gnu::always_inline]] inline void multiply_rows(const SymmetricMatrix& matrix,
+                                                 std::span<const RowOf<double, Row::kLanes>> x,
+                                                 std::span<RowOf<double, Row::kLanes>> y) {
+  std::fill(y.begin(), y.end(), RowOf<double, Row::kLanes>{});
   for (std::size_t node = 0; 3 * node < x.size(); ++node) {
     Row own[3];
     Row sum[3];
@@ -58,9 +61,9 @@ template <typename Row>
 
 /// y = M x.
 template <typename Row>
-[[gnu::always_inline]] inline void add_product(const NodalMass& mass,
-                                               const std::vector<RowOf<double, Row::kLanes>>& x,
-                                               std::vector<RowOf<double, Row::kLanes>>& y) {
+[[gnu::always_inline]] inline void multiply_rows(const NodalMass& mass,
+                                                 std::span<const RowOf<double, Row::kLanes>> x,
+                                                 std::span<RowOf<double, Row::kLanes>> y) {
   for (std::size_t node = 0; 3 * node < x.size(); ++node) {
     Row sum[3];
     for (std::int32_t k = mass.outerIndexPtr()[node]; k < mass.outerIndexPtr()[node + 1]; ++k) {
@@ -76,16 +79,16 @@ template <typename Row>
 }
 
 template <typename Matrix>
-void add_product(const Matrix& matrix, const std::vector<RowOf<double, 1>>& x,
-                 std::vector<RowOf<double, 1>>& y) {
-  add_product<SingleRow>(matrix, x, y);
+void multiply_rows(const Matrix& matrix, std::span<const RowOf<double, 1>> x,
+                   std::span<RowOf<double, 1>> y) {
+  multiply_rows<SingleRow>(matrix, x, y);
 }
 template <typename Matrix>
-void add_product(const Matrix& matrix, const std::vector<RowOf<double>>& x,
-                 std::vector<RowOf<double>>& y) {
+void multiply_rows(const Matrix& matrix, std::span<const RowOf<double>> x,
+                   std::span<RowOf<double>> y) {
   run_with(
       widest_registers(), [&]<std::size_t bytes>() __attribute__((always_inline)) {
-        add_product<RegisterRow<double, bytes>>(matrix, x, y);
+        multiply_rows<RegisterRow<double, bytes>>(matrix, x, y);
       });
 }
 
@@ -95,16 +98,18 @@ void multiply_by_lanes(const Matrix& matrix, const Eigen::Ref<const Eigen::Matri
                        Eigen::Ref<Eigen::MatrixXd> result) {
   if (columns.size() == 0) return;
   constexpr auto kLanes = static_cast<Eigen::Index>(lanes);
-  std::vector<RowOf<double, lanes>> in(static_cast<std::size_t>(columns.rows()));
-  std::vector<RowOf<double, lanes>> out(in.size());
+  const auto rows = static_cast<std::size_t>(columns.rows());
+  const auto in = std::make_unique_for_overwrite<RowOf<double, lanes>[]>(rows);
+  const auto out = std::make_unique_for_overwrite<RowOf<double, lanes>[]>(rows);
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, kLanes, lanes == 1 ? 0 : Eigen::RowMajor>;
-  Eigen::Map<Rows> in_rows(in.front().value, columns.rows(), kLanes);
-  const Eigen::Map<const Rows> out_rows(out.front().value, columns.rows(), kLanes);
+  Eigen::Map<Rows> in_rows(in.get()->value, columns.rows(), kLanes);
+  const Eigen::Map<const Rows> out_rows(out.get()->value, columns.rows(), kLanes);
   for (Eigen::Index first = 0; first < columns.cols(); first += kLanes) {
     const Eigen::Index width = std::min(kLanes, columns.cols() - first);
     in_rows.leftCols(width) = columns.middleCols(first, width);
-    std::fill(out.begin(), out.end(), RowOf<double, lanes>{});
-    add_product(matrix, in, out);
+    in_rows.rightCols(kLanes - width).setZero();
+    multiply_rows(matrix, std::span<const RowOf<double, lanes>>(in.get(), rows),
+                  std::span(out.get(), rows));
     result.middleCols(first, width) = out_rows.leftCols(width);
   }
 }

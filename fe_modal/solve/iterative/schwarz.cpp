@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/solve/iterative/schwarz.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "fe_modal/solve/iterative/submatrix.h"
@@ -49,12 +51,15 @@ Eigen::MatrixXd SchwarzPreconditioner::apply(const Eigen::MatrixXd& residuals) c
   const Eigen::MatrixXd scaled = residuals * scales.cwiseInverse().asDiagonal();
   const Eigen::MatrixXf local = exchange_.to_local(scaled).cast<float>();
   Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(local.rows(), local.cols());
-  std::vector<Eigen::MatrixXf> solutions(regions_.size());
-  in_parallel(regions_.size(), ranks_.threads(), [&](std::size_t k) {
-    solutions[k] = regions_[k].factor.solve(local(regions_[k].rows, Eigen::all));
-  });
-  for (std::size_t k = 0; k < regions_.size(); ++k) {
-    sums(regions_[k].rows, Eigen::all) += solutions[k];
+  // One for each thread at a time: all of them would be several times the field.
+  for (auto rest = std::span(regions_); !rest.empty();) {
+    const std::size_t count = std::min<std::size_t>(ranks_.threads(), rest.size());
+    std::vector<Eigen::MatrixXf> solutions(count);
+    in_parallel(count, ranks_.threads(), [&](std::size_t k) {
+      solutions[k] = rest[k].factor.solve(local(rest[k].rows, Eigen::all));
+    });
+    for (std::size_t k = 0; k < count; ++k) sums(rest[k].rows, Eigen::all) += solutions[k];
+    rest = rest.subspan(count);
   }
   Eigen::MatrixXf coarse = Eigen::MatrixXf::Zero(residuals.rows(), residuals.cols());
   coarse_.add_correction(scaled.cast<float>(), coarse);
