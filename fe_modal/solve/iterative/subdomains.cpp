@@ -55,6 +55,7 @@ PartSize size_of(const mesher::Mesh& part, const DofMap& dof_map) {
 /// How many subdomains each part is cut into.
 std::vector<std::size_t> counts_of(const std::vector<PartSize>& sizes, std::size_t least_count) {
   std::vector<std::size_t> counts;
+  counts.reserve(sizes.size());
   for (const PartSize& size : sizes) {
     counts.push_back(
         std::min(size.elements, std::max<std::size_t>(1, size.blocks / kNodesOfSubdomain)));
@@ -176,17 +177,20 @@ std::vector<std::int32_t> ranks_of_elements(const mesher::Mesh& mesh, const Subd
 }
 
 std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes) {
-  std::vector<std::int32_t> layer;
+  std::vector<bool> is_near(static_cast<std::size_t>(graph.node_count()), false);
+  const auto is_in = [&](std::int32_t node) { return is_near[static_cast<std::size_t>(node)]; };
   for (const std::int32_t node : nodes) {
-    const auto neighbours = graph.neighbours(node);
-    layer.insert(layer.end(), neighbours.begin(), neighbours.end());
+    for (const std::int32_t other : graph.neighbours(node)) {
+      is_near[static_cast<std::size_t>(other)] = true;
+    }
   }
-  sort_out_copies(layer);
   std::vector<std::int32_t> result;
-  std::copy_if(layer.begin(), layer.end(), std::back_inserter(result), [&](std::int32_t node) {
+  for (std::int32_t node = 0; node < graph.node_count(); ++node) {
     const auto neighbours = graph.neighbours(node);
-    return std::includes(layer.begin(), layer.end(), neighbours.begin(), neighbours.end());
-  });
+    if (is_in(node) && std::all_of(neighbours.begin(), neighbours.end(), is_in)) {
+      result.push_back(node);
+    }
+  }
   return result;
 }
 
