@@ -117,9 +117,10 @@ template <typename Row>
   }
 }
 
+}  // namespace
+
 template <typename Scalar>
-void eliminate_block(const FactorBlock<Scalar>& block, RowOf<Scalar>* x,
-                     VectorRegisters registers) {
+void eliminate(const FactorBlock<Scalar>& block, RowOf<Scalar>* x, VectorRegisters registers) {
   run_with(
       registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
         eliminate_with<RegisterRow<Scalar, bytes>>(block, x);
@@ -127,27 +128,16 @@ void eliminate_block(const FactorBlock<Scalar>& block, RowOf<Scalar>* x,
 }
 
 template <typename Scalar>
-void substitute_block(const FactorBlock<Scalar>& block, RowOf<Scalar>* x,
-                      VectorRegisters registers) {
+void substitute(const FactorBlock<Scalar>& block, RowOf<Scalar>* x, VectorRegisters registers) {
   run_with(
       registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
         substitute_with<RegisterRow<Scalar, bytes>>(block, x);
       });
 }
 
-}  // namespace
-
-void eliminate(const FactorBlock<double>& block, RowOf<double>* x, VectorRegisters registers) {
-  eliminate_block(block, x, registers);
-}
-void eliminate(const FactorBlock<float>& block, RowOf<float>* x, VectorRegisters registers) {
-  eliminate_block(block, x, registers);
-}
-void substitute(const FactorBlock<double>& block, RowOf<double>* x, VectorRegisters registers) {
-  substitute_block(block, x, registers);
-}
-void substitute(const FactorBlock<float>& block, RowOf<float>* x, VectorRegisters registers) {
-  substitute_block(block, x, registers);
-}
+template void eliminate(const FactorBlock<double>&, RowOf<double>*, VectorRegisters);
+template void eliminate(const FactorBlock<float>&, RowOf<float>*, VectorRegisters);
+template void substitute(const FactorBlock<double>&, RowOf<double>*, VectorRegisters);
+template void substitute(const FactorBlock<float>&, RowOf<float>*, VectorRegisters);
 
 }  // namespace flexneck::fe_modal

@@ -5,8 +5,8 @@
 
 namespace flexneck::fe_modal {
 
-/// A dense block of a supernodal Cholesky factor, (rows, columns), column by column, with the
-/// lower triangle of its columns on top.
+/// A dense block of a supernodal Cholesky factor, (rows, columns), column by column: the lower
+/// triangle L11 on top of the rectangle L21.
 template <typename Scalar>
 struct FactorBlock {
   const Scalar* values;
@@ -14,18 +14,15 @@ struct FactorBlock {
   int columns;
 };
 
-/// With x = (b, 0), (rows): the columns' rows of x become L^-1 b, the others what the rows below
-/// gain by it. A BLAS would pack the block first, which takes as long as the product.
-void eliminate(const FactorBlock<double>& block, RowOf<double>* x,
-               VectorRegisters registers = widest_registers());
-void eliminate(const FactorBlock<float>& block, RowOf<float>* x,
+/// Forward elimination: x = (b, 0) becomes (L11^-1 b, -L21 L11^-1 b). Of double and float. A BLAS
+/// would pack the block first, which takes as long as the product.
+template <typename Scalar>
+void eliminate(const FactorBlock<Scalar>& block, RowOf<Scalar>* x,
                VectorRegisters registers = widest_registers());
 
-/// The same for the transpose: of x the rows below the columns are known, and those of the columns
-/// become L^-T (b - what those below take).
-void substitute(const FactorBlock<double>& block, RowOf<double>* x,
-                VectorRegisters registers = widest_registers());
-void substitute(const FactorBlock<float>& block, RowOf<float>* x,
+/// Back substitution: x = (b, c) becomes (L11^-T (b - L21^T c), c).
+template <typename Scalar>
+void substitute(const FactorBlock<Scalar>& block, RowOf<Scalar>* x,
                 VectorRegisters registers = widest_registers());
 
 }  // namespace flexneck::fe_modal

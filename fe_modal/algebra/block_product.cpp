@@ -114,16 +114,14 @@ void multiply_by_lanes(const Matrix& matrix, const Eigen::Ref<const Eigen::Matri
   }
 }
 
-constexpr std::size_t kTogether = 8;  ///< columns
-
 template <typename Matrix>
 Eigen::MatrixXd product(const Matrix& matrix, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd result(columns.rows(), columns.cols());
   // A few columns by themselves take less time than eight of which most are empty.
-  const Eigen::Index rest = columns.cols() % static_cast<Eigen::Index>(kTogether);
+  const Eigen::Index rest = columns.cols() % static_cast<Eigen::Index>(kColumnsTogether);
   const Eigen::Index alone = rest < 3 ? rest : 0;
-  multiply_by_lanes<kTogether>(matrix, columns.leftCols(columns.cols() - alone),
-                               result.leftCols(columns.cols() - alone));
+  multiply_by_lanes<kColumnsTogether>(matrix, columns.leftCols(columns.cols() - alone),
+                                      result.leftCols(columns.cols() - alone));
   multiply_by_lanes<1>(matrix, columns.rightCols(alone), result.rightCols(alone));
   return result;
 }

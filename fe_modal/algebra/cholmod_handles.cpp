@@ -28,7 +28,7 @@ void require_done(CholmodSession& session) {
 
 /// While it lives, what this thread calls has no threads by OpenMP. CHOLMOD asks for four, whatever
 /// OMP_NUM_THREADS says, to add up each few hundred rows: at 26 000 degrees of freedom on two
-/// processors a factor took twice the processor time that way and was there no sooner.
+/// processors order and factor took 0.57 s by the clock that way and 0.37 s without.
 class WithoutOpenMp {
  public:
   WithoutOpenMp() {

@@ -5,9 +5,12 @@
 
 namespace flexneck::fe_modal {
 
-/// Rows of eight right-hand sides, or of a single one, on which a matrix or a factor, which no
-/// cache holds, works in one pass.
-template <typename Scalar, std::size_t lanes = 8>
+/// Columns that are worked on together: as many numbers as the widest register holds.
+inline constexpr std::size_t kColumnsTogether = 8;
+
+/// A row of eight right-hand sides, or of a single one. A matrix or a factor, which no cache holds,
+/// is read once for all of them.
+template <typename Scalar, std::size_t lanes = kColumnsTogether>
 struct alignas(lanes * sizeof(Scalar)) RowOf {
   Scalar value[lanes];
 };
@@ -17,7 +20,7 @@ struct alignas(lanes * sizeof(Scalar)) RowOf {
 template <typename Number, std::size_t bytes>
 struct RegisterRow {
   using Scalar = Number;
-  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kLanes = kColumnsTogether;
   static constexpr std::size_t kBytes =
       bytes < kLanes * sizeof(Scalar) ? bytes : kLanes * sizeof(Scalar);
   static constexpr std::size_t kRegisters = kLanes * sizeof(Scalar) / kBytes;

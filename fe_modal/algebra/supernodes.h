@@ -40,30 +40,30 @@ class Supernodes {
 
     int end() const { return first + columns; }
   };
-  /// A supernode with all below it in the tree of elimination: neighbours. In the row lists of a
-  /// branch, row end_row + k stands for row beyond[k] of the factor.
-  struct Branch {
+  /// A supernode with all below it in the elimination tree, which have neighbouring numbers. In the
+  /// row lists of a subtree, row end_row + k stands for row ancestors[k] of the factor.
+  struct Subtree {
     std::size_t begin = 0;  ///< supernodes
     std::size_t end = 0;
     int end_row = 0;
-    std::vector<int> beyond;  ///< rows after its own that it has to do with, ascending
+    std::vector<int> ancestors;  ///< rows above it in the tree that it updates, ascending
   };
   template <typename Scalar>
   class Solve;
   template <typename Scalar, typename Matrix>
   void solve_by_eight(std::span<const Scalar> values, Matrix& x, unsigned threads) const;
 
-  /// Into which branches the tree falls, and its trunk.
-  void find_branches();
-  void number_rows_beyond();
+  /// Divides the elimination tree into subtrees and its top.
+  void find_subtrees();
+  void number_ancestor_rows();
   const int* rows_of(const Supernode& node) const { return rows_.data() + node.row_list; }
 
   std::vector<int> order_;
   std::vector<Supernode> supernodes_;
   std::vector<int> rows_;
-  int most_rows_ = 0;               ///< of a block
-  std::vector<Branch> branches_;    ///< that know nothing of one another, ascending
-  std::vector<std::size_t> trunk_;  ///< all other supernodes, ascending
+  int max_rows_ = 0;               ///< of a block
+  std::vector<Subtree> subtrees_;  ///< independent of one another, ascending
+  std::vector<std::size_t> top_;   ///< all other supernodes, ascending
 };
 
 }  // namespace flexneck::fe_modal

@@ -128,7 +128,7 @@ void add_shards(CLI::App& app, CommandLine& line) {
 
 void add_threads(CLI::App& app, CommandLine& line) {
   app.add_option("--threads", line.shares.threads,
-                 "That compute; all processors if not given, one a rank")
+                 "At most; as many as processors if not given, one a rank")
       ->option_text("N")
       ->check(CLI::Range(1, 1024));
 }

@@ -83,13 +83,15 @@ TEST_CASE("solutions do not depend on the order of elimination") {
   }
 }
 
-TEST_CASE("branches of the tree by several threads solve as one thread does, to the last bit") {
+TEST_CASE(
+    "subtrees of the elimination tree by several threads solve as one thread does, to the last "
+    "bit") {
   const mesher::Mesh mesh = testing::box({5, 5, 24}, {0.1, 0.1, 0.5}, kSteel).make();
   const SystemMatrices system = assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
   const auto order = mesher::nested_dissection(system.graph.offsets(), system.graph.columns());
   const CholeskyFactor alone(system.stiffness.get(), 0, order, 1);
   const CholeskyFactor together(system.stiffness.get(), 0, order, 3);
-  REQUIRE(alone.nonzeros() > 1e6);  // enough for branches
+  REQUIRE(alone.nonzeros() > 1e6);  // enough for subtrees
   for (const Eigen::Index count : {1, 8, 11}) {
     const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(3 * system.graph.node_count(), count);
     const Eigen::MatrixXd forces = block_product(system.stiffness, truth);
