@@ -41,6 +41,7 @@ const char* kernels_for_this_processor() {
 }  // namespace
 
 void choose_blas_kernels() {
+  if (const auto set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(1);
   const std::string better = kernels_for_this_processor();
   const bool is_known =
       std::find(kFallbacks.begin(), kFallbacks.end(), chosen_kernels()) == kFallbacks.end();
@@ -53,6 +54,11 @@ void choose_blas_kernels() {
   quit();
   init();
   unsetenv(kVariable);
+}
+
+unsigned threads_in_blas(unsigned threads) {
+  const auto kind_of_threads = find<int()>("openblas_get_parallel");
+  return kind_of_threads != nullptr && kind_of_threads() != 0 ? threads : 1;
 }
 
 std::string blas_version() {

@@ -5,30 +5,21 @@
 #include <cstdio>
 #include <vector>
 
+#include "fe_modal/algebra/blas_kernels.h"
+#include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/cholmod_handles.h"
-#include "fe_modal/algebra/supernodes.h"
+#include "fe_modal/algebra/random_block.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kReading = "reading the stiffness matrix";
-
-/// The matrix must outlive it.
-cholmod_sparse view_of(Mat matrix) {
-  PetscInt size = 0;
-  const PetscInt* offsets = nullptr;
-  const PetscInt* columns = nullptr;
-  PetscScalar* values = nullptr;
-  PetscBool done = PETSC_FALSE;
-  require(MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_TRUE, &size, &offsets, &columns, &done),
-          kReading);
-  require(MatSeqSBAIJGetArray(matrix, &values), kReading);
-  const auto rows = static_cast<std::size_t>(size);
-  const auto entries = static_cast<std::size_t>(offsets[rows]);
-  return cholmod_view({offsets, rows + 1}, {columns, entries}, {values, entries});
-}
+/// Rounding errors of 1e-16 can leave a positive pivot of a singular matrix; those of sound ones
+/// are hardly so small, of their entry on the diagonal.
+constexpr double kDoubtfulPivot = 1e-10;
+/// Of a solution, what rounding errors may change.
+constexpr double kLostDigits = 1e-3;
 
 std::string millions_text(double entries) {
   std::array<char, 80> text{};
@@ -38,49 +29,41 @@ std::string millions_text(double entries) {
 
 }  // namespace
 
-struct CholeskyFactor::Handles {
-  explicit Handles(CholmodOrder order) : session(order), factor(nullptr, {&session}) {}
-
-  CholmodSession session;
-  CholmodFactor factor;
-  Supernodes supernodes;
-};
+CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
+                               std::span<const int> dof_order, unsigned threads)
+    : ShiftInverse(shift), threads_(threads) {
+  const cholmod_sparse view = cholmod_view(shifted_stiffness);
+  CholmodAnalysis analysis(view, kind, dof_order);
+  nonzeros_ = analysis.nonzeros();
+  require_memory("the factor of " + millions_text(nonzeros_), kBytesPerFactorEntry * nonzeros_,
+                 kOrAnotherSolution);
+  factor_ = SupernodalFactor<double>(analysis, threads_in_blas(threads));
+  if (factor_.smallest_pivot() < kDoubtfulPivot && !solves(shifted_stiffness)) {
+    throw ComputationError(kNotDefinite);
+  }
+}
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
                                std::span<const std::int32_t> node_order, unsigned threads)
-    : ShiftInverse(shift),
-      threads_(threads),
-      handles_(std::make_unique<Handles>(node_order.empty() ? CholmodOrder::best
-                                                            : CholmodOrder::given)) {
-  make(shifted_stiffness, order_of_dofs(node_order));
-}
+    : CholeskyFactor(shifted_stiffness, shift,
+                     node_order.empty() ? CholmodOrder::best : CholmodOrder::given,
+                     order_of_dofs(node_order), threads) {}
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered, unsigned threads)
-    : ShiftInverse(shift),
-      threads_(threads),
-      handles_(std::make_unique<Handles>(CholmodOrder::numbering)) {
-  make(shifted_stiffness, {});
-}
+    : CholeskyFactor(shifted_stiffness, shift, CholmodOrder::numbering, {}, threads) {}
 
-CholeskyFactor::~CholeskyFactor() = default;
-
-void CholeskyFactor::make(Mat shifted_stiffness, std::span<const int> dof_order) {
-  auto& [session, factor, supernodes] = *handles_;
-  const cholmod_sparse view = view_of(shifted_stiffness);
-  factor = analyse(view, dof_order, session);
-  nonzeros_ = session.get()->lnz;
-  require_memory("the factor of " + millions_text(nonzeros_), kBytesPerFactorEntry * nonzeros_,
-                 kOrAnotherSolution);
-  factorise(view, factor, session);
-  supernodes = Supernodes(*factor);
+bool CholeskyFactor::solves(Mat matrix) const {
+  constexpr std::uint64_t kSeed = 1;
+  const Eigen::MatrixXd truth = random_block(matrix, 1, kSeed);
+  const Eigen::MatrixXd found = solve(block_product(matrix, truth));
+  return (found - truth).norm() < kLostDigits * truth.norm();
 }
 
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  const Supernodes& supernodes = handles_->supernodes;
-  Eigen::MatrixXd x = right_hand_sides(supernodes.order(), Eigen::all);
-  supernodes.solve(values_of(*handles_->factor), x, threads_);
+  Eigen::MatrixXd x = right_hand_sides(factor_.order(), Eigen::all);
+  factor_.solve(x, threads_);
   Eigen::MatrixXd solutions(x.rows(), x.cols());
-  solutions(supernodes.order(), Eigen::all) = x;
+  solutions(factor_.order(), Eigen::all) = x;
   return solutions;
 }
 

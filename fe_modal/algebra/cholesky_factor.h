@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -10,8 +9,11 @@
 
 #include "fe_modal/algebra/petsc_handles.h"
 #include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/algebra/supernodal_factor.h"
 
 namespace flexneck::fe_modal {
+
+enum class CholmodOrder;
 
 /// An entry of a Cholesky factor takes this, with the zeros in its blocks and what its making
 /// needs besides.
@@ -22,11 +24,17 @@ inline constexpr const char* kNotDefinite =
     "the stiffness matrix is not positive definite: a part of the body is not fixed, or elements "
     "with reduced integration stand in a single row, or Poisson's ratio is too near 1/2";
 
+/// What is said where memory does not hold a factor.
+inline constexpr const char* kNoMemoryForFactor =
+    "memory runs out while factorising the stiffness matrix; take a coarser mesh, --solver "
+    "iterative, or more ranks with mpirun";
+
 /// The matrix is numbered as it is eliminated, in a postorder
 /// (fe_modal/system/elimination_order.h).
 struct AsNumbered {};
 
-/// Sparse Cholesky factor of K - shift M, made once and used by every solve, by CHOLMOD.
+/// Sparse Cholesky factor of K - shift M, made once and used by every solve; CHOLMOD
+/// finds the places of its entries.
 class CholeskyFactor : public ShiftInverse {
  public:
   /// @param shifted_stiffness K - shift M, symmetric with the upper half stored by scalar rows, N
@@ -34,7 +42,7 @@ class CholeskyFactor : public ShiftInverse {
   /// @param node_order order of elimination: entry k is the node, three degrees of freedom each,
   /// that comes k-th; a permutation of 0 … N/3 - 1. Empty: CHOLMOD tries AMD, and METIS on all
   /// degrees of freedom where AMD fills much, and keeps the better one.
-  /// @param threads that solve
+  /// @param threads that factorise, where the BLAS may be called by several at once, and solve
   /// @throws InputError if memory does not hold the factor, before it is made, or its entries are
   /// more than CHOLMOD's integers count.
   /// @throws ComputationError if the matrix is not positive definite or memory runs out.
@@ -42,7 +50,6 @@ class CholeskyFactor : public ShiftInverse {
                  unsigned threads = 1);
   /// The same without a copy of the matrix in another order: a sixth of the factor's size.
   CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered, unsigned threads = 1);
-  ~CholeskyFactor() override;
 
   /// Entries of the factor, as CHOLMOD counts them.
   double nonzeros() const { return nonzeros_; }
@@ -51,12 +58,14 @@ class CholeskyFactor : public ShiftInverse {
   std::string describe() const override;
 
  private:
-  struct Handles;
-  void make(Mat shifted_stiffness, std::span<const int> dof_order);
+  CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
+                 std::span<const int> dof_order, unsigned threads);
+  /// Whether it does to some digits, or is the factor of a singular matrix.
+  bool solves(Mat matrix) const;
 
   double nonzeros_ = 0;
   unsigned threads_;
-  std::unique_ptr<Handles> handles_;
+  SupernodalFactor<double> factor_;
 };
 
 }  // namespace flexneck::fe_modal

@@ -1,71 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/algebra/cholmod_handles.h"
 
-#include <dlfcn.h>
 #include <string>
 
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
-namespace {
-
-void require_done(CholmodSession& session) {
-  const int status = session.get()->status;
-  if (status == CHOLMOD_NOT_POSDEF) throw ComputationError(kNotDefinite);
-  if (status == CHOLMOD_OUT_OF_MEMORY)
-    throw ComputationError(std::string("memory runs out while factorising the stiffness matrix; ") +
-                           kOrAnotherSolution);
-  if (status == CHOLMOD_TOO_LARGE)
-    throw InputError(
-        std::string("the factor of the stiffness matrix has more entries than CHOLMOD's "
-                    "integers count; ") +
-        kOrAnotherSolution);
-  if (status < 0)
-    throw ComputationError("factorising the stiffness matrix failed: CHOLMOD's status " +
-                           std::to_string(status));
-}
-
-/// While it lives, what this thread calls has no threads by OpenMP. CHOLMOD asks for four, whatever
-/// OMP_NUM_THREADS says, to add up each few hundred rows: at 26 000 degrees of freedom on two
-/// processors order and factor took 0.57 s by the clock that way and 0.37 s without.
-class WithoutOpenMp {
- public:
-  WithoutOpenMp() {
-    if (levels_ != nullptr && set_levels_ != nullptr) {
-      before_ = levels_();
-      set_levels_(0);
-    }
-  }
-  ~WithoutOpenMp() {
-    if (levels_ != nullptr && set_levels_ != nullptr) set_levels_(before_);
-  }
-  WithoutOpenMp(const WithoutOpenMp&) = delete;
-  WithoutOpenMp& operator=(const WithoutOpenMp&) = delete;
-
- private:
-  // Of the run-time library that CHOLMOD brings along, if it was built with one.
-  int (*levels_)() = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
-  void (*set_levels_)(int) = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT,
-                                                                   "omp_set_max_active_levels"));
-  int before_ = 0;
-};
-
-}  // namespace
-
-CholmodSession::CholmodSession(CholmodOrder order) {
-  cholmod_start(&common_);
-  common_.print = 0;
-  // By columns it would make L D L^T, of a matrix that is not definite too.
-  common_.supernodal = CHOLMOD_SUPERNODAL;
-  if (order == CholmodOrder::best) return;
-  // Left to itself CHOLMOD also tries orders of its own and keeps the one it likes best.
-  common_.nmethods = 1;
-  common_.method[0].ordering = CHOLMOD_GIVEN;
-  if (order == CholmodOrder::given) return;
-  common_.method[0].ordering = CHOLMOD_NATURAL;
-  common_.postorder = 0;
-}
 
 cholmod_sparse cholmod_view(std::span<const int> offsets, std::span<const int> columns,
                             std::span<const double> values) {
@@ -85,6 +26,21 @@ cholmod_sparse cholmod_view(std::span<const int> offsets, std::span<const int> c
   return view;
 }
 
+cholmod_sparse cholmod_view(Mat matrix) {
+  constexpr const char* kReading = "reading the stiffness matrix";
+  PetscInt size = 0;
+  const PetscInt* offsets = nullptr;
+  const PetscInt* columns = nullptr;
+  PetscScalar* values = nullptr;
+  PetscBool done = PETSC_FALSE;
+  require(MatGetRowIJ(matrix, 0, PETSC_FALSE, PETSC_TRUE, &size, &offsets, &columns, &done),
+          kReading);
+  require(MatSeqSBAIJGetArray(matrix, &values), kReading);
+  const auto rows = static_cast<std::size_t>(size);
+  const auto entries = static_cast<std::size_t>(offsets[rows]);
+  return cholmod_view({offsets, rows + 1}, {columns, entries}, {values, entries});
+}
+
 std::vector<int> order_of_dofs(std::span<const std::int32_t> node_order) {
   std::vector<int> dofs;
   dofs.reserve(3 * node_order.size());
@@ -94,24 +50,68 @@ std::vector<int> order_of_dofs(std::span<const std::int32_t> node_order) {
   return dofs;
 }
 
-CholmodFactor analyse(const cholmod_sparse& matrix, std::span<const int> order,
-                      CholmodSession& session) {
+CholmodAnalysis::CholmodAnalysis(const cholmod_sparse& matrix, CholmodOrder kind,
+                                 std::span<const int> order)
+    : matrix_(matrix) {
+  cholmod_start(&common_);
+  common_.print = 0;
+  common_.supernodal = CHOLMOD_SUPERNODAL;
+  if (kind != CholmodOrder::best) {
+    // Left to itself CHOLMOD also tries orders of its own and keeps the one it likes best.
+    common_.nmethods = 1;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+  }
+  if (kind == CholmodOrder::numbering) {
+    common_.method[0].ordering = CHOLMOD_NATURAL;
+    common_.postorder = 0;
+  }
   auto* const permutation = order.empty() ? nullptr : const_cast<int*>(order.data());
-  CholmodFactor factor(cholmod_analyze_p(const_cast<cholmod_sparse*>(&matrix), permutation, nullptr,
-                                         0, session.get()),
-                       {&session});
-  require_done(session);
-  return factor;
+  factor_ =
+      cholmod_analyze_p(const_cast<cholmod_sparse*>(&matrix), permutation, nullptr, 0, &common_);
+  require_done();
+  nonzeros_ = common_.lnz;
 }
 
-void factorise(const cholmod_sparse& matrix, CholmodFactor& factor, CholmodSession& session) {
-  const WithoutOpenMp alone;
-  cholmod_factorize(const_cast<cholmod_sparse*>(&matrix), factor.get(), session.get());
-  require_done(session);
+CholmodAnalysis::~CholmodAnalysis() {
+  cholmod_free_sparse(&lower_half_, &common_);
+  cholmod_free_factor(&factor_, &common_);
+  cholmod_finish(&common_);
 }
 
-std::span<const double> values_of(const cholmod_factor& factor) {
-  return {static_cast<const double*>(factor.x), factor.xsize};
+void CholmodAnalysis::require_done() const {
+  if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw ComputationError(kNoMemoryForFactor);
+  if (common_.status == CHOLMOD_TOO_LARGE) {
+    throw InputError(
+        std::string("the factor of the stiffness matrix has more entries than CHOLMOD's "
+                    "integers count; ") +
+        kOrAnotherSolution);
+  }
+  if (common_.status < 0) {
+    throw ComputationError("analysing the stiffness matrix failed: CHOLMOD's status " +
+                           std::to_string(common_.status));
+  }
+}
+
+LowerHalf CholmodAnalysis::lower_half() {
+  const bool is_in_order = factor_->ordering == CHOLMOD_NATURAL;
+  if (!is_in_order && lower_half_ == nullptr) {
+    constexpr int kWithValues = 1;
+    auto* const matrix = const_cast<cholmod_sparse*>(&matrix_);
+    auto* const permutation = static_cast<int*>(factor_->Perm);
+    cholmod_sparse* upper =
+        cholmod_ptranspose(matrix, kWithValues, permutation, nullptr, 0, &common_);
+    require_done();
+    lower_half_ = cholmod_ptranspose(upper, kWithValues, nullptr, nullptr, 0, &common_);
+    cholmod_free_sparse(&upper, &common_);
+    require_done();
+  }
+  const cholmod_sparse& lower = is_in_order ? matrix_ : *lower_half_;
+  const std::size_t columns = lower.ncol;
+  const auto* const offsets = static_cast<const int*>(lower.p);
+  const auto entries = static_cast<std::size_t>(offsets[columns]);
+  return {{offsets, columns + 1},
+          {static_cast<const int*>(lower.i), entries},
+          {static_cast<const double*>(lower.x), entries}};
 }
 
 }  // namespace flexneck::fe_modal

@@ -3,9 +3,11 @@
 
 #include <cholmod.h>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
+
+#include "fe_modal/algebra/petsc_handles.h"
+#include "fe_modal/algebra/supernodal_elimination.h"
 
 namespace flexneck::fe_modal {
 
@@ -20,45 +22,44 @@ enum class CholmodOrder {
   numbering  ///< that of the matrix itself, which is taken without a copy
 };
 
-/// CHOLMOD's settings and workspace. It prints nothing.
-class CholmodSession {
- public:
-  explicit CholmodSession(CholmodOrder order);
-  ~CholmodSession() { cholmod_finish(&common_); }
-  CholmodSession(const CholmodSession&) = delete;
-  CholmodSession& operator=(const CholmodSession&) = delete;
-
-  cholmod_common* get() { return &common_; }
-
- private:
-  cholmod_common common_{};
-};
-
-struct FreeCholmodFactor {
-  CholmodSession* session;
-  void operator()(cholmod_factor* factor) const { cholmod_free_factor(&factor, session->get()); }
-};
-/// Must not outlive its session.
-using CholmodFactor = std::unique_ptr<cholmod_factor, FreeCholmodFactor>;
-
 /// A symmetric matrix whose upper half by rows is stored, columns ascending; it is only read.
 /// Without values: the places of entries alone, both halves.
 cholmod_sparse cholmod_view(std::span<const int> offsets, std::span<const int> columns,
                             std::span<const double> values);
 
+/// Of a matrix in PETSc's arrays, which must outlive it.
+cholmod_sparse cholmod_view(Mat matrix);
+
 /// An order of nodes as one of degrees of freedom, three each.
 std::vector<int> order_of_dofs(std::span<const std::int32_t> node_order);
 
-/// The places of the factor's entries, in the order of the session.
-/// @param order  of elimination if it is given, a permutation
-/// @throws InputError if CHOLMOD's integers do not count them, ComputationError if memory runs out.
-CholmodFactor analyse(const cholmod_sparse& matrix, std::span<const int> order,
-                      CholmodSession& session);
-/// A supernodal factor.
-/// @throws ComputationError if the matrix is not positive definite or memory runs out.
-void factorise(const cholmod_sparse& matrix, CholmodFactor& factor, CholmodSession& session);
+/// The places of the entries of a matrix's supernodal factor.
+class CholmodAnalysis {
+ public:
+  /// @param matrix must outlive this
+  /// @param order of elimination if it is given, a permutation
+  /// @throws InputError if CHOLMOD's integers do not count the entries, ComputationError if memory
+  /// runs out.
+  CholmodAnalysis(const cholmod_sparse& matrix, CholmodOrder kind, std::span<const int> order = {});
+  ~CholmodAnalysis();
+  CholmodAnalysis(const CholmodAnalysis&) = delete;
+  CholmodAnalysis& operator=(const CholmodAnalysis&) = delete;
 
-/// Of a supernodal factor, where fe_modal/algebra/supernodes.h has the places.
-std::span<const double> values_of(const cholmod_factor& factor);
+  const cholmod_factor& places() const { return *factor_; }
+  /// Of the factor, without the zeros in its blocks.
+  double nonzeros() const { return nonzeros_; }
+  /// Of the matrix in the order of elimination; lives as long as this.
+  /// @throws ComputationError if memory runs out.
+  LowerHalf lower_half();
+
+ private:
+  void require_done() const;
+
+  const cholmod_sparse& matrix_;
+  cholmod_common common_{};
+  double nonzeros_ = 0;
+  cholmod_factor* factor_ = nullptr;
+  cholmod_sparse* lower_half_ = nullptr;
+};
 
 }  // namespace flexneck::fe_modal

@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <malloc.h>
 #include <map>
 #include <set>
 #include <string>
@@ -66,14 +65,6 @@ class StartAlone {
   std::set<std::string> before_;
 };
 
-/// Arrays from a megabyte on go back to the system as soon as they are freed. By default glibc
-/// keeps ever larger ones, in pieces that the next do not fit in: a twentieth of the peak on two
-/// ranks.
-void give_memory_back() {
-  constexpr int kLeastBytes = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLeastBytes);
-}
-
 }  // namespace
 
 PetscSession::PetscSession(Start /*start*/) {
@@ -85,7 +76,6 @@ PetscSession::PetscSession(Start /*start*/) {
   }
   const StartAlone alone;
   choose_blas_kernels();
-  give_memory_back();
   int finalized = 0;
   MPI_Finalized(&finalized);
   if (finalized != 0) throw ComputationError("PETSc can be initialised once in a process only");

@@ -58,6 +58,7 @@ ElementKernel::ElementKernel(const ElementScheme& scheme)
   const Eigen::Index p = pressure_count(scheme.pressures);
   gradients_.resize(3 * n, q);
   pressures_.resize(q, p);
+  positions_.resize(q, 3);
   divergence_.resize(3 * n, p);
   products_.resize(3 * n, 3 * n);
   weighted_.resize(n, mass_points_.values.cols());
@@ -65,6 +66,10 @@ ElementKernel::ElementKernel(const ElementScheme& scheme)
 
 void ElementKernel::map(const Eigen::Matrix3Xd& nodes_m, Points& points) {
   points.jacobians.noalias() = nodes_m * points.derivatives;
+  find_roots(points);
+}
+
+void ElementKernel::find_roots(Points& points) {
   for (Eigen::Index q = 0; q < points.weights.size(); ++q) {
     const double volume = points.weights[q] * points.jacobians.middleCols<3>(3 * q).determinant();
     if (!(volume > 0)) throw ComputationError("it is inverted at an integration point");
@@ -72,14 +77,19 @@ void ElementKernel::map(const Eigen::Matrix3Xd& nodes_m, Points& points) {
   }
 }
 
-void ElementKernel::differentiate(const Points& points, Eigen::MatrixXd& gradients) {
-  const Eigen::Index n = points.values.rows();
+template <typename Visitor>
+void ElementKernel::differentiate(const Points& points, const Visitor& visit) {
   for (Eigen::Index q = 0; q < points.weights.size(); ++q) {
-    const Eigen::Matrix3d to_physical =
-        points.roots[q] * Eigen::Matrix3d(points.jacobians.middleCols<3>(3 * q)).inverse();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3>>(gradients.col(q).data(), n, 3) =
-        points.derivatives.middleCols<3>(3 * q).lazyProduct(to_physical);
+    const Eigen::Matrix3d jacobian = points.jacobians.middleCols<3>(3 * q);
+    const Eigen::Matrix3d to_physical = points.roots[q] * jacobian.inverse();
+    visit(q, points.derivatives.middleCols<3>(3 * q).lazyProduct(to_physical));
   }
+}
+
+void ElementKernel::find_gradients() {
+  differentiate(points_, [&](Eigen::Index q, const auto& at_point) {
+    Eigen::Map<Eigen::MatrixX3d>(gradients_.col(q).data(), at_point.rows(), 3) = at_point;
+  });
 }
 
 void ElementKernel::locate(const Eigen::Matrix3Xd& nodes_m, Points& points, ElementPoints& result) {
@@ -88,8 +98,10 @@ void ElementKernel::locate(const Eigen::Matrix3Xd& nodes_m, Points& points, Elem
   result.positions_m = nodes_m * points.values;
   result.values = points.values;
   result.gradients.resize(3 * points.values.rows(), points.values.cols());
-  differentiate(points, result.gradients);
-  result.gradients *= points.roots.cwiseInverse().asDiagonal();
+  differentiate(points, [&](Eigen::Index q, const auto& at_point) {
+    Eigen::Map<Eigen::MatrixX3d>(result.gradients.col(q).data(), at_point.rows(), 3) =
+        at_point / points.roots[q];
+  });
 }
 
 void ElementKernel::locate(const Eigen::Matrix3Xd& nodes_m, ElementPoints& of_stiffness,
@@ -109,13 +121,10 @@ void ElementKernel::find_pressures(const Eigen::Matrix3Xd& nodes_m) {
   }
   if (scheme_.pressures == PressureSpace::linear) {
     // Centred and scaled for a well-conditioned Gram matrix; the span is the same.
-    const Eigen::Matrix3Xd positions = nodes_m * points_.values;
-    const Eigen::Vector3d centre = positions.rowwise().mean();
-    const double size = (positions.colwise() - centre).cwiseAbs().maxCoeff();
-    for (Eigen::Index a = 0; a < 3; ++a) {
-      pressures_.col(a + 1) =
-          points_.roots.array() * (positions.row(a).transpose().array() - centre[a]) / size;
-    }
+    multiply_transpose(1, points_.values, nodes_m.transpose(), 0, positions_);
+    positions_.rowwise() -= positions_.colwise().mean().eval();
+    const double size = positions_.cwiseAbs().maxCoeff();
+    pressures_.rightCols<3>() = (points_.roots / size).asDiagonal() * positions_;
   }
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> gram =
       pressures_.transpose() * pressures_;
@@ -147,7 +156,7 @@ void ElementKernel::evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Mate
                              const Eigen::MatrixXd& fields, PointFields& result) {
   const Eigen::Index n = points_.values.rows();
   map(nodes_m, points_);
-  differentiate(points_, gradients_);
+  find_gradients();
   const Eigen::VectorXd to_value = points_.roots.cwiseInverse();
   for (Eigen::Index a = 0; a < 3; ++a) {
     for (Eigen::Index b = 0; b < 3; ++b) {
@@ -171,27 +180,31 @@ void ElementKernel::evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Mate
   }
 }
 
-void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
-                            ElementMatrices& result) {
+void ElementKernel::find_stiffness(const Eigen::Matrix3Xd& nodes_m,
+                                   const mesher::Material& material, Eigen::MatrixXd& result) {
   const Moduli moduli = moduli_of(material);
 
   map(nodes_m, points_);
-  differentiate(points_, gradients_);
+  find_gradients();
   // H_ia,jb = int N_i,a N_j,b holds all that the displacements contribute.
   multiply_by_transpose(1, gradients_, gradients_, 0, products_);
-  result.stiffness.resize(products_.rows(), products_.cols());
+  result.resize(products_.rows(), products_.cols());
   // 2 mu dev:dev + kappa div^2 = 2 mu eps:eps + lambda div^2
   double square = moduli.lambda;
   if (scheme_.pressures != PressureSpace::none) {
     project_divergence(nodes_m);
     const double projected = projected_modulus(scheme_, moduli);
-    multiply_by_transpose(projected, divergence_, divergence_, 0, result.stiffness);
+    multiply_by_transpose(projected, divergence_, divergence_, 0, result);
     square -= projected;
   } else {
-    result.stiffness.setZero();
+    result.setZero();
   }
-  add_displacement_part(moduli.mu, square, result.stiffness);
+  add_displacement_part(moduli.mu, square, result);
+}
 
+void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+                            ElementMatrices& result) {
+  find_stiffness(nodes_m, material, result.stiffness);
   const bool shared = scheme_.strength == kMassStrength;
   if (!shared) map(nodes_m, mass_points_);
   const Points& points = shared ? points_ : mass_points_;
@@ -201,26 +214,25 @@ void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Mater
 }
 
 void ElementKernel::turn_to_stress(const Moduli& moduli) {
+  const Eigen::Index q = volumetric_.rows();
   const Eigen::Index k = volumetric_.cols();
-  const auto gradient = [&](Eigen::Index a, std::size_t b) {
-    return at_points_[b].middleCols(a * k, k);
+  const auto gradient = [&](Eigen::Index a, Eigen::Index b) {
+    return at_points_.block(b * q, a * k, q, k);
   };
   volumetric_ = gradient(0, 0) + gradient(1, 1) + gradient(2, 2);
-  const double projected = projected_modulus(scheme_, moduli);
-  if (projected == 0) {
+  if (scheme_.pressures == PressureSpace::none) {
     volumetric_ *= moduli.lambda;
   } else {
-    const Eigen::MatrixXd coefficients = projected * (pressures_.transpose() * volumetric_);
-    volumetric_ *= moduli.lambda - projected;
-    volumetric_ += pressures_ * coefficients;
+    const double projected = projected_modulus(scheme_, moduli);
+    coefficients_.resize(pressures_.cols(), k);
+    multiply_transpose(1, pressures_, volumetric_, 0, coefficients_);
+    multiply(projected, pressures_, coefficients_, moduli.lambda - projected, volumetric_);
   }
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto row = static_cast<Eigen::Index>(a);
-    gradient(row, a) = 2 * moduli.mu * gradient(row, a) + volumetric_;
-    for (std::size_t b = a + 1; b < 3; ++b) {
-      const auto column = static_cast<Eigen::Index>(b);
-      gradient(row, b) = moduli.mu * (gradient(row, b) + gradient(column, a));
-      gradient(column, a) = gradient(row, b);
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    gradient(a, a) = 2 * moduli.mu * gradient(a, a) + volumetric_;
+    for (Eigen::Index b = a + 1; b < 3; ++b) {
+      gradient(a, b) = moduli.mu * (gradient(a, b) + gradient(b, a));
+      gradient(b, a) = gradient(a, b);
     }
   }
 }
@@ -230,29 +242,29 @@ void ElementKernel::apply(const Eigen::Matrix3Xd& nodes_m, const mesher::Materia
                           Eigen::MatrixXd* momenta) {
   const Eigen::Index n = points_.values.rows();
   const Eigen::Index q = points_.values.cols();
-  map(nodes_m, points_);
-  differentiate(points_, gradients_);
+  // As map() does, whose order of summation stored results have, in half the time.
+  multiply(1, nodes_m, points_.derivatives, 0, points_.jacobians);
+  find_roots(points_);
+  columns_.resize(n, 3 * q);
+  differentiate(points_, [&](Eigen::Index p, const auto& at_point) {
+    Eigen::Map<Eigen::MatrixX3d, 0, Eigen::OuterStride<>>(columns_.col(p).data(), n, 3,
+                                                          Eigen::OuterStride<>(n * q)) = at_point;
+  });
   volumetric_.resize(q, fields.cols() / 3);
-  for (std::size_t b = 0; b < 3; ++b) {
-    at_points_[b].resize(q, fields.cols());
-    const auto first = static_cast<Eigen::Index>(b) * n;
-    multiply_transpose(1, gradients_.middleRows(first, n), fields, 0, at_points_[b]);
-  }
+  at_points_.resize(3 * q, fields.cols());
+  multiply_transpose(1, columns_, fields, 0, at_points_);
   if (scheme_.pressures != PressureSpace::none) find_pressures(nodes_m);
   turn_to_stress(moduli_of(material));
-  for (std::size_t b = 0; b < 3; ++b) {
-    const auto first = static_cast<Eigen::Index>(b) * n;
-    multiply(1, gradients_.middleRows(first, n), at_points_[b], b == 0 ? 0 : 1, forces);
-  }
+  multiply(1, columns_, at_points_, 0, forces);
 
   if (momenta == nullptr) return;
   const bool shared = scheme_.strength == kMassStrength;
   if (!shared) map(nodes_m, mass_points_);
   const Points& points = shared ? points_ : mass_points_;
   weighted_ = points.values * points.roots.asDiagonal();
-  at_points_[0].resize(points.values.cols(), fields.cols());
-  multiply_transpose(1, weighted_, fields, 0, at_points_[0]);
-  multiply(material.density_kg_m3, weighted_, at_points_[0], 0, *momenta);
+  weighted_fields_.resize(points.values.cols(), fields.cols());
+  multiply_transpose(1, weighted_, fields, 0, weighted_fields_);
+  multiply(material.density_kg_m3, weighted_, weighted_fields_, 0, *momenta);
 }
 
 }  // namespace flexneck::fe_modal

@@ -51,6 +51,9 @@ class ElementKernel {
   /// @throws ComputationError if the element is inverted at an integration point.
   void compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                ElementMatrices& result);
+  /// The stiffness alone, as in ElementMatrices.
+  void find_stiffness(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
+                      Eigen::MatrixXd& result);
 
   /// Gradients and stresses that belong to the stiffness.
   /// @param fields (3n, k), degree of freedom a n + i is direction a of node i
@@ -82,8 +85,12 @@ class ElementKernel {
   };
 
   static void map(const Eigen::Matrix3Xd& nodes_m, Points& points);
-  /// @param gradients dN_i / dx_a at the points, times their roots
-  static void differentiate(const Points& points, Eigen::MatrixXd& gradients);
+  static void find_roots(Points& points);
+  /// dN_i / dx_a at the points, times their roots.
+  /// @param visit called with each point's number and (n, 3) gradients
+  template <typename Visitor>
+  static void differentiate(const Points& points, const Visitor& visit);
+  void find_gradients();
   static void locate(const Eigen::Matrix3Xd& nodes_m, Points& points, ElementPoints& result);
   void find_pressures(const Eigen::Matrix3Xd& nodes_m);
   void project_divergence(const Eigen::Matrix3Xd& nodes_m);
@@ -98,13 +105,17 @@ class ElementKernel {
   /// are products of matrices.
   Eigen::MatrixXd gradients_;
   Eigen::MatrixXd pressures_;   ///< (q, p) basis of the pressures, times the roots, orthonormal
+  Eigen::MatrixX3d positions_;  ///< workspace: (q, 3), of the points
   Eigen::MatrixXd divergence_;  ///< (3n, p) of the shape functions, projected
   Eigen::MatrixXd products_;    ///< (3n, 3n) int dN_i/dx_a dN_j/dx_b
   Eigen::MatrixXd weighted_;    ///< (n, q) shape functions times the roots
-  /// Of apply(): (q, 3k), entry b has du_a / dx_b in column a k + c, then sigma_ab; times the
+  Eigen::MatrixXd columns_;     ///< of apply(): (n, 3q), column a q + p: dN_i / dx_a at point p
+  /// Of apply(): (3q, 3k), entry b q + p, a k + c: du_a / dx_b of field c, then sigma_ab; times the
   /// roots.
-  std::array<Eigen::MatrixXd, 3> at_points_;
-  Eigen::MatrixXd volumetric_;  ///< of apply(): (q, k)
+  Eigen::MatrixXd at_points_;
+  Eigen::MatrixXd volumetric_;       ///< of apply(): (q, k)
+  Eigen::MatrixXd coefficients_;     ///< of apply(): (p, k), of the pressures
+  Eigen::MatrixXd weighted_fields_;  ///< of apply(): (q of the mass, 3k), times the roots
 };
 
 }  // namespace flexneck::fe_modal

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/cholmod_handles.h"
+#include "fe_modal/algebra/inertia_count.h"
 #include "fe_modal/algebra/mumps_factor.h"
 #include "fe_modal/dofs/node_graph.h"
 #include "fe_modal/solve/iterative/schwarz_inverse.h"
@@ -135,6 +137,13 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) con
   try {
     std::optional<SymmetricMatrix> shifted;
     ranks().together([&] { shifted = shifted_stiffness(*matrices_, sigma); });
+    if (!ranks().are_many()) {
+      const bool is_in_order = fields_.dof_map().is_renumbered();
+      const auto counted = count_without_pivoting(
+          shifted->get(), is_in_order ? CholmodOrder::numbering : CholmodOrder::given,
+          is_in_order ? std::vector<int>() : order_of_dofs(order()), ranks().threads());
+      if (counted) return counted;
+    }
     return MumpsFactor(fields_.layout(), MumpsFactor::Kind::indefinite, *shifted, part_.blocks(),
                        order())
         .negative_pivots();

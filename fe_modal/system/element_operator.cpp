@@ -38,9 +38,15 @@ Eigen::MatrixXd gathered(const DofMap& dof_map, const NodalRows& rows) {
   const Eigen::Index k = rows.cols() / 3;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(dof_map.dof_count(), k);
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(rows.rows()); ++node) {
+    const std::int32_t block = dof_map.index(node);
+    if (dof_map.is_plain(node) && block < 0) continue;
     for (Eigen::Index c = 0; c < k; ++c) {
-      dof_map.add_force(node, {rows(node, c), rows(node, k + c), rows(node, 2 * k + c)},
-                        columns.col(c));
+      const Eigen::Vector3d force(rows(node, c), rows(node, k + c), rows(node, 2 * k + c));
+      if (dof_map.is_plain(node)) {
+        columns.col(c).segment<3>(3 * block) += force;
+      } else {
+        dof_map.add_force(node, force, columns.col(c));
+      }
     }
   }
   return columns;
@@ -158,19 +164,19 @@ ElementOperator::Products ElementOperator::multiply(const Eigen::MatrixXd& colum
 }
 
 void ElementOperator::for_each_stiffness(const Visitor& visit) const {
-  ElementMatrices element;
+  Eigen::MatrixXd stiffness;
   Eigen::MatrixXd displacements_m;
   visit_elements(mesh_, formulation_, prestress_m_.cols() > 0,
                  [&](std::span<const std::int32_t> nodes, const Eigen::Matrix3Xd& coordinates,
                      const mesher::Material& material, ElementKernel& kernel,
                      std::optional<GeometricKernel>& geometric) {
-                   kernel.compute(coordinates, material, element);
+                   kernel.find_stiffness(coordinates, material, stiffness);
                    if (geometric) {
                      gather(nodes, {&prestress_m_}, displacements_m);
-                     geometric->add(coordinates, material, displacements_m, element.stiffness);
+                     geometric->add(coordinates, material, displacements_m, stiffness);
                    }
                    const ConstrainedElement constrained(nodes, dof_map_);
-                   visit(constrained.numbers(), constrained.reduced(element.stiffness));
+                   visit(constrained.numbers(), constrained.reduced(stiffness));
                  });
   for (const Point& point : points_) visit(point.element.numbers(), point.stiffness);
 }

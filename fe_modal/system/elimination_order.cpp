@@ -12,11 +12,10 @@ namespace {
 /// neighbouring numbers.
 std::vector<std::int32_t> postordered(const NodeGraph& graph,
                                       const std::vector<std::int32_t>& order) {
-  CholmodSession session(CholmodOrder::given);
-  const CholmodFactor factor =
-      analyse(cholmod_view(graph.offsets(), graph.columns(), {}), order, session);
-  const auto* const permutation = static_cast<const int*>(factor->Perm);
-  return {permutation, permutation + factor->n};
+  const cholmod_sparse pattern = cholmod_view(graph.offsets(), graph.columns(), {});
+  const CholmodAnalysis analysis(pattern, CholmodOrder::given, order);
+  const auto* const permutation = static_cast<const int*>(analysis.places().Perm);
+  return {permutation, permutation + analysis.places().n};
 }
 
 }  // namespace

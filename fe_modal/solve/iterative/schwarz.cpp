@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/solve/iterative/submatrix.h"
 #include "geometry/foundation/in_parallel.h"
 #include "mesher/partition/node_order.h"
@@ -37,7 +38,8 @@ SchwarzPreconditioner::SchwarzPreconditioner(const CutBody& body, const PartMatr
           extended(around.graph, places_in(around.blocks, subdomain));
       const NodeGraph graph = restrict_to(around.graph, nodes);
       SubdomainFactor factor(principal_part(around.matrix, graph, nodes),
-                             mesher::nested_dissection(graph.offsets(), graph.columns()));
+                             mesher::nested_dissection(graph.offsets(), graph.columns()),
+                             threads_in_blas(ranks_.threads()));
       nonzeros_ += factor.nonzeros();
       std::vector<Eigen::Index> rows = factor.rows_of(nodes);
       regions_.push_back({std::move(factor), std::move(rows)});

@@ -1,29 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/solve/iterative/subdomain_factor.h"
 
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "fe_modal/algebra/cholmod_handles.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
+namespace {
+
+/// Of an entry on the diagonal: where elimination leaves less, rounding errors of 6e-8 may make
+/// much of the pivot.
+constexpr double kDoubtfulPivot = 1e-5;
+
+std::optional<SupernodalFactor<float>> factor_in_single_precision(CholmodAnalysis& analysis,
+                                                                  unsigned threads) {
+  try {
+    SupernodalFactor<float> factor(analysis, threads);
+    if (factor.smallest_pivot() > kDoubtfulPivot) return factor;
+  } catch (const ComputationError&) {  // perhaps definite all the same, but for seven digits
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 SubdomainFactor::SubdomainFactor(const SymmetricMatrix& matrix,
-                                 std::span<const std::int32_t> node_order) {
-  CholmodSession session(CholmodOrder::given);
+                                 std::span<const std::int32_t> node_order, unsigned threads) {
   const cholmod_sparse view = cholmod_view(matrix.offsets(), matrix.columns(), matrix.values());
-  CholmodFactor factor = analyse(view, order_of_dofs(node_order), session);
-  factorise(view, factor, session);
-  supernodes_ = Supernodes(*factor);
-  const std::span<const double> values = values_of(*factor);
-  values_.resize(values.size());
-  std::transform(values.begin(), values.end(), values_.begin(),
-                 [](double value) { return static_cast<float>(value); });
+  CholmodAnalysis analysis(view, CholmodOrder::given, order_of_dofs(node_order));
+  auto factor = factor_in_single_precision(analysis, threads);
+  factor_ = factor ? std::move(*factor)
+                   : SupernodalFactor<float>(SupernodalFactor<double>(analysis, threads));
 }
 
 std::vector<Eigen::Index> SubdomainFactor::rows_of(const std::vector<std::int32_t>& nodes) const {
   std::vector<Eigen::Index> rows;
-  rows.reserve(supernodes_.order().size());
-  for (const int dof : supernodes_.order()) {
+  rows.reserve(factor_.order().size());
+  for (const int dof : factor_.order()) {
     rows.push_back(3 * nodes[static_cast<std::size_t>(dof / 3)] + dof % 3);
   }
   return rows;
@@ -31,7 +46,7 @@ std::vector<Eigen::Index> SubdomainFactor::rows_of(const std::vector<std::int32_
 
 Eigen::MatrixXf SubdomainFactor::solve(Eigen::MatrixXf right_hand_sides) const {
   constexpr unsigned kAlone = 1;  // each subdomain has a thread
-  supernodes_.solve(values_, right_hand_sides, kAlone);
+  factor_.solve(right_hand_sides, kAlone);
   return right_hand_sides;
 }
 

@@ -41,11 +41,16 @@ class Columns {
   auto forces() const { return forces_.leftCols(count_); }
   auto momenta() const { return momenta_.leftCols(count_); }
 
-  void append(const Eigen::MatrixXd& vectors, const ElementOperator::Products& products) {
-    vectors_.middleCols(count_, vectors.cols()) = vectors;
-    forces_.middleCols(count_, vectors.cols()) = products.forces;
-    momenta_.middleCols(count_, vectors.cols()) = products.momenta;
-    count_ += vectors.cols();
+  void append(Eigen::MatrixXd vectors, ElementOperator::Products products) {
+    const Eigen::Index more = vectors.cols();
+    const auto move = [&](Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
+      to.middleCols(count_, more) = from;
+      from.resize(0, 0);  // frees it before the next is written
+    };
+    move(vectors, vectors_);
+    move(products.forces, forces_);
+    move(products.momenta, momenta_);
+    count_ += more;
   }
   /// Replaces the columns by combinations of them.
   void combine(const Eigen::MatrixXd& combination) {
@@ -163,12 +168,14 @@ Eigen::MatrixXd with_directions(const Eigen::MatrixXd& best, Eigen::Index rigid_
 void start(const RefinedSystem& system, const EigenPairs& coarse, Columns& columns) {
   Eigen::MatrixXd vectors = system.prolonged(coarse.vectors);
   vectors -= system.solve_cells(system.forces(vectors));
-  columns.append(vectors, system.products(vectors));
+  ElementOperator::Products products = system.products(vectors);
+  columns.append(std::move(vectors), std::move(products));
   const Eigen::Index count = coarse.values.size();
   if (ritz_pairs(system.ranks(), columns, count).values.size() == count) return;
   columns.clear();
   vectors = system.prolonged(coarse.vectors);
-  columns.append(vectors, system.products(vectors));
+  products = system.products(vectors);
+  columns.append(std::move(vectors), std::move(products));
 }
 
 }  // namespace
@@ -190,9 +197,10 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
               columns.vectors()};
     }
     columns.combine(step == 0 ? ritz.vectors : with_directions(ritz.vectors, rigid_count));
-    const Eigen::MatrixXd directions =
+    Eigen::MatrixXd directions =
         directions_against(system, residuals_of(columns, ritz.values, rigid_count));
-    columns.append(directions, system.products(directions));
+    ElementOperator::Products products = system.products(directions);
+    columns.append(std::move(directions), std::move(products));
   }
   throw ComputationError(
       "the modes of the mesh cut in eight, by which its error is estimated, do "

@@ -12,15 +12,6 @@
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
 
-// LAPACK, which PETSc declares a small part of.
-extern "C" {
-void dpotrf_(const char* triangle, const int* n, double* a, const int* lda, int* info);
-void dtrttf_(const char* transpose, const char* triangle, const int* n, const double* a,
-             const int* lda, double* packed, int* info);
-void spftrs_(const char* transpose, const char* triangle, const int* n, const int* columns,
-             const float* packed, float* b, const int* ldb, int* info);
-}
-
 namespace flexneck::fe_modal {
 namespace {
 
@@ -200,22 +191,12 @@ void add(std::span<const LocalPlace> places, const Eigen::MatrixXd& element,
 }
 
 /// @param matrix lower half; is overwritten
-std::vector<float> factorised(Eigen::MatrixXd& matrix) {
+PanelFactor factorised(Eigen::MatrixXd& matrix) {
   // Dependent degrees of freedom have no stiffness.
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     if (matrix(i, i) == 0) matrix(i, i) = 1;
   }
-  const auto size = static_cast<int>(matrix.rows());
-  int info = 0;
-  dpotrf_("L", &size, matrix.data(), &size, &info);
-  if (info != 0) throw ComputationError(kNotDefinite);
-  std::vector<double> packed(static_cast<std::size_t>(size) * (static_cast<std::size_t>(size) + 1) /
-                             2);
-  dtrttf_("N", "L", &size, matrix.data(), &size, packed.data(), &info);
-  std::vector<float> result(packed.size());
-  std::transform(packed.begin(), packed.end(), result.begin(),
-                 [](double value) { return static_cast<float>(value); });
-  return result;
+  return PanelFactor(matrix);
 }
 
 }  // namespace
@@ -261,30 +242,40 @@ Eigen::MatrixXd StarPatches::solve_cells(const Eigen::MatrixXd& residuals) const
 
 Eigen::MatrixXd StarPatches::sum_of(const std::vector<std::size_t>& patches,
                                     const Eigen::MatrixXd& residuals) const {
-  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   // Of unit size: forces of slow modes may be too small for single precision.
   const double largest = residuals.size() == 0 ? 0 : residuals.cwiseAbs().maxCoeff();
   if (largest == 0) return Eigen::MatrixXd::Zero(residuals.rows(), residuals.cols());
-  const Rows given = (residuals / largest).cast<float>();
-  Rows result = Rows::Zero(residuals.rows(), residuals.cols());
-  const auto columns = static_cast<int>(residuals.cols());
-  Eigen::MatrixXf own;
+  // Row by row the columns in groups of eight, all of which a patch's factor meets in turn.
+  constexpr auto kTogether = static_cast<Eigen::Index>(kColumnsTogether);
+  using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Index groups = (residuals.cols() + kTogether - 1) / kTogether;
+  std::vector<RowOf<float>> given(static_cast<std::size_t>(residuals.rows() * groups));
+  std::vector<RowOf<float>> sums(given.size());
+  const auto columns_of = [&](std::vector<RowOf<float>>& rows) {
+    return Eigen::Map<RowMajor>(rows.front().value, residuals.rows(), groups * kTogether);
+  };
+  columns_of(given).leftCols(residuals.cols()) = (residuals / largest).cast<float>();
   for (const std::size_t number : patches) {
-    const Patch& patch = patches_[number];
-    const auto size = static_cast<int>(3 * patch.blocks.size());
-    own.resize(size, columns);
-    for (std::size_t i = 0; i < patch.blocks.size(); ++i) {
-      own.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
-          given.middleRows<3>(3 * patch.blocks[i]);
-    }
-    int info = 0;
-    spftrs_("N", "L", &size, &columns, patch.factor.data(), own.data(), &size, &info);
-    for (std::size_t i = 0; i < patch.blocks.size(); ++i) {
-      result.middleRows<3>(3 * patch.blocks[i]) +=
-          own.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    add_solution(patches_[number], static_cast<std::size_t>(groups), given, sums);
+  }
+  return largest * columns_of(sums).leftCols(residuals.cols()).cast<double>();
+}
+
+void StarPatches::add_solution(const Patch& patch, std::size_t groups,
+                               std::span<const RowOf<float>> forces, std::span<RowOf<float>> sums) {
+  constexpr std::size_t kNode = 3;
+  std::vector<RowOf<float>> own(kNode * patch.blocks.size());
+  const auto row_of = [&](std::size_t i) {
+    return groups * (kNode * static_cast<std::size_t>(patch.blocks[i / kNode]) + i % kNode);
+  };
+  for (std::size_t group = 0; group < groups; ++group) {
+    for (std::size_t i = 0; i < own.size(); ++i) own[i] = forces[row_of(i) + group];
+    patch.factor.solve(own.data());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      RowOf<float>& sum = sums[row_of(i) + group];
+      for (std::size_t c = 0; c < kColumnsTogether; ++c) sum.value[c] += own[i].value[c];
     }
   }
-  return largest * result.cast<double>();
 }
 
 }  // namespace flexneck::fe_modal

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/solve/refined/panel_factor.h"
 #include "fe_modal/system/element_operator.h"
 #include "mesher/mesh/mesh.h"
 
@@ -26,8 +28,7 @@ struct StarMesh {
 /// Exact solves on the star of each corner of the elements: the blocks of the nodes within all
 /// edges, faces and elements that end there, the corner among them. In a nearly incompressible body
 /// a node alone cannot move without change of volume; a star can (Schoeberl, Numer. Math. 84 (1999)
-/// 97; Arnold, Falk and Winther, ibid. 85 (2000) 197). Factors are made in double and kept in
-/// single precision, packed.
+/// 97; Arnold, Falk and Winther, ibid. 85 (2000) 197).
 class StarPatches {
  public:
   /// @param stiffness of the mesh, whose elements' matrices are summed up
@@ -43,11 +44,15 @@ class StarPatches {
  private:
   struct Patch {
     std::vector<std::int32_t> blocks;  ///< ascending
-    std::vector<float> factor;         ///< Cholesky factor in rectangular full packed format
+    PanelFactor factor;
   };
 
   Eigen::MatrixXd sum_of(const std::vector<std::size_t>& patches,
                          const Eigen::MatrixXd& residuals) const;
+
+  /// @param forces, sums (dofs x groups), row by row
+  static void add_solution(const Patch& patch, std::size_t groups,
+                           std::span<const RowOf<float>> forces, std::span<RowOf<float>> sums);
 
   std::vector<Patch> patches_;
   std::vector<std::size_t> all_;    ///< 0 … patches - 1

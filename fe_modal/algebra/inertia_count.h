@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "fe_modal/algebra/petsc_handles.h"
+
+namespace flexneck::fe_modal {
+
+enum class CholmodOrder;
+
+/// Negative eigenvalues of a symmetric matrix by the pivots of a factor that is made as a Cholesky
+/// factor is, without pivoting (Sylvester's law). Nothing where rounding errors grow in it: then
+/// they may change the count.
+/// @param matrix symmetric with the upper half stored by scalar rows
+/// @param dof_order of elimination, where it is given
+/// @throws InputError if memory does not hold the factor.
+std::optional<Eigen::Index> count_without_pivoting(Mat matrix, CholmodOrder kind,
+                                                   std::span<const int> dof_order,
+                                                   unsigned threads);
+
+}  // namespace flexneck::fe_modal

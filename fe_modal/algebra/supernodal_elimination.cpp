@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/algebra/supernodal_elimination.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include "fe_modal/algebra/blas.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/signed_cholesky.h"
+#include "fe_modal/algebra/update_lists.h"
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/in_parallel.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+/// Rows of a supernode that a thread takes at a time: by 256 the BLAS spends a tenth more on
+/// packing the other factor of the product, by 2048 few threads find work.
+constexpr int kStripRows = 768;
+
+/// Of a list, entries [begin, end).
+struct Range {
+  int begin;
+  int end;
+
+  int size() const { return end - begin; }
+};
+
+/// Rows of a block, all in its diagonal part or all below it.
+std::vector<Range> strips_of(const Supernode& node) {
+  std::vector<Range> strips;
+  for (int begin = 0; begin < node.rows;) {
+    const int limit = begin < node.columns ? node.columns : node.rows;
+    const int end = std::min(begin + kStripRows, limit);
+    strips.push_back({begin, end});
+    begin = end;
+  }
+  return strips;
+}
+
+/// What a thread works with.
+template <typename Scalar>
+struct Workspace {
+  explicit Workspace(std::size_t rows) : positions(rows) {}
+
+  std::vector<int> positions;  ///< of rows in a block
+  std::vector<int> targets;    ///< of the rows of an update
+  std::vector<Scalar> product;
+  std::vector<Scalar> turned;
+};
+
+template <typename Scalar>
+DenseBlock<Scalar> room_for(int rows, int columns, std::vector<Scalar>& workspace) {
+  const std::size_t size = as_index(rows) * as_index(columns);
+  if (workspace.size() < size) workspace.resize(size);
+  return {workspace.data(), rows, columns, rows};
+}
+
+template <typename Scalar>
+DenseBlock<Scalar> copy(const DenseBlock<const Scalar>& block, std::vector<Scalar>& workspace) {
+  const DenseBlock<Scalar> result = room_for(block.rows, block.columns, workspace);
+  for (int j = 0; j < block.columns; ++j) {
+    std::copy_n(block.column(j), block.rows, result.column(j));
+  }
+  return result;
+}
+
+enum class Pivots { positive, of_any_sign };
+
+template <typename Scalar>
+class Elimination {
+ public:
+  Elimination(const SupernodeTree& tree, const LowerHalf& matrix, std::span<Scalar> values,
+              Pivots pivots)
+      : tree_(tree),
+        matrix_(matrix),
+        values_(values),
+        pivots_(pivots),
+        updates_(tree),
+        signs_(pivots == Pivots::positive ? 0 : tree.order().size(), Scalar(1)),
+        has_negative_(tree.supernodes().size(), 0) {}
+
+  void run(unsigned threads) {
+    threads = std::max(1U, threads);
+    std::vector<Workspace<Scalar>> workspaces(threads, Workspace<Scalar>(tree_.order().size()));
+    // Calls work(k, workspace) for all k.
+    const auto share_out = [&](std::size_t count, const auto& work) {
+      std::atomic<std::size_t> next = 0;
+      in_parallel(std::min<std::size_t>(threads, count), threads, [&](std::size_t thread) {
+        for (std::size_t k = next++; k < count; k = next++) work(k, workspaces[thread]);
+      });
+    };
+    share_out(tree_.subtrees().size(), [&](std::size_t b, Workspace<Scalar>& workspace) {
+      const Subtree& subtree = tree_.subtrees()[b];
+      for (std::size_t k = subtree.begin; k < subtree.end; ++k) eliminate(k, workspace);
+    });
+    for (const std::size_t k : tree_.top()) {
+      const std::vector<Range> strips = strips_of(tree_.supernodes()[k]);
+      share_out(strips.size(), [&](std::size_t s, Workspace<Scalar>& workspace) {
+        assemble(k, strips[s], workspace);
+      });
+      factorise_diagonal(k, workspaces.front());
+      share_out(strips.size(),
+                [&](std::size_t s, Workspace<Scalar>&) { divide_by_diagonal(k, strips[s]); });
+    }
+  }
+
+  Inertia inertia() const {
+    std::vector<double> squares(tree_.order().size(), 0);
+    for (const Supernode& node : tree_.supernodes()) {
+      const auto rows = tree_.rows_of(node);
+      for (int j = 0; j < node.columns; ++j) {
+        const Scalar* const column = block_of(node).column(j);
+        for (int i = j; i < node.rows; ++i) {
+          squares[as_index(rows[as_index(i)])] += static_cast<double>(column[i]) * column[i];
+        }
+      }
+    }
+    Inertia result;
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      if (signs_[k] < 0) ++result.negative;
+      const double diagonal = matrix_.values[as_index(matrix_.offsets[k])];
+      result.growth = std::max(result.growth, squares[k] / std::abs(diagonal));
+    }
+    return result;
+  }
+
+ private:
+  void eliminate(std::size_t k, Workspace<Scalar>& workspace) {
+    const Supernode& node = tree_.supernodes()[k];
+    const Range below{node.columns, node.rows};
+    assemble(k, {0, node.columns}, workspace);
+    if (below.size() > 0) assemble(k, below, workspace);
+    factorise_diagonal(k, workspace);
+    if (below.size() > 0) divide_by_diagonal(k, below);
+  }
+
+  DenseBlock<Scalar> block_of(const Supernode& node) const {
+    return {values_.data() + node.block, node.rows, node.columns, node.rows};
+  }
+
+  /// The strip's entries of A, less the updates of the descendants.
+  void assemble(std::size_t k, Range strip, Workspace<Scalar>& workspace) const {
+    const Supernode& node = tree_.supernodes()[k];
+    const auto rows = tree_.rows_of(node);
+    for (int i = strip.begin; i < strip.end; ++i)
+      workspace.positions[as_index(rows[as_index(i)])] = i;
+    const int first_row = rows[as_index(strip.begin)];
+    const int last_row = rows[as_index(strip.end - 1)];
+    for (int j = 0; j < node.columns; ++j) {
+      Scalar* const column = block_of(node).column(j);
+      std::fill(column + strip.begin, column + strip.end, Scalar(0));
+      const auto begin = as_index(matrix_.offsets[as_index(node.first + j)]);
+      const auto end = as_index(matrix_.offsets[as_index(node.first + j) + 1]);
+      const auto rows_of_column = matrix_.rows.subspan(begin, end - begin);
+      const auto first = std::lower_bound(rows_of_column.begin(), rows_of_column.end(), first_row);
+      for (auto row = first; row != rows_of_column.end() && *row <= last_row; ++row) {
+        const auto place = begin + static_cast<std::size_t>(row - rows_of_column.begin());
+        column[workspace.positions[as_index(*row)]] = static_cast<Scalar>(matrix_.values[place]);
+      }
+    }
+    for (const Update& update : updates_.of(k)) subtract(update, node, strip, workspace);
+  }
+
+  /// Subtracts L_i S L_j^T of the descendant's rows i in the strip and its rows j in the columns.
+  void subtract(const Update& update, const Supernode& node, Range strip,
+                Workspace<Scalar>& workspace) const {
+    const auto rows = tree_.rows_of(tree_.supernodes()[as_index(update.descendant)]);
+    const auto place_of = [&](Range range, int row) {
+      return static_cast<int>(
+          std::lower_bound(rows.begin() + range.begin, rows.begin() + range.end, row) -
+          rows.begin());
+    };
+    const auto own = tree_.rows_of(node);
+    const bool is_diagonal = strip.begin < node.columns;
+    const Range columns{update.begin, update.end};
+    const Range candidates =
+        is_diagonal ? columns : Range{update.end, static_cast<int>(rows.size())};
+    Range in_strip{place_of(candidates, own[as_index(strip.begin)]), candidates.end};
+    if (strip.end < node.rows) {
+      in_strip.end = place_of(candidates, own[as_index(strip.end - 1)] + 1);
+    }
+    if (in_strip.size() == 0) return;
+    if (!is_diagonal) return subtract(update.descendant, in_strip, columns, node, workspace);
+    // To the left of the strip's own triangle, and the triangle.
+    const Range left{columns.begin, in_strip.begin};
+    if (left.size() > 0) subtract(update.descendant, in_strip, left, node, workspace);
+    subtract(update.descendant, in_strip, in_strip, node, workspace);
+  }
+
+  /// @param rows, columns in the descendant's list; of the same only the lower half matters
+  void subtract(int descendant, Range rows, Range columns, const Supernode& node,
+                Workspace<Scalar>& workspace) const {
+    const Supernode& from = tree_.supernodes()[as_index(descendant)];
+    const auto list = tree_.rows_of(from);
+    const bool is_triangle = rows.begin == columns.begin;
+    workspace.targets.clear();
+    for (const int row : list.subspan(as_index(rows.begin), as_index(rows.size()))) {
+      workspace.targets.push_back(workspace.positions[as_index(row)]);
+    }
+    const int* const targets = workspace.targets.data();
+    const auto row_at = [&](int i) { return targets[i]; };
+    const auto column_at = [&](int j) { return list[as_index(columns.begin + j)] - node.first; };
+    const auto are_neighbours = [](Range range, const auto& place_at) {
+      return place_at(range.size() - 1) - place_at(0) == range.size() - 1;
+    };
+    if (are_neighbours(rows, row_at) && are_neighbours(columns, column_at)) {
+      add_product(Scalar(-1), descendant, rows, columns, Scalar(1),
+                  block_of(node).part(row_at(0), column_at(0), rows.size(), columns.size()),
+                  workspace);
+      return;
+    }
+    const DenseBlock<Scalar> product = room_for(rows.size(), columns.size(), workspace.product);
+    add_product(Scalar(1), descendant, rows, columns, Scalar(0), product, workspace);
+    for (int j = 0; j < columns.size(); ++j) {
+      Scalar* const target = block_of(node).column(column_at(j));
+      const Scalar* const values = product.column(j);
+      for (int i = is_triangle ? j : 0; i < rows.size(); ++i) target[targets[i]] -= values[i];
+    }
+  }
+
+  /// result = factor L_i S L_j^T + keep result
+  void add_product(Scalar factor, int descendant, Range rows, Range columns, Scalar keep,
+                   const DenseBlock<Scalar>& result, Workspace<Scalar>& workspace) const {
+    const Supernode& from = tree_.supernodes()[as_index(descendant)];
+    const auto rows_of = [&](Range range) -> DenseBlock<const Scalar> {
+      return block_of(from).part(range.begin, 0, range.size(), from.columns);
+    };
+    if (has_negative_[as_index(descendant)] != 0) {
+      const DenseBlock<Scalar> turned = copy(rows_of(columns), workspace.turned);
+      turn_columns<Scalar>(turned, std::span(signs_).subspan(as_index(from.first)));
+      multiply_by_transpose(factor, rows_of(rows), DenseBlock<const Scalar>(turned), keep, result);
+    } else if (rows.begin == columns.begin) {
+      multiply_by_own_transpose(factor, rows_of(rows), keep, result);
+    } else {
+      multiply_by_transpose(factor, rows_of(rows), rows_of(columns), keep, result);
+    }
+  }
+
+  void factorise_diagonal(std::size_t k, Workspace<Scalar>& workspace) {
+    const Supernode& node = tree_.supernodes()[k];
+    const DenseBlock<Scalar> diagonal = block_of(node).part(0, 0, node.columns, node.columns);
+    DenseBlock<Scalar> before{};
+    if (pivots_ == Pivots::of_any_sign) {
+      before = copy(DenseBlock<const Scalar>(diagonal), workspace.product);
+    }
+    bool is_done = factorise_in_place(diagonal);
+    // OpenBLAS lets pivots pass that are not numbers.
+    for (int j = 0; j < node.columns; ++j) {
+      is_done = is_done && std::isfinite(diagonal.column(j)[j]);
+    }
+    if (!is_done && pivots_ == Pivots::of_any_sign) {
+      for (int j = 0; j < node.columns; ++j) {
+        std::copy_n(before.column(j), node.columns, diagonal.column(j));
+      }
+      has_negative_[k] = 1;
+      is_done = factorise_with_signs(
+          diagonal, std::span(signs_).subspan(as_index(node.first), as_index(node.columns)),
+          before);
+    }
+    if (!is_done) throw ComputationError(kNotDefinite);
+  }
+
+  void divide_by_diagonal(std::size_t k, Range strip) const {
+    const Supernode& node = tree_.supernodes()[k];
+    if (strip.begin < node.columns) return;
+    const DenseBlock<Scalar> block = block_of(node);
+    const DenseBlock<Scalar> below = block.part(strip.begin, 0, strip.size(), node.columns);
+    divide_by_transpose(DenseBlock<const Scalar>(block.part(0, 0, node.columns, node.columns)),
+                        below);
+    if (has_negative_[k] != 0) {
+      turn_columns<Scalar>(below, std::span(signs_).subspan(as_index(node.first)));
+    }
+  }
+
+  const SupernodeTree& tree_;
+  const LowerHalf& matrix_;
+  std::span<Scalar> values_;
+  Pivots pivots_;
+  UpdateLists updates_;
+  std::vector<Scalar> signs_;       ///< of the pivots, if any may be negative
+  std::vector<char> has_negative_;  ///< by supernode; not bool, for threads write them
+};
+
+}  // namespace
+
+template <typename Scalar>
+void factorise(const SupernodeTree& tree, const LowerHalf& matrix, std::span<Scalar> values,
+               unsigned threads) {
+  Elimination<Scalar>(tree, matrix, values, Pivots::positive).run(threads);
+}
+
+template void factorise(const SupernodeTree&, const LowerHalf&, std::span<double>, unsigned);
+template void factorise(const SupernodeTree&, const LowerHalf&, std::span<float>, unsigned);
+
+Inertia factorise_with_signs(const SupernodeTree& tree, const LowerHalf& matrix,
+                             std::span<double> values, unsigned threads) {
+  Elimination<double> elimination(tree, matrix, values, Pivots::of_any_sign);
+  elimination.run(threads);
+  return elimination.inertia();
+}
+
+}  // namespace flexneck::fe_modal

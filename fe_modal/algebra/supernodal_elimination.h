@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "fe_modal/algebra/supernode_tree.h"
+
+namespace flexneck::fe_modal {
+
+/// The lower half of P A P^T by columns, rows ascending.
+struct LowerHalf {
+  std::span<const int> offsets;  ///< (N + 1)
+  std::span<const int> rows;
+  std::span<const double> values;
+};
+
+/// Finds the entries of L by left-looking supernodal elimination (Ng and Peyton, SIAM J. Sci.
+/// Comput. 14 (1993) 1034): each block takes the updates of its descendants and is factorised by
+/// the BLAS. CHOLMOD does the same in double precision and one thread. Here threads take subtrees,
+/// then strips of rows of each supernode of the top; these do not depend on the number of threads,
+/// so that the factor is the same to the last bit by any.
+/// @param values tree.value_count() numbers, in any state
+/// @param threads that may call the BLAS at once
+/// @throws ComputationError if the matrix is not positive definite.
+template <typename Scalar>
+void factorise(const SupernodeTree& tree, const LowerHalf& matrix, std::span<Scalar> values,
+               unsigned threads);
+
+/// What a factor without pivoting tells of a matrix that need not be definite.
+struct Inertia {
+  std::size_t negative = 0;  ///< eigenvalues
+  /// Of the squares in a row of L their sum, over the matrix's entry on the diagonal, at most. The
+  /// factor is that of a matrix that differs from the given one by so many roundings (Higham,
+  /// Accuracy and Stability of Numerical Algorithms, theorem 10.3), 1 for definite ones.
+  double growth = 0;
+};
+
+/// P A P^T = L S L^T with S of +1 and -1 on the diagonal, found as factorise() finds L.
+/// @throws ComputationError on a pivot that is zero.
+Inertia factorise_with_signs(const SupernodeTree& tree, const LowerHalf& matrix,
+                             std::span<double> values, unsigned threads);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/algebra/supernode_tree.h"
+
+namespace flexneck::fe_modal {
+
+class CholmodAnalysis;
+struct LowerHalf;
+
+/// Supernodal Cholesky factor, P A P^T = L L^T, of numbers of double or single precision: half the
+/// memory, and half the time of a solve, which is spent on reading the factor.
+template <typename Scalar>
+class SupernodalFactor {
+ public:
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  SupernodalFactor() = default;
+  /// @throws ComputationError if the matrix is not positive definite or memory runs out.
+  SupernodalFactor(CholmodAnalysis& analysis, unsigned threads);
+  /// The same in another precision.
+  template <typename Other>
+  explicit SupernodalFactor(SupernodalFactor<Other>&& other);
+
+  /// Entry k is the row of A that comes k-th.
+  std::span<const int> order() const { return tree_.order(); }
+  /// Numbers that are kept.
+  std::size_t value_count() const { return tree_.value_count(); }
+  /// Of the matrix's entries on the diagonal the smallest share that elimination left for a pivot:
+  /// where it comes near the rounding of the numbers, some digits or all of a solution are lost.
+  double smallest_pivot() const { return smallest_pivot_; }
+  /// x = (L L^T)^-1 x, the same to the last bit by any number of threads.
+  /// @param x (n, k), rows in the order of elimination
+  void solve(Matrix& x, unsigned threads) const;
+
+ private:
+  template <typename Other>
+  friend class SupernodalFactor;
+  class Solve;
+
+  void number_ancestor_rows();
+  void find_smallest_pivot(const LowerHalf& matrix);
+
+  SupernodeTree tree_;
+  /// As the tree's row lists, but in those of a subtree row end_row + k stands for its ancestor k.
+  std::vector<int> rows_;
+  std::unique_ptr<Scalar[]> values_;
+  double smallest_pivot_ = 1;
+};
+
+}  // namespace flexneck::fe_modal
