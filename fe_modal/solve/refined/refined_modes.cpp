@@ -29,66 +29,107 @@ constexpr double kSlowest = 0.95;
 /// Directions of a basis of unit columns that are shorter have nothing new.
 constexpr double kNothingNew = 1e-12;
 
-/// Columns with their forces and momenta, of which the first are in use.
-class Columns {
- public:
-  Columns(Eigen::Index rows, Eigen::Index capacity)
-      : vectors_(rows, capacity), forces_(rows, capacity), momenta_(rows, capacity) {}
+/// Columns with their forces and momenta.
+struct Block {
+  Eigen::MatrixXd vectors;
+  Eigen::MatrixXd forces;
+  Eigen::MatrixXd momenta;
+};
 
-  Eigen::Index count() const { return count_; }
-  void clear() { count_ = 0; }
-  auto vectors() const { return vectors_.leftCols(count_); }
-  auto forces() const { return forces_.leftCols(count_); }
-  auto momenta() const { return momenta_.leftCols(count_); }
+/// What the modes are sought in: the modes so far, the directions that they went, and new ones;
+/// with K and M projected on them.
+class Basis {
+ public:
+  explicit Basis(const Ranks& ranks) : ranks_(ranks) {}
 
   void append(Eigen::MatrixXd vectors, ElementOperator::Products products) {
-    const Eigen::Index more = vectors.cols();
-    const auto move = [&](Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
-      to.middleCols(count_, more) = from;
-      from.resize(0, 0);  // frees it before the next is written
-    };
-    move(vectors, vectors_);
-    move(products.forces, forces_);
-    move(products.momenta, momenta_);
-    count_ += more;
+    blocks_.push_back(
+        {std::move(vectors), std::move(products.forces), std::move(products.momenta)});
+    project_last(&Block::forces, stiffness_);
+    project_last(&Block::momenta, mass_);
   }
-  /// Replaces the columns by combinations of them.
-  void combine(const Eigen::MatrixXd& combination) {
-    for (Eigen::MatrixXd* const columns : {&vectors_, &forces_, &momenta_}) {
-      constexpr Eigen::Index kRows = 4096;
-      Eigen::MatrixXd turned;
-      for (Eigen::Index first = 0; first < columns->rows(); first += kRows) {
-        auto rows = columns->middleRows(first, std::min(kRows, columns->rows() - first));
-        turned.resize(rows.rows(), combination.cols());
-        multiply(1, rows.leftCols(count_), combination, 0, turned);
-        rows.leftCols(combination.cols()) = turned;
+  const Block& modes() const { return blocks_.front(); }
+  Eigen::MatrixXd take_vectors() { return std::move(blocks_.front().vectors); }
+  const Eigen::MatrixXd& stiffness() const { return stiffness_; }
+  const Eigen::MatrixXd& mass() const { return mass_; }
+
+  /// Combinations of all columns become the modes and, if there are any, the directions; no other
+  /// block is left.
+  /// @pre no more than the columns of the first and the second block
+  void combine(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& directions) {
+    constexpr Eigen::Index kRows = 1024;
+    std::vector<const Eigen::MatrixXd*> combinations = {&modes};
+    if (directions.cols() > 0) combinations.push_back(&directions);
+    Eigen::MatrixXd before;
+    Eigen::MatrixXd after;
+    for (Eigen::MatrixXd Block::*const field : {&Block::vectors, &Block::forces, &Block::momenta}) {
+      const Eigen::Index size = (blocks_.front().*field).rows();
+      for (Eigen::Index first = 0; first < size; first += kRows) {
+        const Eigen::Index rows = std::min(kRows, size - first);
+        before.resize(rows, modes.rows());
+        Eigen::Index column = 0;
+        for (const Block& block : blocks_) {
+          const auto own = (block.*field).middleRows(first, rows);
+          before.middleCols(column, own.cols()) = own;
+          column += own.cols();
+        }
+        for (std::size_t k = 0; k < combinations.size(); ++k) {
+          after.resize(rows, combinations[k]->cols());
+          multiply(1, before, *combinations[k], 0, after);
+          (blocks_[k].*field).block(first, 0, rows, after.cols()) = after;
+        }
+      }
+      for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        const Eigen::Index kept = k < combinations.size() ? combinations[k]->cols() : 0;
+        if ((blocks_[k].*field).cols() > kept) {
+          (blocks_[k].*field).conservativeResize(Eigen::NoChange, kept);
+        }
       }
     }
-    count_ = combination.cols();
+    blocks_.resize(combinations.size());
+    Eigen::MatrixXd all(modes.rows(), modes.cols() + directions.cols());
+    all << modes, directions;
+    stiffness_ = all.transpose() * stiffness_ * all;
+    mass_ = all.transpose() * mass_ * all;
   }
 
  private:
-  Eigen::MatrixXd vectors_;
-  Eigen::MatrixXd forces_;
-  Eigen::MatrixXd momenta_;
-  Eigen::Index count_ = 0;
+  /// Adds the columns and rows of the last block.
+  void project_last(Eigen::MatrixXd Block::*field, Eigen::MatrixXd& projected) const {
+    const Eigen::Index more = blocks_.back().vectors.cols();
+    const Eigen::Index count = projected.rows() + more;
+    projected.conservativeResize(count, count);
+    Eigen::Index row = 0;
+    for (const Block& block : blocks_) {
+      const Eigen::Index rows = block.vectors.cols();
+      const Eigen::MatrixXd part = inner_products(ranks_, block.vectors, blocks_.back().*field);
+      projected.block(row, count - more, rows, more) = part;
+      projected.block(count - more, row, more, rows) = part.transpose();
+      row += rows;
+    }
+  }
+
+  Ranks ranks_;
+  Eigen::MatrixXd stiffness_;
+  Eigen::MatrixXd mass_;
+  std::vector<Block> blocks_;
 };
 
 /// The lowest pairs of the projection on the columns, as combinations of them; fewer where the
 /// columns depend on one another.
-EigenPairs ritz_pairs(const Ranks& ranks, const Columns& columns, Eigen::Index count) {
-  const Eigen::MatrixXd stiffness = inner_products(ranks, columns.vectors(), columns.forces());
-  const Eigen::MatrixXd mass = inner_products(ranks, columns.vectors(), columns.momenta());
+EigenPairs ritz_pairs(const Basis& basis, Eigen::Index count) {
+  const Eigen::MatrixXd& mass = basis.mass();
   const Eigen::VectorXd scale = mass.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> lengths(scale.asDiagonal() * mass *
                                                                scale.asDiagonal());
   const Eigen::Index kept = (lengths.eigenvalues().array() > kNothingNew).count();
-  const Eigen::MatrixXd basis =
+  const Eigen::MatrixXd independent =
       scale.asDiagonal() * lengths.eigenvectors().rightCols(kept) *
       lengths.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.transpose() * stiffness * basis);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(independent.transpose() *
+                                                            basis.stiffness() * independent);
   count = std::min(count, kept);
-  return {ritz.eigenvalues().head(count), basis * ritz.eigenvectors().leftCols(count)};
+  return {ritz.eigenvalues().head(count), independent * ritz.eigenvectors().leftCols(count)};
 }
 
 /// How the eigenvalues settle: what steps gain is continued as a geometric series, by the slower of
@@ -137,12 +178,12 @@ class Settling {
   std::vector<Eigen::VectorXd> gains_;
 };
 
-/// K x - lambda M x of the last of the columns' first ones.
-Eigen::MatrixXd residuals_of(const Columns& columns, const Eigen::VectorXd& values,
+/// K x - lambda M x of the elastic modes.
+Eigen::MatrixXd residuals_of(const Block& modes, const Eigen::VectorXd& values,
                              Eigen::Index rigid_count) {
   const Eigen::Index elastic = values.size() - rigid_count;
-  return columns.forces().middleCols(rigid_count, elastic) -
-         columns.momenta().middleCols(rigid_count, elastic) * values.tail(elastic).asDiagonal();
+  return modes.forces.rightCols(elastic) -
+         modes.momenta.rightCols(elastic) * values.tail(elastic).asDiagonal();
 }
 
 /// Where vectors with these residuals are to go.
@@ -153,54 +194,53 @@ Eigen::MatrixXd directions_against(const RefinedSystem& system, Eigen::MatrixXd 
   return directions;
 }
 
-/// Ritz vectors, and behind them of the elastic ones what they have of other columns than the Ritz
-/// vectors before: the directions that they went.
-Eigen::MatrixXd with_directions(const Eigen::MatrixXd& best, Eigen::Index rigid_count) {
-  const Eigen::Index elastic = best.cols() - rigid_count;
-  Eigen::MatrixXd combination(best.rows(), best.cols() + elastic);
-  combination << best, best.rightCols(elastic);
-  combination.topRightCorner(best.cols(), elastic).setZero();
-  return combination;
+/// What elastic Ritz vectors have of other columns than the Ritz vectors before: the directions
+/// that they went. None where there are no other columns.
+Eigen::MatrixXd directions_of(const Eigen::MatrixXd& best, Eigen::Index rigid_count) {
+  if (best.rows() == best.cols()) return {};
+  Eigen::MatrixXd directions = best.rightCols(best.cols() - rigid_count);
+  directions.topRows(best.cols()).setZero();
+  return directions;
 }
 
 /// The modes of the mesh before, with what is within its elements as it must be. Where nothing is
 /// left of some, which were within an element, all are taken as they were.
-void start(const RefinedSystem& system, const EigenPairs& coarse, Columns& columns) {
+void start(const RefinedSystem& system, const EigenPairs& coarse, Basis& basis) {
+  const auto append = [&](Eigen::MatrixXd vectors) {
+    ElementOperator::Products products = system.products(vectors);
+    basis.append(std::move(vectors), std::move(products));
+  };
   Eigen::MatrixXd vectors = system.prolonged(coarse.vectors);
   vectors -= system.solve_cells(system.forces(vectors));
-  ElementOperator::Products products = system.products(vectors);
-  columns.append(std::move(vectors), std::move(products));
+  append(std::move(vectors));
   const Eigen::Index count = coarse.values.size();
-  if (ritz_pairs(system.ranks(), columns, count).values.size() == count) return;
-  columns.clear();
-  vectors = system.prolonged(coarse.vectors);
-  products = system.products(vectors);
-  columns.append(std::move(vectors), std::move(products));
+  if (ritz_pairs(basis, count).values.size() == count) return;
+  basis = Basis(system.ranks());
+  append(system.prolonged(coarse.vectors));
 }
 
 }  // namespace
 
 RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse,
                            Eigen::Index rigid_count) {
-  const Ranks& ranks = system.ranks();
   const Eigen::Index count = coarse.values.size();
   rigid_count = std::min(rigid_count, count);
-  Columns columns(system.fields().own_dof_count(), 3 * count);
-  start(system, coarse, columns);
+  Basis basis(system.ranks());
+  start(system, coarse, basis);
   Settling settling(coarse.values, rigid_count);
   for (int step = 0; step <= kMaxSteps; ++step) {
-    const EigenPairs ritz = ritz_pairs(ranks, columns, count);
+    const EigenPairs ritz = ritz_pairs(basis, count);
     settling.take(ritz.values);
     if (settling.has_ended() || rigid_count == count) {
-      columns.combine(ritz.vectors);
+      basis.combine(ritz.vectors, {});
       return {ritz.values, rigid_count == count ? Eigen::VectorXd::Zero(count) : settling.excess(),
-              columns.vectors()};
+              basis.take_vectors()};
     }
-    columns.combine(step == 0 ? ritz.vectors : with_directions(ritz.vectors, rigid_count));
+    basis.combine(ritz.vectors, directions_of(ritz.vectors, rigid_count));
     Eigen::MatrixXd directions =
-        directions_against(system, residuals_of(columns, ritz.values, rigid_count));
+        directions_against(system, residuals_of(basis.modes(), ritz.values, rigid_count));
     ElementOperator::Products products = system.products(directions);
-    columns.append(std::move(directions), std::move(products));
+    basis.append(std::move(directions), std::move(products));
   }
   throw ComputationError(
       "the modes of the mesh cut in eight, by which its error is estimated, do "
