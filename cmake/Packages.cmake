@@ -17,7 +17,7 @@ set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
 elements and moves it as a deformable body in a multibody model.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
-    "gnuplot-nox | gnuplot, libjs-d3, libjs-three, fonts-dejavu-core, libopenblas0-serial | libblas3")
+    "gnuplot-nox | gnuplot, libjs-d3, libjs-three, fonts-dejavu-core, libopenblas0-openmp | libblas3")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS openmpi-bin)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libflexneck-dev)

@@ -25,6 +25,12 @@ std::string chosen_kernels() {
   return name == nullptr ? "" : name();
 }
 
+/// Of OpenBLAS: none, its own or OpenMP's; none of another BLAS.
+int kind_of_threads() {
+  const auto kind = find<int()>("openblas_get_parallel");
+  return kind == nullptr ? 0 : kind();
+}
+
 /// What OpenBLAS calls kernels that the processor can run; empty where it can run old ones only.
 const char* kernels_for_this_processor() {
 #ifdef __x86_64__
@@ -41,7 +47,7 @@ const char* kernels_for_this_processor() {
 }  // namespace
 
 void choose_blas_kernels() {
-  if (const auto set_threads = find<void(int)>("openblas_set_num_threads")) set_threads(1);
+  call_blas_alone();
   const std::string better = kernels_for_this_processor();
   const bool is_known =
       std::find(kFallbacks.begin(), kFallbacks.end(), chosen_kernels()) == kFallbacks.end();
@@ -56,9 +62,15 @@ void choose_blas_kernels() {
   unsetenv(kVariable);
 }
 
-unsigned threads_in_blas(unsigned threads) {
-  const auto kind_of_threads = find<int()>("openblas_get_parallel");
-  return kind_of_threads != nullptr && kind_of_threads() != 0 ? threads : 1;
+unsigned threads_in_blas(unsigned threads) { return kind_of_threads() == 0 ? 1 : threads; }
+
+void call_blas_alone() {
+  constexpr int kOwnThreads = 1;
+  const bool is_of_process = kind_of_threads() == kOwnThreads;
+  if (const auto set_number =
+          find<void(int)>(is_of_process ? "openblas_set_num_threads" : "omp_set_num_threads")) {
+    set_number(1);
+  }
 }
 
 std::string blas_version() {

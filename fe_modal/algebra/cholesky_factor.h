@@ -7,13 +7,12 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/cholmod_order.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "fe_modal/algebra/shift_inverse.h"
 #include "fe_modal/algebra/supernodal_factor.h"
 
 namespace flexneck::fe_modal {
-
-enum class CholmodOrder;
 
 /// An entry of a Cholesky factor takes this, with the zeros in its blocks and what its making
 /// needs besides.
@@ -55,14 +54,12 @@ class CholeskyFactor : public ShiftInverse {
   double nonzeros() const { return nonzeros_; }
   /// For each column, all at once: the factor, which no cache holds, is read once for many.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override;
+  bool is_doubtful() const override;
   std::string describe() const override;
 
  private:
   CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
                  std::span<const int> dof_order, unsigned threads);
-  /// Whether it does to some digits, or is the factor of a singular matrix.
-  bool solves(Mat matrix) const;
-
   double nonzeros_ = 0;
   unsigned threads_;
   SupernodalFactor<double> factor_;

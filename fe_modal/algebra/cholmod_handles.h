@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "fe_modal/algebra/cholmod_order.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "fe_modal/algebra/supernodal_elimination.h"
 
@@ -14,13 +15,6 @@ namespace flexneck::fe_modal {
 /// What to do about a factor that is too large.
 inline constexpr const char* kOrAnotherSolution =
     "take a coarser mesh, --solver iterative, or more ranks with mpirun";
-
-/// Which order of elimination CHOLMOD takes.
-enum class CholmodOrder {
-  best,      ///< AMD's, METIS's on all degrees of freedom where AMD fills much: the better one
-  given,     ///< one given with the matrix, in a postorder of its tree
-  numbering  ///< that of the matrix itself, which is taken without a copy
-};
 
 /// A symmetric matrix whose upper half by rows is stored, columns ascending; it is only read.
 /// Without values: the places of entries alone, both halves.

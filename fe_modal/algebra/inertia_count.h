@@ -6,11 +6,10 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/cholmod_order.h"
 #include "fe_modal/algebra/petsc_handles.h"
 
 namespace flexneck::fe_modal {
-
-enum class CholmodOrder;
 
 /// Negative eigenvalues of a symmetric matrix by the pivots of a factor that is made as a Cholesky
 /// factor is, without pivoting (Sylvester's law). Nothing where rounding errors grow in it: then

@@ -34,6 +34,8 @@ class ShiftInverse {
   virtual std::optional<EigenPairs> iterate(Mat /*mass*/, Eigen::Index /*count*/) const {
     return std::nullopt;
   }
+  /// Whether the matrix may be singular and only rounding errors keep it from showing.
+  virtual bool is_doubtful() const { return false; }
   /// What was made and done, for the user: "the factor has 12.3 million entries".
   virtual std::string describe() const = 0;
 

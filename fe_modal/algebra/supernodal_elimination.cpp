@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fe_modal/algebra/blas.h"
+#include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/signed_cholesky.h"
 #include "fe_modal/algebra/update_lists.h"
@@ -89,6 +90,7 @@ class Elimination {
     const auto share_out = [&](std::size_t count, const auto& work) {
       std::atomic<std::size_t> next = 0;
       in_parallel(std::min<std::size_t>(threads, count), threads, [&](std::size_t thread) {
+        call_blas_alone();
         for (std::size_t k = next++; k < count; k = next++) work(k, workspaces[thread]);
       });
     };

@@ -13,12 +13,17 @@ void refuse_mechanism(const std::string& motions) {
 std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
                                                         const AssembledSystem& system,
                                                         double shift) {
-  try {
-    return system.shift_inverse(shift);
-  } catch (const ComputationError&) {
+  const auto refuse_if_mechanism = [&] {
     const auto motions = shift == 0 ? describe_mechanism(mesh, system, true) : std::nullopt;
-    if (!motions) throw;
-    refuse_mechanism(*motions);
+    if (motions) refuse_mechanism(*motions);
+  };
+  try {
+    std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(shift);
+    if (inverse->is_doubtful()) refuse_if_mechanism();
+    return inverse;
+  } catch (const ComputationError&) {
+    refuse_if_mechanism();
+    throw;
   }
 }
 

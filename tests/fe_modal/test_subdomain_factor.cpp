@@ -10,9 +10,18 @@
 #include "mesher/partition/node_order.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
 
 namespace flexneck::fe_modal {
 namespace {
+
+/// A block so soft beneath a stiff one that single precision has no factor.
+SystemMatrices foam_below_steel() {
+  testing::BlockMesh block = testing::box({1, 1, 1}, {0.05, 0.05, 0.1}, {});
+  block.slices = {{"foam", 2, {"foam", 1e2, 0.3, 50}}, {"steel", 2, {"steel", 2.1e11, 0.3, 7850}}};
+  const mesher::Mesh mesh = block.make();
+  return assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
+}
 
 SystemMatrices clamped_column(double youngs_modulus_Pa) {
   const mesher::Mesh mesh =
@@ -49,6 +58,21 @@ TEST_CASE("a factor kept in single precision solves to its digits and adds where
     const Eigen::VectorXd found = result.col(k).tail(size).cast<double>().array() - 2;
     CHECK(energy(found - truth.col(k)) < 1e-3 * energy(truth.col(k)));
   }
+}
+
+TEST_CASE("a subdomain whose pivots single precision loses has a factor all the same") {
+  const SystemMatrices system = foam_below_steel();
+  const SubdomainFactor factor = factor_of(system);
+  std::vector<std::int32_t> nodes(static_cast<std::size_t>(system.graph.node_count()));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  const std::vector<Eigen::Index> rows = factor.rows_of(nodes);
+  const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
+  // A weight on the foam: by forces that do not move the steel in itself.
+  const Eigen::VectorXd weight = dense(system.mass.get()) * Eigen::VectorXd::Ones(stiffness.rows());
+  const Eigen::VectorXd expected = testing::symmetric_solution(stiffness, weight);
+  const Eigen::MatrixXf given = weight(rows).cast<float>();
+  const Eigen::VectorXd found = factor.solve(given).cast<double>();
+  CHECK((found - expected(rows)).norm() < 0.05 * expected.norm());
 }
 
 TEST_CASE("a subdomain that is not definite is refused") {

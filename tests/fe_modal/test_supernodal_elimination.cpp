@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <numeric>
+#include <vector>
+
+#include <Eigen/Core>
+#include <catch2/catch.hpp>
+
+#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/inertia_count.h"
+#include "fe_modal/algebra/signed_cholesky.h"
+#include "fe_modal/solve/refined/panel_factor.h"
+#include "fe_modal/system/assembly.h"
+#include "geometry/foundation/error.h"
+#include "tests/fe_modal/dense.h"
+#include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
+
+SystemMatrices clamped(std::array<int, 3> divisions) {
+  const mesher::Mesh mesh = testing::box(divisions, {0.1, 0.1, 0.1}, kSteel).make();
+  return assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
+}
+
+std::optional<Eigen::Index> count(const SymmetricMatrix& matrix) {
+  return count_without_pivoting(matrix.get(), CholmodOrder::best, {}, 1);
+}
+
+/// A symmetric matrix with about half of its eigenvalues below zero.
+Eigen::MatrixXd indefinite(int size) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(size, size);
+  matrix = (matrix + matrix.transpose()).eval();
+  for (int k = 0; k < size; ++k) matrix(k, k) += k % 2 == 0 ? 3.0 * size : -3.0 * size;
+  return matrix;
+}
+
+}  // namespace
+
+TEST_CASE("supernodes that threads divide have the same factor, to the last bit, and solve") {
+  // Layer after layer of the plate: its last supernode has two layers.
+  const SystemMatrices system = clamped({9, 9, 2});
+  std::vector<std::int32_t> layers(static_cast<std::size_t>(system.graph.node_count()));
+  std::iota(layers.begin(), layers.end(), 0);
+  const CholeskyFactor alone(system.stiffness.get(), 0, layers, 1);
+  const CholeskyFactor together(system.stiffness.get(), 0, layers, 3);
+  constexpr double kWidth = 3 * 2 * 19 * 19;
+  REQUIRE(alone.nonzeros() > kWidth * kWidth / 2);
+  const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(3 * system.graph.node_count(), 2);
+  const Eigen::MatrixXd forces = block_product(system.stiffness, truth);
+  const Eigen::MatrixXd solution = alone.solve(forces);
+  CHECK((solution - truth).norm() < 1e-9 * truth.norm());
+  CHECK(together.solve(forces) == solution);
+}
+
+TEST_CASE("the factor of a singular matrix fails or is in doubt, that of a sound one is not") {
+  for (const int layers : {1, 2, 3, 5}) {
+    const mesher::Mesh mesh = testing::box({1, 2, layers}, {0.1, 0.1, 0.3}, kSteel).make();
+    const auto is_trusted = [&](const std::vector<std::int32_t>& fixed) {
+      const SystemMatrices system = assemble(mesh, DofMap(mesh, fixed));
+      try {
+        return !CholeskyFactor(system.stiffness.get(), 0).is_doubtful();
+      } catch (const ComputationError&) {
+        return false;
+      }
+    };
+    CHECK(is_trusted(mesh.node_set("bottom").nodes));
+    CHECK_FALSE(is_trusted({}));
+  }
+}
+
+TEST_CASE("pivots without pivoting count all negative eigenvalues or nothing") {
+  const SystemMatrices system = clamped({2, 2, 2});
+  const Eigen::VectorXd values =
+      testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get())).values;
+  int counted = 0;
+  for (Eigen::Index k = 1; k < values.size(); k += 3) {
+    if (values[k] < values[k - 1] * (1 + 1e-6)) continue;
+    const double shift = (values[k - 1] + values[k]) / 2;
+    const std::optional<Eigen::Index> found = count(shifted_stiffness(system, shift));
+    if (!found) continue;
+    CHECK(*found == k);
+    ++counted;
+  }
+  CHECK(counted > 50);
+}
+
+TEST_CASE("a pivot that is zero counts nothing") {
+  const SystemMatrices system = clamped({1, 1, 1});
+  SymmetricMatrix matrix = system.stiffness.clone();
+  std::fill(matrix.values().begin(), matrix.values().end(), 0.0);
+  CHECK_FALSE(count(matrix));
+}
+
+TEST_CASE("a signed factor is that of the matrix and has its inertia") {
+  for (const int size : {1, 2, 16, 17, 33, 100}) {
+    const Eigen::MatrixXd matrix = indefinite(size);
+    Eigen::MatrixXd factor = matrix;
+    Eigen::MatrixXd workspace(size, size);
+    std::vector<double> signs(static_cast<std::size_t>(size));
+    const auto view = [&](Eigen::MatrixXd& of) {
+      return DenseBlock<double>{of.data(), size, size, size};
+    };
+    REQUIRE(factorise_with_signs(view(factor), std::span(signs), view(workspace)));
+    const Eigen::MatrixXd lower = factor.triangularView<Eigen::Lower>();
+    const Eigen::Map<const Eigen::VectorXd> diagonal(signs.data(), size);
+    CHECK((lower * diagonal.asDiagonal() * lower.transpose() - matrix).norm() <
+          1e-13 * matrix.norm());
+    CHECK((diagonal.array() < 0).count() ==
+          (testing::symmetric_eigenvalues(matrix).array() < 0).count());
+  }
+}
+
+TEST_CASE("a factor in panels solves to single precision") {
+  for (const int size : {1, 5, 6, 7, 12, 81}) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(size, size);
+    matrix = (matrix * matrix.transpose() + size * Eigen::MatrixXd::Identity(size, size)).eval();
+    const Eigen::MatrixXd forces = Eigen::MatrixXd::Random(size, 8);
+    const Eigen::MatrixXd expected = testing::symmetric_solution(matrix, forces);
+    const PanelFactor factor(matrix);
+    std::vector<RowOf<float>> x(static_cast<std::size_t>(size));
+    using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, 8, Eigen::RowMajor>;
+    Eigen::Map<RowMajor> columns(x.front().value, size, 8);
+    columns = forces.cast<float>();
+    factor.solve(x.data());
+    CHECK((columns.cast<double>() - expected).norm() < 1e-6 * expected.norm());
+  }
+  Eigen::MatrixXd negative = -Eigen::MatrixXd::Identity(3, 3);
+  CHECK_THROWS_AS(PanelFactor(negative), ComputationError);
+}
+
+}  // namespace flexneck::fe_modal
