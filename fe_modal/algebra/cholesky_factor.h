@@ -23,17 +23,12 @@ inline constexpr const char* kNotDefinite =
     "the stiffness matrix is not positive definite: a part of the body is not fixed, or elements "
     "with reduced integration stand in a single row, or Poisson's ratio is too near 1/2";
 
-/// What is said where memory does not hold a factor.
-inline constexpr const char* kNoMemoryForFactor =
-    "memory runs out while factorising the stiffness matrix; take a coarser mesh, --solver "
-    "iterative, or more ranks with mpirun";
-
 /// The matrix is numbered as it is eliminated, in a postorder
 /// (fe_modal/system/elimination_order.h).
 struct AsNumbered {};
 
-/// Sparse Cholesky factor of K - shift M, made once and used by every solve; CHOLMOD
-/// finds the places of its entries.
+/// Sparse Cholesky factor of K - shift M, made once and used by every solve; CHOLMOD finds the
+/// places of its entries.
 class CholeskyFactor : public ShiftInverse {
  public:
   /// @param shifted_stiffness K - shift M, symmetric with the upper half stored by scalar rows, N
@@ -60,6 +55,7 @@ class CholeskyFactor : public ShiftInverse {
  private:
   CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
                  std::span<const int> dof_order, unsigned threads);
+
   double nonzeros_ = 0;
   unsigned threads_;
   SupernodalFactor<double> factor_;

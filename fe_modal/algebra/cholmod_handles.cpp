@@ -8,6 +8,11 @@
 
 namespace flexneck::fe_modal {
 
+ComputationError no_memory_for_factor() {
+  return ComputationError(std::string("memory runs out while factorising the stiffness matrix; ") +
+                          kOrAnotherSolution);
+}
+
 cholmod_sparse cholmod_view(std::span<const int> offsets, std::span<const int> columns,
                             std::span<const double> values) {
   // The upper half by rows is, to CHOLMOD, the lower half by columns.
@@ -79,7 +84,7 @@ CholmodAnalysis::~CholmodAnalysis() {
 }
 
 void CholmodAnalysis::require_done() const {
-  if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw ComputationError(kNoMemoryForFactor);
+  if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw no_memory_for_factor();
   if (common_.status == CHOLMOD_TOO_LARGE) {
     throw InputError(
         std::string("the factor of the stiffness matrix has more entries than CHOLMOD's "

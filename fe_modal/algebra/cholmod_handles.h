@@ -9,12 +9,15 @@
 #include "fe_modal/algebra/cholmod_order.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "fe_modal/algebra/supernodal_elimination.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 
 /// What to do about a factor that is too large.
 inline constexpr const char* kOrAnotherSolution =
     "take a coarser mesh, --solver iterative, or more ranks with mpirun";
+/// Where memory runs out.
+ComputationError no_memory_for_factor();
 
 /// A symmetric matrix whose upper half by rows is stored, columns ascending; it is only read.
 /// Without values: the places of entries alone, both halves.

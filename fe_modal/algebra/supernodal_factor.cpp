@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "fe_modal/algebra/block_elimination.h"
-#include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/cholmod_handles.h"
 #include "fe_modal/algebra/supernodal_elimination.h"
-#include "geometry/foundation/error.h"
 #include "geometry/foundation/in_parallel.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 constexpr auto kEight = static_cast<Eigen::Index>(kColumnsTogether);
+
 }  // namespace
 
 template <typename Scalar>
@@ -27,7 +27,7 @@ SupernodalFactor<Scalar>::SupernodalFactor(CholmodAnalysis& analysis, unsigned t
     factorise(tree_, matrix, std::span(values_.get(), tree_.value_count()), threads);
     find_smallest_pivot(matrix);
   } catch (const std::bad_alloc&) {
-    throw ComputationError(kNoMemoryForFactor);
+    throw no_memory_for_factor();
   }
 }
 

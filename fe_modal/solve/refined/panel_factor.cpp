@@ -2,6 +2,8 @@
 #include "fe_modal/solve/refined/panel_factor.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 
 #include "fe_modal/algebra/blas.h"
 #include "fe_modal/algebra/cholesky_factor.h"
