@@ -34,7 +34,6 @@ void SupernodeTree::take(const cholmod_factor_struct& factor) {
   const auto columns = list(factor.super, factor.nsuper + 1);
   const auto row_lists = list(factor.pi, factor.nsuper + 1);
   order_.assign(order.begin(), order.end());
-  rows_.assign(rows.begin(), rows.end());
   supernode_of_column_.resize(factor.n);
   for (std::size_t k = 0; k < factor.nsuper; ++k) {
     const int width = columns[k + 1] - columns[k];
@@ -44,8 +43,9 @@ void SupernodeTree::take(const cholmod_factor_struct& factor) {
       const auto begin_of = [&](int p) { return p == pieces ? width : width / 3 * p / pieces * 3; };
       const int begin = begin_of(piece);
       Supernode node{columns[k] + begin, begin_of(piece + 1) - begin,
-                     row_lists[k + 1] - row_lists[k] - begin, as_index(row_lists[k] + begin),
-                     value_count_};
+                     row_lists[k + 1] - row_lists[k] - begin, rows_.size(), value_count_};
+      const auto own = rows.subspan(as_index(row_lists[k] + begin), as_index(node.rows));
+      rows_.insert(rows_.end(), own.begin(), own.end());
       value_count_ += as_index(node.rows) * as_index(node.columns);
       max_rows_ = std::max(max_rows_, node.rows);
       std::fill_n(supernode_of_column_.begin() + node.first, node.columns,

@@ -49,7 +49,7 @@ class SupernodeTree {
   std::span<const int> rows_of(const Supernode& node) const {
     return std::span(rows_).subspan(node.row_list, static_cast<std::size_t>(node.rows));
   }
-  /// Row lists of all supernodes; some overlap.
+  /// Of all supernodes.
   std::span<const int> row_lists() const { return rows_; }
   /// By column of the factor.
   std::span<const int> supernode_of_column() const { return supernode_of_column_; }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -24,6 +25,25 @@ const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 SystemMatrices clamped(std::array<int, 3> divisions) {
   const mesher::Mesh mesh = testing::box(divisions, {0.1, 0.1, 0.1}, kSteel).make();
   return assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
+}
+
+/// So many plates that have nothing in common but the last node of each.
+SystemMatrices plates_with_a_common_node(std::int32_t count) {
+  const mesher::Mesh plate = testing::box({7, 7, 1}, {0.1, 0.1, 0.1}, kSteel).make();
+  const auto last = static_cast<std::int32_t>(plate.nodes.size()) - 1;
+  mesher::Mesh mesh = plate;
+  std::vector<std::int32_t> fixed = plate.node_set("bottom").nodes;
+  for (std::int32_t k = 1; k < count; ++k) {
+    const auto copy_of = [&](std::int32_t node) {
+      return node == last ? last : k * last + 1 + node;
+    };
+    mesh.nodes.insert(mesh.nodes.end(), plate.nodes.begin(), plate.nodes.end() - 1);
+    for (const std::int32_t node : plate.blocks.front().nodes) {
+      mesh.blocks.front().nodes.push_back(copy_of(node));
+    }
+    for (const std::int32_t node : plate.node_set("bottom").nodes) fixed.push_back(copy_of(node));
+  }
+  return assemble(mesh, DofMap(mesh, fixed));
 }
 
 std::optional<Eigen::Index> count(const SymmetricMatrix& matrix) {
@@ -54,6 +74,20 @@ TEST_CASE("supernodes that threads divide have the same factor, to the last bit,
   const Eigen::MatrixXd solution = alone.solve(forces);
   CHECK((solution - truth).norm() < 1e-9 * truth.norm());
   CHECK(together.solve(forces) == solution);
+}
+
+TEST_CASE("a supernode whose last columns alone are in the top of the tree solves") {
+  // Each of seven plates has more than an eighth of the factor, its tree without the last columns
+  // of the last supernode has less.
+  const SystemMatrices system = plates_with_a_common_node(7);
+  constexpr std::int32_t kFreeNodes = 2 * 15 * 15;
+  std::vector<std::int32_t> order(static_cast<std::size_t>(system.graph.node_count()));
+  std::iota(order.begin(), order.end(), 0);
+  std::rotate(order.begin() + kFreeNodes - 1, order.begin() + kFreeNodes, order.end());
+  const CholeskyFactor factor(system.stiffness.get(), 0, order);
+  const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(3 * system.graph.node_count(), 2);
+  const Eigen::MatrixXd solution = factor.solve(block_product(system.stiffness, truth));
+  CHECK((solution - truth).norm() < 1e-9 * truth.norm());
 }
 
 TEST_CASE("the factor of a singular matrix fails or is in doubt, that of a sound one is not") {
