@@ -29,14 +29,11 @@ struct Range {
   int size() const { return end - begin; }
 };
 
-/// Rows of a block, all in its diagonal part or all below it.
+/// Rows of a block that are worked on at a time: those of its diagonal, then so many below it.
 std::vector<Range> strips_of(const Supernode& node) {
-  std::vector<Range> strips;
-  for (int begin = 0; begin < node.rows;) {
-    const int limit = begin < node.columns ? node.columns : node.rows;
-    const int end = std::min(begin + kStripRows, limit);
-    strips.push_back({begin, end});
-    begin = end;
+  std::vector<Range> strips = {{0, node.columns}};
+  for (int begin = node.columns; begin < node.rows; begin += kStripRows) {
+    strips.push_back({begin, std::min(begin + kStripRows, node.rows)});
   }
   return strips;
 }
@@ -169,27 +166,19 @@ class Elimination {
   /// Subtracts L_i S L_j^T of the descendant's rows i in the strip and its rows j in the columns.
   void subtract(const Update& update, const Supernode& node, Range strip,
                 Workspace<Scalar>& workspace) const {
-    const auto rows = tree_.rows_of(tree_.supernodes()[as_index(update.descendant)]);
-    const auto place_of = [&](Range range, int row) {
-      return static_cast<int>(
-          std::lower_bound(rows.begin() + range.begin, rows.begin() + range.end, row) -
-          rows.begin());
-    };
-    const auto own = tree_.rows_of(node);
-    const bool is_diagonal = strip.begin < node.columns;
     const Range columns{update.begin, update.end};
-    const Range candidates =
-        is_diagonal ? columns : Range{update.end, static_cast<int>(rows.size())};
-    Range in_strip{place_of(candidates, own[as_index(strip.begin)]), candidates.end};
-    if (strip.end < node.rows) {
-      in_strip.end = place_of(candidates, own[as_index(strip.end - 1)] + 1);
+    if (strip.begin < node.columns) {
+      return subtract(update.descendant, columns, columns, node, workspace);
     }
-    if (in_strip.size() == 0) return;
-    if (!is_diagonal) return subtract(update.descendant, in_strip, columns, node, workspace);
-    // To the left of the strip's own triangle, and the triangle.
-    const Range left{columns.begin, in_strip.begin};
-    if (left.size() > 0) subtract(update.descendant, in_strip, left, node, workspace);
-    subtract(update.descendant, in_strip, in_strip, node, workspace);
+    const auto rows = tree_.rows_of(tree_.supernodes()[as_index(update.descendant)]);
+    const auto own = tree_.rows_of(node);
+    const auto place_of = [&](int row) {
+      return static_cast<int>(std::lower_bound(rows.begin() + update.end, rows.end(), row) -
+                              rows.begin());
+    };
+    const Range in_strip{place_of(own[as_index(strip.begin)]),
+                         place_of(own[as_index(strip.end - 1)] + 1)};
+    if (in_strip.size() > 0) subtract(update.descendant, in_strip, columns, node, workspace);
   }
 
   /// @param rows, columns in the descendant's list; of the same only the lower half matters

@@ -115,11 +115,12 @@ TEST_CASE("pivots without pivoting count all negative eigenvalues or nothing") {
     if (values[k] < values[k - 1] * (1 + 1e-6)) continue;
     const double shift = (values[k - 1] + values[k]) / 2;
     const std::optional<Eigen::Index> found = count(shifted_stiffness(system, shift));
+    if (k < 30) CHECK(found);  // above, errors may grow too much
     if (!found) continue;
     CHECK(*found == k);
     ++counted;
   }
-  CHECK(counted > 50);
+  CHECK(counted > 15);
 }
 
 TEST_CASE("a pivot that is zero counts nothing") {
