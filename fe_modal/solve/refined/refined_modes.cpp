@@ -88,7 +88,8 @@ class Basis {
     }
     blocks_.resize(combinations.size());
     Eigen::MatrixXd all(modes.rows(), modes.cols() + directions.cols());
-    all << modes, directions;
+    all.leftCols(modes.cols()) = modes;
+    if (directions.cols() > 0) all.rightCols(directions.cols()) = directions;
     stiffness_ = all.transpose() * stiffness_ * all;
     mass_ = all.transpose() * mass_ * all;
   }
