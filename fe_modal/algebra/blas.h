@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 // The BLAS and LAPACK in both precisions; PETSc declares that of its own numbers.
@@ -42,6 +43,11 @@ struct DenseBlock {
   }
   operator DenseBlock<const Scalar>() const { return {values, rows, columns, stride}; }
 };
+
+template <typename Scalar>
+void copy_to(const DenseBlock<const Scalar>& from, const DenseBlock<Scalar>& to) {
+  for (int j = 0; j < from.columns; ++j) std::copy_n(from.column(j), from.rows, to.column(j));
+}
 
 /// result = factor a b^T + keep result
 inline void multiply_by_transpose(double factor, const DenseBlock<const double>& a,

@@ -35,9 +35,7 @@ bool factorise_with_signs(const DenseBlock<Scalar>& a, std::span<Scalar> signs,
       return false;
     divide_by_transpose(first, below);
     const auto turned = workspace.part(0, 0, n - half, half);
-    for (int j = 0; j < half; ++j) {
-      std::copy_n(below.column(j), below.rows, turned.column(j));
-    }
+    copy_to(DenseBlock<const Scalar>(below), turned);
     turn_columns<Scalar>(below, signs.first(static_cast<std::size_t>(half)));
     const auto second = a.part(half, half, n - half, n - half);
     multiply_by_transpose(Scalar(-1), DenseBlock<const Scalar>(below),

@@ -59,9 +59,7 @@ DenseBlock<Scalar> room_for(int rows, int columns, std::vector<Scalar>& workspac
 template <typename Scalar>
 DenseBlock<Scalar> copy(const DenseBlock<const Scalar>& block, std::vector<Scalar>& workspace) {
   const DenseBlock<Scalar> result = room_for(block.rows, block.columns, workspace);
-  for (int j = 0; j < block.columns; ++j) {
-    std::copy_n(block.column(j), block.rows, result.column(j));
-  }
+  copy_to(block, result);
   return result;
 }
 
@@ -243,9 +241,7 @@ class Elimination {
       is_done = is_done && std::isfinite(diagonal.column(j)[j]);
     }
     if (!is_done && pivots_ == Pivots::of_any_sign) {
-      for (int j = 0; j < node.columns; ++j) {
-        std::copy_n(before.column(j), node.columns, diagonal.column(j));
-      }
+      copy_to(DenseBlock<const Scalar>(before), diagonal);
       has_negative_[k] = 1;
       is_done = factorise_with_signs(
           diagonal, std::span(signs_).subspan(as_index(node.first), as_index(node.columns)),

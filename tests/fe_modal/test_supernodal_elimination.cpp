@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
