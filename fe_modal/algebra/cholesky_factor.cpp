@@ -49,12 +49,7 @@ Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) c
   return solutions;
 }
 
-bool CholeskyFactor::is_doubtful() const {
-  // Of their entries on the diagonal: rounding errors leave up to 1e-13, sound bodies hardly ever
-  // so little.
-  constexpr double kDoubtfulPivot = 1e-10;
-  return factor_.smallest_pivot() < kDoubtfulPivot;
-}
+bool CholeskyFactor::is_doubtful() const { return factor_.smallest_pivot() < kSingularPivot; }
 
 std::string CholeskyFactor::describe() const {
   return "the factor has " + millions_text(nonzeros_);

@@ -18,6 +18,10 @@ namespace flexneck::fe_modal {
 /// needs besides.
 inline constexpr double kBytesPerFactorEntry = 10.4;
 
+/// Of an entry on the diagonal: of a singular matrix rounding errors leave up to 1e-13 for a pivot,
+/// sound bodies hardly ever so little.
+inline constexpr double kSingularPivot = 1e-10;
+
 /// What is said of a matrix that has no Cholesky factor.
 inline constexpr const char* kNotDefinite =
     "the stiffness matrix is not positive definite: a part of the body is not fixed, or elements "

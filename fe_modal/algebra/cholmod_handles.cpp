@@ -68,8 +68,8 @@ CholmodAnalysis::CholmodAnalysis(const cholmod_sparse& matrix, CholmodOrder kind
   }
   if (kind == CholmodOrder::numbering) {
     common_.method[0].ordering = CHOLMOD_NATURAL;
-    common_.postorder = 0;
   }
+  if (kind == CholmodOrder::numbering || kind == CholmodOrder::exactly) common_.postorder = 0;
   auto* const permutation = order.empty() ? nullptr : const_cast<int*>(order.data());
   factor_ =
       cholmod_analyze_p(const_cast<cholmod_sparse*>(&matrix), permutation, nullptr, 0, &common_);

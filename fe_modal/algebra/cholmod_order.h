@@ -7,6 +7,7 @@ namespace flexneck::fe_modal {
 enum class CholmodOrder {
   best,      ///< AMD's, METIS's on all degrees of freedom where AMD fills much: the better one
   given,     ///< one given with the matrix, in a postorder of its tree
+  exactly,   ///< one given with the matrix, as it is
   numbering  ///< that of the matrix itself, which is taken without a copy
 };
 

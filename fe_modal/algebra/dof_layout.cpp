@@ -57,35 +57,4 @@ Eigen::MatrixXd DofLayout::whole(const Eigen::MatrixXd& own) const {
   return result;
 }
 
-Eigen::MatrixXd DofLayout::gather(const Eigen::MatrixXd& own) const {
-  if (owners_.empty()) return own;
-  const Eigen::Index rows = ranks_.is_first() ? dof_count() : 0;
-  Eigen::MatrixXd result(rows, own.cols());
-  Eigen::VectorXd by_rank(rows);
-  for (Eigen::Index k = 0; k < own.cols(); ++k) {
-    MPI_Gatherv(own.col(k).data(), static_cast<int>(own.rows()), MPI_DOUBLE, by_rank.data(),
-                counts_.data(), offsets_.data(), MPI_DOUBLE, 0, communicator(ranks_));
-    for (std::size_t block = 0; rows > 0 && block < owners_.size(); ++block) {
-      result.col(k).segment<3>(3 * static_cast<Eigen::Index>(block)) =
-          by_rank.segment<3>(place_by_rank(block));
-    }
-  }
-  return result;
-}
-
-Eigen::MatrixXd DofLayout::scatter(const Eigen::MatrixXd& whole, Eigen::Index columns) const {
-  if (owners_.empty()) return whole;
-  Eigen::MatrixXd result(own_dof_count(), columns);
-  Eigen::VectorXd by_rank(whole.rows());
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    for (std::size_t block = 0; whole.rows() > 0 && block < owners_.size(); ++block) {
-      by_rank.segment<3>(place_by_rank(block)) =
-          whole.col(k).segment<3>(3 * static_cast<Eigen::Index>(block));
-    }
-    MPI_Scatterv(by_rank.data(), counts_.data(), offsets_.data(), MPI_DOUBLE, result.col(k).data(),
-                 static_cast<int>(result.rows()), MPI_DOUBLE, 0, communicator(ranks_));
-  }
-  return result;
-}
-
 }  // namespace flexneck::fe_modal

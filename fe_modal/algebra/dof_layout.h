@@ -36,10 +36,6 @@ class DofLayout {
   Eigen::MatrixXd own_rows(const Eigen::MatrixXd& whole) const;
   /// Collective: the whole columns on every rank, (own dofs, k) -> (dofs, k).
   Eigen::MatrixXd whole(const Eigen::MatrixXd& own) const;
-  /// Collective: the whole columns on the first rank, none on others.
-  Eigen::MatrixXd gather(const Eigen::MatrixXd& own) const;
-  /// Collective: back from there.
-  Eigen::MatrixXd scatter(const Eigen::MatrixXd& whole, Eigen::Index columns) const;
 
  private:
   /// Where a block's rows begin if those of the ranks come one after the other.

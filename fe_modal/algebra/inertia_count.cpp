@@ -10,14 +10,6 @@
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
-namespace {
-
-/// Of a definite matrix it is 1, of K - sigma M with ten eigenvalues below sigma 2. Rounding errors
-/// of 1e-16 that grew so much would still change eigenvalues by far less than the gap of 5e-4 about
-/// sigma (solve/sturm_check.cpp).
-constexpr double kMaxGrowth = 1e3;
-
-}  // namespace
 
 std::optional<Eigen::Index> count_without_pivoting(Mat matrix, CholmodOrder kind,
                                                    std::span<const int> dof_order,

@@ -58,6 +58,16 @@ Ranks Ranks::all() {
   return ranks;
 }
 
+int Ranks::on_this_machine() const {
+  if (!are_many()) return 1;
+  MPI_Comm beside = MPI_COMM_NULL;
+  MPI_Comm_split_type(communicator(*this), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &beside);
+  int count = 1;
+  MPI_Comm_size(beside, &count);
+  MPI_Comm_free(&beside);
+  return count;
+}
+
 void Ranks::sum(Eigen::Ref<Eigen::MatrixXd> values) const {
   if (!are_many()) return;
   Eigen::MatrixXd sums = values;  // without gaps between columns

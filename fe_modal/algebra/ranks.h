@@ -27,6 +27,9 @@ class Ranks {
   /// The first one writes the files and prints.
   bool is_first() const { return own_ == 0; }
 
+  /// Collective: how many run on the machine of this one.
+  int on_this_machine() const;
+
   /// Collective: replaces the values by their sums over all ranks, the same bits on each.
   void sum(Eigen::Ref<Eigen::MatrixXd> values) const;
   double sum(double value) const;

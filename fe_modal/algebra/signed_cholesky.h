@@ -4,10 +4,30 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "fe_modal/algebra/blas.h"
+#include "fe_modal/algebra/cholesky_factor.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
+
+enum class Pivots { positive, of_any_sign };
+
+/// Room for a block in a workspace that grows where it must.
+template <typename Scalar>
+DenseBlock<Scalar> room_for(int rows, int columns, std::vector<Scalar>& workspace) {
+  const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+  if (workspace.size() < size) workspace.resize(size);
+  return {workspace.data(), rows, columns, rows};
+}
+
+template <typename Scalar>
+DenseBlock<Scalar> copy(const DenseBlock<const Scalar>& block, std::vector<Scalar>& workspace) {
+  const DenseBlock<Scalar> result = room_for(block.rows, block.columns, workspace);
+  copy_to(block, result);
+  return result;
+}
 
 /// Multiplies columns by these.
 template <typename Scalar>
@@ -56,6 +76,40 @@ bool factorise_with_signs(const DenseBlock<Scalar>& a, std::span<Scalar> signs,
     }
   }
   return true;
+}
+
+/// The lower triangle of a becomes L of a = L S L^T, without S where all pivots are positive.
+/// @param signs takes S; only read and written if pivots may have any sign, and before all +1
+/// @return whether a pivot is negative
+/// @throws ComputationError if there is no such factor.
+template <typename Scalar>
+bool factorise_diagonal(const DenseBlock<Scalar>& a, Pivots pivots, std::span<Scalar> signs,
+                        std::vector<Scalar>& workspace) {
+  DenseBlock<Scalar> before{};
+  if (pivots == Pivots::of_any_sign) before = copy(DenseBlock<const Scalar>(a), workspace);
+  bool is_done = factorise_in_place(a);
+  // OpenBLAS lets pivots pass that are not numbers.
+  for (int j = 0; j < a.columns; ++j) is_done = is_done && std::isfinite(a.column(j)[j]);
+  if (is_done) return false;
+  if (pivots == Pivots::of_any_sign) {
+    copy_to(DenseBlock<const Scalar>(before), a);
+    is_done = factorise_with_signs(a, signs, before);
+  }
+  if (!is_done) throw ComputationError(kNotDefinite);
+  return true;
+}
+
+/// result = factor a S b^T + keep result
+/// @param signs S, without a factor where it is empty
+template <typename Scalar>
+void multiply_with_signs(Scalar factor, const DenseBlock<const Scalar>& a,
+                         std::span<const Scalar> signs, const DenseBlock<const Scalar>& b,
+                         Scalar keep, const DenseBlock<Scalar>& result,
+                         std::vector<Scalar>& workspace) {
+  if (signs.empty()) return multiply_by_transpose(factor, a, b, keep, result);
+  const DenseBlock<Scalar> turned = copy(b, workspace);
+  turn_columns<Scalar>(turned, signs);
+  multiply_by_transpose(factor, a, DenseBlock<const Scalar>(turned), keep, result);
 }
 
 }  // namespace flexneck::fe_modal

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "fe_modal/algebra/blas.h"
 #include "fe_modal/algebra/blas_kernels.h"
-#include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/signed_cholesky.h"
 #include "fe_modal/algebra/update_lists.h"
 #include "geometry/foundation/error.h"
@@ -50,33 +50,22 @@ struct Workspace {
 };
 
 template <typename Scalar>
-DenseBlock<Scalar> room_for(int rows, int columns, std::vector<Scalar>& workspace) {
-  const std::size_t size = as_index(rows) * as_index(columns);
-  if (workspace.size() < size) workspace.resize(size);
-  return {workspace.data(), rows, columns, rows};
-}
-
-template <typename Scalar>
-DenseBlock<Scalar> copy(const DenseBlock<const Scalar>& block, std::vector<Scalar>& workspace) {
-  const DenseBlock<Scalar> result = room_for(block.rows, block.columns, workspace);
-  copy_to(block, result);
-  return result;
-}
-
-enum class Pivots { positive, of_any_sign };
-
-template <typename Scalar>
 class Elimination {
  public:
   Elimination(const SupernodeTree& tree, const LowerHalf& matrix, std::span<Scalar> values,
               Pivots pivots)
       : tree_(tree),
         matrix_(matrix),
-        values_(values),
         pivots_(pivots),
         updates_(tree),
         signs_(pivots == Pivots::positive ? 0 : tree.order().size(), Scalar(1)),
-        has_negative_(tree.supernodes().size(), 0) {}
+        has_negative_(tree.supernodes().size(), 0) {
+    for (const Supernode& node : tree.eliminated()) blocks_.push_back(values.data() + node.block);
+    for (const Supernode& node : tree.kept()) {
+      blocks_.push_back(
+          complement_.emplace_back(as_index(node.rows) * as_index(node.columns)).data());
+    }
+  }
 
   void run(unsigned threads) {
     threads = std::max(1U, threads);
@@ -93,23 +82,32 @@ class Elimination {
       const Subtree& subtree = tree_.subtrees()[b];
       for (std::size_t k = subtree.begin; k < subtree.end; ++k) eliminate(k, workspace);
     });
-    for (const std::size_t k : tree_.top()) {
-      const std::vector<Range> strips = strips_of(tree_.supernodes()[k]);
+    const auto assemble_strips = [&](std::size_t k, const std::vector<Range>& strips) {
       share_out(strips.size(), [&](std::size_t s, Workspace<Scalar>& workspace) {
         assemble(k, strips[s], workspace);
       });
-      factorise_diagonal(k, workspaces.front());
+    };
+    for (const std::size_t k : tree_.top()) {
+      const std::vector<Range> strips = strips_of(tree_.supernodes()[k]);
+      assemble_strips(k, strips);
+      find_diagonal(k, workspaces.front());
       share_out(strips.size(),
                 [&](std::size_t s, Workspace<Scalar>&) { divide_by_diagonal(k, strips[s]); });
     }
+    for (std::size_t k = tree_.eliminated_count(); k < tree_.supernodes().size(); ++k) {
+      assemble_strips(k, strips_of(tree_.supernodes()[k]));
+    }
   }
+
+  SchurComplement<Scalar> take_complement() { return std::move(complement_); }
 
   Inertia inertia() const {
     std::vector<double> squares(tree_.order().size(), 0);
-    for (const Supernode& node : tree_.supernodes()) {
+    for (std::size_t k = 0; k < tree_.eliminated_count(); ++k) {
+      const Supernode& node = tree_.supernodes()[k];
       const auto rows = tree_.rows_of(node);
       for (int j = 0; j < node.columns; ++j) {
-        const Scalar* const column = block_of(node).column(j);
+        const Scalar* const column = block_of(k).column(j);
         for (int i = j; i < node.rows; ++i) {
           squares[as_index(rows[as_index(i)])] += static_cast<double>(column[i]) * column[i];
         }
@@ -130,12 +128,13 @@ class Elimination {
     const Range below{node.columns, node.rows};
     assemble(k, {0, node.columns}, workspace);
     if (below.size() > 0) assemble(k, below, workspace);
-    factorise_diagonal(k, workspace);
+    find_diagonal(k, workspace);
     if (below.size() > 0) divide_by_diagonal(k, below);
   }
 
-  DenseBlock<Scalar> block_of(const Supernode& node) const {
-    return {values_.data() + node.block, node.rows, node.columns, node.rows};
+  DenseBlock<Scalar> block_of(std::size_t k) const {
+    const Supernode& node = tree_.supernodes()[k];
+    return {blocks_[k], node.rows, node.columns, node.rows};
   }
 
   /// The strip's entries of A, less the updates of the descendants.
@@ -147,7 +146,7 @@ class Elimination {
     const int first_row = rows[as_index(strip.begin)];
     const int last_row = rows[as_index(strip.end - 1)];
     for (int j = 0; j < node.columns; ++j) {
-      Scalar* const column = block_of(node).column(j);
+      Scalar* const column = block_of(k).column(j);
       std::fill(column + strip.begin, column + strip.end, Scalar(0));
       const auto begin = as_index(matrix_.offsets[as_index(node.first + j)]);
       const auto end = as_index(matrix_.offsets[as_index(node.first + j) + 1]);
@@ -158,15 +157,16 @@ class Elimination {
         column[workspace.positions[as_index(*row)]] = static_cast<Scalar>(matrix_.values[place]);
       }
     }
-    for (const Update& update : updates_.of(k)) subtract(update, node, strip, workspace);
+    for (const Update& update : updates_.of(k)) subtract(update, k, strip, workspace);
   }
 
   /// Subtracts L_i S L_j^T of the descendant's rows i in the strip and its rows j in the columns.
-  void subtract(const Update& update, const Supernode& node, Range strip,
+  void subtract(const Update& update, std::size_t k, Range strip,
                 Workspace<Scalar>& workspace) const {
+    const Supernode& node = tree_.supernodes()[k];
     const Range columns{update.begin, update.end};
     if (strip.begin < node.columns) {
-      return subtract(update.descendant, columns, columns, node, workspace);
+      return subtract(update.descendant, columns, columns, k, workspace);
     }
     const auto rows = tree_.rows_of(tree_.supernodes()[as_index(update.descendant)]);
     const auto own = tree_.rows_of(node);
@@ -176,14 +176,14 @@ class Elimination {
     };
     const Range in_strip{place_of(own[as_index(strip.begin)]),
                          place_of(own[as_index(strip.end - 1)] + 1)};
-    if (in_strip.size() > 0) subtract(update.descendant, in_strip, columns, node, workspace);
+    if (in_strip.size() > 0) subtract(update.descendant, in_strip, columns, k, workspace);
   }
 
   /// @param rows, columns in the descendant's list; of the same only the lower half matters
-  void subtract(int descendant, Range rows, Range columns, const Supernode& node,
+  void subtract(int descendant, Range rows, Range columns, std::size_t k,
                 Workspace<Scalar>& workspace) const {
-    const Supernode& from = tree_.supernodes()[as_index(descendant)];
-    const auto list = tree_.rows_of(from);
+    const Supernode& node = tree_.supernodes()[k];
+    const auto list = tree_.rows_of(tree_.supernodes()[as_index(descendant)]);
     const bool is_triangle = rows.begin == columns.begin;
     workspace.targets.clear();
     for (const int row : list.subspan(as_index(rows.begin), as_index(rows.size()))) {
@@ -197,14 +197,14 @@ class Elimination {
     };
     if (are_neighbours(rows, row_at) && are_neighbours(columns, column_at)) {
       add_product(Scalar(-1), descendant, rows, columns, Scalar(1),
-                  block_of(node).part(row_at(0), column_at(0), rows.size(), columns.size()),
+                  block_of(k).part(row_at(0), column_at(0), rows.size(), columns.size()),
                   workspace);
       return;
     }
     const DenseBlock<Scalar> product = room_for(rows.size(), columns.size(), workspace.product);
     add_product(Scalar(1), descendant, rows, columns, Scalar(0), product, workspace);
     for (int j = 0; j < columns.size(); ++j) {
-      Scalar* const target = block_of(node).column(column_at(j));
+      Scalar* const target = block_of(k).column(column_at(j));
       const Scalar* const values = product.column(j);
       for (int i = is_triangle ? j : 0; i < rows.size(); ++i) target[targets[i]] -= values[i];
     }
@@ -215,58 +215,50 @@ class Elimination {
                    const DenseBlock<Scalar>& result, Workspace<Scalar>& workspace) const {
     const Supernode& from = tree_.supernodes()[as_index(descendant)];
     const auto rows_of = [&](Range range) -> DenseBlock<const Scalar> {
-      return block_of(from).part(range.begin, 0, range.size(), from.columns);
+      return block_of(as_index(descendant)).part(range.begin, 0, range.size(), from.columns);
     };
-    if (has_negative_[as_index(descendant)] != 0) {
-      const DenseBlock<Scalar> turned = copy(rows_of(columns), workspace.turned);
-      turn_columns<Scalar>(turned, std::span(signs_).subspan(as_index(from.first)));
-      multiply_by_transpose(factor, rows_of(rows), DenseBlock<const Scalar>(turned), keep, result);
-    } else if (rows.begin == columns.begin) {
-      multiply_by_own_transpose(factor, rows_of(rows), keep, result);
-    } else {
-      multiply_by_transpose(factor, rows_of(rows), rows_of(columns), keep, result);
+    const bool has_negative = has_negative_[as_index(descendant)] != 0;
+    if (!has_negative && rows.begin == columns.begin) {
+      return multiply_by_own_transpose(factor, rows_of(rows), keep, result);
     }
+    const auto signs = has_negative ? signs_of(from) : std::span<const Scalar>();
+    multiply_with_signs(factor, rows_of(rows), signs, rows_of(columns), keep, result,
+                        workspace.turned);
   }
 
-  void factorise_diagonal(std::size_t k, Workspace<Scalar>& workspace) {
+  /// Those of the supernode's pivots; none where all pivots must be positive.
+  std::span<const Scalar> signs_of(const Supernode& node) const {
+    if (signs_.empty()) return {};
+    return std::span(signs_).subspan(as_index(node.first), as_index(node.columns));
+  }
+
+  void find_diagonal(std::size_t k, Workspace<Scalar>& workspace) {
     const Supernode& node = tree_.supernodes()[k];
-    const DenseBlock<Scalar> diagonal = block_of(node).part(0, 0, node.columns, node.columns);
-    DenseBlock<Scalar> before{};
-    if (pivots_ == Pivots::of_any_sign) {
-      before = copy(DenseBlock<const Scalar>(diagonal), workspace.product);
-    }
-    bool is_done = factorise_in_place(diagonal);
-    // OpenBLAS lets pivots pass that are not numbers.
-    for (int j = 0; j < node.columns; ++j) {
-      is_done = is_done && std::isfinite(diagonal.column(j)[j]);
-    }
-    if (!is_done && pivots_ == Pivots::of_any_sign) {
-      copy_to(DenseBlock<const Scalar>(before), diagonal);
-      has_negative_[k] = 1;
-      is_done = factorise_with_signs(
-          diagonal, std::span(signs_).subspan(as_index(node.first), as_index(node.columns)),
-          before);
-    }
-    if (!is_done) throw ComputationError(kNotDefinite);
+    const DenseBlock<Scalar> diagonal = block_of(k).part(0, 0, node.columns, node.columns);
+    const auto signs =
+        signs_.empty() ? std::span<Scalar>()
+                       : std::span(signs_).subspan(as_index(node.first), as_index(node.columns));
+    has_negative_[k] = factorise_diagonal(diagonal, pivots_, signs, workspace.product) ? 1 : 0;
   }
 
   void divide_by_diagonal(std::size_t k, Range strip) const {
     const Supernode& node = tree_.supernodes()[k];
     if (strip.begin < node.columns) return;
-    const DenseBlock<Scalar> block = block_of(node);
+    const DenseBlock<Scalar> block = block_of(k);
     const DenseBlock<Scalar> below = block.part(strip.begin, 0, strip.size(), node.columns);
     divide_by_transpose(DenseBlock<const Scalar>(block.part(0, 0, node.columns, node.columns)),
                         below);
     if (has_negative_[k] != 0) {
-      turn_columns<Scalar>(below, std::span(signs_).subspan(as_index(node.first)));
+      turn_columns<Scalar>(below, signs_of(node));
     }
   }
 
   const SupernodeTree& tree_;
   const LowerHalf& matrix_;
-  std::span<Scalar> values_;
   Pivots pivots_;
   UpdateLists updates_;
+  std::vector<Scalar*> blocks_;  ///< of the supernodes and of kept rows
+  SchurComplement<Scalar> complement_;
   std::vector<Scalar> signs_;       ///< of the pivots, if any may be negative
   std::vector<char> has_negative_;  ///< by supernode; not bool, for threads write them
 };
@@ -274,19 +266,25 @@ class Elimination {
 }  // namespace
 
 template <typename Scalar>
-void factorise(const SupernodeTree& tree, const LowerHalf& matrix, std::span<Scalar> values,
-               unsigned threads) {
-  Elimination<Scalar>(tree, matrix, values, Pivots::positive).run(threads);
+SchurComplement<Scalar> factorise(const SupernodeTree& tree, const LowerHalf& matrix,
+                                  std::span<Scalar> values, unsigned threads) {
+  Elimination<Scalar> elimination(tree, matrix, values, Pivots::positive);
+  elimination.run(threads);
+  return elimination.take_complement();
 }
 
-template void factorise(const SupernodeTree&, const LowerHalf&, std::span<double>, unsigned);
-template void factorise(const SupernodeTree&, const LowerHalf&, std::span<float>, unsigned);
+template SchurComplement<double> factorise(const SupernodeTree&, const LowerHalf&,
+                                           std::span<double>, unsigned);
+template SchurComplement<float> factorise(const SupernodeTree&, const LowerHalf&, std::span<float>,
+                                          unsigned);
 
 Inertia factorise_with_signs(const SupernodeTree& tree, const LowerHalf& matrix,
                              std::span<double> values, unsigned threads) {
   Elimination<double> elimination(tree, matrix, values, Pivots::of_any_sign);
   elimination.run(threads);
-  return elimination.inertia();
+  Inertia inertia = elimination.inertia();
+  inertia.complement = elimination.take_complement();
+  return inertia;
 }
 
 }  // namespace flexneck::fe_modal

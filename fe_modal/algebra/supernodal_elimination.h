@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "fe_modal/algebra/supernode_tree.h"
 
@@ -14,6 +15,11 @@ struct LowerHalf {
   std::span<const double> values;
 };
 
+/// The lower half of A_kk - L_k L_k^T of the rows that a tree keeps: the values of each of its
+/// blocks. Nothing where none is kept.
+template <typename Scalar>
+using SchurComplement = std::vector<std::vector<Scalar>>;
+
 /// Finds the entries of L by left-looking supernodal elimination (Ng and Peyton, SIAM J. Sci.
 /// Comput. 14 (1993) 1034): each block takes the updates of its descendants and is factorised by
 /// the BLAS. CHOLMOD does the same in double precision and one thread. Here threads take subtrees,
@@ -23,16 +29,17 @@ struct LowerHalf {
 /// @param threads that may call the BLAS at once
 /// @throws ComputationError if the matrix is not positive definite.
 template <typename Scalar>
-void factorise(const SupernodeTree& tree, const LowerHalf& matrix, std::span<Scalar> values,
-               unsigned threads);
+SchurComplement<Scalar> factorise(const SupernodeTree& tree, const LowerHalf& matrix,
+                                  std::span<Scalar> values, unsigned threads);
 
 /// What a factor without pivoting tells of a matrix that need not be definite.
 struct Inertia {
-  std::size_t negative = 0;  ///< eigenvalues
+  std::size_t negative = 0;  ///< eigenvalues; with rows that are kept, of those that are not
   /// Of the squares in a row of L their sum, over the matrix's entry on the diagonal, at most. The
   /// factor is that of a matrix that differs from the given one by so many roundings (Higham,
   /// Accuracy and Stability of Numerical Algorithms, theorem 10.3), 1 for definite ones.
   double growth = 0;
+  SchurComplement<double> complement;
 };
 
 /// P A P^T = L S L^T with S of +1 and -1 on the diagonal, found as factorise() finds L.

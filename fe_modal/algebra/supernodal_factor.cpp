@@ -18,13 +18,14 @@ constexpr auto kEight = static_cast<Eigen::Index>(kColumnsTogether);
 }  // namespace
 
 template <typename Scalar>
-SupernodalFactor<Scalar>::SupernodalFactor(CholmodAnalysis& analysis, unsigned threads)
-    : tree_(analysis.places()) {
+SupernodalFactor<Scalar>::SupernodalFactor(CholmodAnalysis& analysis, unsigned threads,
+                                           std::span<const int> kept)
+    : tree_(analysis.places(), kept) {
   number_ancestor_rows();
   try {
     const LowerHalf matrix = analysis.lower_half();
     values_ = std::make_unique_for_overwrite<Scalar[]>(tree_.value_count());
-    factorise(tree_, matrix, std::span(values_.get(), tree_.value_count()), threads);
+    complement_ = factorise(tree_, matrix, std::span(values_.get(), tree_.value_count()), threads);
     find_smallest_pivot(matrix);
   } catch (const std::bad_alloc&) {
     throw no_memory_for_factor();
@@ -44,7 +45,7 @@ SupernodalFactor<Scalar>::SupernodalFactor(SupernodalFactor<Other>&& other)
 
 template <typename Scalar>
 void SupernodalFactor<Scalar>::find_smallest_pivot(const LowerHalf& matrix) {
-  for (const Supernode& node : tree_.supernodes()) {
+  for (const Supernode& node : tree_.eliminated()) {
     const Scalar* root = values_.get() + node.block;
     for (int j = node.first; j < node.end(); ++j, root += node.rows + 1) {
       const double entry = matrix.values[as_index(matrix.offsets[as_index(j)])];
@@ -86,7 +87,7 @@ class SupernodalFactor<Scalar>::Solve {
     return Eigen::Map<RowMajor>(x_.front().value, static_cast<Eigen::Index>(x_.size()), kEight);
   }
 
-  void run(unsigned threads) {
+  void eliminate(unsigned threads) {
     const std::span<const Subtree> subtrees = tree_.subtrees();
     in_parallel(subtrees.size(), threads,
                 [&](std::size_t b) { forward(subtrees[b], ancestor_x_[b]); });
@@ -97,9 +98,14 @@ class SupernodalFactor<Scalar>::Solve {
     }
     Workspace top = workspace(static_cast<int>(x_.size()), nullptr);
     for (const std::size_t k : tree_.top()) forward(tree_.supernodes()[k], top);
+  }
+
+  void substitute(unsigned threads) {
+    Workspace top = workspace(static_cast<int>(x_.size()), nullptr);
     for (std::size_t k = tree_.top().size(); k-- > 0;) {
       backward(tree_.supernodes()[tree_.top()[k]], top);
     }
+    const std::span<const Subtree> subtrees = tree_.subtrees();
     in_parallel(subtrees.size(), threads,
                 [&](std::size_t b) { backward(subtrees[b], ancestor_x_[b]); });
   }
@@ -135,8 +141,8 @@ class SupernodalFactor<Scalar>::Solve {
     Row* const block_x = places.block_x.data();
     std::copy_n(places.x + node.first, node.columns, block_x);
     std::fill_n(block_x + node.columns, node.rows - node.columns, Row{});
-    eliminate(FactorBlock<Scalar>{factor_.values_.get() + node.block, node.rows, node.columns},
-              block_x);
+    fe_modal::eliminate(
+        FactorBlock<Scalar>{factor_.values_.get() + node.block, node.rows, node.columns}, block_x);
     std::copy_n(block_x, node.columns, places.x + node.first);
     const int* const rows = factor_.rows_.data() + node.row_list;
     for (int i = node.columns; i < node.rows; ++i) add(block_x[i], places.at(rows[i]));
@@ -154,8 +160,8 @@ class SupernodalFactor<Scalar>::Solve {
     Row* const block_x = places.block_x.data();
     const int* const rows = factor_.rows_.data() + node.row_list;
     for (int i = 0; i < node.rows; ++i) block_x[i] = places.at(rows[i]);
-    substitute(FactorBlock<Scalar>{factor_.values_.get() + node.block, node.rows, node.columns},
-               block_x);
+    fe_modal::substitute(
+        FactorBlock<Scalar>{factor_.values_.get() + node.block, node.rows, node.columns}, block_x);
     std::copy_n(block_x, node.columns, places.x + node.first);
   }
 
@@ -166,16 +172,35 @@ class SupernodalFactor<Scalar>::Solve {
 };
 
 template <typename Scalar>
-void SupernodalFactor<Scalar>::solve(Matrix& x, unsigned threads) const {
+template <typename Work>
+void SupernodalFactor<Scalar>::by_eight(Matrix& x, const Work& work) const {
   if (x.size() == 0) return;
   Solve eight(*this);
   for (Eigen::Index first = 0; first < x.cols(); first += kEight) {
     const Eigen::Index width = std::min(kEight, x.cols() - first);
     eight.columns().leftCols(width) = x.middleCols(first, width);
     eight.columns().rightCols(kEight - width).setZero();
-    eight.run(threads);
+    work(eight);
     x.middleCols(first, width) = eight.columns().leftCols(width);
   }
+}
+
+template <typename Scalar>
+void SupernodalFactor<Scalar>::solve(Matrix& x, unsigned threads) const {
+  by_eight(x, [&](Solve& eight) {
+    eight.eliminate(threads);
+    eight.substitute(threads);
+  });
+}
+
+template <typename Scalar>
+void SupernodalFactor<Scalar>::eliminate(Matrix& x, unsigned threads) const {
+  by_eight(x, [&](Solve& eight) { eight.eliminate(threads); });
+}
+
+template <typename Scalar>
+void SupernodalFactor<Scalar>::substitute(Matrix& x, unsigned threads) const {
+  by_eight(x, [&](Solve& eight) { eight.substitute(threads); });
 }
 
 template class SupernodalFactor<double>;

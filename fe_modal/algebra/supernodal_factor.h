@@ -4,27 +4,30 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/supernodal_elimination.h"
 #include "fe_modal/algebra/supernode_tree.h"
 
 namespace flexneck::fe_modal {
 
 class CholmodAnalysis;
-struct LowerHalf;
 
 /// Supernodal Cholesky factor, P A P^T = L L^T, of numbers of double or single precision: half the
-/// memory, and half the time of a solve, which is spent on reading the factor.
+/// memory, and half the time of a solve, which is spent on reading the factor. Rows that are kept
+/// are not eliminated: L has the other columns, and their Schur complement is left.
 template <typename Scalar>
 class SupernodalFactor {
  public:
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
   SupernodalFactor() = default;
+  /// @param kept columns of each block of the last rows that are kept
   /// @throws ComputationError if the matrix is not positive definite or memory runs out.
-  SupernodalFactor(CholmodAnalysis& analysis, unsigned threads);
+  SupernodalFactor(CholmodAnalysis& analysis, unsigned threads, std::span<const int> kept = {});
   /// The same in another precision.
   template <typename Other>
   explicit SupernodalFactor(SupernodalFactor<Other>&& other);
@@ -39,12 +42,22 @@ class SupernodalFactor {
   /// x = (L L^T)^-1 x, the same to the last bit by any number of threads.
   /// @param x (n, k), rows in the order of elimination
   void solve(Matrix& x, unsigned threads) const;
+  /// Its two halves: x = L^-1 x, with -L_k L^-1 x added to the rows that are kept, and with these
+  /// as they are x = L^-T (x - L_k^T x_k).
+  void eliminate(Matrix& x, unsigned threads) const;
+  void substitute(Matrix& x, unsigned threads) const;
+
+  /// Of the rows that are kept; afterwards it is gone.
+  SchurComplement<Scalar> take_complement() { return std::move(complement_); }
 
  private:
   template <typename Other>
   friend class SupernodalFactor;
   class Solve;
 
+  /// Calls work(eight columns) for all columns of x, on which it leaves what work makes of them.
+  template <typename Work>
+  void by_eight(Matrix& x, const Work& work) const;
   void number_ancestor_rows();
   void find_smallest_pivot(const LowerHalf& matrix);
 
@@ -52,6 +65,7 @@ class SupernodalFactor {
   /// As the tree's row lists, but in those of a subtree row end_row + k stands for its ancestor k.
   std::vector<int> rows_;
   std::unique_ptr<Scalar[]> values_;
+  SchurComplement<Scalar> complement_;
   double smallest_pivot_ = 1;
 };
 

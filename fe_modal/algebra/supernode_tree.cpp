@@ -20,12 +20,24 @@ constexpr int kMaxColumns = 512;
 
 }  // namespace
 
-SupernodeTree::SupernodeTree(const cholmod_factor_struct& factor) {
-  take(factor);
+SupernodeTree::SupernodeTree(const cholmod_factor_struct& factor, std::span<const int> kept) {
+  const auto size = static_cast<int>(factor.n);
+  int first_kept = size - std::accumulate(kept.begin(), kept.end(), 0);
+  supernode_of_column_.resize(factor.n);
+  take(factor, first_kept);
+  eliminated_count_ = supernodes_.size();
+  std::vector<int> rows(as_index(size - first_kept));
+  std::iota(rows.begin(), rows.end(), first_kept);
+  for (const int columns : kept) {
+    add({first_kept, columns, size - first_kept},
+        std::span(rows).last(as_index(size - first_kept)));
+    first_kept += columns;
+  }
   find_subtrees();
 }
 
-void SupernodeTree::take(const cholmod_factor_struct& factor) {
+/// Supernodes of the columns before the end.
+void SupernodeTree::take(const cholmod_factor_struct& factor, int end_row) {
   const auto list = [](const void* data, std::size_t count) {
     return std::span(static_cast<const int*>(data), count);
   };
@@ -34,29 +46,32 @@ void SupernodeTree::take(const cholmod_factor_struct& factor) {
   const auto columns = list(factor.super, factor.nsuper + 1);
   const auto row_lists = list(factor.pi, factor.nsuper + 1);
   order_.assign(order.begin(), order.end());
-  supernode_of_column_.resize(factor.n);
-  for (std::size_t k = 0; k < factor.nsuper; ++k) {
-    const int width = columns[k + 1] - columns[k];
+  for (std::size_t k = 0; k < factor.nsuper && columns[k] < end_row; ++k) {
+    const int width = std::min(columns[k + 1], end_row) - columns[k];
     const int pieces = (width + kMaxColumns - 1) / kMaxColumns;
     for (int piece = 0; piece < pieces; ++piece) {
       // Blocks of nodes stay together.
       const auto begin_of = [&](int p) { return p == pieces ? width : width / 3 * p / pieces * 3; };
       const int begin = begin_of(piece);
-      Supernode node{columns[k] + begin, begin_of(piece + 1) - begin,
-                     row_lists[k + 1] - row_lists[k] - begin, rows_.size(), value_count_};
-      const auto own = rows.subspan(as_index(row_lists[k] + begin), as_index(node.rows));
-      rows_.insert(rows_.end(), own.begin(), own.end());
+      const Supernode node{columns[k] + begin, begin_of(piece + 1) - begin,
+                           row_lists[k + 1] - row_lists[k] - begin, 0, value_count_};
+      add(node, rows.subspan(as_index(row_lists[k] + begin), as_index(node.rows)));
       value_count_ += as_index(node.rows) * as_index(node.columns);
-      max_rows_ = std::max(max_rows_, node.rows);
-      std::fill_n(supernode_of_column_.begin() + node.first, node.columns,
-                  static_cast<int>(supernodes_.size()));
-      supernodes_.push_back(node);
     }
   }
 }
 
+void SupernodeTree::add(Supernode node, std::span<const int> rows) {
+  node.row_list = rows_.size();
+  rows_.insert(rows_.end(), rows.begin(), rows.end());
+  max_rows_ = std::max(max_rows_, node.rows);
+  std::fill_n(supernode_of_column_.begin() + node.first, node.columns,
+              static_cast<int>(supernodes_.size()));
+  supernodes_.push_back(node);
+}
+
 void SupernodeTree::find_subtrees() {
-  const std::size_t count = supernodes_.size();
+  const std::size_t count = eliminated_count_;
   // Of each subtree: its first supernode, how many it has, and the entries of the factor in it.
   std::vector<std::size_t> first(count);
   std::vector<std::size_t> size(count, 1);
@@ -67,12 +82,14 @@ void SupernodeTree::find_subtrees() {
   for (std::size_t k = 0; k < count; ++k) {
     const Supernode& node = supernodes_[k];
     entries[k] += static_cast<double>(node.rows) * node.columns;
-    if (node.rows == node.columns) {
+    const std::size_t parent =
+        node.rows == node.columns
+            ? count
+            : as_index(supernode_of_column_[as_index(rows_of(node)[as_index(node.columns)])]);
+    if (parent >= count) {
       candidates.push_back(k);
       continue;
     }
-    const std::size_t parent =
-        as_index(supernode_of_column_[as_index(rows_of(node)[as_index(node.columns)])]);
     children[parent].push_back(k);
     first[parent] = std::min(first[parent], first[k]);
     size[parent] += size[k];

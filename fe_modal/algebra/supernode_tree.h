@@ -33,18 +33,25 @@ struct Subtree {
 };
 
 /// The places of the entries of a supernodal Cholesky factor, P A P^T = L L^T, and its elimination
-/// tree, divided into subtrees for threads and a top.
+/// tree, divided into subtrees for threads and a top. The last rows may be kept: then L has the
+/// other columns only, and blocks of columns of the kept rows have the places of their Schur
+/// complement.
 class SupernodeTree {
  public:
   SupernodeTree() = default;
   /// @param factor with the places of its entries; may go afterwards
-  explicit SupernodeTree(const cholmod_factor_struct& factor);
+  /// @param kept columns of each block of the rows that are kept, in their order
+  explicit SupernodeTree(const cholmod_factor_struct& factor, std::span<const int> kept = {});
   SupernodeTree(SupernodeTree&&) = default;
   SupernodeTree& operator=(SupernodeTree&&) = default;
 
   /// Entry k is the row of A that comes k-th.
   std::span<const int> order() const { return order_; }
+  /// Those that are eliminated, then the blocks of kept rows, whose values are not counted.
   std::span<const Supernode> supernodes() const { return supernodes_; }
+  std::size_t eliminated_count() const { return eliminated_count_; }
+  std::span<const Supernode> eliminated() const { return supernodes().first(eliminated_count_); }
+  std::span<const Supernode> kept() const { return supernodes().subspan(eliminated_count_); }
   /// Ascending; the first are the supernode's columns.
   std::span<const int> rows_of(const Supernode& node) const {
     return std::span(rows_).subspan(node.row_list, static_cast<std::size_t>(node.rows));
@@ -53,7 +60,7 @@ class SupernodeTree {
   std::span<const int> row_lists() const { return rows_; }
   /// By column of the factor.
   std::span<const int> supernode_of_column() const { return supernode_of_column_; }
-  /// Numbers in all blocks.
+  /// Numbers in all blocks of L.
   std::size_t value_count() const { return value_count_; }
   int max_rows() const { return max_rows_; }
 
@@ -63,11 +70,13 @@ class SupernodeTree {
   std::span<const std::size_t> top() const { return top_; }
 
  private:
-  void take(const cholmod_factor_struct& factor);
+  void take(const cholmod_factor_struct& factor, int end_row);
+  void add(Supernode node, std::span<const int> rows);
   void find_subtrees();
 
   std::vector<int> order_;
   std::vector<Supernode> supernodes_;
+  std::size_t eliminated_count_ = 0;
   std::vector<int> rows_;
   std::vector<int> supernode_of_column_;
   std::size_t value_count_ = 0;

@@ -8,7 +8,7 @@ namespace {
 template <typename Visitor>
 void for_each_update(const SupernodeTree& tree, const Visitor& visit) {
   const auto supernodes = tree.supernodes();
-  for (std::size_t d = 0; d < supernodes.size(); ++d) {
+  for (std::size_t d = 0; d < tree.eliminated_count(); ++d) {
     const auto rows = tree.rows_of(supernodes[d]);
     for (auto begin = static_cast<std::size_t>(supernodes[d].columns); begin < rows.size();) {
       const auto column = static_cast<std::size_t>(rows[begin]);

@@ -16,7 +16,7 @@ struct Update {
   int end;
 };
 
-/// The updates of each supernode.
+/// The updates of each supernode and of each block of kept rows.
 class UpdateLists {
  public:
   explicit UpdateLists(const SupernodeTree& tree);

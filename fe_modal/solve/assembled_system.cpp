@@ -9,10 +9,10 @@
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/cholmod_handles.h"
 #include "fe_modal/algebra/inertia_count.h"
-#include "fe_modal/algebra/mumps_factor.h"
+#include "fe_modal/algebra/mumps_count.h"
 #include "fe_modal/dofs/node_graph.h"
+#include "fe_modal/solve/distributed_factor.h"
 #include "fe_modal/solve/iterative/schwarz_inverse.h"
-#include "fe_modal/solve/mumps_inverse.h"
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/elimination_order.h"
 #include "geometry/foundation/error.h"
@@ -113,6 +113,10 @@ const std::vector<std::int32_t>& AssembledSystem::order() const {
   return order_;
 }
 
+DistributedMatrix AssembledSystem::distributed(const SymmetricMatrix& summand) const {
+  return {fields_.layout(), part_.blocks(), matrices_->graph, summand};
+}
+
 std::unique_ptr<ShiftInverse> AssembledSystem::shift_inverse(double shift) const {
   if (solver_ == Solver::iterative) {
     const CutBody body{mesh_, fields_, *sharing_.subdomains,
@@ -121,8 +125,12 @@ std::unique_ptr<ShiftInverse> AssembledSystem::shift_inverse(double shift) const
                                             stiffness(), mass(), shift);
   }
   if (ranks().are_many()) {
-    return std::make_unique<MumpsInverse>(fields_.layout(), *matrices_, shift, part_.blocks(),
-                                          order());
+    std::optional<SymmetricMatrix> shifted;
+    ranks().together([&] {
+      if (shift != 0) shifted = shifted_stiffness(*matrices_, shift);
+    });
+    return std::make_unique<DistributedFactor>(
+        distributed(shifted ? *shifted : matrices_->stiffness), shift);
   }
   const auto factor_of = [&](Mat matrix) -> std::unique_ptr<ShiftInverse> {
     if (fields_.dof_map().is_renumbered())
@@ -137,16 +145,16 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) con
   try {
     std::optional<SymmetricMatrix> shifted;
     ranks().together([&] { shifted = shifted_stiffness(*matrices_, sigma); });
-    if (!ranks().are_many()) {
+    if (ranks().are_many()) {
+      if (const auto counted = count_on_ranks(distributed(*shifted))) return counted;
+    } else {
       const bool is_in_order = fields_.dof_map().is_renumbered();
       const auto counted = count_without_pivoting(
           shifted->get(), is_in_order ? CholmodOrder::numbering : CholmodOrder::given,
           is_in_order ? std::vector<int>() : order_of_dofs(order()), ranks().threads());
       if (counted) return counted;
     }
-    return MumpsFactor(fields_.layout(), MumpsFactor::Kind::indefinite, *shifted, part_.blocks(),
-                       order())
-        .negative_pivots();
+    return count_with_pivoting(fields_.layout(), *shifted, part_.blocks(), order());
   } catch (const InputError&) {  // the memory that is free does not suffice
     if (solver_ == Solver::direct) throw;
     return {};

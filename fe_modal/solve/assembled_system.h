@@ -18,8 +18,10 @@
 
 namespace flexneck::fe_modal {
 
+struct DistributedMatrix;
+
 /// K and M of a mesh, assembled by the ranks of the options, each from its elements. K - shift M is
-/// factorised by CHOLMOD in one process and by MUMPS on many, or solved with by iteration.
+/// factorised, in one process or by all ranks together, or solved with by iteration.
 class AssembledSystem : public ModalSystem {
  public:
   /// @param mesh, dof_map must outlive this; the same on all ranks
@@ -56,6 +58,9 @@ class AssembledSystem : public ModalSystem {
 
   /// Of elimination of all blocks, on the first rank.
   const std::vector<std::int32_t>& order() const;
+
+  /// A matrix of this rank's elements with its place in the whole.
+  DistributedMatrix distributed(const SymmetricMatrix& summand) const;
 
   const mesher::Mesh& mesh_;
   FormulationChoice formulation_;

@@ -37,14 +37,17 @@ std::vector<std::int32_t> order_of_blocks(const std::vector<std::int32_t>& node_
   return order;
 }
 
+std::vector<std::int32_t> elimination_order_of(const NodeGraph& graph) {
+  return postordered(graph, mesher::nested_dissection(graph.offsets(), graph.columns()));
+}
+
 DofMap numbered_dof_map_of(const mesher::Mesh& mesh, const ModalOptions& options) {
   DofMap dof_map = dof_map_of(mesh, options);
   if (options.solver == Solver::iterative || options.ranks.are_many() || dof_map.is_constrained())
     return dof_map;
   const NodeGraph graph(mesh, dof_map);
-  std::vector<std::int32_t> order = order_of_blocks(options.node_order, dof_map);
-  if (order.empty()) order = mesher::nested_dissection(graph.offsets(), graph.columns());
-  dof_map.renumber(postordered(graph, order));
+  const std::vector<std::int32_t> order = order_of_blocks(options.node_order, dof_map);
+  dof_map.renumber(order.empty() ? elimination_order_of(graph) : postordered(graph, order));
   return dof_map;
 }
 

@@ -47,7 +47,7 @@ struct ModalOptions {
   std::vector<std::string> basis_interfaces;
   SlitMotions slit_motions = SlitMotions::none;  ///< with the modes of the body with slits shut
   bool geometric_stiffness = false;              ///< of the modes under unit loads; of a fixed body
-  /// Count the modes by inertia too, which costs a factorisation by MUMPS, and estimate the error
+  /// Count the modes by inertia too, which costs a factorisation, and estimate the error
   /// of the mesh, which costs twice the modes. Not of Craig-Bampton.
   bool certify = false;
   std::string fixed_set;  ///< node set fixed in all directions; empty: none

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Constraints × solvers × ranks: this program runs under mpirun on one, two and three ranks, prints
 // a cell for each kind of constraint and solver, and fails unless all agree with dense matrices
-// whose constraints are made by a basis of all motions that they allow.
+// whose constraints are made by a basis of all motions that they allow. It counts modes below some
+// frequencies too, without and with pivoting.
 #include <array>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "fe_modal/algebra/mumps_count.h"
 #include "fe_modal/algebra/rank_session.h"
 #include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/solve/distributed_factor.h"
 #include "fe_modal/system/assembly.h"
+#include "mesher/partition/element_partition.h"
+#include "tests/fe_modal/dense.h"
 #include "tests/fe_modal/dense_constraints.h"
 #include "tests/fe_modal/interface_compliance.h"
 #include "tests/support/block_mesh.h"
@@ -178,6 +184,37 @@ int run_all(const Ranks& ranks) {
   return failures;
 }
 
+/// Modes below some frequencies that the ranks count, without and with pivoting.
+int count_all(const Ranks& ranks) {
+  const mesher::Mesh mesh = block();
+  const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  const auto owners = mesher::partition_elements(mesh, ranks.count()).processes;
+  const DofLayout layout = layout_of(ranks, mesh, dof_map, owners);
+  const RankPart part(mesh, dof_map, owners, ranks.own());
+  const SystemMatrices own = assemble(part.mesh(), part.dof_map());
+  const SystemMatrices whole = assemble(mesh, dof_map);
+  const Eigen::VectorXd values =
+      testing::dense_pairs(dense(whole.stiffness.get()), dense(whole.mass.get())).values;
+  std::vector<std::int32_t> order(static_cast<std::size_t>(dof_map.free_count()));
+  std::iota(order.begin(), order.end(), 0);
+  int failures = 0;
+  for (const Eigen::Index below : {Eigen::Index(0), Eigen::Index(1), Eigen::Index(7),
+                                   values.size() / 4, values.size() / 2, values.size()}) {
+    const double upper = below < values.size() ? values[below] : 2 * values[below - 1];
+    const double sigma = (upper + (below > 0 ? values[below - 1] : 0)) / 2;
+    SymmetricMatrix shifted = shifted_stiffness(own, sigma);
+    const auto counted = count_on_ranks({layout, part.blocks(), own.graph, shifted});
+    const bool must_count = below < 10;  // above, errors may grow too much
+    if (counted ? *counted != below : must_count) ++failures;
+    const Eigen::Index with_pivoting = count_with_pivoting(layout, shifted, part.blocks(), order);
+    if (with_pivoting != below) ++failures;
+    if (ranks.is_first())
+      std::printf("%d ranks, %td modes: %td counted, %td with pivoting\n", ranks.count(), below,
+                  counted.value_or(-1), with_pivoting);
+  }
+  return failures;
+}
+
 }  // namespace
 }  // namespace flexneck::fe_modal
 
@@ -187,6 +224,7 @@ int main() {
   RankOutcome outcome;
   try {
     if (run_all(session.ranks()) > 0) outcome = {1, "a cell deviates by more than 1e-9"};
+    if (count_all(session.ranks()) > 0) outcome = {1, "modes are not counted as they are"};
   } catch (...) {
     outcome = {1, current_failure()};
   }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/algebra/mumps_factor.h"
+#include "fe_modal/algebra/mumps_count.h"
 
 #include <algorithm>
 #include <dmumps_c.h>
 #include <string>
 #include <vector>
 
-#include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/communicator.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
@@ -19,13 +18,11 @@ constexpr int kBegin = -1;
 constexpr int kEnd = -2;
 constexpr int kAnalyse = 1;
 constexpr int kFactorise = 2;
-constexpr int kSolve = 3;
 
 constexpr int kRelaxation = 14;  ///< workspace beyond the estimate, per cent
 constexpr int kFirstRelaxation = 10;
 constexpr int kMaxRelaxation = 200;
 constexpr int kMemoryRefused = -13;
-constexpr int kRootNotDefinite = -40;
 
 bool wants_more_workspace(int status) {
   return status == -8 || status == -9 || status == -14 || status == -15 || status == -17 ||
@@ -68,25 +65,14 @@ std::vector<MUMPS_INT> places(std::span<const std::int32_t> order) {
   return result;
 }
 
-int ranks_on_this_machine(MPI_Comm ranks) {
-  MPI_Comm beside = MPI_COMM_NULL;
-  MPI_Comm_split_type(ranks, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &beside);
-  int count = 1;
-  MPI_Comm_size(beside, &count);
-  MPI_Comm_free(&beside);
-  return count;
-}
-
-}  // namespace
-
-struct MumpsFactor::Instance {
+/// Of MUMPS, ended with its scope.
+struct Instance {
   DMUMPS_STRUC_C data{};
-  const DofLayout& layout;
 
-  Instance(const DofLayout& rows, Kind kind) : layout(rows) {
-    data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(communicator(layout.ranks())));
+  explicit Instance(const Ranks& ranks) {
+    data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(communicator(ranks)));
     data.par = 1;
-    data.sym = kind == Kind::definite ? 1 : 2;
+    data.sym = 2;  // with pivoting
     run(kBegin, "starting");
     set(1, -1);  // no output
     set(2, -1);
@@ -98,10 +84,8 @@ struct MumpsFactor::Instance {
     set(12, 1);   // no compressed ordering
     set(15, -3);  // three degrees of freedom a node: the analysis sees the graph of the nodes
     set(18, 3);   // parts of the matrix on all ranks
-    if (kind == Kind::indefinite) {
-      set(13, 1);  // a root by ScaLAPACK would not count its negative pivots
-      set(24, 1);  // finds null pivots
-    }
+    set(13, 1);   // a root by ScaLAPACK would not count its negative pivots
+    set(24, 1);   // finds null pivots
   }
   ~Instance() {
     data.job = kEnd;
@@ -136,26 +120,26 @@ struct MumpsFactor::Instance {
       call(kFactorise);
       if (!wants_more_workspace(status())) break;
     }
-    const bool definite = data.sym == 1;
-    if (definite && (status() == kRootNotDefinite || (status() >= 0 && negative_pivots() > 0))) {
-      throw ComputationError(kNotDefinite);
-    }
     require_success("factorising the matrix");
-    if (!definite && data.infog[27] > 0) {
+    if (data.infog[27] > 0) {
       throw ComputationError("an eigenvalue lies where the inertia was to be taken; take another");
     }
   }
 };
 
-MumpsFactor::MumpsFactor(const DofLayout& layout, Kind kind, SymmetricMatrix& part,
-                         std::span<const std::int32_t> blocks, std::span<const std::int32_t> order)
-    : instance_(std::make_unique<Instance>(layout, kind)) {
-  DMUMPS_STRUC_C& data = instance_->data;
+}  // namespace
+
+Eigen::Index count_with_pivoting(const DofLayout& layout, SymmetricMatrix& part,
+                                 std::span<const std::int32_t> blocks,
+                                 std::span<const std::int32_t> order) {
+  const Ranks& ranks = layout.ranks();
+  Instance instance(ranks);
+  DMUMPS_STRUC_C& data = instance.data;
   Coordinates coordinates;
   std::vector<MUMPS_INT> places_of_rows;
-  layout.ranks().together([&] {
+  ranks.together([&] {
     coordinates = coordinates_of(part, blocks);
-    if (layout.ranks().is_first()) places_of_rows = places(order);
+    if (ranks.is_first()) places_of_rows = places(order);
   });
   data.n = static_cast<MUMPS_INT>(layout.dof_count());
   data.perm_in = places_of_rows.data();
@@ -163,35 +147,15 @@ MumpsFactor::MumpsFactor(const DofLayout& layout, Kind kind, SymmetricMatrix& pa
   data.irn_loc = coordinates.rows.data();
   data.jcn_loc = coordinates.columns.data();
   data.a_loc = part.values().data();
-  instance_->run(kAnalyse, "analysing the matrix");
-  const int beside = ranks_on_this_machine(communicator(layout.ranks()));
-  layout.ranks().together([&] {
+  instance.run(kAnalyse, "analysing the matrix");
+  const int beside = ranks.on_this_machine();
+  ranks.together([&] {
     constexpr std::size_t kMegabytes = 14;  // of this rank
-    require_memory(beside > 1
-                       ? "the factor on the " + std::to_string(beside) + " ranks of this machine"
-                       : "the factor",
-                   1e6 * beside * data.info[kMegabytes], "take a coarser mesh or more machines");
+    require_memory("counting modes by inertia with pivoting", 1e6 * beside * data.info[kMegabytes],
+                   "take a coarser mesh, or leave out modes.certify");
   });
-  instance_->factorise();
-}
-
-MumpsFactor::~MumpsFactor() = default;
-
-Eigen::MatrixXd MumpsFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  DMUMPS_STRUC_C& data = instance_->data;
-  Eigen::MatrixXd values = instance_->layout.gather(right_hand_sides);
-  data.rhs = values.data();
-  data.nrhs = static_cast<MUMPS_INT>(values.cols());
-  data.lrhs = data.n;
-  instance_->run(kSolve, "solving with the factor");
-  return instance_->layout.scatter(values, right_hand_sides.cols());
-}
-
-int MumpsFactor::negative_pivots() const { return instance_->negative_pivots(); }
-
-double MumpsFactor::nonzeros() const {
-  const int entries = instance_->data.infog[28];  // negative: in millions
-  return entries >= 0 ? entries : -1e6 * entries;
+  instance.factorise();
+  return instance.negative_pivots();
 }
 
 }  // namespace flexneck::fe_modal

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/algebra/separator_factor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fe_modal/algebra/blas_kernels.h"
+#include "fe_modal/algebra/block_elimination.h"
+#include "fe_modal/algebra/communicator.h"
+#include "fe_modal/algebra/supernode_tree.h"
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/in_parallel.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+int row_count(const Panel& panel) { return static_cast<int>(panel.rows.size()); }
+
+std::size_t size_of(const Panel& panel) { return panel.rows.size() * as_index(panel.columns); }
+
+DenseBlock<double> block(const Panel& panel, std::vector<double>& values) {
+  return {values.data(), row_count(panel), panel.columns, row_count(panel)};
+}
+
+}  // namespace
+
+class SeparatorFactor::Elimination {
+ public:
+  Elimination(SeparatorFactor& factor, Pivots pivots, const Eigen::VectorXd& diagonal)
+      : factor_(factor), pivots_(pivots), diagonal_(diagonal), squares_(diagonal.size()) {
+    squares_.setZero();
+    factor_.ranks_.together([&] {
+      std::size_t largest = 0;
+      for (std::size_t p = 0; p < panels().size(); ++p) {
+        largest = std::max(largest, size_of(panels()[p]));
+        if (is_own(p)) factor_.values_[p].resize(size_of(panels()[p]));
+      }
+      received_.resize(largest);
+      products_.resize(std::max(1U, threads_in_blas(factor_.ranks_.threads())));
+      for (std::vector<double>& product : products_) product.reserve(largest);
+    });
+  }
+
+  void add(const AddSummand& add_to) {
+    for (std::size_t p = 0; p < panels().size(); ++p) {
+      const Panel& panel = panels()[p];
+      std::fill(received_.begin(), received_.end(), 0.0);
+      add_to(p, block(panel, received_));
+      MPI_Reduce(received_.data(), is_own(p) ? factor_.values_[p].data() : nullptr,
+                 static_cast<int>(size_of(panel)), MPI_DOUBLE, MPI_SUM, panel.owner, ranks());
+    }
+  }
+
+  void run() {
+    for (std::size_t p = 0; p < panels().size(); ++p) {
+      const bool has_negative = factorise(p);
+      const DenseBlock<const double> values = send(p);
+      note_squares(panels()[p], values);
+      update_from(p, values, has_negative);
+    }
+    Eigen::VectorXd results(2);
+    results << growth(), -factor_.smallest_pivot_;
+    factor_.ranks_.max(results);
+    factor_.growth_ = results[0];
+    factor_.smallest_pivot_ = -results[1];
+  }
+
+ private:
+  const std::vector<Panel>& panels() const { return factor_.panels_; }
+  MPI_Comm ranks() const { return communicator(factor_.ranks_); }
+  bool is_own(std::size_t p) const { return panels()[p].owner == factor_.ranks_.own(); }
+
+  std::span<double> signs_of(const Panel& panel) const {
+    return std::span(factor_.signs_).subspan(as_index(panel.first), as_index(panel.columns));
+  }
+
+  /// By its owner; fails on all ranks.
+  bool factorise(std::size_t p) {
+    const Panel& panel = panels()[p];
+    constexpr int kFailed = 2;
+    int outcome = 0;
+    if (is_own(p)) {
+      const DenseBlock<double> all = block(panel, factor_.values_[p]);
+      const DenseBlock<double> diagonal = all.part(0, 0, panel.columns, panel.columns);
+      const DenseBlock<double> below =
+          all.part(panel.columns, 0, all.rows - panel.columns, panel.columns);
+      try {
+        outcome = factorise_diagonal(diagonal, pivots_, signs_of(panel), workspace_) ? 1 : 0;
+        if (below.rows > 0) divide_by_transpose(DenseBlock<const double>(diagonal), below);
+        if (outcome == 1) turn_columns<double>(below, signs_of(panel));
+      } catch (const ComputationError&) {
+        outcome = kFailed;
+      }
+    }
+    MPI_Bcast(&outcome, 1, MPI_INT, panel.owner, ranks());
+    if (outcome == kFailed) throw ComputationError(kNotDefinite);
+    if (outcome == 1) {
+      MPI_Bcast(signs_of(panel).data(), panel.columns, MPI_DOUBLE, panel.owner, ranks());
+    }
+    return outcome == 1;
+  }
+
+  DenseBlock<const double> send(std::size_t p) {
+    const Panel& panel = panels()[p];
+    std::vector<double>& values = is_own(p) ? factor_.values_[p] : received_;
+    MPI_Bcast(values.data(), static_cast<int>(size_of(panel)), MPI_DOUBLE, panel.owner, ranks());
+    return block(panel, values);
+  }
+
+  void note_squares(const Panel& panel, const DenseBlock<const double>& values) {
+    for (int j = 0; j < panel.columns; ++j) {
+      const double* const column = values.column(j);
+      for (int i = j; i < values.rows; ++i)
+        squares_[panel.rows[as_index(i)]] += column[i] * column[i];
+      const double share = column[j] * column[j] / std::abs(diagonal_[panel.first + j]);
+      factor_.smallest_pivot_ = std::min(factor_.smallest_pivot_, share);
+    }
+  }
+
+  double growth() const {
+    return squares_.size() == 0 ? 0 : squares_.cwiseQuotient(diagonal_.cwiseAbs()).maxCoeff();
+  }
+
+  void update_from(std::size_t from, const DenseBlock<const double>& values, bool has_negative) {
+    const Panel& panel = panels()[from];
+    std::vector<std::size_t> targets;
+    for (std::size_t p = from + 1; p < panels().size(); ++p) {
+      if (is_own(p) && std::binary_search(panel.rows.begin(), panel.rows.end(), panels()[p].first))
+        targets.push_back(p);
+    }
+    const std::span<const double> signs =
+        has_negative ? std::span<const double>(signs_of(panel)) : std::span<const double>();
+    in_parallel(std::min(products_.size(), targets.size()), static_cast<unsigned>(products_.size()),
+                [&](std::size_t thread) {
+                  call_blas_alone();
+                  for (std::size_t k = thread; k < targets.size(); k += products_.size())
+                    update(targets[k], panel, values, signs, products_[thread]);
+                });
+  }
+
+  /// Subtracts L_i S L_j^T of the panel's rows j that are columns of the target.
+  void update(std::size_t target, const Panel& panel, const DenseBlock<const double>& values,
+              std::span<const double> signs, std::vector<double>& workspace) {
+    const Panel& into = panels()[target];
+    const auto begin = std::lower_bound(panel.rows.begin(), panel.rows.end(), into.first);
+    const int first = static_cast<int>(begin - panel.rows.begin());
+    const DenseBlock<const double> rows =
+        values.part(first, 0, values.rows - first, values.columns);
+    const DenseBlock<const double> columns = values.part(first, 0, into.columns, values.columns);
+    const DenseBlock<double> product = room_for(rows.rows, into.columns, workspace);
+    std::vector<double> turned;
+    multiply_with_signs(1.0, rows, signs, columns, 0.0, product, turned);
+    const DenseBlock<double> sum = block(into, factor_.values_[target]);
+    int place = 0;
+    for (int i = 0; i < rows.rows; ++i) {
+      while (into.rows[as_index(place)] != begin[i]) ++place;
+      for (int j = 0; j < into.columns; ++j) sum.column(j)[place] -= product.column(j)[i];
+    }
+  }
+
+  SeparatorFactor& factor_;
+  Pivots pivots_;
+  const Eigen::VectorXd& diagonal_;
+  Eigen::VectorXd squares_;                    ///< of the rows of L, their sums
+  std::vector<double> received_;               ///< a panel
+  std::vector<std::vector<double>> products_;  ///< of each thread
+  std::vector<double> workspace_;
+};
+
+SeparatorFactor::SeparatorFactor(const Ranks& ranks, const std::vector<Panel>& panels,
+                                 Pivots pivots, const Eigen::VectorXd& diagonal,
+                                 const AddSummand& add)
+    : ranks_(ranks),
+      panels_(panels),
+      values_(panels.size()),
+      signs_(static_cast<std::size_t>(diagonal.size()), 1.0) {
+  Elimination elimination(*this, pivots, diagonal);
+  elimination.add(add);
+  elimination.run();
+}
+
+void SeparatorFactor::solve(Eigen::MatrixXd& x) const {
+  constexpr auto kEight = static_cast<Eigen::Index>(kColumnsTogether);
+  using Row = RowOf<double>;
+  std::vector<Row> rows(static_cast<std::size_t>(x.rows()));
+  std::vector<Row> panel_rows(rows.size());
+  const auto factor_block = [&](std::size_t p) {
+    return FactorBlock<double>{values_[p].data(), row_count(panels_[p]), panels_[p].columns};
+  };
+  const auto send = [&](std::size_t p, int count) {
+    MPI_Bcast(panel_rows.front().value, count * static_cast<int>(kEight), MPI_DOUBLE,
+              panels_[p].owner, communicator(ranks_));
+  };
+  for (Eigen::Index first = 0; rows.size() > 0 && first < x.cols(); first += kEight) {
+    const Eigen::Index width = std::min(kEight, x.cols() - first);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kEight, Eigen::RowMajor>> eight(
+        rows.front().value, x.rows(), kEight);
+    eight.setZero();
+    eight.leftCols(width) = x.middleCols(first, width);
+    for (std::size_t p = 0; p < panels_.size(); ++p) {
+      const Panel& panel = panels_[p];
+      if (panel.owner == ranks_.own()) {
+        std::copy_n(rows.begin() + panel.first, panel.columns, panel_rows.begin());
+        std::fill(panel_rows.begin() + panel.columns, panel_rows.begin() + row_count(panel), Row{});
+        eliminate(factor_block(p), panel_rows.data());
+      }
+      send(p, row_count(panel));
+      std::copy_n(panel_rows.begin(), panel.columns, rows.begin() + panel.first);
+      for (std::size_t i = as_index(panel.columns); i < panel.rows.size(); ++i)
+        eight.row(panel.rows[i]) +=
+            Eigen::Map<Eigen::Matrix<double, 1, kEight>>(panel_rows[i].value);
+    }
+    for (std::size_t p = panels_.size(); p-- > 0;) {
+      const Panel& panel = panels_[p];
+      if (panel.owner == ranks_.own()) {
+        for (std::size_t i = 0; i < panel.rows.size(); ++i)
+          panel_rows[i] = rows[as_index(panel.rows[i])];
+        substitute(factor_block(p), panel_rows.data());
+      }
+      send(p, panel.columns);
+      std::copy_n(panel_rows.begin(), panel.columns, rows.begin() + panel.first);
+    }
+    x.middleCols(first, width) = eight.leftCols(width);
+  }
+}
+
+Eigen::Index SeparatorFactor::negative_pivots() const {
+  return std::count(signs_.begin(), signs_.end(), -1.0);
+}
+
+double SeparatorFactor::entry_count() const {
+  double count = 0;
+  for (const Panel& panel : panels_)
+    count += static_cast<double>(size_of(panel)) - 0.5 * panel.columns * (panel.columns - 1);
+  return count;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fe_modal/algebra/ranks.h"
+#include "fe_modal/algebra/separator.h"
+#include "fe_modal/algebra/signed_cholesky.h"
+
+namespace flexneck::fe_modal {
+
+/// L S L^T of the Schur complement of a separator, to which each rank has its summand. Each panel
+/// is kept by one rank: it factorises it and sends it to all, which update those that they keep.
+/// Every member is collective and gives the same on all ranks.
+class SeparatorFactor {
+ public:
+  /// Adds this rank's summand to the lower half of a panel, (rows, columns), and may let it go.
+  using AddSummand = std::function<void(std::size_t panel, const DenseBlock<double>& sum)>;
+
+  /// @param panels must outlive this
+  /// @param diagonal (rows of the separator) of the matrix before anything was eliminated
+  /// @throws ComputationError if a pivot is not positive or, of any sign, zero; std::bad_alloc as
+  /// one on all ranks.
+  SeparatorFactor(const Ranks& ranks, const std::vector<Panel>& panels, Pivots pivots,
+                  const Eigen::VectorXd& diagonal, const AddSummand& add);
+
+  /// x = (L L^T)^-1 x of all columns, (rows of the separator, k), which all ranks have whole.
+  /// @pre positive pivots
+  void solve(Eigen::MatrixXd& x) const;
+
+  double smallest_pivot() const { return smallest_pivot_; }  ///< as SupernodalFactor's
+  Eigen::Index negative_pivots() const;
+  /// As Inertia's, of the separator alone.
+  double growth() const { return growth_; }
+  double entry_count() const;  ///< of all panels
+
+ private:
+  class Elimination;
+
+  Ranks ranks_;
+  const std::vector<Panel>& panels_;
+  std::vector<std::vector<double>> values_;  ///< (panels), empty where another rank keeps one
+  std::vector<double> signs_;                ///< (rows)
+  double smallest_pivot_ = 1;
+  double growth_ = 0;
+};
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fe_modal/algebra/separator.h"
+#include "fe_modal/algebra/separator_factor.h"
+#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/algebra/supernodal_factor.h"
+#include "fe_modal/system/rank_part.h"
+
+namespace flexneck::fe_modal {
+
+/// A matrix to which each rank has its summand, on the blocks of its part.
+struct DistributedMatrix {
+  const DofLayout& layout;
+  std::span<const std::int32_t> blocks;  ///< of this rank's part, their numbers in the whole
+  const NodeGraph& graph;                ///< of these
+  const SymmetricMatrix& summand;
+};
+
+/// K - shift M = L L^T on all ranks: each eliminates the blocks that it alone has, as a process
+/// alone does (SupernodalFactor), and all of them what is between their parts.
+class DistributedFactor : public ShiftInverse {
+ public:
+  /// Collective.
+  /// @param matrix K - shift M; not needed afterwards
+  /// @throws InputError if memory does not hold the factor, ComputationError if the matrix is not
+  /// positive definite or memory runs out.
+  DistributedFactor(const DistributedMatrix& matrix, double shift);
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override;
+  bool is_doubtful() const override;
+  std::string describe() const override;
+
+ private:
+  Separator separator_;
+  /// Where in this rank's rows those of the factor are; -1: another rank's.
+  std::vector<Eigen::Index> inside_rows_;
+  std::vector<Eigen::Index> shared_rows_;
+  SupernodalFactor<double> inside_;
+  std::optional<SeparatorFactor> between_;
+  double smallest_pivot_ = 1;
+  double nonzeros_ = 0;
+};
+
+/// Collective: negative eigenvalues of a matrix, by the same elimination with pivots of either
+/// sign. Those of the parts and of the Schur complement between them add up (Haynsworth, Linear
+/// Algebra Appl. 1 (1968) 73).
+/// @return nothing if rounding errors grow so far that the count might be wrong
+/// @throws InputError if memory does not hold the factor.
+std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix);
+
+}  // namespace flexneck::fe_modal
