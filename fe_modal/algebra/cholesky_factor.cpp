@@ -22,10 +22,10 @@ std::string millions_text(double entries) {
 }  // namespace
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
-                               std::span<const int> dof_order, unsigned threads)
+                               std::span<const std::int32_t> node_order, unsigned threads)
     : ShiftInverse(shift), threads_(threads) {
   const cholmod_sparse view = cholmod_view(shifted_stiffness);
-  CholmodAnalysis analysis(view, kind, dof_order);
+  CholmodAnalysis analysis(view, kind, node_order);
   nonzeros_ = analysis.nonzeros();
   require_memory("the factor of " + millions_text(nonzeros_), kBytesPerFactorEntry * nonzeros_,
                  kOrAnotherSolution);
@@ -35,8 +35,8 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
                                std::span<const std::int32_t> node_order, unsigned threads)
     : CholeskyFactor(shifted_stiffness, shift,
-                     node_order.empty() ? CholmodOrder::best : CholmodOrder::given,
-                     order_of_dofs(node_order), threads) {}
+                     node_order.empty() ? CholmodOrder::best : CholmodOrder::given, node_order,
+                     threads) {}
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered, unsigned threads)
     : CholeskyFactor(shifted_stiffness, shift, CholmodOrder::numbering, {}, threads) {}

@@ -58,7 +58,7 @@ class CholeskyFactor : public ShiftInverse {
 
  private:
   CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
-                 std::span<const int> dof_order, unsigned threads);
+                 std::span<const std::int32_t> node_order, unsigned threads);
 
   double nonzeros_ = 0;
   unsigned threads_;

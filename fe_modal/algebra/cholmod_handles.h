@@ -27,14 +27,15 @@ cholmod_sparse cholmod_view(std::span<const int> offsets, std::span<const int> c
 /// Of a matrix in PETSc's arrays, which must outlive it.
 cholmod_sparse cholmod_view(Mat matrix);
 
-/// An order of nodes as one of degrees of freedom, three each.
-std::vector<int> order_of_dofs(std::span<const std::int32_t> node_order);
+/// Each number as those of its three degrees of freedom.
+std::vector<int> in_threes(std::span<const int> numbers);
 
-/// The places of the entries of a matrix's supernodal factor.
+/// The places of the entries of a matrix's supernodal factor. Unless CHOLMOD seeks the best order
+/// it sees blocks of three by three, with a ninth of the entries.
 class CholmodAnalysis {
  public:
-  /// @param matrix must outlive this
-  /// @param order of elimination if it is given, a permutation
+  /// @param matrix must outlive this; with values, unless the best order is sought, of whole blocks
+  /// @param order of elimination if it is given, a permutation of the blocks
   /// @throws InputError if CHOLMOD's integers do not count the entries, ComputationError if memory
   /// runs out.
   CholmodAnalysis(const cholmod_sparse& matrix, CholmodOrder kind, std::span<const int> order = {});
@@ -42,8 +43,10 @@ class CholmodAnalysis {
   CholmodAnalysis(const CholmodAnalysis&) = delete;
   CholmodAnalysis& operator=(const CholmodAnalysis&) = delete;
 
+  /// Of the entries, or of blocks of so many rows and columns.
   const cholmod_factor& places() const { return *factor_; }
-  /// Of the factor, without the zeros in its blocks.
+  int block_size() const { return block_size_; }
+  /// Of the factor, without the zeros in its supernodes.
   double nonzeros() const { return nonzeros_; }
   /// Of the matrix in the order of elimination; lives as long as this.
   /// @throws ComputationError if memory runs out.
@@ -53,6 +56,7 @@ class CholmodAnalysis {
   void require_done() const;
 
   const cholmod_sparse& matrix_;
+  int block_size_ = 1;
   cholmod_common common_{};
   double nonzeros_ = 0;
   cholmod_factor* factor_ = nullptr;

@@ -12,11 +12,11 @@
 namespace flexneck::fe_modal {
 
 std::optional<Eigen::Index> count_without_pivoting(Mat matrix, CholmodOrder kind,
-                                                   std::span<const int> dof_order,
+                                                   std::span<const std::int32_t> node_order,
                                                    unsigned threads) {
   const cholmod_sparse view = cholmod_view(matrix);
-  CholmodAnalysis analysis(view, kind, dof_order);
-  const SupernodeTree tree(analysis.places());
+  CholmodAnalysis analysis(view, kind, node_order);
+  const SupernodeTree tree(analysis.places(), analysis.block_size());
   require_memory("counting modes by inertia", 8.0 * static_cast<double>(tree.value_count()),
                  "take a coarser mesh, or leave out modes.certify");
   const auto values = std::make_unique_for_overwrite<double[]>(tree.value_count());

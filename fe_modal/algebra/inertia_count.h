@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -20,10 +21,10 @@ inline constexpr double kMaxGrowth = 1e3;
 /// factor is, without pivoting (Sylvester's law). Nothing where rounding errors grow in it: then
 /// they may change the count.
 /// @param matrix symmetric with the upper half stored by scalar rows
-/// @param dof_order of elimination, where it is given
+/// @param node_order of elimination, where it is given
 /// @throws InputError if memory does not hold the factor.
 std::optional<Eigen::Index> count_without_pivoting(Mat matrix, CholmodOrder kind,
-                                                   std::span<const int> dof_order,
+                                                   std::span<const std::int32_t> node_order,
                                                    unsigned threads);
 
 }  // namespace flexneck::fe_modal

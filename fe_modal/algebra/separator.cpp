@@ -15,7 +15,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 /// Columns of a panel at most: a rank that owns one factorises it while the others wait.
-constexpr int kMaxColumns = 192;
+constexpr int kMaxPanelColumns = 192;
 
 /// Blocks that the same ranks have.
 struct Group {
@@ -138,11 +138,11 @@ Separator::Separator(const Ranks& ranks, std::size_t block_count,
       }
       rows_.insert(rows_.end(), rows.begin(), rows.begin() + group.row_count());
     }
-    for (int begin = 0; begin < group.row_count(); begin += kMaxColumns) {
+    for (int begin = 0; begin < group.row_count(); begin += kMaxPanelColumns) {
       if (is_own) own_panels_.push_back(panels_.size());
       const auto owner = static_cast<std::int32_t>(panels_.size()) % ranks.count();
       panels_.push_back({group.first_row + begin,
-                         std::min(kMaxColumns, group.row_count() - begin),
+                         std::min(kMaxPanelColumns, group.row_count() - begin),
                          {rows.begin() + begin, rows.end()},
                          owner});
     }

@@ -20,7 +20,7 @@ constexpr auto kEight = static_cast<Eigen::Index>(kColumnsTogether);
 template <typename Scalar>
 SupernodalFactor<Scalar>::SupernodalFactor(CholmodAnalysis& analysis, unsigned threads,
                                            std::span<const int> kept)
-    : tree_(analysis.places(), kept) {
+    : tree_(analysis.places(), analysis.block_size(), kept) {
   number_ancestor_rows();
   try {
     const LowerHalf matrix = analysis.lower_half();

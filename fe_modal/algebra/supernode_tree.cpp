@@ -20,11 +20,12 @@ constexpr int kMaxColumns = 512;
 
 }  // namespace
 
-SupernodeTree::SupernodeTree(const cholmod_factor_struct& factor, std::span<const int> kept) {
-  const auto size = static_cast<int>(factor.n);
+SupernodeTree::SupernodeTree(const cholmod_factor_struct& factor, int block_size,
+                             std::span<const int> kept) {
+  const int size = static_cast<int>(factor.n) * block_size;
   int first_kept = size - std::accumulate(kept.begin(), kept.end(), 0);
-  supernode_of_column_.resize(factor.n);
-  take(factor, first_kept);
+  supernode_of_column_.resize(as_index(size));
+  take(factor, block_size, first_kept);
   eliminated_count_ = supernodes_.size();
   std::vector<int> rows(as_index(size - first_kept));
   std::iota(rows.begin(), rows.end(), first_kept);
@@ -37,25 +38,35 @@ SupernodeTree::SupernodeTree(const cholmod_factor_struct& factor, std::span<cons
 }
 
 /// Supernodes of the columns before the end.
-void SupernodeTree::take(const cholmod_factor_struct& factor, int end_row) {
+void SupernodeTree::take(const cholmod_factor_struct& factor, int block_size, int end_row) {
   const auto list = [](const void* data, std::size_t count) {
     return std::span(static_cast<const int*>(data), count);
   };
-  const auto order = list(factor.Perm, factor.n);
+  const auto entries_of = [block_size](std::span<const int> numbers) {
+    std::vector<int> entries;
+    entries.reserve(numbers.size() * as_index(block_size));
+    for (const int number : numbers) {
+      for (int a = 0; a < block_size; ++a) entries.push_back(number * block_size + a);
+    }
+    return entries;
+  };
   const auto rows = list(factor.s, factor.ssize);
   const auto columns = list(factor.super, factor.nsuper + 1);
   const auto row_lists = list(factor.pi, factor.nsuper + 1);
-  order_.assign(order.begin(), order.end());
-  for (std::size_t k = 0; k < factor.nsuper && columns[k] < end_row; ++k) {
-    const int width = std::min(columns[k + 1], end_row) - columns[k];
+  order_ = entries_of(list(factor.Perm, factor.n));
+  for (std::size_t k = 0; k < factor.nsuper && columns[k] * block_size < end_row; ++k) {
+    const int first = columns[k] * block_size;
+    const int width = std::min(columns[k + 1] * block_size, end_row) - first;
+    const std::vector<int> own =
+        entries_of(rows.subspan(as_index(row_lists[k]), as_index(row_lists[k + 1] - row_lists[k])));
     const int pieces = (width + kMaxColumns - 1) / kMaxColumns;
     for (int piece = 0; piece < pieces; ++piece) {
       // Blocks of nodes stay together.
       const auto begin_of = [&](int p) { return p == pieces ? width : width / 3 * p / pieces * 3; };
       const int begin = begin_of(piece);
-      const Supernode node{columns[k] + begin, begin_of(piece + 1) - begin,
-                           row_lists[k + 1] - row_lists[k] - begin, 0, value_count_};
-      add(node, rows.subspan(as_index(row_lists[k] + begin), as_index(node.rows)));
+      const Supernode node{first + begin, begin_of(piece + 1) - begin,
+                           static_cast<int>(own.size()) - begin, 0, value_count_};
+      add(node, std::span(own).subspan(as_index(begin)));
       value_count_ += as_index(node.rows) * as_index(node.columns);
     }
   }

@@ -39,9 +39,11 @@ struct Subtree {
 class SupernodeTree {
  public:
   SupernodeTree() = default;
-  /// @param factor with the places of its entries; may go afterwards
-  /// @param kept columns of each block of the rows that are kept, in their order
-  explicit SupernodeTree(const cholmod_factor_struct& factor, std::span<const int> kept = {});
+  /// @param factor with the places of its entries, or of blocks of so many rows and columns; may go
+  /// afterwards
+  /// @param kept columns of each group of the rows that are kept, in their order, whole blocks
+  SupernodeTree(const cholmod_factor_struct& factor, int block_size,
+                std::span<const int> kept = {});
   SupernodeTree(SupernodeTree&&) = default;
   SupernodeTree& operator=(SupernodeTree&&) = default;
 
@@ -70,7 +72,7 @@ class SupernodeTree {
   std::span<const std::size_t> top() const { return top_; }
 
  private:
-  void take(const cholmod_factor_struct& factor, int end_row);
+  void take(const cholmod_factor_struct& factor, int block_size, int end_row);
   void add(Supernode node, std::span<const int> rows);
   void find_subtrees();
 

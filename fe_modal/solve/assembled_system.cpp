@@ -151,7 +151,7 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) con
       const bool is_in_order = fields_.dof_map().is_renumbered();
       const auto counted = count_without_pivoting(
           shifted->get(), is_in_order ? CholmodOrder::numbering : CholmodOrder::given,
-          is_in_order ? std::vector<int>() : order_of_dofs(order()), ranks().threads());
+          is_in_order ? std::span<const std::int32_t>() : order(), ranks().threads());
       if (counted) return counted;
     }
     return count_with_pivoting(fields_.layout(), *shifted, part_.blocks(), order());

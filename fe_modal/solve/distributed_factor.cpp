@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -36,7 +37,7 @@ class PartAnalysis {
   PartAnalysis(const DistributedMatrix& matrix, const Separator& separator)
       : order_(order_of(matrix.graph, separator)),
         view_(cholmod_view(matrix.summand.get())),
-        analysis_(view_, CholmodOrder::exactly, order_of_dofs(order_)) {
+        analysis_(view_, CholmodOrder::exactly, order_) {
     for (const std::size_t p : separator.own_panels())
       kept_.push_back(separator.panels()[p].columns);
   }
@@ -188,11 +189,12 @@ std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix) {
           "take a coarser mesh, or leave out modes.certify");
   ranks.together([&] {
     if (!part) return;
-    const SupernodeTree tree(part->get().places(), part->kept());
-    std::vector<double> values(tree.value_count());
+    const SupernodeTree tree(part->get().places(), part->get().block_size(), part->kept());
+    const auto values = std::make_unique_for_overwrite<double[]>(tree.value_count());
     try {
-      inside = factorise_with_signs(tree, part->get().lower_half(), values,
-                                    threads_in_blas(ranks.threads()));
+      inside =
+          factorise_with_signs(tree, part->get().lower_half(), {values.get(), tree.value_count()},
+                               threads_in_blas(ranks.threads()));
       is_counted = inside.growth < kMaxGrowth;
     } catch (const ComputationError&) {  // a pivot is zero
       is_counted = false;

@@ -29,7 +29,7 @@ std::optional<SupernodalFactor<float>> factor_in_single_precision(CholmodAnalysi
 SubdomainFactor::SubdomainFactor(const SymmetricMatrix& matrix,
                                  std::span<const std::int32_t> node_order, unsigned threads) {
   const cholmod_sparse view = cholmod_view(matrix.offsets(), matrix.columns(), matrix.values());
-  CholmodAnalysis analysis(view, CholmodOrder::given, order_of_dofs(node_order));
+  CholmodAnalysis analysis(view, CholmodOrder::given, node_order);
   auto factor = factor_in_single_precision(analysis, threads);
   factor_ = factor ? std::move(*factor)
                    : SupernodalFactor<float>(SupernodalFactor<double>(analysis, threads));
