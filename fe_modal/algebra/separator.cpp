@@ -119,6 +119,9 @@ Separator::Separator(const Ranks& ranks, std::size_t block_count,
     groups[g].first_row = row_count_;
     row_count_ += groups[g].row_count();
   }
+  std::vector<std::int32_t> place_of(block_count, -1);
+  for (std::size_t place = 0; place < blocks.size(); ++place)
+    place_of[static_cast<std::size_t>(blocks[place])] = static_cast<std::int32_t>(place);
   std::vector<bool> is_shared(blocks.size(), false);
   for (const std::size_t g : order) {
     const Group& group = groups[g];
@@ -132,9 +135,9 @@ Separator::Separator(const Ranks& ranks, std::size_t block_count,
     std::sort(rows.begin(), rows.end());
     if (is_own) {
       for (const std::int32_t block : group.blocks) {
-        const auto place = std::lower_bound(blocks.begin(), blocks.end(), block) - blocks.begin();
+        const std::int32_t place = place_of[static_cast<std::size_t>(block)];
         is_shared[static_cast<std::size_t>(place)] = true;
-        shared_.push_back(static_cast<std::int32_t>(place));
+        shared_.push_back(place);
       }
       rows_.insert(rows_.end(), rows.begin(), rows.begin() + group.row_count());
     }

@@ -24,7 +24,7 @@ class Separator {
  public:
   /// Collective.
   /// @param block_count of the whole
-  /// @param blocks of this rank's part, their numbers in the whole, ascending
+  /// @param blocks of this rank's part, their numbers in the whole
   /// @throws ComputationError if a block is in no part.
   Separator(const Ranks& ranks, std::size_t block_count, std::span<const std::int32_t> blocks);
 

@@ -31,10 +31,7 @@ class SeparatorFactor::Elimination {
     squares_.setZero();
     factor_.ranks_.together([&] {
       std::size_t largest = 0;
-      for (std::size_t p = 0; p < panels().size(); ++p) {
-        largest = std::max(largest, size_of(panels()[p]));
-        if (is_own(p)) factor_.values_[p].resize(size_of(panels()[p]));
-      }
+      for (const Panel& panel : panels()) largest = std::max(largest, size_of(panel));
       received_.resize(largest);
       products_.resize(std::max(1U, threads_in_blas(factor_.ranks_.threads())));
       for (std::vector<double>& product : products_) product.reserve(largest);
@@ -46,6 +43,8 @@ class SeparatorFactor::Elimination {
       const Panel& panel = panels()[p];
       std::fill(received_.begin(), received_.end(), 0.0);
       add_to(p, block(panel, received_));
+      // Not before: the summand that add_to() has let go leaves room.
+      if (is_own(p)) factor_.values_[p].resize(size_of(panel));
       MPI_Reduce(received_.data(), is_own(p) ? factor_.values_[p].data() : nullptr,
                  static_cast<int>(size_of(panel)), MPI_DOUBLE, MPI_SUM, panel.owner, ranks());
     }

@@ -22,10 +22,17 @@
 namespace flexneck::fe_modal {
 namespace {
 
-RankPart part_of(const Ranks& ranks, const mesher::Mesh& mesh, const DofMap& dof_map,
+/// With its blocks in the order of elimination, if it will be factorised and they can be so.
+RankPart part_of(const ModalOptions& options, const mesher::Mesh& mesh, const DofMap& dof_map,
                  const std::vector<std::int32_t>& rank_of_element) {
+  const Ranks& ranks = options.ranks;
   if (!ranks.are_many()) return {mesh, dof_map};
-  return {mesh, dof_map, rank_of_element, ranks.own()};
+  RankPart part(mesh, dof_map, rank_of_element, ranks.own());
+  if (options.solver == Solver::iterative || dof_map.is_constrained()) return part;
+  const Separator separator(ranks, static_cast<std::size_t>(dof_map.free_count()), part.blocks());
+  ranks.together(
+      [&] { part.renumber(order_of_part(NodeGraph(part.mesh(), part.dof_map()), separator)); });
+  return part;
 }
 
 void require_work_for_all(const std::vector<std::int32_t>& rank_of_element, int count) {
@@ -79,7 +86,7 @@ AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map
       solver_(options.solver),
       sharing_(std::move(sharing)),
       fields_(dof_map, layout_of(options.ranks, mesh, dof_map, sharing_.rank_of_element)),
-      part_(part_of(ranks(), mesh, dof_map, sharing_.rank_of_element)),
+      part_(part_of(options, mesh, dof_map, sharing_.rank_of_element)),
       exchange_(fields_.layout(), rows_of(part_.blocks())),
       order_(given_order(options, dof_map)),
       has_order_(!order_.empty()) {
@@ -114,7 +121,8 @@ const std::vector<std::int32_t>& AssembledSystem::order() const {
 }
 
 DistributedMatrix AssembledSystem::distributed(const SymmetricMatrix& summand) const {
-  return {fields_.layout(), part_.blocks(), matrices_->graph, summand};
+  return {fields_.layout(), part_.blocks(), matrices_->graph, summand,
+          part_.dof_map().is_renumbered()};
 }
 
 std::unique_ptr<ShiftInverse> AssembledSystem::shift_inverse(double shift) const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -20,24 +21,21 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Of elimination of a part's blocks: those inside, then those of the separator.
-std::vector<std::int32_t> order_of(const NodeGraph& graph, const Separator& separator) {
-  std::vector<std::int32_t> order;
-  if (!separator.inside().empty()) {
-    for (const std::int32_t k : elimination_order_of(restrict_to(graph, separator.inside())))
-      order.push_back(separator.inside()[static_cast<std::size_t>(k)]);
-  }
-  order.insert(order.end(), separator.shared().begin(), separator.shared().end());
-  return order;
+std::vector<std::int32_t> numbers_from_0(std::size_t count) {
+  std::vector<std::int32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
 }
 
 /// A part's matrix with the places of its factor's entries.
 class PartAnalysis {
  public:
   PartAnalysis(const DistributedMatrix& matrix, const Separator& separator)
-      : order_(order_of(matrix.graph, separator)),
+      : order_(matrix.is_in_order ? numbers_from_0(matrix.blocks.size())
+                                  : order_of_part(matrix.graph, separator)),
         view_(cholmod_view(matrix.summand.get())),
-        analysis_(view_, CholmodOrder::exactly, order_) {
+        analysis_(view_, matrix.is_in_order ? CholmodOrder::numbering : CholmodOrder::exactly,
+                  matrix.is_in_order ? std::span<const std::int32_t>() : order_) {
     for (const std::size_t p : separator.own_panels())
       kept_.push_back(separator.panels()[p].columns);
   }
@@ -118,6 +116,16 @@ std::vector<Eigen::Index> own_rows(const DistributedMatrix& matrix,
 }
 
 }  // namespace
+
+std::vector<std::int32_t> order_of_part(const NodeGraph& graph, const Separator& separator) {
+  std::vector<std::int32_t> order;
+  if (!separator.inside().empty()) {
+    for (const std::int32_t k : elimination_order_of(restrict_to(graph, separator.inside())))
+      order.push_back(separator.inside()[static_cast<std::size_t>(k)]);
+  }
+  order.insert(order.end(), separator.shared().begin(), separator.shared().end());
+  return order;
+}
 
 DistributedFactor::DistributedFactor(const DistributedMatrix& matrix, double shift)
     : ShiftInverse(shift, matrix.layout.ranks()),

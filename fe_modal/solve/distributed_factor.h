@@ -20,7 +20,14 @@ struct DistributedMatrix {
   std::span<const std::int32_t> blocks;  ///< of this rank's part, their numbers in the whole
   const NodeGraph& graph;                ///< of these
   const SymmetricMatrix& summand;
+  /// Whether the blocks have the order in which their part eliminates them: then the summand is
+  /// taken as it is, without a copy.
+  bool is_in_order = false;
 };
+
+/// In which order a part eliminates its blocks: those inside, by nested dissection, then those of
+/// the separator.
+std::vector<std::int32_t> order_of_part(const NodeGraph& graph, const Separator& separator);
 
 /// K - shift M = L L^T on all ranks: each eliminates the blocks that it alone has, as a process
 /// alone does (SupernodalFactor), and all of them what is between their parts.

@@ -109,6 +109,14 @@ RankPart::RankPart(const mesher::Mesh& mesh, const DofMap& dof_map,
   piece_->mesh.connections = std::move(connections).on(piece_->nodes);
 }
 
+void RankPart::renumber(std::span<const std::int32_t> order) {
+  dof_map_->renumber(order);
+  std::vector<std::int32_t> blocks;
+  blocks.reserve(order.size());
+  for (const std::int32_t block : order) blocks.push_back(blocks_[static_cast<std::size_t>(block)]);
+  blocks_ = std::move(blocks);
+}
+
 Eigen::MatrixXd RankPart::rows_of_nodes(const Eigen::MatrixXd& all) const {
   if (!piece_) return all;
   return all(piece_->nodes, Eigen::all);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,8 +28,12 @@ class RankPart {
 
   const mesher::Mesh& mesh() const { return piece_ ? piece_->mesh : whole_; }
   const DofMap& dof_map() const { return piece_ ? *dof_map_ : whole_dof_map_; }
-  /// Numbers in the whole, ascending.
+  /// Numbers in the whole, ascending until renumber().
   const std::vector<std::int32_t>& blocks() const { return blocks_; }
+
+  /// Numbers the blocks in an order, a permutation of them: entry k becomes block k.
+  /// @pre not the whole, and not constrained
+  void renumber(std::span<const std::int32_t> order);
 
   /// Rows of the part's nodes of those of all, (n, k).
   Eigen::MatrixXd rows_of_nodes(const Eigen::MatrixXd& all) const;

@@ -19,9 +19,10 @@ struct PartitionQuality {
   double balance = 1;         ///< most elements of a process over the average
 };
 
-/// k-way partition of the dual graph, in which elements with a common side are neighbours, by METIS
-/// (Karypis and Kumar, J. Parallel Distrib. Comput. 48 (1998) 96). Equal input gives the same
-/// partition; a process may stay without elements if there are hardly more elements than processes.
+/// Partition of the dual graph, in which elements with a common side are neighbours, by METIS's
+/// recursive bisection (Karypis and Kumar, SIAM J. Sci. Comput. 20 (1998) 359). Equal input gives
+/// the same partition; a process may stay without elements if there are hardly more elements than
+/// processes.
 /// @throws InputError unless 1 <= count <= number of elements.
 /// @throws ComputationError if METIS fails.
 ElementPartition partition_elements(const Mesh& mesh, int count);
