@@ -23,7 +23,6 @@ SymmetricMatrix::Arrays SymmetricMatrix::sparsity_of(const NodeGraph& graph) {
                      " entries, more than PETSc's integers count; take a coarser mesh");
   }
   Arrays arrays;
-  arrays.columns.reserve(entries);
   arrays.node_offsets.push_back(0);
   arrays.offsets.push_back(0);
   for (std::int32_t node = 0; node < graph.node_count(); ++node) {
@@ -33,26 +32,40 @@ SymmetricMatrix::Arrays SymmetricMatrix::sparsity_of(const NodeGraph& graph) {
     arrays.later_nodes.insert(arrays.later_nodes.end(), later.begin(), later.end());
     arrays.node_offsets.push_back(static_cast<std::int32_t>(arrays.later_nodes.size()));
     for (PetscInt a = 0; a < 3; ++a) {
-      for (PetscInt b = a; b < 3; ++b) arrays.columns.push_back(3 * node + b);
-      for (const std::int32_t other : later) {
-        for (PetscInt b = 0; b < 3; ++b) arrays.columns.push_back(3 * other + b);
-      }
-      arrays.offsets.push_back(static_cast<PetscInt>(arrays.columns.size()));
+      const auto entries_of_row = static_cast<PetscInt>(3 * later.size()) + 3 - a;
+      arrays.offsets.push_back(arrays.offsets.back() + entries_of_row);
     }
   }
-  arrays.values.assign(arrays.columns.size(), 0);
+  arrays.values.assign(static_cast<std::size_t>(arrays.offsets.back()), 0);
   return arrays;
 }
 
 SymmetricMatrix::SymmetricMatrix(const NodeGraph& graph) : SymmetricMatrix(sparsity_of(graph)) {}
 
-SymmetricMatrix::SymmetricMatrix(Arrays arrays)
-    : arrays_(std::make_unique<Arrays>(std::move(arrays))) {
+std::span<const PetscInt> SymmetricMatrix::columns() const {
+  std::vector<PetscInt>& columns = arrays_->columns;
+  if (!columns.empty()) return columns;
+  columns.reserve(arrays_->values.size());
+  for (PetscInt node = 0; 3 * node < size(); ++node) {
+    for (PetscInt a = 0; a < 3; ++a) {
+      for (PetscInt b = a; b < 3; ++b) columns.push_back(3 * node + b);
+      for (const std::int32_t other : later(node)) {
+        for (PetscInt b = 0; b < 3; ++b) columns.push_back(3 * other + b);
+      }
+    }
+  }
+  return columns;
+}
+
+Mat SymmetricMatrix::get() const {
+  if (handle_.get() != nullptr) return handle_.get();
+  columns();
   require(
       MatCreateSeqSBAIJWithArrays(PETSC_COMM_SELF, 1, size(), size(), arrays_->offsets.data(),
                                   arrays_->columns.data(), arrays_->values.data(), handle_.out()),
       kMaking);
   require(MatSetOption(handle_.get(), MAT_SPD, PETSC_TRUE), kMaking);
+  return handle_.get();
 }
 
 SymmetricMatrix SymmetricMatrix::clone() const { return SymmetricMatrix(Arrays(*arrays_)); }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fe_modal/algebra/petsc_handles.h"
@@ -13,6 +14,8 @@ namespace flexneck::fe_modal {
 /// Symmetric positive matrix of 3 x 3 blocks, one for each pair of neighbours of a graph. Of the
 /// upper half each scalar row is stored in arrays of our own, which PETSc reads without a copy: to
 /// put an element in its place takes a search for each pair of nodes, not for each of nine entries.
+/// The columns of entries, which products do without, are made when somebody asks for them: of 8
+/// bytes an entry 4 more. Not to be asked by several threads at once.
 class SymmetricMatrix {
  public:
   /// Zero.
@@ -22,11 +25,11 @@ class SymmetricMatrix {
 
   PetscInt size() const { return static_cast<PetscInt>(arrays_->offsets.size()) - 1; }
   /// The matrix for PETSc. Changes of the entries show in it.
-  Mat get() const { return handle_.get(); }
+  Mat get() const;
 
   /// The upper half by scalar rows: row i has columns()[offsets()[i]] … and their values.
   std::span<const PetscInt> offsets() const { return arrays_->offsets; }
-  std::span<const PetscInt> columns() const { return arrays_->columns; }
+  std::span<const PetscInt> columns() const;
   std::span<double> values() { return arrays_->values; }
   std::span<const double> values() const { return arrays_->values; }
 
@@ -53,15 +56,15 @@ class SymmetricMatrix {
     std::vector<std::int32_t> node_offsets;
     std::vector<std::int32_t> later_nodes;
     std::vector<PetscInt> offsets;
-    std::vector<PetscInt> columns;
+    std::vector<PetscInt> columns;  ///< empty until asked for
     std::vector<PetscScalar> values;
   };
 
   static Arrays sparsity_of(const NodeGraph& graph);
-  explicit SymmetricMatrix(Arrays arrays);
+  explicit SymmetricMatrix(Arrays arrays) : arrays_(std::make_unique<Arrays>(std::move(arrays))) {}
 
   std::unique_ptr<Arrays> arrays_;  ///< at a fixed address: the handle points into it
-  MatHandle handle_;
+  mutable MatHandle handle_;
 };
 
 }  // namespace flexneck::fe_modal
