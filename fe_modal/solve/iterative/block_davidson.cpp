@@ -123,6 +123,11 @@ DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness
   // Of a small body a block may be added when little is left to find.
   Basis basis(ranks, block.rows(), std::min(kBlocksOfBasis * width, size + width));
   block = preconditioner(block_product(mass, block));
+  const auto residuals_of = [&](const Eigen::MatrixXd& vectors, const Eigen::VectorXd& values) {
+    Eigen::MatrixXd residuals = stiffness(vectors);
+    residuals -= block_product(mass, vectors) * values.asDiagonal();
+    return residuals;
+  };
   Eigen::MatrixXd before;
   for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
     block = orthonormal(ranks, basis, std::move(block), mass);
@@ -131,13 +136,12 @@ DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());
     const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, basis.count()));
     const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
-    EigenPairs pairs{values, product(basis.vectors(), best)};
-    Eigen::MatrixXd residuals = stiffness(pairs.vectors);
-    residuals -= block_product(mass, pairs.vectors) * values.asDiagonal();
+    block.resize(0, 0);  // the preconditioner needs memory, so nothing else is kept meanwhile
+    const Eigen::MatrixXd residuals = residuals_of(product(basis.vectors(), best), values);
     block = preconditioner(residuals);
     const Eigen::VectorXd errors = column_products(ranks, block, residuals).cwiseQuotient(values);
     if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
-      EigenPairs lowest{values.head(count), pairs.vectors.leftCols(count)};
+      EigenPairs lowest{values.head(count), product(basis.vectors(), best).leftCols(count)};
       if (values.size() > count) lowest.next = values[count];
       return {std::move(lowest), iteration};
     }
