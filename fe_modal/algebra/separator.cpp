@@ -108,6 +108,18 @@ std::vector<std::size_t> order_of(std::vector<Group>& groups) {
   return order;
 }
 
+/// Of a group and those that it is joined to, ascending.
+std::vector<int> rows_of(const Group& group, const std::vector<Group>& groups) {
+  std::vector<int> rows;
+  const auto append = [&rows](const Group& more) {
+    for (int row = 0; row < more.row_count(); ++row) rows.push_back(more.first_row + row);
+  };
+  append(group);
+  for (const std::size_t other : group.neighbours) append(groups[other]);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
 }  // namespace
 
 Separator::Separator(const Ranks& ranks, std::size_t block_count,
@@ -126,32 +138,28 @@ Separator::Separator(const Ranks& ranks, std::size_t block_count,
   for (const std::size_t g : order) {
     const Group& group = groups[g];
     const bool is_own = std::binary_search(group.ranks.begin(), group.ranks.end(), ranks.own());
-    std::vector<int> rows;
-    const auto append = [&rows](const Group& more) {
-      for (int row = 0; row < more.row_count(); ++row) rows.push_back(more.first_row + row);
-    };
-    append(group);
-    for (const std::size_t other : group.neighbours) append(groups[other]);
-    std::sort(rows.begin(), rows.end());
-    if (is_own) {
-      for (const std::int32_t block : group.blocks) {
-        const std::int32_t place = place_of[static_cast<std::size_t>(block)];
-        is_shared[static_cast<std::size_t>(place)] = true;
-        shared_.push_back(place);
-      }
-      rows_.insert(rows_.end(), rows.begin(), rows.begin() + group.row_count());
-    }
-    for (int begin = 0; begin < group.row_count(); begin += kMaxPanelColumns) {
-      if (is_own) own_panels_.push_back(panels_.size());
-      const auto owner = static_cast<std::int32_t>(panels_.size()) % ranks.count();
-      panels_.push_back({group.first_row + begin,
-                         std::min(kMaxPanelColumns, group.row_count() - begin),
-                         {rows.begin() + begin, rows.end()},
-                         owner});
+    add_panels(rows_of(group, groups), group.row_count(), is_own, ranks.count());
+    for (const std::int32_t block : is_own ? group.blocks : std::vector<std::int32_t>()) {
+      const std::int32_t place = place_of[static_cast<std::size_t>(block)];
+      is_shared[static_cast<std::size_t>(place)] = true;
+      shared_.push_back(place);
     }
   }
   for (std::size_t place = 0; place < blocks.size(); ++place) {
     if (!is_shared[place]) inside_.push_back(static_cast<std::int32_t>(place));
+  }
+}
+
+void Separator::add_panels(std::span<const int> rows, int columns, bool is_own,
+                           std::int32_t rank_count) {
+  if (is_own) rows_.insert(rows_.end(), rows.begin(), rows.begin() + columns);
+  for (int begin = 0; begin < columns; begin += kMaxPanelColumns) {
+    if (is_own) own_panels_.push_back(panels_.size());
+    const auto owner = static_cast<std::int32_t>(panels_.size()) % rank_count;
+    panels_.push_back({rows[static_cast<std::size_t>(begin)],
+                       std::min(kMaxPanelColumns, columns - begin),
+                       {rows.begin() + begin, rows.end()},
+                       owner});
   }
 }
 

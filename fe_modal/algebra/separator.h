@@ -41,6 +41,11 @@ class Separator {
   const std::vector<std::size_t>& own_panels() const { return own_panels_; }
 
  private:
+  /// Of a group of so many columns.
+  /// @param rows of its factor, the first those of the columns
+  /// @param is_own whether the part has them
+  void add_panels(std::span<const int> rows, int columns, bool is_own, std::int32_t rank_count);
+
   std::vector<std::int32_t> inside_;
   std::vector<std::int32_t> shared_;
   std::vector<int> rows_;

@@ -14,6 +14,8 @@
 namespace flexneck::fe_modal {
 namespace {
 
+constexpr auto kLanesOfSolve = static_cast<Eigen::Index>(kColumnsTogether);
+
 int row_count(const Panel& panel) { return static_cast<int>(panel.rows.size()); }
 
 std::size_t size_of(const Panel& panel) { return panel.rows.size() * as_index(panel.columns); }
@@ -178,48 +180,76 @@ SeparatorFactor::SeparatorFactor(const Ranks& ranks, const std::vector<Panel>& p
   elimination.run();
 }
 
+/// Eight columns on their way through the panels.
+class SeparatorFactor::Solve {
+ public:
+  Solve(const SeparatorFactor& factor, Eigen::Index rows)
+      : factor_(factor), x_(static_cast<std::size_t>(rows)), panel_x_(x_.size()) {}
+
+  auto columns() {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, kLanesOfSolve, Eigen::RowMajor>;
+    return Eigen::Map<RowMajor>(x_.front().value, static_cast<Eigen::Index>(x_.size()),
+                                kLanesOfSolve);
+  }
+
+  void run() {
+    for (std::size_t p = 0; p < factor_.panels_.size(); ++p) forward(p);
+    for (std::size_t p = factor_.panels_.size(); p-- > 0;) backward(p);
+  }
+
+ private:
+  void forward(std::size_t p) {
+    const Panel& panel = factor_.panels_[p];
+    if (is_own(panel)) {
+      std::copy_n(x_.begin() + panel.first, panel.columns, panel_x_.begin());
+      std::fill_n(panel_x_.begin() + panel.columns, row_count(panel) - panel.columns,
+                  RowOf<double>{});
+      eliminate(factor_block(p), panel_x_.data());
+    }
+    send(panel, row_count(panel));
+    auto all = columns();
+    for (std::size_t i = as_index(panel.columns); i < panel.rows.size(); ++i)
+      all.row(panel.rows[i]) +=
+          Eigen::Map<Eigen::Matrix<double, 1, kLanesOfSolve>>(panel_x_[i].value);
+  }
+
+  void backward(std::size_t p) {
+    const Panel& panel = factor_.panels_[p];
+    if (is_own(panel)) {
+      std::transform(panel.rows.begin(), panel.rows.end(), panel_x_.begin(),
+                     [&](int row) { return x_[as_index(row)]; });
+      substitute(factor_block(p), panel_x_.data());
+    }
+    send(panel, panel.columns);
+  }
+
+  bool is_own(const Panel& panel) const { return panel.owner == factor_.ranks_.own(); }
+  FactorBlock<double> factor_block(std::size_t p) const {
+    const Panel& panel = factor_.panels_[p];
+    return {factor_.values_[p].data(), row_count(panel), panel.columns};
+  }
+
+  /// The first rows of the panel to all ranks, of which those of its columns are final.
+  void send(const Panel& panel, int rows) {
+    MPI_Bcast(panel_x_.front().value, rows * static_cast<int>(kLanesOfSolve), MPI_DOUBLE,
+              panel.owner, communicator(factor_.ranks_));
+    std::copy_n(panel_x_.begin(), panel.columns, x_.begin() + panel.first);
+  }
+
+  const SeparatorFactor& factor_;
+  std::vector<RowOf<double>> x_;
+  std::vector<RowOf<double>> panel_x_;
+};
+
 void SeparatorFactor::solve(Eigen::MatrixXd& x) const {
-  constexpr auto kEight = static_cast<Eigen::Index>(kColumnsTogether);
-  using Row = RowOf<double>;
-  std::vector<Row> rows(static_cast<std::size_t>(x.rows()));
-  std::vector<Row> panel_rows(rows.size());
-  const auto factor_block = [&](std::size_t p) {
-    return FactorBlock<double>{values_[p].data(), row_count(panels_[p]), panels_[p].columns};
-  };
-  const auto send = [&](std::size_t p, int count) {
-    MPI_Bcast(panel_rows.front().value, count * static_cast<int>(kEight), MPI_DOUBLE,
-              panels_[p].owner, communicator(ranks_));
-  };
-  for (Eigen::Index first = 0; rows.size() > 0 && first < x.cols(); first += kEight) {
-    const Eigen::Index width = std::min(kEight, x.cols() - first);
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, kEight, Eigen::RowMajor>> eight(
-        rows.front().value, x.rows(), kEight);
-    eight.setZero();
-    eight.leftCols(width) = x.middleCols(first, width);
-    for (std::size_t p = 0; p < panels_.size(); ++p) {
-      const Panel& panel = panels_[p];
-      if (panel.owner == ranks_.own()) {
-        std::copy_n(rows.begin() + panel.first, panel.columns, panel_rows.begin());
-        std::fill(panel_rows.begin() + panel.columns, panel_rows.begin() + row_count(panel), Row{});
-        eliminate(factor_block(p), panel_rows.data());
-      }
-      send(p, row_count(panel));
-      std::copy_n(panel_rows.begin(), panel.columns, rows.begin() + panel.first);
-      for (std::size_t i = as_index(panel.columns); i < panel.rows.size(); ++i)
-        eight.row(panel.rows[i]) +=
-            Eigen::Map<Eigen::Matrix<double, 1, kEight>>(panel_rows[i].value);
-    }
-    for (std::size_t p = panels_.size(); p-- > 0;) {
-      const Panel& panel = panels_[p];
-      if (panel.owner == ranks_.own()) {
-        for (std::size_t i = 0; i < panel.rows.size(); ++i)
-          panel_rows[i] = rows[as_index(panel.rows[i])];
-        substitute(factor_block(p), panel_rows.data());
-      }
-      send(p, panel.columns);
-      std::copy_n(panel_rows.begin(), panel.columns, rows.begin() + panel.first);
-    }
-    x.middleCols(first, width) = eight.leftCols(width);
+  if (x.size() == 0) return;
+  Solve eight(*this, x.rows());
+  for (Eigen::Index first = 0; first < x.cols(); first += kLanesOfSolve) {
+    const Eigen::Index width = std::min(kLanesOfSolve, x.cols() - first);
+    eight.columns().setZero();
+    eight.columns().leftCols(width) = x.middleCols(first, width);
+    eight.run();
+    x.middleCols(first, width) = eight.columns().leftCols(width);
   }
 }
 

@@ -40,6 +40,7 @@ class SeparatorFactor {
 
  private:
   class Elimination;
+  class Solve;
 
   Ranks ranks_;
   const std::vector<Panel>& panels_;
