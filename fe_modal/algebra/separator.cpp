@@ -58,6 +58,7 @@ std::vector<Group> groups_between(const Ranks& ranks, std::size_t block_count,
     blocks_of[holding].push_back(shared[k]);
   }
   std::vector<Group> groups;
+  groups.reserve(blocks_of.size());
   for (auto& [holding, members] : blocks_of) groups.push_back({holding, members, {}, 0});
   return groups;
 }

@@ -10,6 +10,8 @@
 #include "fe_modal/algebra/separator_factor.h"
 #include "fe_modal/algebra/shift_inverse.h"
 #include "fe_modal/algebra/supernodal_factor.h"
+#include "fe_modal/algebra/symmetric_matrix.h"
+#include "fe_modal/dofs/node_graph.h"
 #include "fe_modal/system/rank_part.h"
 
 namespace flexneck::fe_modal {
