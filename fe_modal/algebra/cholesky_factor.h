@@ -16,7 +16,7 @@ namespace flexneck::fe_modal {
 
 /// An entry of a Cholesky factor takes this, with the zeros in its blocks and what its making
 /// needs besides.
-inline constexpr double kBytesPerFactorEntry = 10.4;
+inline constexpr double kBytesPerFactorEntry = 8.6;
 
 /// Of an entry on the diagonal: of a singular matrix rounding errors leave up to 1e-13 for a pivot,
 /// sound bodies hardly ever so little.

@@ -26,6 +26,15 @@ DenseBlock<double> block(const Panel& panel, std::vector<double>& values) {
 
 }  // namespace
 
+void add_rows(double factor, const DenseBlock<const double>& values, std::span<const int> rows,
+              const Panel& panel, const DenseBlock<double>& sum) {
+  int place = 0;
+  for (int i = 0; i < values.rows; ++i) {
+    while (panel.rows[as_index(place)] != rows[as_index(i)]) ++place;
+    for (int j = 0; j < values.columns; ++j) sum.column(j)[place] += factor * values.column(j)[i];
+  }
+}
+
 class SeparatorFactor::Elimination {
  public:
   Elimination(SeparatorFactor& factor, Pivots pivots, const Eigen::VectorXd& diagonal)
@@ -59,11 +68,9 @@ class SeparatorFactor::Elimination {
       note_squares(panels()[p], values);
       update_from(p, values, has_negative);
     }
-    Eigen::VectorXd results(2);
-    results << growth(), -factor_.smallest_pivot_;
-    factor_.ranks_.max(results);
-    factor_.growth_ = results[0];
-    factor_.smallest_pivot_ = -results[1];
+    // All ranks have seen all panels.
+    if (squares_.size() > 0)
+      factor_.growth_ = squares_.cwiseQuotient(diagonal_.cwiseAbs()).maxCoeff();
   }
 
  private:
@@ -118,10 +125,6 @@ class SeparatorFactor::Elimination {
     }
   }
 
-  double growth() const {
-    return squares_.size() == 0 ? 0 : squares_.cwiseQuotient(diagonal_.cwiseAbs()).maxCoeff();
-  }
-
   void update_from(std::size_t from, const DenseBlock<const double>& values, bool has_negative) {
     const Panel& panel = panels()[from];
     std::vector<std::size_t> targets;
@@ -151,12 +154,7 @@ class SeparatorFactor::Elimination {
     const DenseBlock<double> product = room_for(rows.rows, into.columns, workspace);
     std::vector<double> turned;
     multiply_with_signs(1.0, rows, signs, columns, 0.0, product, turned);
-    const DenseBlock<double> sum = block(into, factor_.values_[target]);
-    int place = 0;
-    for (int i = 0; i < rows.rows; ++i) {
-      while (into.rows[as_index(place)] != begin[i]) ++place;
-      for (int j = 0; j < into.columns; ++j) sum.column(j)[place] -= product.column(j)[i];
-    }
+    add_rows(-1, product, {begin, panel.rows.end()}, into, block(into, factor_.values_[target]));
   }
 
   SeparatorFactor& factor_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +13,11 @@
 #include "fe_modal/algebra/signed_cholesky.h"
 
 namespace flexneck::fe_modal {
+
+/// Adds factor times values of some of a panel's rows, in all of its columns, to the panel.
+/// @param rows (values.rows) of the separator, ascending
+void add_rows(double factor, const DenseBlock<const double>& values, std::span<const int> rows,
+              const Panel& panel, const DenseBlock<double>& sum);
 
 /// L S L^T of the Schur complement of a separator, to which each rank has its summand. Each panel
 /// is kept by one rank: it factorises it and sends it to all, which update those that they keep.

@@ -63,7 +63,10 @@ void analyse(const DistributedMatrix& matrix, const Separator& separator,
     if (!matrix.blocks.empty()) part.emplace(matrix, separator);
   });
   ranks.together([&] {
-    if (part) require_memory(what, bytes_per_entry * beside * part->get().nonzeros(), advice);
+    if (!part) return;
+    const std::string where =
+        beside > 1 ? " on the " + std::to_string(beside) + " ranks of this machine" : "";
+    require_memory(what + where, bytes_per_entry * beside * part->get().nonzeros(), advice);
   });
 }
 
@@ -90,12 +93,8 @@ SeparatorFactor::AddSummand summands(const Separator& separator,
     const auto begin =
         std::lower_bound(separator.rows().begin(), separator.rows().end(), panel.first);
     const auto rows = static_cast<int>(separator.rows().end() - begin);
-    const DenseBlock<double> block{values.data(), rows, panel.columns, rows};
-    int target = 0;
-    for (int i = 0; i < rows; ++i) {
-      while (panel.rows[static_cast<std::size_t>(target)] != begin[i]) ++target;
-      for (int j = 0; j < panel.columns; ++j) sum.column(j)[target] += block.column(j)[i];
-    }
+    add_rows(1, DenseBlock<const double>{values.data(), rows, panel.columns, rows},
+             {begin, separator.rows().end()}, panel, sum);
   };
 }
 
@@ -130,10 +129,8 @@ std::vector<std::int32_t> order_of_part(const NodeGraph& graph, const Separator&
 DistributedFactor::DistributedFactor(const DistributedMatrix& matrix, double shift)
     : ShiftInverse(shift, matrix.layout.ranks()),
       separator_(ranks(), block_count(matrix.layout), matrix.blocks) {
-  const std::string count = std::to_string(ranks().on_this_machine());
   std::optional<PartAnalysis> part;
-  analyse(matrix, separator_, part, kBytesPerFactorEntry,
-          "the factor on the " + count + " ranks of this machine",
+  analyse(matrix, separator_, part, kBytesPerFactorEntry, "the factor",
           "take a coarser mesh or more machines");
   ranks().together([&] {
     if (!part) return;

@@ -12,8 +12,8 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr double kProgram = 0.09e9;         ///< libraries, before anything is read
-constexpr double kAssembledPerDof = 4.1e3;  ///< mesh, graph, stiffness, its copy, mass, ten modes
-constexpr double kIterativePerDof = 7.2e3;  ///< those and the subdomains' factors
+constexpr double kAssembledPerDof = 3.8e3;  ///< mesh, graph, stiffness, mass, ten modes
+constexpr double kIterativePerDof = 6.2e3;  ///< those and the subdomains' factors
 /// Of the finer mesh of a certificate, beside what its own mesh takes: thirty columns of vectors,
 /// forces and momenta, and the factors of stars.
 constexpr double kRefinedPerDof = 1.5e3;

@@ -66,7 +66,8 @@ struct ModalOptions {
   Eigen::Matrix3Xd prestress_m = Eigen::Matrix3Xd();
   Ranks ranks = {};                              ///< processes that share the work
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
-  std::vector<std::int32_t> node_order = {};     ///< (n) from the mesh; empty: by METIS
+  /// (n) from the mesh; empty: by METIS. Ranks find an order of their own parts.
+  std::vector<std::int32_t> node_order = {};
 };
 
 /// Those of the mesh, behind them rigid interfaces and sets that are fixed in some directions.

@@ -14,9 +14,9 @@ namespace {
 
 /// Elements with three common corners have a common side.
 constexpr idx_t kCornersOfAFacet = 3;
-/// Of each bisection the best of so many is taken, whose halves differ from the mean by so many
-/// thousandths. By METIS's k-way partition, the best of one within 30, the neck of 191 000 degrees
-/// of freedom has a sixth more of them between two, four and eight parts.
+/// Each bisection is the best of so many, with halves that differ from the mean by up to so many
+/// thousandths. METIS's k-way partition, one of up to 30 thousandths, leaves a sixth more degrees
+/// of freedom between two, four and eight parts of the neck with 191 000.
 constexpr idx_t kCuts = 10;
 constexpr idx_t kImbalance = 50;
 
