@@ -3,35 +3,15 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/element/moduli.h"
+#include "fe_modal/element/pressure_basis.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::fe_modal {
-namespace {
-
-/// Exact for the mass of every kind with straight edges, and for its volume with curved ones.
-constexpr int kMassStrength = 3;
-
-Eigen::Index pressure_count(PressureSpace space) {
-  switch (space) {
-    case PressureSpace::none:
-      return 0;
-    case PressureSpace::constant:
-      return 1;
-    case PressureSpace::along_axis:
-      return 2;
-    case PressureSpace::linear:
-      return 4;
-  }
-  return 0;
-}
-
-}  // namespace
 
 ElementKernel::Points::Points(mesher::ElementKind kind, int strength) {
   const mesher::Quadrature rule = mesher::gauss_rule(kind, strength);
@@ -114,25 +94,11 @@ void ElementKernel::locate(const Eigen::Matrix3Xd& nodes_m, ElementPoints& of_st
   }
 }
 
-void ElementKernel::find_pressures(const Eigen::Matrix3Xd& nodes_m) {
-  pressures_.col(0) = points_.roots;
-  if (scheme_.pressures == PressureSpace::along_axis) {
-    pressures_.col(1) = points_.roots.cwiseProduct(points_.reference.row(2).transpose());
-  }
-  if (scheme_.pressures == PressureSpace::linear) {
-    // Centred and scaled for a well-conditioned Gram matrix; the span is the same.
-    multiply_transpose(1, points_.values, nodes_m.transpose(), 0, positions_);
-    positions_.rowwise() -= positions_.colwise().mean().eval();
-    const double size = positions_.cwiseAbs().maxCoeff();
-    pressures_.rightCols<3>() = (points_.roots / size).asDiagonal() * positions_;
-  }
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> gram =
-      pressures_.transpose() * pressures_;
-  gram.llt().matrixL().transpose().solveInPlace<Eigen::OnTheRight>(pressures_);
-}
-
 void ElementKernel::project_divergence(const Eigen::Matrix3Xd& nodes_m) {
-  find_pressures(nodes_m);
+  if (scheme_.pressures == PressureSpace::linear) {
+    multiply_transpose(1, points_.values, nodes_m.transpose(), 0, positions_);
+  }
+  find_pressures(scheme_.pressures, points_.roots, points_.reference, positions_, pressures_);
   multiply(1, gradients_, pressures_, 0, divergence_);
 }
 
@@ -211,60 +177,6 @@ void ElementKernel::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Mater
   weighted_ = points.values * points.roots.asDiagonal();
   result.mass.resize(weighted_.rows(), weighted_.rows());
   multiply_by_transpose(material.density_kg_m3, weighted_, weighted_, 0, result.mass);
-}
-
-void ElementKernel::turn_to_stress(const Moduli& moduli) {
-  const Eigen::Index q = volumetric_.rows();
-  const Eigen::Index k = volumetric_.cols();
-  const auto gradient = [&](Eigen::Index a, Eigen::Index b) {
-    return at_points_.block(b * q, a * k, q, k);
-  };
-  volumetric_ = gradient(0, 0) + gradient(1, 1) + gradient(2, 2);
-  if (scheme_.pressures == PressureSpace::none) {
-    volumetric_ *= moduli.lambda;
-  } else {
-    const double projected = projected_modulus(scheme_, moduli);
-    coefficients_.resize(pressures_.cols(), k);
-    multiply_transpose(1, pressures_, volumetric_, 0, coefficients_);
-    multiply(projected, pressures_, coefficients_, moduli.lambda - projected, volumetric_);
-  }
-  for (Eigen::Index a = 0; a < 3; ++a) {
-    gradient(a, a) = 2 * moduli.mu * gradient(a, a) + volumetric_;
-    for (Eigen::Index b = a + 1; b < 3; ++b) {
-      gradient(a, b) = moduli.mu * (gradient(a, b) + gradient(b, a));
-      gradient(b, a) = gradient(a, b);
-    }
-  }
-}
-
-void ElementKernel::apply(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
-                          const Eigen::MatrixXd& fields, Eigen::MatrixXd& forces,
-                          Eigen::MatrixXd* momenta) {
-  const Eigen::Index n = points_.values.rows();
-  const Eigen::Index q = points_.values.cols();
-  // As map() does, whose order of summation stored results have, in half the time.
-  multiply(1, nodes_m, points_.derivatives, 0, points_.jacobians);
-  find_roots(points_);
-  columns_.resize(n, 3 * q);
-  differentiate(points_, [&](Eigen::Index p, const auto& at_point) {
-    Eigen::Map<Eigen::MatrixX3d, 0, Eigen::OuterStride<>>(columns_.col(p).data(), n, 3,
-                                                          Eigen::OuterStride<>(n * q)) = at_point;
-  });
-  volumetric_.resize(q, fields.cols() / 3);
-  at_points_.resize(3 * q, fields.cols());
-  multiply_transpose(1, columns_, fields, 0, at_points_);
-  if (scheme_.pressures != PressureSpace::none) find_pressures(nodes_m);
-  turn_to_stress(moduli_of(material));
-  multiply(1, columns_, at_points_, 0, forces);
-
-  if (momenta == nullptr) return;
-  const bool shared = scheme_.strength == kMassStrength;
-  if (!shared) map(nodes_m, mass_points_);
-  const Points& points = shared ? points_ : mass_points_;
-  weighted_ = points.values * points.roots.asDiagonal();
-  weighted_fields_.resize(points.values.cols(), fields.cols());
-  multiply_transpose(1, weighted_, fields, 0, weighted_fields_);
-  multiply(material.density_kg_m3, weighted_, weighted_fields_, 0, *momenta);
 }
 
 }  // namespace flexneck::fe_modal

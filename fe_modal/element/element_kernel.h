@@ -60,13 +60,6 @@ class ElementKernel {
   void evaluate(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                 const Eigen::MatrixXd& fields, PointFields& result);
 
-  /// Stiffness and mass times fields, without the matrices: for some thirty columns in half the
-  /// time that it takes to form them.
-  /// @param fields (n, 3k): column a k + c is direction a of field c
-  /// @param forces, momenta likewise; must have their sizes; momenta perhaps null
-  void apply(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
-             const Eigen::MatrixXd& fields, Eigen::MatrixXd& forces, Eigen::MatrixXd* momenta);
-
   /// The points at which compute() integrates stiffness and mass.
   /// @throws ComputationError if the element is inverted at one of them.
   void locate(const Eigen::Matrix3Xd& nodes_m, ElementPoints& of_stiffness, ElementPoints& of_mass);
@@ -92,10 +85,7 @@ class ElementKernel {
   static void differentiate(const Points& points, const Visitor& visit);
   void find_gradients();
   static void locate(const Eigen::Matrix3Xd& nodes_m, Points& points, ElementPoints& result);
-  void find_pressures(const Eigen::Matrix3Xd& nodes_m);
   void project_divergence(const Eigen::Matrix3Xd& nodes_m);
-  /// The gradients' values at the points become those of the stress.
-  void turn_to_stress(const Moduli& moduli);
   void add_displacement_part(double mu, double square, Eigen::MatrixXd& stiffness) const;
 
   ElementScheme scheme_;
@@ -109,13 +99,6 @@ class ElementKernel {
   Eigen::MatrixXd divergence_;  ///< (3n, p) of the shape functions, projected
   Eigen::MatrixXd products_;    ///< (3n, 3n) int dN_i/dx_a dN_j/dx_b
   Eigen::MatrixXd weighted_;    ///< (n, q) shape functions times the roots
-  Eigen::MatrixXd columns_;     ///< of apply(): (n, 3q), column a q + p: dN_i / dx_a at point p
-  /// Of apply(): (3q, 3k), entry b q + p, a k + c: du_a / dx_b of field c, then sigma_ab; times the
-  /// roots.
-  Eigen::MatrixXd at_points_;
-  Eigen::MatrixXd volumetric_;       ///< of apply(): (q, k)
-  Eigen::MatrixXd coefficients_;     ///< of apply(): (p, k), of the pressures
-  Eigen::MatrixXd weighted_fields_;  ///< of apply(): (q of the mass, 3k), times the roots
 };
 
 }  // namespace flexneck::fe_modal

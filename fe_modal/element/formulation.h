@@ -51,6 +51,10 @@ enum class VolumetricPart {
   lame   ///< lambda/2 p(div u)^2 beside mu eps:eps: nothing where nu = 0
 };
 
+/// Of the quadrature of the mass: exact for every kind with straight edges, and for its volume with
+/// curved ones.
+inline constexpr int kMassStrength = 3;
+
 /// All that the kernel must know of an element beside its shape functions: a row of the table.
 struct ElementScheme {
   mesher::ElementKind kind;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,12 +11,13 @@
 #include "fe_modal/dofs/constrained_element.h"
 #include "fe_modal/dofs/dof_map.h"
 #include "fe_modal/element/formulation.h"
+#include "fe_modal/system/nodal_rows.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
 
 /// K and M of a mesh element by element, for meshes whose assembled stiffness would take too much
-/// memory: a product with ten columns takes about as long as one with the assembled matrices.
+/// memory.
 class ElementOperator {
  public:
   /// As assemble() takes them; mesh and dof_map must outlive this.
@@ -52,6 +54,10 @@ class ElementOperator {
   };
 
   Products multiply(const Eigen::MatrixXd& columns, bool with_mass) const;
+  void add_elements(const NodalRows& motions, NodalRows& forces,
+                    std::optional<NodalRows>& momenta) const;
+  static void add_point(const Point& point, const Eigen::MatrixXd& columns, bool with_mass,
+                        Products& products);
 
   const mesher::Mesh& mesh_;
   const DofMap& dof_map_;
