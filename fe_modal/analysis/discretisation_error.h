@@ -25,7 +25,7 @@ struct SolvedMesh {
 /// Discretisation error of each frequency, by the same modes with every element cut in eight
 /// (mesher::refine). The finer modes are those that an iteration makes of the coarse ones
 /// (refined_modes.h), so that each keeps its shape, and nothing else is searched for; what the
-/// iteration leaves out, at most a quarter of the change, is estimated and taken as a part of it
+/// iteration leaves out, at most a third of the change, is estimated and taken as a part of it
 /// where that makes it larger. Richardson extrapolation with the
 /// order that singular edges leave at worst, one, and a safety factor of 1.5 for coarse meshes make
 /// the estimate three times the change: as frequencies converge with an order p >= 1, that is

@@ -17,15 +17,18 @@ namespace {
 
 constexpr int kMaxSteps = 60;
 /// Of the change from mesh to mesh, or of the eigenvalue: what the steps left out may come to.
-constexpr double kShare = 0.25;
+constexpr double kShare = 1.0 / 3;
 /// The same of a mode that is above that of the mesh before, whose change shrinks as it settles.
 constexpr double kShareAbove = 0.05;
 constexpr double kRounding = 1e-7;
 /// And of the eigenvalue at most: where steps start from far above, most of the change is theirs.
 constexpr double kLargest = 0.05;
-/// The ratio of two steps' gains rises from step to step: the series is taken with so much more.
-constexpr double kSlowing = 1.3;
-constexpr double kSlowest = 0.95;
+/// Of the excess a step leaves from three to seven tenths, more from step to step. Gains of a
+/// single mode go up and down, and the first ones fall faster: the series is taken with the ratio
+/// of all modes over two steps, a tenth slower, and with no less than the first of these.
+constexpr double kFastest = 0.6;
+constexpr double kSlowest = 0.9;
+constexpr double kSlowing = 1.1;
 /// Directions of a basis of unit columns that are shorter have nothing new.
 constexpr double kNothingNew = 1e-12;
 
@@ -133,8 +136,7 @@ EigenPairs ritz_pairs(const Basis& basis, Eigen::Index count) {
   return {ritz.eigenvalues().head(count), independent * ritz.eigenvectors().leftCols(count)};
 }
 
-/// How the eigenvalues settle: what steps gain is continued as a geometric series, by the slower of
-/// the last two ratios.
+/// How the eigenvalues settle: what steps gain is continued as a geometric series.
 class Settling {
  public:
   Settling(const Eigen::VectorXd& coarse, Eigen::Index rigid_count)
@@ -149,13 +151,10 @@ class Settling {
   Eigen::VectorXd excess() const {
     const Eigen::ArrayXd last = gains_.back();
     const Eigen::ArrayXd before = gains_[gains_.size() - 2];
-    const Eigen::ArrayXd first = gains_[gains_.size() - 3];
-    const auto ratio_of = [](double later, double earlier) {
-      return earlier > 0 ? std::min(kSlowing * later / earlier, kSlowest) : kSlowest;
-    };
-    const Eigen::ArrayXd ratio =
-        last.binaryExpr(before, ratio_of).max(before.binaryExpr(first, ratio_of));
-    Eigen::VectorXd excess = last * ratio / (1 - ratio);
+    const double earlier = relative_sum(gains_[gains_.size() - 3]);
+    const double left = earlier > 0 ? std::sqrt(relative_sum(last) / earlier) : 0;
+    const double ratio = std::clamp(kSlowing * left, kFastest, kSlowest);
+    Eigen::VectorXd excess = last.max(ratio * before) * ratio / (1 - ratio);
     excess.head(rigid_count_).setZero();
     return excess;
   }
@@ -173,6 +172,12 @@ class Settling {
   }
 
  private:
+  /// Of the elastic modes, each against its eigenvalue.
+  double relative_sum(const Eigen::ArrayXd& gains) const {
+    const Eigen::Index elastic = values_.size() - rigid_count_;
+    return (gains.tail(elastic) / values_.array().tail(elastic)).sum();
+  }
+
   const Eigen::VectorXd& coarse_;
   Eigen::Index rigid_count_;
   Eigen::VectorXd values_;

@@ -12,7 +12,7 @@ namespace flexneck::fe_modal {
 struct RefinedModes {
   /// Upper bounds, (m), ascending.
   Eigen::VectorXd values;
-  /// Estimates of how far these are above the eigenvalues, (m), at most a quarter of the changes.
+  /// Estimates of how far these are above the eigenvalues, (m), at most a third of the changes.
   Eigen::VectorXd excess;
   Eigen::MatrixXd vectors;  ///< (own dofs, m), x^T M x = 1
 };
@@ -23,7 +23,7 @@ struct RefinedModes {
 /// of which nearly incompressible rubber makes much energy: each step ends with exact solves within
 /// the elements of that mesh, which take it away where these have a middle node (Schoeberl, as
 /// StarPatches). Ends when the steps, continued as a geometric series, would not change any
-/// eigenvalue by more than a quarter of its change from mesh to mesh.
+/// eigenvalue by more than a third of its change from mesh to mesh.
 /// @param coarse pairs of the mesh before
 /// @param rigid_count its first pairs that are rigid motions, which no mesh changes
 /// @throws ComputationError if the modes do not settle.

@@ -40,7 +40,7 @@ class RefinedSystem {
   Eigen::MatrixXd prolonged(const Eigen::MatrixXd& coarse) const {
     return transfer_.to_fine(coarse);
   }
-  /// By the stars and the mesh before, additively: symmetric.
+  /// By the mesh before and the stars, of which it takes twice the solution, added up: symmetric.
   Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const;
   /// Solves within the elements of the mesh before, StarPatches::solve_cells().
   Eigen::MatrixXd solve_cells(const Eigen::MatrixXd& residuals) const;
