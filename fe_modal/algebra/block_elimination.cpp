@@ -15,6 +15,9 @@ constexpr int kRowsFetched = 8;  ///< a line of the cache, in single precision h
 template <typename Row>
 constexpr int kPanel = Row::kRegisters <= 2 ? 2 * kNode : kNode;
 
+template <typename Row>
+using RowOfSame = RowOf<typename Row::Scalar, Row::kLanes>;
+
 /// Some columns of a block, from their diagonal down. The next, and the ones before, follow in
 /// memory, mostly those of another block, and so they are fetched while these are worked on: the
 /// processor by itself foresees no more than the rest of a page.
@@ -37,7 +40,7 @@ struct Columns {
 
 template <typename Row, int count>
 [[gnu::always_inline]] inline void eliminate_columns(const Columns<typename Row::Scalar>& columns,
-                                                     RowOf<typename Row::Scalar>* x) {
+                                                     RowOfSame<Row>* x) {
   Row own[count];
   for (int c = 0; c < count; ++c) {
     own[c].load(x[c]);
@@ -61,7 +64,7 @@ template <typename Row, int count>
 
 template <typename Row, int count>
 [[gnu::always_inline]] inline void substitute_columns(const Columns<typename Row::Scalar>& columns,
-                                                      RowOf<typename Row::Scalar>* x) {
+                                                      RowOfSame<Row>* x) {
   Row own[count];
   for (int c = 0; c < count; ++c) own[c].load(x[c]);
   const auto take = [&](int i) __attribute__((always_inline)) {
@@ -91,7 +94,7 @@ template <typename Scalar>
 
 template <typename Row>
 [[gnu::always_inline]] inline void eliminate_with(const FactorBlock<typename Row::Scalar>& block,
-                                                  RowOf<typename Row::Scalar>* x) {
+                                                  RowOfSame<Row>* x) {
   int j = 0;
   for (; j + kPanel<Row> <= block.columns; j += kPanel<Row>) {
     eliminate_columns<Row, kPanel<Row>>(columns_from(block, j), x + j);
@@ -104,7 +107,7 @@ template <typename Row>
 
 template <typename Row>
 [[gnu::always_inline]] inline void substitute_with(const FactorBlock<typename Row::Scalar>& block,
-                                                   RowOf<typename Row::Scalar>* x) {
+                                                   RowOfSame<Row>* x) {
   int j = block.columns;
   for (; j % kNode != 0; --j) {
     substitute_columns<Row, 1>(columns_from(block, j - 1), x + j - 1);
@@ -119,25 +122,29 @@ template <typename Row>
 
 }  // namespace
 
-template <typename Scalar>
-void eliminate(const FactorBlock<Scalar>& block, RowOf<Scalar>* x, VectorRegisters registers) {
+template <typename Scalar, std::size_t lanes>
+void eliminate(const FactorBlock<Scalar>& block, RowOf<Scalar, lanes>* x,
+               VectorRegisters registers) {
   run_with(
       registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
-        eliminate_with<RegisterRow<Scalar, bytes>>(block, x);
+        eliminate_with<RegisterRow<Scalar, bytes, lanes>>(block, x);
       });
 }
 
-template <typename Scalar>
-void substitute(const FactorBlock<Scalar>& block, RowOf<Scalar>* x, VectorRegisters registers) {
+template <typename Scalar, std::size_t lanes>
+void substitute(const FactorBlock<Scalar>& block, RowOf<Scalar, lanes>* x,
+                VectorRegisters registers) {
   run_with(
       registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
-        substitute_with<RegisterRow<Scalar, bytes>>(block, x);
+        substitute_with<RegisterRow<Scalar, bytes, lanes>>(block, x);
       });
 }
 
 template void eliminate(const FactorBlock<double>&, RowOf<double>*, VectorRegisters);
 template void eliminate(const FactorBlock<float>&, RowOf<float>*, VectorRegisters);
+template void eliminate(const FactorBlock<float>&, RowOf<float, 16>*, VectorRegisters);
 template void substitute(const FactorBlock<double>&, RowOf<double>*, VectorRegisters);
 template void substitute(const FactorBlock<float>&, RowOf<float>*, VectorRegisters);
+template void substitute(const FactorBlock<float>&, RowOf<float, 16>*, VectorRegisters);
 
 }  // namespace flexneck::fe_modal

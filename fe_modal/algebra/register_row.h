@@ -15,12 +15,12 @@ struct alignas(lanes * sizeof(Scalar)) RowOf {
   Scalar value[lanes];
 };
 
-/// A row of eight in vector registers of so many bytes. Wider ones than the processor has would be
-/// taken apart number by number.
-template <typename Number, std::size_t bytes>
+/// A row in vector registers of so many bytes. Wider ones than the processor has would be taken
+/// apart number by number.
+template <typename Number, std::size_t bytes, std::size_t lanes = kColumnsTogether>
 struct RegisterRow {
   using Scalar = Number;
-  static constexpr std::size_t kLanes = kColumnsTogether;
+  static constexpr std::size_t kLanes = lanes;
   static constexpr std::size_t kBytes =
       bytes < kLanes * sizeof(Scalar) ? bytes : kLanes * sizeof(Scalar);
   static constexpr std::size_t kRegisters = kLanes * sizeof(Scalar) / kBytes;
@@ -29,12 +29,12 @@ struct RegisterRow {
 
   Register part[kRegisters] = {};
 
-  [[gnu::always_inline]] void load(const RowOf<Scalar>& row) {
+  [[gnu::always_inline]] void load(const RowOf<Scalar, lanes>& row) {
     for (std::size_t k = 0; k < kRegisters; ++k) {
       part[k] = reinterpret_cast<const Register*>(row.value)[k];
     }
   }
-  [[gnu::always_inline]] void store(RowOf<Scalar>& row) const {
+  [[gnu::always_inline]] void store(RowOf<Scalar, lanes>& row) const {
     for (std::size_t k = 0; k < kRegisters; ++k) {
       reinterpret_cast<Register*>(row.value)[k] = part[k];
     }

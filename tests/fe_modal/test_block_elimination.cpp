@@ -23,23 +23,25 @@ Matrix<Scalar> block_of(int rows, int columns) {
   return block;
 }
 
-template <typename Scalar>
+template <typename Scalar, std::size_t lanes>
 struct RightHandSides {
-  std::vector<RowOf<Scalar>> rows;
+  std::vector<RowOf<Scalar, lanes>> rows;
 
   explicit RightHandSides(const Matrix<Scalar>& values)
       : rows(static_cast<std::size_t>(values.rows())) {
     map() = values;
   }
   auto map() {
-    using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, 8, Eigen::RowMajor>;
-    return Eigen::Map<RowMajor>(rows.front().value, static_cast<Eigen::Index>(rows.size()), 8);
+    constexpr auto kColumns = static_cast<Eigen::Index>(lanes);
+    using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, kColumns, Eigen::RowMajor>;
+    return Eigen::Map<RowMajor>(rows.front().value, static_cast<Eigen::Index>(rows.size()),
+                                kColumns);
   }
 };
 
-template <typename Scalar>
+template <typename Scalar, std::size_t lanes>
 void check_block(int rows, int columns, VectorRegisters registers) {
-  CAPTURE(rows, columns, sizeof(Scalar), static_cast<int>(registers));
+  CAPTURE(rows, columns, sizeof(Scalar), lanes, static_cast<int>(registers));
   const Matrix<Scalar> block = block_of<Scalar>(rows, columns);
   // The block lies among others, which the loops may fetch but not use.
   std::vector<Scalar> memory(static_cast<std::size_t>(3 * rows * columns), Scalar(1e30));
@@ -47,10 +49,10 @@ void check_block(int rows, int columns, VectorRegisters registers) {
   const FactorBlock<Scalar> view{memory.data() + rows * columns, rows, columns};
   const auto triangle = block.topRows(columns).template triangularView<Eigen::Lower>();
   const auto below = block.bottomRows(rows - columns);
-  const Matrix<Scalar> given = Matrix<Scalar>::Random(rows, 8);
+  const Matrix<Scalar> given = Matrix<Scalar>::Random(rows, static_cast<Eigen::Index>(lanes));
   const Scalar tolerance = 100 * Eigen::NumTraits<Scalar>::epsilon();
 
-  RightHandSides<Scalar> forward(given);
+  RightHandSides<Scalar, lanes> forward(given);
   forward.map().bottomRows(rows - columns).setZero();
   eliminate(view, forward.rows.data(), registers);
   const Matrix<Scalar> eliminated = triangle.solve(given.topRows(columns));
@@ -60,7 +62,7 @@ void check_block(int rows, int columns, VectorRegisters registers) {
           tolerance);
   }
 
-  RightHandSides<Scalar> backward(given);
+  RightHandSides<Scalar, lanes> backward(given);
   substitute(view, backward.rows.data(), registers);
   const Matrix<Scalar> rest =
       given.topRows(columns) - below.transpose() * given.bottomRows(rows - columns);
@@ -77,8 +79,9 @@ TEST_CASE("a block of a factor eliminates and substitutes as dense triangles, of
     if (registers > widest_registers()) continue;
     for (int columns = 1; columns <= 14; ++columns) {
       for (const int more : {0, 1, 7, 8, 9, 30}) {
-        check_block<double>(columns + more, columns, registers);
-        check_block<float>(columns + more, columns, registers);
+        check_block<double, 8>(columns + more, columns, registers);
+        check_block<float, 8>(columns + more, columns, registers);
+        check_block<float, 16>(columns + more, columns, registers);
       }
     }
   }

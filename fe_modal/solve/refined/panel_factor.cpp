@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 
 #include "fe_modal/algebra/blas.h"
 #include "fe_modal/algebra/cholesky_factor.h"
@@ -28,13 +27,14 @@ PanelFactor::PanelFactor(Eigen::MatrixXd& matrix) : size_(static_cast<int>(matri
   std::size_t count = 0;
   for (int first = 0; first < size_; first += kPanelColumns)
     count += size_of(panel_at(nullptr, first));
-  values_.reserve(count);
+  values_.resize(count);
+  float* place = values_.data();
   for (int first = 0; first < size_; first += kPanelColumns) {
     const int end = std::min(first + kPanelColumns, size_);
     for (int j = first; j < end; ++j) {
       const double* const column = matrix.col(j).data();
-      std::transform(column + first, column + size_, std::back_inserter(values_),
-                     [](double value) { return static_cast<float>(value); });
+      place = std::transform(column + first, column + size_, place,
+                             [](double value) { return static_cast<float>(value); });
     }
   }
 }
@@ -43,7 +43,8 @@ FactorBlock<float> PanelFactor::panel_at(const float* values, int first) const {
   return {values, size_ - first, std::min(kPanelColumns, size_ - first)};
 }
 
-void PanelFactor::solve(RowOf<float>* x) const {
+template <std::size_t lanes>
+void PanelFactor::solve(RowOf<float, lanes>* x) const {
   const float* values = values_.data();
   int first = 0;
   for (; first < size_; first += kPanelColumns) {
@@ -57,5 +58,8 @@ void PanelFactor::solve(RowOf<float>* x) const {
     substitute(panel_at(values, first), x + first);
   }
 }
+
+template void PanelFactor::solve(RowOf<float, 8>*) const;
+template void PanelFactor::solve(RowOf<float, 16>*) const;
 
 }  // namespace flexneck::fe_modal

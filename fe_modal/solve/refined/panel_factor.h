@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,8 +19,9 @@ class PanelFactor {
   /// @throws ComputationError if it is not positive definite.
   explicit PanelFactor(Eigen::MatrixXd& matrix);
 
-  /// x = (L L^T)^-1 x, as many rows as the matrix.
-  void solve(RowOf<float>* x) const;
+  /// x = (L L^T)^-1 x, as many rows as the matrix, of 8 or 16 columns.
+  template <std::size_t lanes>
+  void solve(RowOf<float, lanes>* x) const;
 
  private:
   /// @param first column

@@ -52,7 +52,17 @@ class Basis {
     project_last(&Block::momenta, mass_);
   }
   const Block& modes() const { return blocks_.front(); }
-  Eigen::MatrixXd take_vectors() { return std::move(blocks_.front().vectors); }
+  /// Combinations of the vectors of all columns.
+  Eigen::MatrixXd vectors_of(const Eigen::MatrixXd& combinations) const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(modes().vectors.rows(), combinations.cols());
+    Eigen::Index first = 0;
+    for (const Block& block : blocks_) {
+      const Eigen::Index count = block.vectors.cols();
+      multiply(1, block.vectors, combinations.middleRows(first, count), 1, result);
+      first += count;
+    }
+    return result;
+  }
   const Eigen::MatrixXd& stiffness() const { return stiffness_; }
   const Eigen::MatrixXd& mass() const { return mass_; }
 
@@ -238,9 +248,8 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
     const EigenPairs ritz = ritz_pairs(basis, count);
     settling.take(ritz.values);
     if (settling.has_ended() || rigid_count == count) {
-      basis.combine(ritz.vectors, {});
       return {ritz.values, rigid_count == count ? Eigen::VectorXd::Zero(count) : settling.excess(),
-              basis.take_vectors()};
+              basis.vectors_of(ritz.vectors)};
     }
     basis.combine(ritz.vectors, directions_of(ritz.vectors, rigid_count));
     Eigen::MatrixXd directions =

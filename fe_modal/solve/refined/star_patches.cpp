@@ -242,29 +242,38 @@ Eigen::MatrixXd StarPatches::solve_cells(const Eigen::MatrixXd& residuals) const
 
 Eigen::MatrixXd StarPatches::sum_of(const std::vector<std::size_t>& patches,
                                     const Eigen::MatrixXd& residuals) const {
+  if (residuals.cols() <= 8) return sum_by_lanes<8>(patches, residuals);
+  return sum_by_lanes<16>(patches, residuals);
+}
+
+template <std::size_t lanes>
+Eigen::MatrixXd StarPatches::sum_by_lanes(const std::vector<std::size_t>& patches,
+                                          const Eigen::MatrixXd& residuals) const {
   // Of unit size: forces of slow modes may be too small for single precision.
   const double largest = residuals.size() == 0 ? 0 : residuals.cwiseAbs().maxCoeff();
   if (largest == 0) return Eigen::MatrixXd::Zero(residuals.rows(), residuals.cols());
-  // Row by row the columns in groups of eight, all of which a patch's factor meets in turn.
-  constexpr auto kTogether = static_cast<Eigen::Index>(kColumnsTogether);
+  // Row by row the columns in groups, all of which a patch's factor meets in turn.
+  constexpr auto kTogether = static_cast<Eigen::Index>(lanes);
   using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::Index groups = (residuals.cols() + kTogether - 1) / kTogether;
-  std::vector<RowOf<float>> given(static_cast<std::size_t>(residuals.rows() * groups));
-  std::vector<RowOf<float>> sums(given.size());
-  const auto columns_of = [&](std::vector<RowOf<float>>& rows) {
+  std::vector<RowOf<float, lanes>> given(static_cast<std::size_t>(residuals.rows() * groups));
+  std::vector<RowOf<float, lanes>> sums(given.size());
+  const auto columns_of = [&](std::vector<RowOf<float, lanes>>& rows) {
     return Eigen::Map<RowMajor>(rows.front().value, residuals.rows(), groups * kTogether);
   };
   columns_of(given).leftCols(residuals.cols()) = (residuals / largest).cast<float>();
   for (const std::size_t number : patches) {
-    add_solution(patches_[number], static_cast<std::size_t>(groups), given, sums);
+    add_solution<lanes>(patches_[number], static_cast<std::size_t>(groups), given, sums);
   }
-  return largest * columns_of(sums).leftCols(residuals.cols()).cast<double>();
+  return largest * columns_of(sums).leftCols(residuals.cols()).template cast<double>();
 }
 
+template <std::size_t lanes>
 void StarPatches::add_solution(const Patch& patch, std::size_t groups,
-                               std::span<const RowOf<float>> forces, std::span<RowOf<float>> sums) {
+                               std::span<const RowOf<float, lanes>> forces,
+                               std::span<RowOf<float, lanes>> sums) {
   constexpr std::size_t kNode = 3;
-  std::vector<RowOf<float>> own(kNode * patch.blocks.size());
+  std::vector<RowOf<float, lanes>> own(kNode * patch.blocks.size());
   const auto row_of = [&](std::size_t i) {
     return groups * (kNode * static_cast<std::size_t>(patch.blocks[i / kNode]) + i % kNode);
   };
@@ -272,8 +281,8 @@ void StarPatches::add_solution(const Patch& patch, std::size_t groups,
     for (std::size_t i = 0; i < own.size(); ++i) own[i] = forces[row_of(i) + group];
     patch.factor.solve(own.data());
     for (std::size_t i = 0; i < own.size(); ++i) {
-      RowOf<float>& sum = sums[row_of(i) + group];
-      for (std::size_t c = 0; c < kColumnsTogether; ++c) sum.value[c] += own[i].value[c];
+      RowOf<float, lanes>& sum = sums[row_of(i) + group];
+      for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += own[i].value[c];
     }
   }
 }

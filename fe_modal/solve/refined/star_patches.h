@@ -49,10 +49,15 @@ class StarPatches {
 
   Eigen::MatrixXd sum_of(const std::vector<std::size_t>& patches,
                          const Eigen::MatrixXd& residuals) const;
-
+  /// So many columns at a time.
+  template <std::size_t lanes>
+  Eigen::MatrixXd sum_by_lanes(const std::vector<std::size_t>& patches,
+                               const Eigen::MatrixXd& residuals) const;
   /// @param forces, sums (dofs x groups), row by row
+  template <std::size_t lanes>
   static void add_solution(const Patch& patch, std::size_t groups,
-                           std::span<const RowOf<float>> forces, std::span<RowOf<float>> sums);
+                           std::span<const RowOf<float, lanes>> forces,
+                           std::span<RowOf<float, lanes>> sums);
 
   std::vector<Patch> patches_;
   std::vector<std::size_t> all_;    ///< 0 … patches - 1
