@@ -23,9 +23,10 @@ constexpr double kShareAbove = 0.05;
 constexpr double kRounding = 1e-7;
 /// And of the eigenvalue at most: where steps start from far above, most of the change is theirs.
 constexpr double kLargest = 0.05;
-/// Of the excess a step leaves from three to seven tenths, more from step to step. Gains of a
-/// single mode go up and down, and the first ones fall faster: the series is taken with the ratio
-/// of all modes over two steps, a tenth slower, and with no less than the first of these.
+/// Of the excess a step leaves from three to seven tenths, more from step to step. Gains go up and
+/// down, and the first ones fall faster: the series is taken with the ratio over two steps, of a
+/// mode or of all, whichever falls slower, and a tenth slower than that, but not below the first of
+/// these.
 constexpr double kFastest = 0.6;
 constexpr double kSlowest = 0.9;
 constexpr double kSlowing = 1.1;
@@ -161,9 +162,10 @@ class Settling {
   Eigen::VectorXd excess() const {
     const Eigen::ArrayXd last = gains_.back();
     const Eigen::ArrayXd before = gains_[gains_.size() - 2];
-    const double earlier = relative_sum(gains_[gains_.size() - 3]);
-    const double left = earlier > 0 ? std::sqrt(relative_sum(last) / earlier) : 0;
-    const double ratio = std::clamp(kSlowing * left, kFastest, kSlowest);
+    const Eigen::ArrayXd earlier = gains_[gains_.size() - 3];
+    const double of_all = ratio_of(relative_sum(last), relative_sum(earlier));
+    const Eigen::ArrayXd ratio =
+        (kSlowing * last.binaryExpr(earlier, &ratio_of).max(of_all)).max(kFastest).min(kSlowest);
     Eigen::VectorXd excess = last.max(ratio * before) * ratio / (1 - ratio);
     excess.head(rigid_count_).setZero();
     return excess;
@@ -182,6 +184,10 @@ class Settling {
   }
 
  private:
+  /// What a step leaves, by its gain and that of the step two before.
+  static double ratio_of(double last, double earlier) {
+    return earlier > 0 ? std::sqrt(last / earlier) : 0;
+  }
   /// Of the elastic modes, each against its eigenvalue.
   double relative_sum(const Eigen::ArrayXd& gains) const {
     const Eigen::Index elastic = values_.size() - rigid_count_;
