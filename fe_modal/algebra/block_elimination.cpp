@@ -142,9 +142,11 @@ void substitute(const FactorBlock<Scalar>& block, RowOf<Scalar, lanes>* x,
 
 template void eliminate(const FactorBlock<double>&, RowOf<double>*, VectorRegisters);
 template void eliminate(const FactorBlock<float>&, RowOf<float>*, VectorRegisters);
-template void eliminate(const FactorBlock<float>&, RowOf<float, 16>*, VectorRegisters);
+template void eliminate(const FactorBlock<float>&, RowOf<float, kSinglesTogether>*,
+                        VectorRegisters);
 template void substitute(const FactorBlock<double>&, RowOf<double>*, VectorRegisters);
 template void substitute(const FactorBlock<float>&, RowOf<float>*, VectorRegisters);
-template void substitute(const FactorBlock<float>&, RowOf<float, 16>*, VectorRegisters);
+template void substitute(const FactorBlock<float>&, RowOf<float, kSinglesTogether>*,
+                         VectorRegisters);
 
 }  // namespace flexneck::fe_modal

@@ -73,9 +73,9 @@ void PackedMatrix::multiply(const RowOf<double>* x, std::size_t groups, RowOf<do
   run_with(
       registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
         using Row = RegisterRow<double, bytes>;
-        std::size_t first =
-            multiply_groups<Row, kGroups<Row>>(values_, rows_, columns_, x, 0, groups, y);
-        if constexpr (kGroups < Row >> 2) {
+        constexpr std::size_t kMost = kGroups<Row>;
+        std::size_t first = multiply_groups<Row, kMost>(values_, rows_, columns_, x, 0, groups, y);
+        if constexpr (kMost > 2) {
           first = multiply_groups<Row, 2>(values_, rows_, columns_, x, first, groups, y);
         }
         multiply_groups<Row, 1>(values_, rows_, columns_, x, first, groups, y);

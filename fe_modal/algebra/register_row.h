@@ -7,6 +7,8 @@ namespace flexneck::fe_modal {
 
 /// Columns that are worked on together: as many numbers as the widest register holds.
 inline constexpr std::size_t kColumnsTogether = 8;
+/// The same in single precision, where there are as many columns.
+inline constexpr std::size_t kSinglesTogether = 2 * kColumnsTogether;
 
 /// A row of eight right-hand sides, or of a single one. A matrix or a factor, which no cache holds,
 /// is read once for all of them.

@@ -112,7 +112,7 @@ void ElementProduct::take_positions(const Eigen::Matrix3Xd& nodes_m) {
 }
 
 void ElementProduct::map(Rule& rule) {
-  at_points_.resize(3 * rule.tables.point_count());
+  at_points_.resize(3 * rule.point_count());
   rule.tables.to_gradients(positions_.data(), 1, at_points_.data());
   for (Eigen::Index p = 0; p < rule.roots.size(); ++p) {
     Eigen::Matrix3d jacobian;
@@ -133,7 +133,7 @@ void ElementProduct::map(Rule& rule) {
 
 void ElementProduct::find_element_pressures() {
   if (scheme_.pressures == PressureSpace::linear) {
-    at_points_.resize(rule_.tables.point_count());
+    at_points_.resize(rule_.point_count());
     rule_.tables.to_values(positions_.data(), 1, at_points_.data());
     for (Eigen::Index p = 0; p < point_positions_.rows(); ++p) {
       point_positions_.row(p) =
@@ -145,7 +145,7 @@ void ElementProduct::find_element_pressures() {
 }
 
 void ElementProduct::turn_to_stress(const Moduli& moduli, std::size_t field_count) {
-  const auto points = static_cast<std::size_t>(rule_.roots.size());
+  const std::size_t points = rule_.point_count();
   volumetric_.resize(static_cast<Eigen::Index>(field_count), rule_.roots.size());
   const auto of_point = [&](std::size_t p) __attribute__((always_inline)) {
     return volumetric_.data() + p * field_count;
@@ -172,7 +172,7 @@ void ElementProduct::turn_to_stress(const Moduli& moduli, std::size_t field_coun
 void ElementProduct::find_momenta(const Rule& rule, double density_kg_m3,
                                   const RowOf<double>* fields, std::size_t groups,
                                   RowOf<double>* momenta) {
-  at_points_.resize(rule.tables.point_count() * groups);
+  at_points_.resize(rule.point_count() * groups);
   rule.tables.to_values(fields, groups, at_points_.data());
   run_with(
       registers_, [&]<std::size_t bytes>() __attribute__((always_inline)) {
@@ -197,7 +197,7 @@ void ElementProduct::apply(const Eigen::Matrix3Xd& nodes_m, const mesher::Materi
   take_positions(nodes_m);
   map(rule_);
   if (scheme_.pressures != PressureSpace::none) find_element_pressures();
-  at_points_.resize(3 * rule_.tables.point_count() * groups);
+  at_points_.resize(3 * rule_.point_count() * groups);
   rule_.tables.to_gradients(fields, groups, at_points_.data());
   const auto combine_all = [&](std::size_t across, std::size_t down) {
     run_with(

@@ -44,6 +44,7 @@ class ElementProduct {
   /// are.
   struct Rule {
     Rule(mesher::ElementKind kind, int strength, VectorRegisters registers);
+    std::size_t point_count() const { return static_cast<std::size_t>(roots.size()); }
 
     mesher::Quadrature quadrature;
     PointTables tables;

@@ -51,6 +51,16 @@ std::array<double, 9> transposed(const std::array<double, 9>& table) {
   return result;
 }
 
+std::variant<FullTables, LineTables> tables_of(mesher::ElementKind kind,
+                                               const mesher::Quadrature& rule,
+                                               VectorRegisters registers) {
+  if (kind == mesher::ElementKind::hex27 && rule.points.cols() == kCube) {
+    // The first three points of a product rule differ in the last coordinate.
+    return LineTables({rule.points(2, 0), rule.points(2, 1), rule.points(2, 2)}, registers);
+  }
+  return FullTables(mesher::tabulate(kind, rule.points), registers);
+}
+
 }  // namespace
 
 LineTables::LineTables(const std::array<double, 3>& positions, VectorRegisters registers)
@@ -162,42 +172,15 @@ void LineTables::from_values(const RowOf<double>* x, std::size_t groups, RowOf<d
   multiply(values_transposed_, false, x, groups, y);
 }
 
-PointTables::PointTables(mesher::ElementKind kind, const mesher::Quadrature& rule,
-                         VectorRegisters registers)
-    : PointTables(mesher::tabulate(kind, rule.points), kind, rule, registers) {}
-
-PointTables::PointTables(const mesher::ShapeTable& table, mesher::ElementKind kind,
-                         const mesher::Quadrature& rule, VectorRegisters registers)
+FullTables::FullTables(const mesher::ShapeTable& table, VectorRegisters registers)
     : registers_(registers),
       gradients_(gradient_table(table)),
       gradients_transposed_(gradient_table(table).transpose()),
       values_(table.values.transpose()),
-      values_transposed_(table.values) {
-  if (kind == mesher::ElementKind::hex27 && point_count() == kCube) {
-    // The first three points of a product rule differ in the last coordinate.
-    lines_.emplace(std::array{rule.points(2, 0), rule.points(2, 1), rule.points(2, 2)}, registers);
-  }
-}
+      values_transposed_(table.values) {}
 
-void PointTables::to_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
-  if (lines_) return lines_->to_gradients(x, groups, y);
-  gradients_.multiply(x, groups, y, registers_);
-}
-
-void PointTables::from_gradients(const RowOf<double>* x, std::size_t groups,
-                                 RowOf<double>* y) const {
-  if (lines_) return lines_->from_gradients(x, groups, y);
-  gradients_transposed_.multiply(x, groups, y, registers_);
-}
-
-void PointTables::to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
-  if (lines_) return lines_->to_values(x, groups, y);
-  values_.multiply(x, groups, y, registers_);
-}
-
-void PointTables::from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
-  if (lines_) return lines_->from_values(x, groups, y);
-  values_transposed_.multiply(x, groups, y, registers_);
-}
+PointTables::PointTables(mesher::ElementKind kind, const mesher::Quadrature& rule,
+                         VectorRegisters registers)
+    : tables_(tables_of(kind, rule, registers)) {}
 
 }  // namespace flexneck::fe_modal

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <variant>
 
 #include <Eigen/Core>
 
@@ -42,36 +42,60 @@ class LineTables {
   Table derivatives_transposed_;
 };
 
+/// The same of any kind and rule, by tables of all nodes and points.
+class FullTables {
+ public:
+  FullTables(const mesher::ShapeTable& table, VectorRegisters registers);
+
+  // As in PointTables.
+  void to_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    gradients_.multiply(x, groups, y, registers_);
+  }
+  void from_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    gradients_transposed_.multiply(x, groups, y, registers_);
+  }
+  void to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    values_.multiply(x, groups, y, registers_);
+  }
+  void from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    values_transposed_.multiply(x, groups, y, registers_);
+  }
+
+ private:
+  VectorRegisters registers_;
+  PackedMatrix gradients_;
+  PackedMatrix gradients_transposed_;
+  PackedMatrix values_;
+  PackedMatrix values_transposed_;
+};
+
 /// Shape functions of an element with n nodes at the q points of a rule, times fields: rows of
 /// eight columns, some groups for each node or point.
 class PointTables {
  public:
   PointTables(mesher::ElementKind kind, const mesher::Quadrature& rule, VectorRegisters registers);
 
-  std::size_t node_count() const { return values_.columns(); }
-  std::size_t point_count() const { return values_.rows(); }
-
   /// @param x (n, groups)
   /// @param y (3q, groups), row 3 p + b: d/dxi_b at point p
-  void to_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
+  void to_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    std::visit([&](const auto& tables) { tables.to_gradients(x, groups, y); }, tables_);
+  }
   /// The transpose of that.
-  void from_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
+  void from_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    std::visit([&](const auto& tables) { tables.from_gradients(x, groups, y); }, tables_);
+  }
   /// @param x (n, groups)
   /// @param y (q, groups)
-  void to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
+  void to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    std::visit([&](const auto& tables) { tables.to_values(x, groups, y); }, tables_);
+  }
   /// The transpose of that.
-  void from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
+  void from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
+    std::visit([&](const auto& tables) { tables.from_values(x, groups, y); }, tables_);
+  }
 
  private:
-  PointTables(const mesher::ShapeTable& table, mesher::ElementKind kind,
-              const mesher::Quadrature& rule, VectorRegisters registers);
-
-  VectorRegisters registers_;
-  std::optional<LineTables> lines_;
-  PackedMatrix gradients_;
-  PackedMatrix gradients_transposed_;
-  PackedMatrix values_;
-  PackedMatrix values_transposed_;
+  std::variant<FullTables, LineTables> tables_;
 };
 
 }  // namespace flexneck::fe_modal

@@ -59,7 +59,7 @@ void PanelFactor::solve(RowOf<float, lanes>* x) const {
   }
 }
 
-template void PanelFactor::solve(RowOf<float, 8>*) const;
-template void PanelFactor::solve(RowOf<float, 16>*) const;
+template void PanelFactor::solve(RowOf<float>*) const;
+template void PanelFactor::solve(RowOf<float, kSinglesTogether>*) const;
 
 }  // namespace flexneck::fe_modal

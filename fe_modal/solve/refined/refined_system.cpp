@@ -9,7 +9,7 @@ namespace {
 
 /// A star moves less than it would if what is around it did not rest. With twice its solution the
 /// modes of rubber parts take a step less, and of the meshes of certificate_benchmark none takes
-/// more than one step more.
+/// more than one step more (calibrated).
 constexpr double kStarWeight = 2;
 
 /// Of the elements, springs and masses of the refined mesh; empty in a process alone.

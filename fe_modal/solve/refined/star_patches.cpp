@@ -242,8 +242,10 @@ Eigen::MatrixXd StarPatches::solve_cells(const Eigen::MatrixXd& residuals) const
 
 Eigen::MatrixXd StarPatches::sum_of(const std::vector<std::size_t>& patches,
                                     const Eigen::MatrixXd& residuals) const {
-  if (residuals.cols() <= 8) return sum_by_lanes<8>(patches, residuals);
-  return sum_by_lanes<16>(patches, residuals);
+  if (residuals.cols() <= static_cast<Eigen::Index>(kColumnsTogether)) {
+    return sum_by_lanes<kColumnsTogether>(patches, residuals);
+  }
+  return sum_by_lanes<kSinglesTogether>(patches, residuals);
 }
 
 template <std::size_t lanes>
