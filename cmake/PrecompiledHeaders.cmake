@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Headers that most sources include are parsed once a build. A set serves the targets that compile
-# with the flags that it was compiled with: PETSc brings some along, and the tests have another level
-# of optimisation.
+# with the flags that it was compiled with: PETSc brings some along, and pipeline/ and the tests have
+# another level of optimisation.
 option(FLEXNECK_PRECOMPILED_HEADERS "Parse the headers that most sources include once" ON)
 
 set(flexneck_headers_std
     <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional>
     <span> <string> <string_view> <utility> <vector>)
 set(flexneck_headers_eigen ${flexneck_headers_std} <Eigen/Core> <Eigen/Geometry>)
+set(flexneck_headers_pipeline ${flexneck_headers_eigen})
 set(flexneck_headers_petsc ${flexneck_headers_eigen} <slepceps.h>)
 set(flexneck_headers_catch2 ${flexneck_headers_eigen} <catch2/catch.hpp>)
 set(flexneck_headers_catch2_petsc ${flexneck_headers_catch2})
