@@ -17,9 +17,10 @@ namespace {
 constexpr const char* kMultiplying = "multiplying with a matrix";
 /// y = A x by the upper half of A; three rows a node.
 template <typename Row>
-[[gnu::always_inline]] inline void multiply_rows(const SymmetricMatrix& matrix,
+[[gnu::always_inline]] inline void multiply_rows(const SymmetricProduct& product,
                                                  std::span<const RowOf<double, Row::kLanes>> x,
                                                  std::span<RowOf<double, Row::kLanes>> y) {
+  const SymmetricMatrix& matrix = product.matrix();
   std::fill(y.begin(), y.end(), RowOf<double, Row::kLanes>{});
   for (std::size_t node = 0; 3 * node < x.size(); ++node) {
     Row own[3];
@@ -27,24 +28,22 @@ template <typename Row>
     const double* entries[3];
     for (std::size_t a = 0; a < 3; ++a) own[a].load(x[3 * node + a]);
     for (std::size_t a = 0; a < 3; ++a) {
-      const double* const row =
-          matrix.values().data() + matrix.offsets()[3 * node + a];  // begins on the diagonal
-      for (std::size_t b = a; b < 3; ++b) {
-        sum[a].add(row[b - a], own[b]);
-        if (b != a) sum[b].add(row[b - a], own[a]);
-      }
-      entries[a] = row + (3 - a);
+      for (std::size_t b = 0; b < 3; ++b) sum[a].add(product.block_sum(node)[3 * a + b], own[b]);
+      entries[a] = matrix.values().data() + matrix.offsets()[3 * node + a] + (3 - a);
     }
     for (const std::int32_t other : matrix.later(static_cast<std::int32_t>(node))) {
       const auto place = 3 * static_cast<std::size_t>(other);
+      Row against[3];  // what the other moves against this one
       for (std::size_t b = 0; b < 3; ++b) {
-        Row there;
+        against[b].load(x[place + b]);
+        against[b].subtract(1, own[b]);
+      }
+      for (std::size_t b = 0; b < 3; ++b) {
         Row result;
-        there.load(x[place + b]);
         result.load(y[place + b]);
         for (std::size_t a = 0; a < 3; ++a) {
-          sum[a].add(entries[a][b], there);
-          result.add(entries[a][b], own[a]);
+          sum[a].add(entries[a][b], against[b]);
+          result.subtract(entries[a][b], against[a]);
         }
         result.store(y[place + b]);
       }
@@ -143,8 +142,37 @@ Eigen::MatrixXd block_product(Mat matrix, const Eigen::MatrixXd& columns) {
   return result;
 }
 
-Eigen::MatrixXd block_product(const SymmetricMatrix& matrix, const Eigen::MatrixXd& columns) {
-  return product(matrix, columns);
+SymmetricProduct::SymmetricProduct(const SymmetricMatrix& matrix) : matrix_(&matrix) {
+  const auto nodes = static_cast<std::size_t>(matrix.size()) / 3;
+  // They are what is left of entries that cancel.
+  std::vector<long double> sums(9 * nodes);
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const auto number = static_cast<std::int32_t>(node);
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) {
+        sums[9 * node + static_cast<std::size_t>(3 * a + b)] +=
+            matrix.entry(number, std::min(a, b), -1, std::max(a, b));
+      }
+    }
+    std::ptrdiff_t place = 0;
+    for (const std::int32_t other : matrix.later(number)) {
+      const auto there = static_cast<std::size_t>(other);
+      for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+          const double entry = matrix.entry(number, a, place, b);
+          sums[9 * node + static_cast<std::size_t>(3 * a + b)] += entry;
+          sums[9 * there + static_cast<std::size_t>(3 * b + a)] += entry;
+        }
+      }
+      ++place;
+    }
+  }
+  block_sums_.reserve(sums.size());
+  for (const long double sum : sums) block_sums_.push_back(static_cast<double>(sum));
+}
+
+Eigen::MatrixXd SymmetricProduct::operator()(const Eigen::MatrixXd& columns) const {
+  return product(*this, columns);
 }
 
 Eigen::MatrixXd block_product(const NodalMass& mass, const Eigen::MatrixXd& columns) {

@@ -11,25 +11,30 @@
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
-namespace {
 
-std::string millions_text(double entries) {
+std::string entries_text(double nonzeros) {
   std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%.4g million entries", entries / 1e6);
+  std::snprintf(text.data(), text.size(), "the factor has %.4g million entries", nonzeros / 1e6);
   return text.data();
 }
 
-}  // namespace
+void require_memory_for_factor(double nonzeros, double bytes_per_entry) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "the factor of %.4g million entries", nonzeros / 1e6);
+  require_memory(text.data(), bytes_per_entry * nonzeros, kOrAnotherSolution);
+}
+
+CholeskyFactor::CholeskyFactor(CholmodAnalysis& analysis, double shift, unsigned threads)
+    : ShiftInverse(shift), threads_(threads) {
+  factorise(analysis);
+}
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
                                std::span<const std::int32_t> node_order, unsigned threads)
     : ShiftInverse(shift), threads_(threads) {
   const cholmod_sparse view = cholmod_view(shifted_stiffness);
   CholmodAnalysis analysis(view, kind, node_order);
-  nonzeros_ = analysis.nonzeros();
-  require_memory("the factor of " + millions_text(nonzeros_), kBytesPerFactorEntry * nonzeros_,
-                 kOrAnotherSolution);
-  factor_ = SupernodalFactor<double>(analysis, threads_in_blas(threads));
+  factorise(analysis);
 }
 
 CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
@@ -38,21 +43,18 @@ CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift,
                      node_order.empty() ? CholmodOrder::best : CholmodOrder::given, node_order,
                      threads) {}
 
-CholeskyFactor::CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered, unsigned threads)
-    : CholeskyFactor(shifted_stiffness, shift, CholmodOrder::numbering, {}, threads) {}
+void CholeskyFactor::factorise(CholmodAnalysis& analysis) {
+  nonzeros_ = analysis.nonzeros();
+  require_memory_for_factor(nonzeros_, kBytesPerFactorEntry);
+  factor_ = SupernodalFactor<double>(analysis, threads_in_blas(threads_));
+}
 
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  Eigen::MatrixXd x = right_hand_sides(factor_.order(), Eigen::all);
-  factor_.solve(x, threads_);
-  Eigen::MatrixXd solutions(x.rows(), x.cols());
-  solutions(factor_.order(), Eigen::all) = x;
-  return solutions;
+  return factor_.solution(right_hand_sides, threads_);
 }
 
 bool CholeskyFactor::is_doubtful() const { return factor_.smallest_pivot() < kSingularPivot; }
 
-std::string CholeskyFactor::describe() const {
-  return "the factor has " + millions_text(nonzeros_);
-}
+std::string CholeskyFactor::describe() const { return entries_text(nonzeros_); }
 
 }  // namespace flexneck::fe_modal

@@ -15,8 +15,9 @@
 namespace flexneck::fe_modal {
 
 /// An entry of a Cholesky factor takes this, with the zeros in its blocks and what its making
-/// needs besides.
+/// needs besides; in single precision half of it.
 inline constexpr double kBytesPerFactorEntry = 8.6;
+inline constexpr double kBytesPerSingleEntry = kBytesPerFactorEntry / 2;
 
 /// Of an entry on the diagonal: of a singular matrix rounding errors leave up to 1e-13 for a pivot,
 /// sound bodies hardly ever so little.
@@ -27,9 +28,11 @@ inline constexpr const char* kNotDefinite =
     "the stiffness matrix is not positive definite: a part of the body is not fixed, or elements "
     "with reduced integration stand in a single row, or Poisson's ratio is too near 1/2";
 
-/// The matrix is numbered as it is eliminated, in a postorder
-/// (fe_modal/system/elimination_order.h).
-struct AsNumbered {};
+/// "the factor has 12.3 million entries"
+std::string entries_text(double nonzeros);
+
+/// @throws InputError if memory does not hold a factor of so many entries.
+void require_memory_for_factor(double nonzeros, double bytes_per_entry);
 
 /// Sparse Cholesky factor of K - shift M, made once and used by every solve; CHOLMOD finds the
 /// places of its entries.
@@ -46,8 +49,13 @@ class CholeskyFactor : public ShiftInverse {
   /// @throws ComputationError if the matrix is not positive definite or memory runs out.
   CholeskyFactor(Mat shifted_stiffness, double shift, std::span<const std::int32_t> node_order = {},
                  unsigned threads = 1);
-  /// The same without a copy of the matrix in another order: a sixth of the factor's size.
-  CholeskyFactor(Mat shifted_stiffness, double shift, AsNumbered, unsigned threads = 1);
+  /// The same by a kind of order, with node_order where one is given. A matrix that is numbered in
+  /// the order of its elimination, a postorder (fe_modal/system/elimination_order.h), is not
+  /// copied: a sixth of the factor's size.
+  CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
+                 std::span<const std::int32_t> node_order, unsigned threads = 1);
+  /// Of a matrix that has been analysed.
+  CholeskyFactor(CholmodAnalysis& analysis, double shift, unsigned threads);
 
   /// Entries of the factor, as CHOLMOD counts them.
   double nonzeros() const { return nonzeros_; }
@@ -57,8 +65,7 @@ class CholeskyFactor : public ShiftInverse {
   std::string describe() const override;
 
  private:
-  CholeskyFactor(Mat shifted_stiffness, double shift, CholmodOrder kind,
-                 std::span<const std::int32_t> node_order, unsigned threads);
+  void factorise(CholmodAnalysis& analysis);
 
   double nonzeros_ = 0;
   unsigned threads_;

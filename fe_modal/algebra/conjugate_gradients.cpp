@@ -15,7 +15,6 @@ namespace {
 /// Of squares of the error in the energy norm. A compliance under the same load is wrong by the
 /// square itself, one between two loads by the root, 1e-10, which is asked for to 1e-8.
 constexpr double kTolerance = 1e-20;
-constexpr int kMaxIterations = 2000;
 /// Of squares of energy: combinations of the directions that have less are rounding. There are some
 /// when a column has converged, or two have come to the same.
 constexpr double kNoDirection = 1e-12;
@@ -43,7 +42,7 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& c
 Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& matrix,
                                     const BlockOperator& preconditioner,
                                     const Eigen::MatrixXd& right_hand_sides,
-                                    const Eigen::VectorXd& known_energies) {
+                                    const Eigen::VectorXd& known_energies, int max_iterations) {
   Eigen::MatrixXd solutions =
       Eigen::MatrixXd::Zero(right_hand_sides.rows(), right_hand_sides.cols());
   Eigen::MatrixXd residuals = right_hand_sides;
@@ -51,7 +50,7 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& mat
   Eigen::VectorXd energies = column_products(ranks, residuals, directions);
   if (known_energies.size() > 0) energies += known_energies;
   bool converged = false;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Eigen::MatrixXd forces = matrix(directions);
     const Eigen::MatrixXd combinations =
         orthonormal_combinations(inner_products(ranks, directions, forces));
@@ -69,7 +68,7 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& mat
     directions = std::move(next);
   }
   throw ComputationError("conjugate gradients have not converged in " +
-                         std::to_string(kMaxIterations) + " iterations");
+                         std::to_string(max_iterations) + " iterations");
 }
 
 }  // namespace flexneck::fe_modal

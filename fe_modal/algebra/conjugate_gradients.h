@@ -16,10 +16,11 @@ namespace flexneck::fe_modal {
 /// @param preconditioner P, symmetric, near the inverse of A
 /// @param known_energies of each column: of what has been taken out of the solution before, of
 ///     which this finds the rest; empty if nothing has
-/// @throws ComputationError if one does not converge.
+/// @throws ComputationError if one does not converge in so many iterations.
 Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& matrix,
                                     const BlockOperator& preconditioner,
                                     const Eigen::MatrixXd& right_hand_sides,
-                                    const Eigen::VectorXd& known_energies = {});
+                                    const Eigen::VectorXd& known_energies = {},
+                                    int max_iterations = 2000);
 
 }  // namespace flexneck::fe_modal

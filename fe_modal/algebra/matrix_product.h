@@ -25,4 +25,8 @@ Eigen::MatrixXd inner_products(const Ranks& ranks, const MatrixView& a, const Ma
 /// Each column of a with that of b, over the rows of all ranks. Collective.
 Eigen::VectorXd column_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b);
 
+/// Largest entry of each column on all ranks, 1 where all are zero. Columns of numbers in single
+/// precision are divided by them before: it knows smaller ones only down to 1e-38.
+Eigen::VectorXd column_scales(const Ranks& ranks, const Eigen::MatrixXd& columns);
+
 }  // namespace flexneck::fe_modal

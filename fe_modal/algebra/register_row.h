@@ -62,6 +62,7 @@ struct SingleRow {
   void load(const RowOf<double, 1>& row) { number = row.value[0]; }
   void store(RowOf<double, 1>& row) const { row.value[0] = number; }
   void add(double factor, const SingleRow& other) { number += factor * other.number; }
+  void subtract(double factor, const SingleRow& other) { number -= factor * other.number; }
 };
 
 enum class VectorRegisters { of_16_bytes, of_32_bytes, of_64_bytes };

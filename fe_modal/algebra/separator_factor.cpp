@@ -26,7 +26,8 @@ DenseBlock<double> block(const Panel& panel, std::vector<double>& values) {
 
 }  // namespace
 
-void add_rows(double factor, const DenseBlock<const double>& values, std::span<const int> rows,
+template <typename Scalar>
+void add_rows(double factor, const DenseBlock<const Scalar>& values, std::span<const int> rows,
               const Panel& panel, const DenseBlock<double>& sum) {
   int place = 0;
   for (int i = 0; i < values.rows; ++i) {
@@ -34,6 +35,11 @@ void add_rows(double factor, const DenseBlock<const double>& values, std::span<c
     for (int j = 0; j < values.columns; ++j) sum.column(j)[place] += factor * values.column(j)[i];
   }
 }
+
+template void add_rows(double, const DenseBlock<const double>&, std::span<const int>, const Panel&,
+                       const DenseBlock<double>&);
+template void add_rows(double, const DenseBlock<const float>&, std::span<const int>, const Panel&,
+                       const DenseBlock<double>&);
 
 class SeparatorFactor::Elimination {
  public:
@@ -154,7 +160,8 @@ class SeparatorFactor::Elimination {
     const DenseBlock<double> product = room_for(rows.rows, into.columns, workspace);
     std::vector<double> turned;
     multiply_with_signs(1.0, rows, signs, columns, 0.0, product, turned);
-    add_rows(-1, product, {begin, panel.rows.end()}, into, block(into, factor_.values_[target]));
+    add_rows<double>(-1, DenseBlock<const double>(product), {begin, panel.rows.end()}, into,
+                     block(into, factor_.values_[target]));
   }
 
   SeparatorFactor& factor_;

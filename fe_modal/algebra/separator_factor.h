@@ -16,7 +16,8 @@ namespace flexneck::fe_modal {
 
 /// Adds factor times values of some of a panel's rows, in all of its columns, to the panel.
 /// @param rows (values.rows) of the separator, ascending
-void add_rows(double factor, const DenseBlock<const double>& values, std::span<const int> rows,
+template <typename Scalar>
+void add_rows(double factor, const DenseBlock<const Scalar>& values, std::span<const int> rows,
               const Panel& panel, const DenseBlock<double>& sum);
 
 /// L S L^T of the Schur complement of a separator, to which each rank has its summand. Each panel

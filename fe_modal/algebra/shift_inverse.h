@@ -25,6 +25,15 @@ class ShiftInverse {
   /// For each column, (own dofs, k).
   /// @throws ComputationError if the solver fails.
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const = 0;
+  /// The same for solutions that are nearly exact: an iteration takes but a step.
+  virtual Eigen::MatrixXd improve(const Eigen::MatrixXd& right_hand_sides,
+                                  const Eigen::MatrixXd& /*solutions*/) const {
+    return solve(right_hand_sides);
+  }
+  /// The same to a digit or more, where that is cheaper: enough for a part of a preconditioner.
+  virtual Eigen::MatrixXd approximate(const Eigen::MatrixXd& right_hand_sides) const {
+    return solve(right_hand_sides);
+  }
   /// Near that, symmetric and positive definite: all that conjugate gradients need.
   virtual Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const {
     return solve(residuals);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <type_traits>
 #include <utility>
 
 #include "fe_modal/algebra/block_elimination.h"
@@ -11,12 +12,6 @@
 #include "geometry/foundation/in_parallel.h"
 
 namespace flexneck::fe_modal {
-namespace {
-
-constexpr auto kEight = static_cast<Eigen::Index>(kColumnsTogether);
-
-}  // namespace
-
 template <typename Scalar>
 SupernodalFactor<Scalar>::SupernodalFactor(CholmodAnalysis& analysis, unsigned threads,
                                            std::span<const int> kept)
@@ -71,10 +66,13 @@ void SupernodalFactor<Scalar>::number_ancestor_rows() {
   }
 }
 
-/// Eight columns on their way through the factor.
+/// Columns on their way through the factor.
 template <typename Scalar>
+template <std::size_t lanes>
 class SupernodalFactor<Scalar>::Solve {
  public:
+  static constexpr auto kWidth = static_cast<Eigen::Index>(lanes);
+
   explicit Solve(const SupernodalFactor& factor)
       : factor_(factor), tree_(factor.tree_), x_(tree_.order().size()) {
     for (const Subtree& subtree : tree_.subtrees()) {
@@ -83,8 +81,8 @@ class SupernodalFactor<Scalar>::Solve {
   }
 
   auto columns() {
-    using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, kEight, Eigen::RowMajor>;
-    return Eigen::Map<RowMajor>(x_.front().value, static_cast<Eigen::Index>(x_.size()), kEight);
+    using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, kWidth, Eigen::RowMajor>;
+    return Eigen::Map<RowMajor>(x_.front().value, static_cast<Eigen::Index>(x_.size()), kWidth);
   }
 
   void eliminate(unsigned threads) {
@@ -111,7 +109,7 @@ class SupernodalFactor<Scalar>::Solve {
   }
 
  private:
-  using Row = RowOf<Scalar>;
+  using Row = RowOf<Scalar, lanes>;
 
   /// Where a subtree, or the top, finds the rows of its lists.
   struct Workspace {
@@ -127,7 +125,7 @@ class SupernodalFactor<Scalar>::Solve {
   }
 
   static void add(const Row& more, Row& sum) {
-    for (Eigen::Index c = 0; c < kEight; ++c) sum.value[c] += more.value[c];
+    for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += more.value[c];
   }
 
   void forward(const Subtree& subtree, std::vector<Row>& ancestors) {
@@ -172,35 +170,57 @@ class SupernodalFactor<Scalar>::Solve {
 };
 
 template <typename Scalar>
-template <typename Work>
-void SupernodalFactor<Scalar>::by_eight(Matrix& x, const Work& work) const {
-  if (x.size() == 0) return;
-  Solve eight(*this);
-  for (Eigen::Index first = 0; first < x.cols(); first += kEight) {
-    const Eigen::Index width = std::min(kEight, x.cols() - first);
-    eight.columns().leftCols(width) = x.middleCols(first, width);
-    eight.columns().rightCols(kEight - width).setZero();
-    work(eight);
-    x.middleCols(first, width) = eight.columns().leftCols(width);
+template <std::size_t lanes, typename Work>
+void SupernodalFactor<Scalar>::by_lanes(Matrix& x, const Work& work) const {
+  Solve<lanes> together(*this);
+  constexpr Eigen::Index kWidth = Solve<lanes>::kWidth;
+  for (Eigen::Index first = 0; first < x.cols(); first += kWidth) {
+    const Eigen::Index width = std::min(kWidth, x.cols() - first);
+    together.columns().leftCols(width) = x.middleCols(first, width);
+    together.columns().rightCols(kWidth - width).setZero();
+    work(together);
+    x.middleCols(first, width) = together.columns().leftCols(width);
   }
 }
 
 template <typename Scalar>
+template <typename Work>
+void SupernodalFactor<Scalar>::by_lanes(Matrix& x, const Work& work) const {
+  if (x.size() == 0) return;
+  if constexpr (std::is_same_v<Scalar, float>) {
+    if (x.cols() > static_cast<Eigen::Index>(kColumnsTogether)) {
+      return by_lanes<kSinglesTogether>(x, work);
+    }
+  }
+  by_lanes<kColumnsTogether>(x, work);
+}
+
+template <typename Scalar>
 void SupernodalFactor<Scalar>::solve(Matrix& x, unsigned threads) const {
-  by_eight(x, [&](Solve& eight) {
-    eight.eliminate(threads);
-    eight.substitute(threads);
+  by_lanes(x, [&](auto& columns) {
+    columns.eliminate(threads);
+    columns.substitute(threads);
   });
 }
 
 template <typename Scalar>
+Eigen::MatrixXd SupernodalFactor<Scalar>::solution(const Eigen::MatrixXd& right_hand_sides,
+                                                   unsigned threads) const {
+  Matrix x = right_hand_sides(order(), Eigen::all).template cast<Scalar>();
+  solve(x, threads);
+  Eigen::MatrixXd solutions(x.rows(), x.cols());
+  solutions(order(), Eigen::all) = x.template cast<double>();
+  return solutions;
+}
+
+template <typename Scalar>
 void SupernodalFactor<Scalar>::eliminate(Matrix& x, unsigned threads) const {
-  by_eight(x, [&](Solve& eight) { eight.eliminate(threads); });
+  by_lanes(x, [&](auto& columns) { columns.eliminate(threads); });
 }
 
 template <typename Scalar>
 void SupernodalFactor<Scalar>::substitute(Matrix& x, unsigned threads) const {
-  by_eight(x, [&](Solve& eight) { eight.substitute(threads); });
+  by_lanes(x, [&](auto& columns) { columns.substitute(threads); });
 }
 
 template class SupernodalFactor<double>;

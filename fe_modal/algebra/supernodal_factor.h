@@ -42,8 +42,10 @@ class SupernodalFactor {
   /// x = (L L^T)^-1 x, the same to the last bit by any number of threads.
   /// @param x (n, k), rows in the order of elimination
   void solve(Matrix& x, unsigned threads) const;
-  /// Its two halves: x = L^-1 x, with -L_k L^-1 x added to the rows that are kept, and with these
-  /// as they are x = L^-T (x - L_k^T x_k).
+  /// The same with rows in the order of A.
+  Eigen::MatrixXd solution(const Eigen::MatrixXd& right_hand_sides, unsigned threads) const;
+  /// The two halves of solve(): x = L^-1 x, with -L_k L^-1 x added to the rows that are kept, and
+  /// with these as they are x = L^-T (x - L_k^T x_k).
   void eliminate(Matrix& x, unsigned threads) const;
   void substitute(Matrix& x, unsigned threads) const;
 
@@ -53,11 +55,15 @@ class SupernodalFactor {
  private:
   template <typename Other>
   friend class SupernodalFactor;
+  template <std::size_t lanes>
   class Solve;
 
-  /// Calls work(eight columns) for all columns of x, on which it leaves what work makes of them.
+  /// Calls work(some columns) for all columns of x, on which it leaves what work makes of them: of
+  /// eight or, in single precision, sixteen columns together.
   template <typename Work>
-  void by_eight(Matrix& x, const Work& work) const;
+  void by_lanes(Matrix& x, const Work& work) const;
+  template <std::size_t lanes, typename Work>
+  void by_lanes(Matrix& x, const Work& work) const;
   void number_ancestor_rows();
   void find_smallest_pivot(const LowerHalf& matrix);
 

@@ -129,8 +129,9 @@ std::optional<double> buckling_factor(const mesher::Mesh& mesh, const DofMap& do
   const AssembledSystem system(mesh, dof_map, alone(without_prestress(options)));
   const std::unique_ptr<const ShiftInverse> factor = system.shift_inverse(0);
   Inverse inverse{factor.get(), {}};
+  const SymmetricProduct product(geometric);
   const OperatorMatrix compression(dof_map.dof_count(), [&](const Eigen::MatrixXd& columns) {
-    return Eigen::MatrixXd(-block_product(geometric, columns));
+    return Eigen::MatrixXd(-product(columns));
   });
   const double value = largest_eigenvalue(compression.get(), system.stiffness(), inverse);
   if (!(value * kLargestFactor > 1)) return std::nullopt;

@@ -13,6 +13,7 @@
 #include "fe_modal/dofs/node_graph.h"
 #include "fe_modal/solve/distributed_factor.h"
 #include "fe_modal/solve/iterative/schwarz_inverse.h"
+#include "fe_modal/solve/iterative/single_inverse.h"
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/elimination_order.h"
 #include "geometry/foundation/error.h"
@@ -99,9 +100,7 @@ AssembledSystem::AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map
       return exchange_.summed(columns, product);
     };
   };
-  stiffness_.emplace(fields_.own_dof_count(), operator_of([this](const Eigen::MatrixXd& columns) {
-                       return block_product(matrices_->stiffness, columns);
-                     }),
+  stiffness_.emplace(fields_.own_dof_count(), operator_of(SymmetricProduct(matrices_->stiffness)),
                      ranks());
   mass_.emplace(fields_.own_dof_count(), operator_of([this](const Eigen::MatrixXd& columns) {
                   return block_product(matrices_->mass_operator(), columns);
@@ -132,21 +131,29 @@ std::unique_ptr<ShiftInverse> AssembledSystem::shift_inverse(double shift) const
     return std::make_unique<SchwarzInverse>(body, formulation_, prestress_m_, part_, *matrices_,
                                             stiffness(), mass(), shift);
   }
+  return factor(shift, Precision::of_single);
+}
+
+std::unique_ptr<ShiftInverse> AssembledSystem::factor(double shift, Precision precision) const {
+  std::optional<SymmetricMatrix> shifted;
+  ranks().together([&] {
+    if (shift != 0) shifted = shifted_stiffness(*matrices_, shift);
+  });
+  const SymmetricMatrix& matrix = shifted ? *shifted : matrices_->stiffness;
+  const Matrices products{stiffness(), mass()};
+  const auto make_in_double = [this, shift] { return factor(shift, Precision::of_double); };
   if (ranks().are_many()) {
-    std::optional<SymmetricMatrix> shifted;
-    ranks().together([&] {
-      if (shift != 0) shifted = shifted_stiffness(*matrices_, shift);
-    });
-    return std::make_unique<DistributedFactor>(
-        distributed(shifted ? *shifted : matrices_->stiffness), shift);
+    return precision == Precision::of_double
+               ? make_distributed_in_double(distributed(matrix), shift)
+               : make_shift_inverse(distributed(matrix), products, shift, make_in_double);
   }
-  const auto factor_of = [&](Mat matrix) -> std::unique_ptr<ShiftInverse> {
-    if (fields_.dof_map().is_renumbered())
-      return std::make_unique<CholeskyFactor>(matrix, shift, AsNumbered(), ranks().threads());
-    return std::make_unique<CholeskyFactor>(matrix, shift, order(), ranks().threads());
-  };
-  return factor_of(shift == 0 ? matrices_->stiffness.get()
-                              : shifted_stiffness(*matrices_, shift).get());
+  const bool is_in_order = fields_.dof_map().is_renumbered();
+  const CholmodOrder kind = is_in_order ? CholmodOrder::numbering : CholmodOrder::given;
+  const auto given = is_in_order ? std::span<const std::int32_t>() : order();
+  return precision == Precision::of_double
+             ? std::make_unique<CholeskyFactor>(matrix.get(), shift, kind, given, ranks().threads())
+             : make_shift_inverse(matrix.get(), products, shift, kind, given, ranks().threads(),
+                                  make_in_double);
 }
 
 std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) const {

@@ -56,6 +56,9 @@ class AssembledSystem : public ModalSystem {
   AssembledSystem(const mesher::Mesh& mesh, const DofMap& dof_map, const ModalOptions& options,
                   Sharing sharing);
 
+  enum class Precision { of_single, of_double };
+  std::unique_ptr<ShiftInverse> factor(double shift, Precision precision) const;
+
   /// Of elimination of all blocks, on the first rank.
   const std::vector<std::int32_t>& order() const;
 

@@ -161,7 +161,9 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, Eigen::MatrixXd 
 
 EigenPairs purified(Mat mass, const ShiftInverse& inverse, const EigenPairs& pairs) {
   const Eigen::MatrixXd before = block_product(mass, pairs.vectors);
-  const Eigen::MatrixXd vectors = inverse.solve(before);
+  const Eigen::VectorXd distances = pairs.values.array() - inverse.shift();
+  const Eigen::MatrixXd vectors =
+      inverse.improve(before, pairs.vectors * distances.cwiseInverse().asDiagonal());
   const Eigen::MatrixXd momenta = block_product(mass, vectors);
   // What was before is (K - shift M) times the new vectors.
   const Eigen::MatrixXd stiffness = inner_products(inverse.ranks(), vectors, before);

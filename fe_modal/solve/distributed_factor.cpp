@@ -2,17 +2,17 @@
 #include "fe_modal/solve/distributed_factor.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <memory>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/cholmod_handles.h"
 #include "fe_modal/algebra/inertia_count.h"
+#include "fe_modal/algebra/separator_factor.h"
+#include "fe_modal/algebra/supernodal_factor.h"
 #include "fe_modal/solve/iterative/submatrix.h"
 #include "fe_modal/system/elimination_order.h"
 #include "geometry/foundation/available_memory.h"
@@ -20,6 +20,10 @@
 
 namespace flexneck::fe_modal {
 namespace {
+
+template <typename Scalar>
+constexpr double kBytesPerEntry =
+    std::is_same_v<Scalar, float> ? kBytesPerSingleEntry : kBytesPerFactorEntry;
 
 std::vector<std::int32_t> numbers_from_0(std::size_t count) {
   std::vector<std::int32_t> numbers(count);
@@ -81,19 +85,20 @@ Eigen::VectorXd diagonal_between(const DistributedMatrix& matrix, const Separato
 }
 
 /// Adds a part's Schur complement to the panels, block by block, and lets the blocks go.
+template <typename Scalar>
 SeparatorFactor::AddSummand summands(const Separator& separator,
-                                     SchurComplement<double>& complement) {
+                                     SchurComplement<Scalar>& complement) {
   return [&](std::size_t p, const DenseBlock<double>& sum) {
     const auto& own = separator.own_panels();
     const auto place = std::lower_bound(own.begin(), own.end(), p);
     if (place == own.end() || *place != p) return;
-    std::vector<double> values =
+    const std::vector<Scalar> values =
         std::exchange(complement[static_cast<std::size_t>(place - own.begin())], {});
     const Panel& panel = separator.panels()[p];
     const auto begin =
         std::lower_bound(separator.rows().begin(), separator.rows().end(), panel.first);
     const auto rows = static_cast<int>(separator.rows().end() - begin);
-    add_rows(1, DenseBlock<const double>{values.data(), rows, panel.columns, rows},
+    add_rows(1, DenseBlock<const Scalar>{values.data(), rows, panel.columns, rows},
              {begin, separator.rows().end()}, panel, sum);
   };
 }
@@ -114,6 +119,104 @@ std::vector<Eigen::Index> own_rows(const DistributedMatrix& matrix,
   return rows;
 }
 
+/// A = L L^T on all ranks. What is between their parts is factorised in double precision.
+template <typename Scalar>
+class DistributedFactor {
+ public:
+  /// Collective.
+  explicit DistributedFactor(const DistributedMatrix& matrix);
+
+  /// A^-1 times each column, (own dofs, k). Collective.
+  Eigen::MatrixXd solution(const Eigen::MatrixXd& right_hand_sides) const;
+  /// As SupernodalFactor's, of all ranks.
+  double smallest_pivot() const { return smallest_pivot_; }
+  /// "the factor has 12.3 million entries on 4 ranks"
+  std::string entries_text() const;
+
+ private:
+  Ranks ranks_;
+  Separator separator_;
+  /// Where in this rank's rows those of the factor are; -1: another rank's.
+  std::vector<Eigen::Index> inside_rows_;
+  std::vector<Eigen::Index> shared_rows_;
+  SupernodalFactor<Scalar> inside_;
+  std::optional<SeparatorFactor> between_;
+  double smallest_pivot_ = 1;
+  double nonzeros_ = 0;
+};
+
+template <typename Scalar>
+DistributedFactor<Scalar>::DistributedFactor(const DistributedMatrix& matrix)
+    : ranks_(matrix.layout.ranks()), separator_(ranks_, block_count(matrix.layout), matrix.blocks) {
+  std::optional<PartAnalysis> part;
+  analyse(matrix, separator_, part, kBytesPerEntry<Scalar>, "the factor",
+          "take a coarser mesh or more machines");
+  ranks_.together([&] {
+    if (!part) return;
+    inside_ =
+        SupernodalFactor<Scalar>(part->get(), threads_in_blas(ranks_.threads()), part->kept());
+    inside_rows_ = own_rows(matrix, std::span(part->order()).first(separator_.inside().size()));
+    shared_rows_ = own_rows(matrix, separator_.shared());
+  });
+  part.reset();
+  SchurComplement<Scalar> complement = inside_.take_complement();
+  between_.emplace(ranks_, separator_.panels(), Pivots::positive,
+                   diagonal_between(matrix, separator_), summands(separator_, complement));
+  Eigen::VectorXd pivot = Eigen::VectorXd::Constant(1, -inside_.smallest_pivot());
+  ranks_.max(pivot);
+  smallest_pivot_ = std::min(-pivot[0], between_->smallest_pivot());
+  nonzeros_ = ranks_.sum(static_cast<double>(inside_.value_count())) + between_->entry_count();
+}
+
+template <typename Scalar>
+Eigen::MatrixXd DistributedFactor<Scalar>::solution(const Eigen::MatrixXd& right_hand_sides) const {
+  const auto inside = static_cast<Eigen::Index>(inside_rows_.size());
+  const auto shared = static_cast<Eigen::Index>(shared_rows_.size());
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> x(inside + shared, right_hand_sides.cols());
+  x.topRows(inside) = right_hand_sides(inside_rows_, Eigen::all).template cast<Scalar>();
+  x.bottomRows(shared).setZero();
+  inside_.eliminate(x, ranks_.threads());
+  Eigen::MatrixXd between = Eigen::MatrixXd::Zero(separator_.row_count(), x.cols());
+  for (std::size_t k = 0; k < shared_rows_.size(); ++k) {
+    auto row = between.row(separator_.rows()[k]);
+    row = x.row(inside + static_cast<Eigen::Index>(k)).template cast<double>();
+    if (shared_rows_[k] >= 0) row += right_hand_sides.row(shared_rows_[k]);
+  }
+  ranks_.sum(between);
+  between_->solve(between);
+  const Eigen::MatrixXd shared_x = between(separator_.rows(), Eigen::all);
+  x.bottomRows(shared) = shared_x.template cast<Scalar>();
+  inside_.substitute(x, ranks_.threads());
+  Eigen::MatrixXd solutions(right_hand_sides.rows(), x.cols());
+  solutions(inside_rows_, Eigen::all) = x.topRows(inside).template cast<double>();
+  for (std::size_t k = 0; k < shared_rows_.size(); ++k) {
+    if (shared_rows_[k] >= 0)
+      solutions.row(shared_rows_[k]) = shared_x.row(static_cast<Eigen::Index>(k));
+  }
+  return solutions;
+}
+
+template <typename Scalar>
+std::string DistributedFactor<Scalar>::entries_text() const {
+  return fe_modal::entries_text(nonzeros_) + " on " + std::to_string(ranks_.count()) + " ranks";
+}
+
+/// In double precision.
+class DistributedInverse : public ShiftInverse {
+ public:
+  DistributedInverse(const DistributedMatrix& matrix, double shift)
+      : ShiftInverse(shift, matrix.layout.ranks()), factor_(matrix) {}
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override {
+    return factor_.solution(right_hand_sides);
+  }
+  bool is_doubtful() const override { return factor_.smallest_pivot() < kSingularPivot; }
+  std::string describe() const override { return factor_.entries_text(); }
+
+ private:
+  DistributedFactor<double> factor_;
+};
+
 }  // namespace
 
 std::vector<std::int32_t> order_of_part(const NodeGraph& graph, const Separator& separator) {
@@ -126,62 +229,25 @@ std::vector<std::int32_t> order_of_part(const NodeGraph& graph, const Separator&
   return order;
 }
 
-DistributedFactor::DistributedFactor(const DistributedMatrix& matrix, double shift)
-    : ShiftInverse(shift, matrix.layout.ranks()),
-      separator_(ranks(), block_count(matrix.layout), matrix.blocks) {
-  std::optional<PartAnalysis> part;
-  analyse(matrix, separator_, part, kBytesPerFactorEntry, "the factor",
-          "take a coarser mesh or more machines");
-  ranks().together([&] {
-    if (!part) return;
-    inside_ =
-        SupernodalFactor<double>(part->get(), threads_in_blas(ranks().threads()), part->kept());
-    inside_rows_ = own_rows(matrix, std::span(part->order()).first(separator_.inside().size()));
-    shared_rows_ = own_rows(matrix, separator_.shared());
-  });
-  part.reset();
-  SchurComplement<double> complement = inside_.take_complement();
-  between_.emplace(ranks(), separator_.panels(), Pivots::positive,
-                   diagonal_between(matrix, separator_), summands(separator_, complement));
-  Eigen::VectorXd pivot = Eigen::VectorXd::Constant(1, -inside_.smallest_pivot());
-  ranks().max(pivot);
-  smallest_pivot_ = std::min(-pivot[0], between_->smallest_pivot());
-  nonzeros_ = ranks().sum(static_cast<double>(inside_.value_count())) + between_->entry_count();
+std::unique_ptr<ShiftInverse> make_shift_inverse(const DistributedMatrix& matrix,
+                                                 const Matrices& matrices, double shift,
+                                                 SingleInverse::InDouble make_in_double) {
+  try {
+    const auto single = std::make_shared<const DistributedFactor<float>>(matrix);
+    if (single->smallest_pivot() > kDoubtfulSinglePivot) {
+      return std::make_unique<SingleInverse>(
+          SingleFactor{[single](const Eigen::MatrixXd& x) { return single->solution(x); },
+                       single->entries_text()},
+          matrices, shift, std::move(make_in_double), matrix.layout.ranks());
+    }
+  } catch (const ComputationError&) {  // as factorise_in_single(), on all ranks
+  }
+  return make_distributed_in_double(matrix, shift);
 }
 
-Eigen::MatrixXd DistributedFactor::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  const auto inside = static_cast<Eigen::Index>(inside_rows_.size());
-  const auto shared = static_cast<Eigen::Index>(shared_rows_.size());
-  Eigen::MatrixXd x(inside + shared, right_hand_sides.cols());
-  x.topRows(inside) = right_hand_sides(inside_rows_, Eigen::all);
-  x.bottomRows(shared).setZero();
-  inside_.eliminate(x, ranks().threads());
-  Eigen::MatrixXd between = Eigen::MatrixXd::Zero(separator_.row_count(), x.cols());
-  for (std::size_t k = 0; k < shared_rows_.size(); ++k) {
-    auto row = between.row(separator_.rows()[k]);
-    row = x.row(inside + static_cast<Eigen::Index>(k));
-    if (shared_rows_[k] >= 0) row += right_hand_sides.row(shared_rows_[k]);
-  }
-  ranks().sum(between);
-  between_->solve(between);
-  x.bottomRows(shared) = between(separator_.rows(), Eigen::all);
-  inside_.substitute(x, ranks().threads());
-  Eigen::MatrixXd solutions(right_hand_sides.rows(), x.cols());
-  solutions(inside_rows_, Eigen::all) = x.topRows(inside);
-  for (std::size_t k = 0; k < shared_rows_.size(); ++k) {
-    if (shared_rows_[k] >= 0)
-      solutions.row(shared_rows_[k]) = x.row(inside + static_cast<Eigen::Index>(k));
-  }
-  return solutions;
-}
-
-bool DistributedFactor::is_doubtful() const { return smallest_pivot_ < kSingularPivot; }
-
-std::string DistributedFactor::describe() const {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "the factor has %.4g million entries on %d ranks",
-                nonzeros_ / 1e6, ranks().count());
-  return text.data();
+std::unique_ptr<ShiftInverse> make_distributed_in_double(const DistributedMatrix& matrix,
+                                                         double shift) {
+  return std::make_unique<DistributedInverse>(matrix, shift);
 }
 
 std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix) {

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "fe_modal/algebra/separator.h"
-#include "fe_modal/algebra/separator_factor.h"
 #include "fe_modal/algebra/shift_inverse.h"
-#include "fe_modal/algebra/supernodal_factor.h"
 #include "fe_modal/algebra/symmetric_matrix.h"
 #include "fe_modal/dofs/node_graph.h"
+#include "fe_modal/solve/iterative/single_inverse.h"
 #include "fe_modal/system/rank_part.h"
 
 namespace flexneck::fe_modal {
@@ -31,30 +31,18 @@ struct DistributedMatrix {
 /// the separator.
 std::vector<std::int32_t> order_of_part(const NodeGraph& graph, const Separator& separator);
 
-/// K - shift M = L L^T on all ranks: each eliminates the blocks that it alone has, as a process
-/// alone does (SupernodalFactor), and all of them what is between their parts.
-class DistributedFactor : public ShiftInverse {
- public:
-  /// Collective.
-  /// @param matrix K - shift M; not needed afterwards
-  /// @throws InputError if memory does not hold the factor, ComputationError if the matrix is not
-  /// positive definite or memory runs out.
-  DistributedFactor(const DistributedMatrix& matrix, double shift);
-
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override;
-  bool is_doubtful() const override;
-  std::string describe() const override;
-
- private:
-  Separator separator_;
-  /// Where in this rank's rows those of the factor are; -1: another rank's.
-  std::vector<Eigen::Index> inside_rows_;
-  std::vector<Eigen::Index> shared_rows_;
-  SupernodalFactor<double> inside_;
-  std::optional<SeparatorFactor> between_;
-  double smallest_pivot_ = 1;
-  double nonzeros_ = 0;
-};
+/// (K - shift M)^-1 by a factor on all ranks, in single precision or, where pivots are doubtful, in
+/// double: each eliminates the blocks that it alone has, as a process alone does
+/// (SupernodalFactor), and all of them what is between their parts. Collective.
+/// @param matrix K - shift M; not needed afterwards
+/// @throws InputError if memory does not hold the factor, ComputationError if the matrix is not
+/// positive definite or memory runs out.
+std::unique_ptr<ShiftInverse> make_shift_inverse(const DistributedMatrix& matrix,
+                                                 const Matrices& matrices, double shift,
+                                                 SingleInverse::InDouble make_in_double);
+/// The same in double.
+std::unique_ptr<ShiftInverse> make_distributed_in_double(const DistributedMatrix& matrix,
+                                                         double shift);
 
 /// Collective: negative eigenvalues of a matrix, by the same elimination with pivots of either
 /// sign. Those of the parts and of the Schur complement between them add up (Haynsworth, Linear

@@ -41,7 +41,7 @@ MemoryNeeds memory_needs(double dofs, Solver solver, int mode_count) {
     return {assembling, kProgram + kIterativePerDof * dofs + modes};
   }
   const double entries = kReferenceEntries * std::pow(dofs / kReferenceDofs, kGrowth);
-  return {assembling, assembling + kBytesPerFactorEntry * entries};
+  return {assembling, assembling + kBytesPerSingleEntry * entries};
 }
 
 void check_memory(const mesher::Mesh& mesh, const ModalOptions& options) {

@@ -94,7 +94,7 @@ TEST_CASE(
   REQUIRE(alone.nonzeros() > 1e6);  // enough for subtrees
   for (const Eigen::Index count : {1, 8, 11}) {
     const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(3 * system.graph.node_count(), count);
-    const Eigen::MatrixXd forces = block_product(system.stiffness, truth);
+    const Eigen::MatrixXd forces = SymmetricProduct(system.stiffness)(truth);
     const Eigen::MatrixXd solution = alone.solve(forces);
     CHECK((solution - truth).norm() < 1e-9 * truth.norm());
     CHECK(together.solve(forces) == solution);

@@ -72,7 +72,7 @@ TEST_CASE("supernodes that threads divide have the same factor, to the last bit,
   constexpr double kWidth = 3 * 2 * 19 * 19;
   REQUIRE(alone.nonzeros() > kWidth * kWidth / 2);
   const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(3 * system.graph.node_count(), 2);
-  const Eigen::MatrixXd forces = block_product(system.stiffness, truth);
+  const Eigen::MatrixXd forces = SymmetricProduct(system.stiffness)(truth);
   const Eigen::MatrixXd solution = alone.solve(forces);
   CHECK((solution - truth).norm() < 1e-9 * truth.norm());
   CHECK(together.solve(forces) == solution);
@@ -88,7 +88,7 @@ TEST_CASE("a supernode whose last columns alone are in the top of the tree solve
   std::rotate(order.begin() + kFreeNodes - 1, order.begin() + kFreeNodes, order.end());
   const CholeskyFactor factor(system.stiffness.get(), 0, order);
   const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(3 * system.graph.node_count(), 2);
-  const Eigen::MatrixXd solution = factor.solve(block_product(system.stiffness, truth));
+  const Eigen::MatrixXd solution = factor.solve(SymmetricProduct(system.stiffness)(truth));
   CHECK((solution - truth).norm() < 1e-9 * truth.norm());
 }
 

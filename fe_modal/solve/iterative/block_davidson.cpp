@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -12,18 +11,13 @@
 
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/algebra/random_block.h"
-#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 constexpr Eigen::Index kGuards = 4;         ///< columns beyond those wanted
 constexpr Eigen::Index kBlocksOfBasis = 4;  ///< when the basis is that wide, it is cut back
-constexpr int kMaxIterations = 500;
 constexpr std::uint64_t kSeed = 1;
-/// Of r^T P r / lambda, which estimates the relative error of lambda if P is near K^-1. That of
-/// shapes is its root, and static compliances, which are asked for to 1e-8, take shapes as exact.
-constexpr double kTolerance = 1e-15;
 /// Columns that are so much shorter after orthogonalisation have nothing new.
 constexpr double kNothingNew = 1e-10;
 
@@ -85,7 +79,9 @@ Eigen::MatrixXd orthonormal(const Ranks& ranks, const Basis& basis, Eigen::Matri
   for (int pass = 0; pass < 2; ++pass) {
     if (basis.count() > 0) {
       multiply(-1, basis.vectors(), inner_products(ranks, basis.vectors(), momenta), 1, block);
-      momenta = block_product(mass, block);
+      // What a second pass takes out is rounding: by V^T M V = 1 the products with M X before it
+      // are those after it.
+      if (pass == 0) momenta = block_product(mass, block);
     }
     Eigen::MatrixXd gram = inner_products(ranks, block, momenta);
     const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -97,7 +93,7 @@ Eigen::MatrixXd orthonormal(const Ranks& ranks, const Basis& basis, Eigen::Matri
     const Eigen::MatrixXd combination = scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
                                         lengths.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
     block = product(block, combination);
-    momenta = product(momenta, combination);
+    if (pass == 0) momenta = product(momenta, combination);
   }
   return block;
 }
@@ -115,8 +111,9 @@ Eigen::MatrixXd restart_combination(const Eigen::MatrixXd& best, const Eigen::Ma
 
 }  // namespace
 
-DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness, Mat mass,
-                              const BlockOperator& preconditioner, Eigen::Index count) {
+std::optional<DavidsonResult> block_davidson(const Ranks& ranks, const BlockOperator& stiffness,
+                                             Mat mass, const BlockOperator& preconditioner,
+                                             Eigen::Index count, const DavidsonLimits& limits) {
   const Eigen::Index size = size_of(mass);
   const Eigen::Index width = std::min(count + kGuards, size);
   Eigen::MatrixXd block = random_block(mass, width, kSeed);
@@ -129,7 +126,7 @@ DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness
     return residuals;
   };
   Eigen::MatrixXd before;
-  for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
+  for (int iteration = 1; iteration <= limits.max_iterations; ++iteration) {
     block = orthonormal(ranks, basis, std::move(block), mass);
     if (block.cols() == 0) break;
     basis.append(block, stiffness(block));
@@ -140,10 +137,10 @@ DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness
     const Eigen::MatrixXd residuals = residuals_of(product(basis.vectors(), best), values);
     block = preconditioner(residuals);
     const Eigen::VectorXd errors = column_products(ranks, block, residuals).cwiseQuotient(values);
-    if (errors.head(count).maxCoeff() < kTolerance || basis.count() >= size) {
+    if (errors.head(count).maxCoeff() < limits.tolerance || basis.count() >= size) {
       EigenPairs lowest{values.head(count), product(basis.vectors(), best).leftCols(count)};
       if (values.size() > count) lowest.next = values[count];
-      return {std::move(lowest), iteration};
+      return DavidsonResult{std::move(lowest), iteration};
     }
     if (basis.count() + width > basis.capacity()) {
       const Eigen::MatrixXd combination = restart_combination(best, before);
@@ -155,12 +152,11 @@ DavidsonResult block_davidson(const Ranks& ranks, const BlockOperator& stiffness
     // What has converged needs no more.
     Eigen::Index open = 0;
     for (Eigen::Index k = 0; k < errors.size(); ++k) {
-      if (errors[k] >= kTolerance) block.col(open++) = block.col(k);
+      if (errors[k] >= limits.tolerance) block.col(open++) = block.col(k);
     }
     block.conservativeResize(Eigen::NoChange, open);
   }
-  throw ComputationError("the iterative eigensolver has not converged in " +
-                         std::to_string(kMaxIterations) + " iterations");
+  return std::nullopt;
 }
 
 }  // namespace flexneck::fe_modal

@@ -6,23 +6,12 @@
 #include <utility>
 
 #include "fe_modal/algebra/blas_kernels.h"
+#include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/solve/iterative/submatrix.h"
 #include "geometry/foundation/in_parallel.h"
 #include "mesher/partition/node_order.h"
 
 namespace flexneck::fe_modal {
-namespace {
-
-/// Largest entry of each column on all ranks, 1 where all are zero: single precision knows smaller
-/// numbers only down to 1e-38.
-Eigen::VectorXd scales_of(const Ranks& ranks, const Eigen::MatrixXd& columns) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(columns.cols());
-  if (columns.rows() > 0) largest = columns.cwiseAbs().colwise().maxCoeff().transpose();
-  ranks.max(largest);
-  return (largest.array() > 0).select(largest, 1.0);
-}
-
-}  // namespace
 
 SchwarzPreconditioner::SchwarzPreconditioner(const CutBody& body, const PartMatrix& part,
                                              const PartMatrix& around)
@@ -49,7 +38,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(const CutBody& body, const PartMatr
 }
 
 Eigen::MatrixXd SchwarzPreconditioner::apply(const Eigen::MatrixXd& residuals) const {
-  const Eigen::VectorXd scales = scales_of(ranks_, residuals);
+  const Eigen::VectorXd scales = column_scales(ranks_, residuals);
   const Eigen::MatrixXd scaled = residuals * scales.cwiseInverse().asDiagonal();
   const Eigen::MatrixXf local = exchange_.to_local(scaled).cast<float>();
   Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(local.rows(), local.cols());

@@ -6,9 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "fe_modal/algebra/block_product.h"
-#include "fe_modal/algebra/conjugate_gradients.h"
-#include "fe_modal/solve/iterative/block_davidson.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -80,36 +78,26 @@ SchwarzInverse::SchwarzInverse(const CutBody& body, const FormulationChoice& for
                                const Eigen::Matrix3Xd& prestress_m, const RankPart& part,
                                const SystemMatrices& matrices, Mat stiffness, Mat mass,
                                double shift)
-    : ShiftInverse(shift, body.fields.ranks()),
-      stiffness_(stiffness),
-      mass_(mass),
+    : PreconditionedInverse(stiffness, mass, shift, body.fields.ranks()),
       preconditioner_(make_preconditioner(body, formulation, prestress_m, part, matrices, shift)) {}
 
-Eigen::MatrixXd SchwarzInverse::multiply(const Eigen::MatrixXd& columns) const {
-  Eigen::MatrixXd forces = block_product(stiffness_, columns);
-  if (shift() != 0) forces -= shift() * block_product(mass_, columns);
-  return forces;
-}
-
-Eigen::MatrixXd SchwarzInverse::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  return conjugate_gradients(
-      ranks(), [&](const Eigen::MatrixXd& x) { return multiply(x); },
-      [&](const Eigen::MatrixXd& r) { return precondition(r); }, right_hand_sides);
-}
-
-Eigen::MatrixXd SchwarzInverse::precondition(const Eigen::MatrixXd& residuals) const {
-  ++gradient_iterations_;
+Eigen::MatrixXd SchwarzInverse::apply(const Eigen::MatrixXd& residuals) const {
   return preconditioner_->apply(residuals);
 }
 
+Eigen::MatrixXd SchwarzInverse::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  constexpr int kMaxIterations = 2000;
+  return gradient_solution(right_hand_sides, kMaxIterations);
+}
+
 std::optional<EigenPairs> SchwarzInverse::iterate(Mat mass, Eigen::Index count) const {
-  DavidsonResult result = block_davidson(
-      ranks(), [&](const Eigen::MatrixXd& x) { return multiply(x); }, mass,
-      [&](const Eigen::MatrixXd& r) { return preconditioner_->apply(r); }, count);
-  davidson_iterations_ += result.iterations;
-  result.pairs.values.array() += shift();
-  result.pairs.next += shift();
-  return std::move(result.pairs);
+  constexpr int kMaxIterations = 500;
+  // Static compliances, which are asked for to 1e-8, take shapes as exact.
+  constexpr double kTolerance = 1e-15;
+  std::optional<EigenPairs> pairs = davidson_pairs(mass, count, {kTolerance, kMaxIterations});
+  if (pairs) return pairs;
+  throw ComputationError("the iterative eigensolver has not converged in " +
+                         std::to_string(kMaxIterations) + " iterations");
 }
 
 std::string SchwarzInverse::describe() const {
@@ -117,10 +105,10 @@ std::string SchwarzInverse::describe() const {
   std::snprintf(
       text.data(), text.size(),
       "iterative%s: %zu subdomains, whose factors have %.4g million entries, and %td coarse "
-      "functions; %d block Davidson and %d conjugate gradient iterations",
+      "functions%s",
       ranks().are_many() ? (" on " + std::to_string(ranks().count()) + " ranks").c_str() : "",
       preconditioner_->subdomain_count(), preconditioner_->nonzeros() / 1e6,
-      preconditioner_->coarse_size(), davidson_iterations_, gradient_iterations_);
+      preconditioner_->coarse_size(), iterations_text().c_str());
   return text.data();
 }
 

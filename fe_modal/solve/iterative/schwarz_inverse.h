@@ -3,9 +3,9 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
-#include "fe_modal/algebra/operator_matrix.h"
-#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/solve/iterative/preconditioned_inverse.h"
 #include "fe_modal/solve/iterative/schwarz.h"
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/rank_part.h"
@@ -14,7 +14,7 @@ namespace flexneck::fe_modal {
 
 /// (K - shift M)^-1 by iteration, for bodies whose factor does not fit: no more than subdomains of
 /// some ten thousand nodes are factorised.
-class SchwarzInverse : public ShiftInverse {
+class SchwarzInverse : public PreconditionedInverse {
  public:
   /// @param body, formulation of all elements
   /// @param prestress_m displacements whose stresses stiffen the body, on all nodes; perhaps none
@@ -25,19 +25,13 @@ class SchwarzInverse : public ShiftInverse {
                  const SystemMatrices& matrices, Mat stiffness, Mat mass, double shift);
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const override;
-  Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const override;
   std::optional<EigenPairs> iterate(Mat mass, Eigen::Index count) const override;
   std::string describe() const override;
 
  private:
-  /// (K - shift M) x
-  Eigen::MatrixXd multiply(const Eigen::MatrixXd& columns) const;
+  Eigen::MatrixXd apply(const Eigen::MatrixXd& residuals) const override;
 
-  Mat stiffness_;
-  Mat mass_;
   std::unique_ptr<const SchwarzPreconditioner> preconditioner_;
-  mutable int davidson_iterations_ = 0;
-  mutable int gradient_iterations_ = 0;
 };
 
 }  // namespace flexneck::fe_modal

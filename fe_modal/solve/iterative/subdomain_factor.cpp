@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/solve/iterative/subdomain_factor.h"
 
-#include <optional>
 #include <utility>
 
 #include "fe_modal/algebra/cholmod_handles.h"
-#include "geometry/foundation/error.h"
+#include "fe_modal/solve/iterative/single_inverse.h"
 
 namespace flexneck::fe_modal {
-namespace {
-
-/// Of an entry on the diagonal: where elimination leaves less, rounding errors of 6e-8 may make
-/// much of the pivot.
-constexpr double kDoubtfulPivot = 1e-5;
-
-std::optional<SupernodalFactor<float>> factor_in_single_precision(CholmodAnalysis& analysis,
-                                                                  unsigned threads) {
-  try {
-    SupernodalFactor<float> factor(analysis, threads);
-    if (factor.smallest_pivot() > kDoubtfulPivot) return factor;
-  } catch (const ComputationError&) {  // perhaps definite all the same, but for seven digits
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 SubdomainFactor::SubdomainFactor(const SymmetricMatrix& matrix,
                                  std::span<const std::int32_t> node_order, unsigned threads) {
   const cholmod_sparse view = cholmod_view(matrix.offsets(), matrix.columns(), matrix.values());
   CholmodAnalysis analysis(view, CholmodOrder::given, node_order);
-  auto factor = factor_in_single_precision(analysis, threads);
+  auto factor = factorise_in_single(analysis, threads);
   factor_ = factor ? std::move(*factor)
                    : SupernodalFactor<float>(SupernodalFactor<double>(analysis, threads));
 }

@@ -121,7 +121,7 @@ Eigen::MatrixXd RefinedSystem::forces(const Eigen::MatrixXd& columns) const {
 }
 
 Eigen::MatrixXd RefinedSystem::precondition(const Eigen::MatrixXd& residuals) const {
-  Eigen::MatrixXd result = transfer_.to_fine(inverse_.solve(transfer_.to_coarse(residuals)));
+  Eigen::MatrixXd result = transfer_.to_fine(inverse_.approximate(transfer_.to_coarse(residuals)));
   result +=
       kStarWeight *
       (around_ ? around_->exchange.sum_to_own(stars_->smooth(around_->exchange.to_local(residuals)))
