@@ -150,10 +150,11 @@ std::unique_ptr<ShiftInverse> AssembledSystem::factor(double shift, Precision pr
   const bool is_in_order = fields_.dof_map().is_renumbered();
   const CholmodOrder kind = is_in_order ? CholmodOrder::numbering : CholmodOrder::given;
   const auto given = is_in_order ? std::span<const std::int32_t>() : order();
-  return precision == Precision::of_double
-             ? std::make_unique<CholeskyFactor>(matrix.get(), shift, kind, given, ranks().threads())
-             : make_shift_inverse(matrix.get(), products, shift, kind, given, ranks().threads(),
-                                  make_in_double);
+  if (precision == Precision::of_double) {
+    return std::make_unique<CholeskyFactor>(matrix.get(), shift, kind, given, ranks().threads());
+  }
+  return make_shift_inverse(matrix.get(), products, shift, kind, given, ranks().threads(),
+                            make_in_double);
 }
 
 std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) const {
