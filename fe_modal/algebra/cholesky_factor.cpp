@@ -11,17 +11,21 @@
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
+namespace {
 
-std::string entries_text(double nonzeros) {
+std::string millions_text(double entries) {
   std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "the factor has %.4g million entries", nonzeros / 1e6);
+  std::snprintf(text.data(), text.size(), "%.4g million entries", entries / 1e6);
   return text.data();
 }
 
+}  // namespace
+
+std::string entries_text(double nonzeros) { return "the factor has " + millions_text(nonzeros); }
+
 void require_memory_for_factor(double nonzeros, double bytes_per_entry) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "the factor of %.4g million entries", nonzeros / 1e6);
-  require_memory(text.data(), bytes_per_entry * nonzeros, kOrAnotherSolution);
+  require_memory("the factor of " + millions_text(nonzeros), bytes_per_entry * nonzeros,
+                 kOrAnotherSolution);
 }
 
 CholeskyFactor::CholeskyFactor(CholmodAnalysis& analysis, double shift, unsigned threads)

@@ -80,4 +80,20 @@ TEST_CASE("where iterations with a factor do not settle, one in double takes ove
   CHECK_THAT(inverse.describe(), !Catch::Contains("4 bytes each"));
 }
 
+TEST_CASE("a matrix with a negative eigenvalue is left to a factor in double, which refuses it") {
+  const SystemMatrices system = slender_bar();
+  const Eigen::MatrixXd stiffness = dense(system.stiffness.get());
+  const double first =
+      testing::dense_pairs(stiffness, dense(system.mass.get())).values.head(1).value();
+  const CholeskyFactor near(system.stiffness.get(), 0);  // positive definite, and nearly right
+  const double shift = 1.001 * first;
+  const SingleInverse inverse({[&](const Eigen::MatrixXd& x) { return near.solve(x); }, "factor"},
+                              products_of(system), shift, [&] {
+                                return std::make_unique<CholeskyFactor>(
+                                    shifted_stiffness(system, shift).get(), shift);
+                              });
+  CHECK_THROWS_WITH(lowest_eigenpairs(system.mass.get(), inverse, 3),
+                    Catch::Contains("not positive definite"));
+}
+
 }  // namespace flexneck::fe_modal

@@ -59,13 +59,16 @@ Eigen::MatrixXd SingleInverse::improve(const Eigen::MatrixXd& right_hand_sides,
 
 std::optional<EigenPairs> SingleInverse::iterate(Mat mass, Eigen::Index count) const {
   if (in_double_) return std::nullopt;
-  // Shapes as exact as those by a factor in double: an iteration more than 1e-15 takes.
+  // Shapes as exact as those by a factor in double (calibrated): an iteration more than 1e-15
+  // takes.
   constexpr double kTolerance = 1e-18;
   // Ten modes of necks take 7 to 9. What rounding hides, eigenvalues far below those of most
   // bodies, never settles.
   constexpr int kMaxIterations = 20;
   const auto pairs = davidson_pairs(mass, count, {kTolerance, kMaxIterations});
-  if (pairs) return purified(mass, *this, *pairs);
+  // In single precision a matrix that is hardly indefinite may have a factor; one in double tells.
+  const bool is_definite = pairs && pairs->values.minCoeff() > shift();
+  if (is_definite) return purified(mass, *this, *pairs);
   go_on_in_double();
   return std::nullopt;
 }
