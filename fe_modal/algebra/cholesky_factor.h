@@ -9,6 +9,7 @@
 
 #include "fe_modal/algebra/cholmod_order.h"
 #include "fe_modal/algebra/petsc_handles.h"
+#include "fe_modal/algebra/pivots.h"
 #include "fe_modal/algebra/shift_inverse.h"
 #include "fe_modal/algebra/supernodal_factor.h"
 
@@ -22,11 +23,6 @@ inline constexpr double kBytesPerSingleEntry = kBytesPerFactorEntry / 2;
 /// Of an entry on the diagonal: of a singular matrix rounding errors leave up to 1e-13 for a pivot,
 /// sound bodies hardly ever so little.
 inline constexpr double kSingularPivot = 1e-10;
-
-/// What is said of a matrix that has no Cholesky factor.
-inline constexpr const char* kNotDefinite =
-    "the stiffness matrix is not positive definite: a part of the body is not fixed, or elements "
-    "with reduced integration stand in a single row, or Poisson's ratio is too near 1/2";
 
 /// "the factor has 12.3 million entries"
 std::string entries_text(double nonzeros);

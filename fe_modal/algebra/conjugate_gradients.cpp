@@ -4,10 +4,9 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "fe_modal/algebra/matrix_product.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -23,11 +22,10 @@ constexpr double kNoDirection = 1e-12;
 /// @param energies D^T A D
 Eigen::MatrixXd orthonormal_combinations(const Eigen::MatrixXd& energies) {
   const Eigen::VectorXd scale = energies.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * energies *
-                                                              scale.asDiagonal());
-  const Eigen::VectorXd& squares = solver.eigenvalues();
+  const auto [squares, vectors] =
+      symmetric_pairs(scale.asDiagonal() * energies * scale.asDiagonal());
   const Eigen::Index kept = (squares.array() > kNoDirection).count();
-  return scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
+  return scale.asDiagonal() * vectors.rightCols(kept) *
          squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 

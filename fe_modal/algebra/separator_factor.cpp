@@ -7,6 +7,7 @@
 #include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/block_elimination.h"
 #include "fe_modal/algebra/communicator.h"
+#include "fe_modal/algebra/signed_cholesky.h"
 #include "fe_modal/algebra/supernode_tree.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/in_parallel.h"
@@ -44,8 +45,7 @@ template void add_rows(double, const DenseBlock<const float>&, std::span<const i
 class SeparatorFactor::Elimination {
  public:
   Elimination(SeparatorFactor& factor, Pivots pivots, const Eigen::VectorXd& diagonal)
-      : factor_(factor), pivots_(pivots), diagonal_(diagonal), squares_(diagonal.size()) {
-    squares_.setZero();
+      : factor_(factor), pivots_(pivots), diagonal_(diagonal) {
     factor_.ranks_.together([&] {
       std::size_t largest = 0;
       for (const Panel& panel : panels()) largest = std::max(largest, size_of(panel));
@@ -71,12 +71,9 @@ class SeparatorFactor::Elimination {
     for (std::size_t p = 0; p < panels().size(); ++p) {
       const bool has_negative = factorise(p);
       const DenseBlock<const double> values = send(p);
-      note_squares(panels()[p], values);
+      note_pivots(panels()[p], values);
       update_from(p, values, has_negative);
     }
-    // All ranks have seen all panels.
-    if (squares_.size() > 0)
-      factor_.growth_ = squares_.cwiseQuotient(diagonal_.cwiseAbs()).maxCoeff();
   }
 
  private:
@@ -121,12 +118,10 @@ class SeparatorFactor::Elimination {
     return block(panel, values);
   }
 
-  void note_squares(const Panel& panel, const DenseBlock<const double>& values) {
+  void note_pivots(const Panel& panel, const DenseBlock<const double>& values) {
     for (int j = 0; j < panel.columns; ++j) {
-      const double* const column = values.column(j);
-      for (int i = j; i < values.rows; ++i)
-        squares_[panel.rows[as_index(i)]] += column[i] * column[i];
-      const double share = column[j] * column[j] / std::abs(diagonal_[panel.first + j]);
+      const double root = values.column(j)[j];
+      const double share = root * root / std::abs(diagonal_[panel.first + j]);
       factor_.smallest_pivot_ = std::min(factor_.smallest_pivot_, share);
     }
   }
@@ -167,7 +162,6 @@ class SeparatorFactor::Elimination {
   SeparatorFactor& factor_;
   Pivots pivots_;
   const Eigen::VectorXd& diagonal_;
-  Eigen::VectorXd squares_;                    ///< of the rows of L, their sums
   std::vector<double> received_;               ///< a panel
   std::vector<std::vector<double>> products_;  ///< of each thread
   std::vector<double> workspace_;
@@ -223,9 +217,17 @@ class SeparatorFactor::Solve {
     if (is_own(panel)) {
       std::transform(panel.rows.begin(), panel.rows.end(), panel_x_.begin(),
                      [&](int row) { return x_[as_index(row)]; });
+      turn_rows(panel);
       substitute(factor_block(p), panel_x_.data());
     }
     send(panel, panel.columns);
+  }
+
+  void turn_rows(const Panel& panel) {
+    for (int k = 0; k < panel.columns; ++k) {
+      if (factor_.signs_[as_index(panel.first + k)] > 0) continue;
+      for (double& value : panel_x_[as_index(k)].value) value = -value;
+    }
   }
 
   bool is_own(const Panel& panel) const { return panel.owner == factor_.ranks_.own(); }

@@ -8,9 +8,10 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/blas.h"
+#include "fe_modal/algebra/pivots.h"
 #include "fe_modal/algebra/ranks.h"
 #include "fe_modal/algebra/separator.h"
-#include "fe_modal/algebra/signed_cholesky.h"
 
 namespace flexneck::fe_modal {
 
@@ -35,14 +36,11 @@ class SeparatorFactor {
   SeparatorFactor(const Ranks& ranks, const std::vector<Panel>& panels, Pivots pivots,
                   const Eigen::VectorXd& diagonal, const AddSummand& add);
 
-  /// x = (L L^T)^-1 x of all columns, (rows of the separator, k), which all ranks have whole.
-  /// @pre positive pivots
+  /// x = (L S L^T)^-1 x of all columns, (rows of the separator, k), which all ranks have whole.
   void solve(Eigen::MatrixXd& x) const;
 
   double smallest_pivot() const { return smallest_pivot_; }  ///< as SupernodalFactor's
   Eigen::Index negative_pivots() const;
-  /// As Inertia's, of the separator alone.
-  double growth() const { return growth_; }
   double entry_count() const;  ///< of all panels
 
  private:
@@ -54,7 +52,6 @@ class SeparatorFactor {
   std::vector<std::vector<double>> values_;  ///< (panels), empty where another rank keeps one
   std::vector<double> signs_;                ///< (rows)
   double smallest_pivot_ = 1;
-  double growth_ = 0;
 };
 
 }  // namespace flexneck::fe_modal

@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "fe_modal/algebra/blas.h"
-#include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/pivots.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
-
-enum class Pivots { positive, of_any_sign };
 
 /// Room for a block in a workspace that grows where it must.
 template <typename Scalar>

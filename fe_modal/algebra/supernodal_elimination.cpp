@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -100,27 +99,7 @@ class Elimination {
   }
 
   SchurComplement<Scalar> take_complement() { return std::move(complement_); }
-
-  Inertia inertia() const {
-    std::vector<double> squares(tree_.order().size(), 0);
-    for (std::size_t k = 0; k < tree_.eliminated_count(); ++k) {
-      const Supernode& node = tree_.supernodes()[k];
-      const auto rows = tree_.rows_of(node);
-      for (int j = 0; j < node.columns; ++j) {
-        const Scalar* const column = block_of(k).column(j);
-        for (int i = j; i < node.rows; ++i) {
-          squares[as_index(rows[as_index(i)])] += static_cast<double>(column[i]) * column[i];
-        }
-      }
-    }
-    Inertia result;
-    for (std::size_t k = 0; k < squares.size(); ++k) {
-      if (signs_[k] < 0) ++result.negative;
-      const double diagonal = matrix_.values[as_index(matrix_.offsets[k])];
-      result.growth = std::max(result.growth, squares[k] / std::abs(diagonal));
-    }
-    return result;
-  }
+  std::vector<Scalar> take_signs() { return std::move(signs_); }
 
  private:
   void eliminate(std::size_t k, Workspace<Scalar>& workspace) {
@@ -278,13 +257,21 @@ template SchurComplement<double> factorise(const SupernodeTree&, const LowerHalf
 template SchurComplement<float> factorise(const SupernodeTree&, const LowerHalf&, std::span<float>,
                                           unsigned);
 
-Inertia factorise_with_signs(const SupernodeTree& tree, const LowerHalf& matrix,
-                             std::span<double> values, unsigned threads) {
-  Elimination<double> elimination(tree, matrix, values, Pivots::of_any_sign);
+template <typename Scalar>
+SchurComplement<Scalar> factorise_with_signs(const SupernodeTree& tree, const LowerHalf& matrix,
+                                             std::span<Scalar> values, std::vector<Scalar>& signs,
+                                             unsigned threads) {
+  Elimination<Scalar> elimination(tree, matrix, values, Pivots::of_any_sign);
   elimination.run(threads);
-  Inertia inertia = elimination.inertia();
-  inertia.complement = elimination.take_complement();
-  return inertia;
+  signs = elimination.take_signs();
+  return elimination.take_complement();
 }
+
+template SchurComplement<double> factorise_with_signs(const SupernodeTree&, const LowerHalf&,
+                                                      std::span<double>, std::vector<double>&,
+                                                      unsigned);
+template SchurComplement<float> factorise_with_signs(const SupernodeTree&, const LowerHalf&,
+                                                     std::span<float>, std::vector<float>&,
+                                                     unsigned);
 
 }  // namespace flexneck::fe_modal

@@ -32,19 +32,13 @@ template <typename Scalar>
 SchurComplement<Scalar> factorise(const SupernodeTree& tree, const LowerHalf& matrix,
                                   std::span<Scalar> values, unsigned threads);
 
-/// What a factor without pivoting tells of a matrix that need not be definite.
-struct Inertia {
-  std::size_t negative = 0;  ///< eigenvalues; with rows that are kept, of those that are not
-  /// Of the squares in a row of L their sum, over the matrix's entry on the diagonal, at most. The
-  /// factor is that of a matrix that differs from the given one by so many roundings (Higham,
-  /// Accuracy and Stability of Numerical Algorithms, theorem 10.3), 1 for definite ones.
-  double growth = 0;
-  SchurComplement<double> complement;
-};
-
-/// P A P^T = L S L^T with S of +1 and -1 on the diagonal, found as factorise() finds L.
+/// P A P^T = L S L^T with S of +1 and -1 on the diagonal, found as factorise() finds L, without
+/// pivoting: rounding errors may grow in it.
+/// @param signs (rows) takes S, +1 of the rows that are kept
 /// @throws ComputationError on a pivot that is zero.
-Inertia factorise_with_signs(const SupernodeTree& tree, const LowerHalf& matrix,
-                             std::span<double> values, unsigned threads);
+template <typename Scalar>
+SchurComplement<Scalar> factorise_with_signs(const SupernodeTree& tree, const LowerHalf& matrix,
+                                             std::span<Scalar> values, std::vector<Scalar>& signs,
+                                             unsigned threads);
 
 }  // namespace flexneck::fe_modal

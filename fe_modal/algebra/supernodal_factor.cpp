@@ -2,6 +2,7 @@
 #include "fe_modal/algebra/supernodal_factor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -14,13 +15,16 @@
 namespace flexneck::fe_modal {
 template <typename Scalar>
 SupernodalFactor<Scalar>::SupernodalFactor(CholmodAnalysis& analysis, unsigned threads,
-                                           std::span<const int> kept)
+                                           std::span<const int> kept, Pivots pivots)
     : tree_(analysis.places(), analysis.block_size(), kept) {
   number_ancestor_rows();
   try {
     const LowerHalf matrix = analysis.lower_half();
     values_ = std::make_unique_for_overwrite<Scalar[]>(tree_.value_count());
-    complement_ = factorise(tree_, matrix, std::span(values_.get(), tree_.value_count()), threads);
+    const std::span<Scalar> values(values_.get(), tree_.value_count());
+    complement_ = pivots == Pivots::positive
+                      ? factorise(tree_, matrix, values, threads)
+                      : factorise_with_signs(tree_, matrix, values, signs_, threads);
     find_smallest_pivot(matrix);
   } catch (const std::bad_alloc&) {
     throw no_memory_for_factor();
@@ -33,6 +37,7 @@ SupernodalFactor<Scalar>::SupernodalFactor(SupernodalFactor<Other>&& other)
     : tree_(std::move(other.tree_)),
       rows_(std::move(other.rows_)),
       values_(std::make_unique_for_overwrite<Scalar[]>(tree_.value_count())),
+      signs_(other.signs_.begin(), other.signs_.end()),
       smallest_pivot_(other.smallest_pivot_) {
   std::transform(other.values_.get(), other.values_.get() + tree_.value_count(), values_.get(),
                  [](Other value) { return static_cast<Scalar>(value); });
@@ -44,9 +49,15 @@ void SupernodalFactor<Scalar>::find_smallest_pivot(const LowerHalf& matrix) {
     const Scalar* root = values_.get() + node.block;
     for (int j = node.first; j < node.end(); ++j, root += node.rows + 1) {
       const double entry = matrix.values[as_index(matrix.offsets[as_index(j)])];
-      smallest_pivot_ = std::min(smallest_pivot_, static_cast<double>(*root) * *root / entry);
+      const double pivot = static_cast<double>(*root) * *root;
+      smallest_pivot_ = std::min(smallest_pivot_, pivot / std::abs(entry));
     }
   }
+}
+
+template <typename Scalar>
+Eigen::Index SupernodalFactor<Scalar>::negative_pivots() const {
+  return std::count(signs_.begin(), signs_.end(), Scalar(-1));
 }
 
 template <typename Scalar>
@@ -99,6 +110,9 @@ class SupernodalFactor<Scalar>::Solve {
   }
 
   void substitute(unsigned threads) {
+    for (std::size_t k = 0; k < factor_.signs_.size(); ++k) {
+      if (factor_.signs_[k] < 0) turn(x_[k]);
+    }
     Workspace top = workspace(static_cast<int>(x_.size()), nullptr);
     for (std::size_t k = tree_.top().size(); k-- > 0;) {
       backward(tree_.supernodes()[tree_.top()[k]], top);
@@ -126,6 +140,10 @@ class SupernodalFactor<Scalar>::Solve {
 
   static void add(const Row& more, Row& sum) {
     for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += more.value[c];
+  }
+
+  static void turn(Row& row) {
+    for (std::size_t c = 0; c < lanes; ++c) row.value[c] = -row.value[c];
   }
 
   void forward(const Subtree& subtree, std::vector<Row>& ancestors) {

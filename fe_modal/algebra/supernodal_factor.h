@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "fe_modal/algebra/pivots.h"
 #include "fe_modal/algebra/supernodal_elimination.h"
 #include "fe_modal/algebra/supernode_tree.h"
 
@@ -18,7 +19,8 @@ class CholmodAnalysis;
 
 /// Supernodal Cholesky factor, P A P^T = L L^T, of numbers of double or single precision: half the
 /// memory, and half the time of a solve, which is spent on reading the factor. Rows that are kept
-/// are not eliminated: L has the other columns, and their Schur complement is left.
+/// are not eliminated: L has the other columns, and their Schur complement is left. With pivots of
+/// any sign it is L S L^T, S of +1 and -1 on the diagonal.
 template <typename Scalar>
 class SupernodalFactor {
  public:
@@ -26,8 +28,10 @@ class SupernodalFactor {
 
   SupernodalFactor() = default;
   /// @param kept columns of each block of the last rows that are kept
-  /// @throws ComputationError if the matrix is not positive definite or memory runs out.
-  SupernodalFactor(CholmodAnalysis& analysis, unsigned threads, std::span<const int> kept = {});
+  /// @throws ComputationError if the matrix is not positive definite or, with pivots of any sign,
+  /// one of them is zero, or memory runs out.
+  SupernodalFactor(CholmodAnalysis& analysis, unsigned threads, std::span<const int> kept = {},
+                   Pivots pivots = Pivots::positive);
   /// The same in another precision.
   template <typename Other>
   explicit SupernodalFactor(SupernodalFactor<Other>&& other);
@@ -39,13 +43,14 @@ class SupernodalFactor {
   /// Of the matrix's entries on the diagonal the smallest share that elimination left for a pivot:
   /// where it comes near the rounding of the numbers, some digits or all of a solution are lost.
   double smallest_pivot() const { return smallest_pivot_; }
-  /// x = (L L^T)^-1 x, the same to the last bit by any number of threads.
+  Eigen::Index negative_pivots() const;
+  /// x = (L S L^T)^-1 x, the same to the last bit by any number of threads.
   /// @param x (n, k), rows in the order of elimination
   void solve(Matrix& x, unsigned threads) const;
   /// The same with rows in the order of A.
   Eigen::MatrixXd solution(const Eigen::MatrixXd& right_hand_sides, unsigned threads) const;
   /// The two halves of solve(): x = L^-1 x, with -L_k L^-1 x added to the rows that are kept, and
-  /// with these as they are x = L^-T (x - L_k^T x_k).
+  /// with these as they are x = L^-T (S x - L_k^T x_k).
   void eliminate(Matrix& x, unsigned threads) const;
   void substitute(Matrix& x, unsigned threads) const;
 
@@ -71,6 +76,7 @@ class SupernodalFactor {
   /// As the tree's row lists, but in those of a subtree row end_row + k stands for its ancestor k.
   std::vector<int> rows_;
   std::unique_ptr<Scalar[]> values_;
+  std::vector<Scalar> signs_;  ///< S; empty where all pivots are positive
   SchurComplement<Scalar> complement_;
   double smallest_pivot_ = 1;
 };

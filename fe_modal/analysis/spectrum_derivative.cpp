@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -85,9 +85,7 @@ void add_group(const Spectrum& spectrum, const GroupDerivative& derivative, Sens
   for (Eigen::Index p = 0; p < parameters; ++p) {
     const Eigen::MatrixXd& matrix = derivative.by_parameter[static_cast<std::size_t>(p)];
     of_class.col(p) = matrix.diagonal();
-    directional.col(p) =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-            .eigenvalues();
+    directional.col(p) = symmetric_eigenvalues(matrix);
   }
   const auto add_each = [&](QuantityKind kind) {
     for (Eigen::Index k = 0; k < group.count; ++k) {

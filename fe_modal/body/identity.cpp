@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -48,10 +48,9 @@ void require_positive(const std::string& dataset, const std::string& what,
   const auto identity = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix + allowed * identity);
   if (factor.info() == Eigen::Success) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(matrix, Eigen::EigenvaluesOnly);
   throw InputError(dataset + ": expected that " + what +
                    " is positive, but its lowest eigenvalue, of a diagonal of 1, is " +
-                   number_text(spectrum.eigenvalues()[0]) + ", below rounding's " +
+                   number_text(symmetric_eigenvalues(matrix)[0]) + ", below rounding's " +
                    number_text(-allowed));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/body/independent_loads.h"
 
-#include <Eigen/Eigenvalues>
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -17,11 +17,10 @@ IndependentLoads independent_loads(const Eigen::MatrixXd& rest, const Eigen::Vec
       (whole.array() > 0).select(whole.array().max(0).sqrt().inverse(), 0).matrix();
   const Eigen::MatrixXd shares =
       scale.asDiagonal() * ((rest + rest.transpose()) / 2) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(shares);
-  const Eigen::VectorXd& energies = solver.eigenvalues();  // ascending
+  const auto [energies, vectors] = symmetric_pairs(shares);
   const Eigen::Index dropped = (energies.array() < kNoEnergy).count();
   const Eigen::Index kept = energies.size() - dropped;
-  return {scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
+  return {scale.asDiagonal() * vectors.rightCols(kept) *
               energies.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal(),
           dropped};
 }

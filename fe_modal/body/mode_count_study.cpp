@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/independent_loads.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -54,10 +53,9 @@ struct LoadedInterface {
 Eigen::VectorXd loaded_frequencies(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
                                    const Eigen::MatrixXd& motions, const LoadedInterface& loaded) {
   const Eigen::MatrixXd whole = mass + motions.transpose() * loaded.mass * motions;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, whole,
-                                                                         Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(stiffness, whole);
   const Eigen::Index count = std::min(kFrequencies, stiffness.rows());
-  return solver.eigenvalues().head(count).cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
+  return eigenvalues.head(count).cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
 }
 
 ModeCountRow study(const Choice& choice, const LoadedInterface& loaded) {

@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "fe_modal/body/basis_kind.h"
 #include "fe_modal/body/modal_body_check.h"
 #include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -54,9 +54,8 @@ Spectrum spectrum_of(const ReducedBody& reduced) {
     return {reduced.stiffness.diagonal(), MatrixXd::Identity(m, m), true};
   if (Eigen::LLT<MatrixXd>(reduced.invariants.Maa).info() != Eigen::Success)
     throw InputError("the generalised mass is not positive definite");
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(reduced.stiffness,
-                                                                  reduced.invariants.Maa);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  auto [values, vectors] = symmetric_pairs(reduced.stiffness, reduced.invariants.Maa);
+  return {std::move(values), std::move(vectors)};
 }
 
 /// sum_kl T_kj T_li list[k, l].

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -40,7 +40,7 @@ Eigen::MatrixXd rotation_to_axes(const Motions& motions) {
   // x and y translation, x and y rotation: lateral motion counts for, fore-aft against.
   const Vector6d weights{{-1, 1, 0, 1, -1, 0}};
   const Eigen::MatrixXd contest = motions.transpose() * weights.asDiagonal() * motions;
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(contest).eigenvectors();
+  return symmetric_pairs(contest).vectors;
 }
 
 double sign_of_largest(const Eigen::VectorXd& values) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/reduction/ritz.h"
 
-#include <Eigen/Eigenvalues>
-
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/reduction/static_response.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -32,9 +31,9 @@ EigenPairs ritz_pairs(const BodyOperators& body, const Eigen::MatrixXd& modes,
     const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
     mass = scale.asDiagonal() * symmetric_part(mass) * scale.asDiagonal();
     stiffness = scale.asDiagonal() * symmetric_part(stiffness) * scale.asDiagonal();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-    pairs.values = solver.eigenvalues();
-    pairs.vectors *= scale.asDiagonal() * solver.eigenvectors();
+    const SymmetricPairs found = symmetric_pairs(stiffness, mass);
+    pairs.values = found.values;
+    pairs.vectors *= scale.asDiagonal() * found.vectors;
   }
   return pairs;
 }

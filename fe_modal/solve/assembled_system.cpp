@@ -161,12 +161,19 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) con
   try {
     std::optional<SymmetricMatrix> shifted;
     ranks().together([&] { shifted = shifted_stiffness(*matrices_, sigma); });
+    const OperatorMatrix product(
+        fields_.own_dof_count(),
+        [&](const Eigen::MatrixXd& x) {
+          return Eigen::MatrixXd(block_product(stiffness(), x) - sigma * block_product(mass(), x));
+        },
+        ranks());
     if (ranks().are_many()) {
-      if (const auto counted = count_on_ranks(distributed(*shifted))) return counted;
+      if (const auto counted = count_on_ranks(distributed(*shifted), product.get())) return counted;
     } else {
       const bool is_in_order = fields_.dof_map().is_renumbered();
       const auto counted = count_without_pivoting(
-          shifted->get(), is_in_order ? CholmodOrder::numbering : CholmodOrder::given,
+          shifted->get(), product.get(),
+          is_in_order ? CholmodOrder::numbering : CholmodOrder::given,
           is_in_order ? std::span<const std::int32_t>() : order(), ranks().threads());
       if (counted) return counted;
     }

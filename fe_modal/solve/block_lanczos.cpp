@@ -6,12 +6,11 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/algebra/random_block.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -135,10 +134,10 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, Eigen::MatrixXd 
     const auto [shares, coupling] = orthogonalise(ranks, mass, basis, block);
     basis.project_last(shares);
 
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());
+    const SymmetricPairs ritz = symmetric_pairs(basis.projected());
     // Largest first: these are the lowest of K.
-    const Eigen::VectorXd theta = ritz.eigenvalues().reverse();
-    const Eigen::MatrixXd vectors = ritz.eigenvectors().rowwise().reverse();
+    const Eigen::VectorXd theta = ritz.values.reverse();
+    const Eigen::MatrixXd vectors = ritz.vectors.rowwise().reverse();
     const Eigen::Index found = std::min(count, theta.size());
     state.before = std::move(state.values);
     state.values = inverse.shift() + theta.head(found).cwiseInverse().array();
@@ -168,9 +167,8 @@ EigenPairs purified(Mat mass, const ShiftInverse& inverse, const EigenPairs& pai
   // What was before is (K - shift M) times the new vectors.
   const Eigen::MatrixXd stiffness = inner_products(inverse.ranks(), vectors, before);
   const Eigen::MatrixXd inertia = inner_products(inverse.ranks(), vectors, momenta);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
-      (stiffness + stiffness.transpose()) / 2, inertia);
-  return {ritz.eigenvalues().array() + inverse.shift(), vectors * ritz.eigenvectors(), pairs.next};
+  const SymmetricPairs ritz = symmetric_pairs((stiffness + stiffness.transpose()) / 2, inertia);
+  return {ritz.values.array() + inverse.shift(), vectors * ritz.vectors, pairs.next};
 }
 
 }  // namespace flexneck::fe_modal

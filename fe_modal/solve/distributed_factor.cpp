@@ -56,11 +56,20 @@ class PartAnalysis {
   std::vector<int> kept_;
 };
 
+/// What a factor is made for, as is said where memory does not hold it.
+struct Purpose {
+  const char* what;
+  const char* advice;
+  Pivots pivots;
+};
+constexpr Purpose kForSolutions{"the factor", "take a coarser mesh or more machines", Pivots::positive};
+constexpr Purpose kForCount{"counting modes by inertia",
+                            "take a coarser mesh, or leave out modes.certify", Pivots::of_any_sign};
+
 /// Collective: analyses all parts that have blocks, and requires memory for their factors before
 /// any is made.
 void analyse(const DistributedMatrix& matrix, const Separator& separator,
-             std::optional<PartAnalysis>& part, double bytes_per_entry, const std::string& what,
-             const std::string& advice) {
+             std::optional<PartAnalysis>& part, double bytes_per_entry, const Purpose& purpose) {
   const Ranks& ranks = matrix.layout.ranks();
   const int beside = ranks.on_this_machine();
   ranks.together([&] {
@@ -70,7 +79,8 @@ void analyse(const DistributedMatrix& matrix, const Separator& separator,
     if (!part) return;
     const std::string where =
         beside > 1 ? " on the " + std::to_string(beside) + " ranks of this machine" : "";
-    require_memory(what + where, bytes_per_entry * beside * part->get().nonzeros(), advice);
+    require_memory(purpose.what + where, bytes_per_entry * beside * part->get().nonzeros(),
+                   purpose.advice);
   });
 }
 
@@ -119,17 +129,18 @@ std::vector<Eigen::Index> own_rows(const DistributedMatrix& matrix,
   return rows;
 }
 
-/// A = L L^T on all ranks. What is between their parts is factorised in double precision.
+/// A = L S L^T on all ranks. What is between their parts is factorised in double precision.
 template <typename Scalar>
 class DistributedFactor {
  public:
   /// Collective.
-  explicit DistributedFactor(const DistributedMatrix& matrix);
+  explicit DistributedFactor(const DistributedMatrix& matrix, const Purpose& purpose = kForSolutions);
 
   /// A^-1 times each column, (own dofs, k). Collective.
   Eigen::MatrixXd solution(const Eigen::MatrixXd& right_hand_sides) const;
   /// As SupernodalFactor's, of all ranks.
   double smallest_pivot() const { return smallest_pivot_; }
+  Eigen::Index negative_pivots() const;
   /// "the factor has 12.3 million entries on 4 ranks"
   std::string entries_text() const;
 
@@ -146,21 +157,21 @@ class DistributedFactor {
 };
 
 template <typename Scalar>
-DistributedFactor<Scalar>::DistributedFactor(const DistributedMatrix& matrix)
+DistributedFactor<Scalar>::DistributedFactor(const DistributedMatrix& matrix,
+                                             const Purpose& purpose)
     : ranks_(matrix.layout.ranks()), separator_(ranks_, block_count(matrix.layout), matrix.blocks) {
   std::optional<PartAnalysis> part;
-  analyse(matrix, separator_, part, kBytesPerEntry<Scalar>, "the factor",
-          "take a coarser mesh or more machines");
+  analyse(matrix, separator_, part, kBytesPerEntry<Scalar>, purpose);
   ranks_.together([&] {
     if (!part) return;
-    inside_ =
-        SupernodalFactor<Scalar>(part->get(), threads_in_blas(ranks_.threads()), part->kept());
+    inside_ = SupernodalFactor<Scalar>(part->get(), threads_in_blas(ranks_.threads()), part->kept(),
+                                       purpose.pivots);
     inside_rows_ = own_rows(matrix, std::span(part->order()).first(separator_.inside().size()));
     shared_rows_ = own_rows(matrix, separator_.shared());
   });
   part.reset();
   SchurComplement<Scalar> complement = inside_.take_complement();
-  between_.emplace(ranks_, separator_.panels(), Pivots::positive,
+  between_.emplace(ranks_, separator_.panels(), purpose.pivots,
                    diagonal_between(matrix, separator_), summands(separator_, complement));
   Eigen::VectorXd pivot = Eigen::VectorXd::Constant(1, -inside_.smallest_pivot());
   ranks_.max(pivot);
@@ -197,8 +208,26 @@ Eigen::MatrixXd DistributedFactor<Scalar>::solution(const Eigen::MatrixXd& right
 }
 
 template <typename Scalar>
+Eigen::Index DistributedFactor<Scalar>::negative_pivots() const {
+  return static_cast<Eigen::Index>(ranks_.sum(static_cast<double>(inside_.negative_pivots()))) +
+         between_->negative_pivots();
+}
+
+template <typename Scalar>
 std::string DistributedFactor<Scalar>::entries_text() const {
   return fe_modal::entries_text(nonzeros_) + " on " + std::to_string(ranks_.count()) + " ranks";
+}
+
+template <typename Scalar>
+std::optional<Eigen::Index> count_by_factor(const DistributedMatrix& matrix, Mat product) {
+  try {
+    const DistributedFactor<Scalar> factor(matrix, kForCount);
+    const auto inverse = [&](const Eigen::MatrixXd& x) { return factor.solution(x); };
+    if (has_inertia_of_factor(matrix.layout.ranks(), product, inverse))
+      return factor.negative_pivots();
+  } catch (const ComputationError&) {  // a pivot is zero
+  }
+  return std::nullopt;
 }
 
 /// In double precision.
@@ -250,39 +279,9 @@ std::unique_ptr<ShiftInverse> make_distributed_in_double(const DistributedMatrix
   return std::make_unique<DistributedInverse>(matrix, shift);
 }
 
-std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix) {
-  const Ranks& ranks = matrix.layout.ranks();
-  const Separator separator(ranks, block_count(matrix.layout), matrix.blocks);
-  Inertia inside;
-  bool is_counted = true;
-  std::optional<PartAnalysis> part;
-  analyse(matrix, separator, part, sizeof(double), "counting modes by inertia",
-          "take a coarser mesh, or leave out modes.certify");
-  ranks.together([&] {
-    if (!part) return;
-    const SupernodeTree tree(part->get().places(), part->get().block_size(), part->kept());
-    const auto values = std::make_unique_for_overwrite<double[]>(tree.value_count());
-    try {
-      inside =
-          factorise_with_signs(tree, part->get().lower_half(), {values.get(), tree.value_count()},
-                               threads_in_blas(ranks.threads()));
-      is_counted = inside.growth < kMaxGrowth;
-    } catch (const ComputationError&) {  // a pivot is zero
-      is_counted = false;
-    }
-  });
-  part.reset();
-  if (ranks.sum(is_counted ? 0.0 : 1.0) > 0) return std::nullopt;
-  try {
-    const SeparatorFactor between(ranks, separator.panels(), Pivots::of_any_sign,
-                                  diagonal_between(matrix, separator),
-                                  summands(separator, inside.complement));
-    if (!(between.growth() < kMaxGrowth)) return std::nullopt;
-    return static_cast<Eigen::Index>(ranks.sum(static_cast<double>(inside.negative))) +
-           between.negative_pivots();
-  } catch (const ComputationError&) {
-    return std::nullopt;
-  }
+std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix, Mat product) {
+  if (const auto counted = count_by_factor<float>(matrix, product)) return counted;
+  return count_by_factor<double>(matrix, product);
 }
 
 }  // namespace flexneck::fe_modal

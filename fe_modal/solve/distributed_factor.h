@@ -46,9 +46,8 @@ std::unique_ptr<ShiftInverse> make_distributed_in_double(const DistributedMatrix
 
 /// Collective: negative eigenvalues of a matrix, by the same elimination with pivots of either
 /// sign. Those of the parts and of the Schur complement between them add up (Haynsworth, Linear
-/// Algebra Appl. 1 (1968) 73).
-/// @return nothing if rounding errors grow so far that the count might be wrong
-/// @throws InputError if memory does not hold the factor.
-std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix);
+/// Algebra Appl. 1 (1968) 73). As count_without_pivoting().
+/// @param product the matrix, for products
+std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix, Mat product);
 
 }  // namespace flexneck::fe_modal

@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/symmetric_pairs.h"
 #include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::mesher {
@@ -160,11 +159,11 @@ std::vector<LinePoint> gauss_jacobi_line(int n) {
     if (k == 0) continue;
     recurrence(k, k - 1) = 2.0 * k * (k + 2) / twice / std::sqrt(twice * twice - 1);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(recurrence);
+  const SymmetricPairs pairs = symmetric_pairs(recurrence);
   std::vector<LinePoint> rule;
   for (int q = 0; q < n; ++q) {
-    const double first = eigen.eigenvectors()(0, q);
-    rule.push_back({(1 + eigen.eigenvalues()[q]) / 2, kTotalWeight * first * first});
+    const double first = pairs.vectors(0, q);
+    rule.push_back({(1 + pairs.values[q]) / 2, kTotalWeight * first * first});
   }
   return rule;
 }

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/symmetric_pairs.h"
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/initial_state.h"
 
@@ -132,8 +133,8 @@ void check_massless_rotations(const Model& model) {
   for (Index k = 0; k < count; ++k)
     moved.col(k) = moved_rows(equations, rotations[static_cast<std::size_t>(k)]);
   // Velocities that move no mass must move a joint, or M and B leave them open together.
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> held(moved.transpose() * moved);
-  if (held.eigenvalues()[0] <= kHeld * kHeld) refuse(system, rotations, held.eigenvectors().col(0));
+  const auto [values, vectors] = symmetric_pairs(moved.transpose() * moved);
+  if (values[0] <= kHeld * kHeld) refuse(system, rotations, vectors.col(0));
 }
 
 }  // namespace flexneck::multibody

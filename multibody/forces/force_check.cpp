@@ -3,10 +3,9 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::multibody {
 
@@ -44,10 +43,9 @@ void check_stiffness(const std::string& who, const std::string& what,
   const double size = matrix.cwiseAbs().maxCoeff();
   if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kSlack * size)
     refuse_force(who, what + " must be symmetric");
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);
-  if (eigen.eigenvalues()[0] < -kSlack * size)
-    refuse_force(who, what + " must not have a negative eigenvalue, but has " +
-                          exact_text(eigen.eigenvalues()[0]));
+  const double lowest = symmetric_eigenvalues(matrix)[0];
+  if (lowest < -kSlack * size)
+    refuse_force(who, what + " must not have a negative eigenvalue, but has " + exact_text(lowest));
 }
 
 void check_not_negative(const std::string& who, const std::string& what, double value) {

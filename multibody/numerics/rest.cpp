@@ -5,9 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include <Eigen/Eigenvalues>
-
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -26,11 +25,11 @@ constexpr double kNeutral = 1e-10;
 
 /// Newton's step with the stiffness made positive, so that it always leads downhill.
 VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen((stiffness + stiffness.transpose()) / 2);
-  const VectorXd magnitude = eigen.eigenvalues().cwiseAbs();
+  const SymmetricPairs eigen = symmetric_pairs((stiffness + stiffness.transpose()) / 2);
+  const VectorXd magnitude = eigen.values.cwiseAbs();
   // Not zero even where all stiffness vanishes: the caller shortens a long step.
   const double floor = std::max(kNeutral * magnitude.maxCoeff(), 1e-9);
-  VectorXd along = eigen.eigenvectors().transpose() * force;
+  VectorXd along = eigen.vectors.transpose() * force;
   // In a neutral direction only a force that is more than rounding counts.
   const double noise = 1e-12 * force.norm();
   for (Index i = 0; i < along.size(); ++i) {
@@ -38,7 +37,7 @@ VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
     along[i] =
         neutral && std::abs(along[i]) <= noise ? 0 : along[i] / std::max(magnitude[i], floor);
   }
-  return eigen.eigenvectors() * along;
+  return eigen.vectors * along;
 }
 
 }  // namespace

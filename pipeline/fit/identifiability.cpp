@@ -7,8 +7,9 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::pipeline {
 
@@ -25,14 +26,14 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 MatrixXd inverse_of(const MatrixXd& information) {
   constexpr double kNothing = 1e-12;  // of the largest eigenvalue
   constexpr double kPart = 1e-6;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(information);
-  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  const auto [values, vectors] = symmetric_pairs(information);
+  const double largest = values.cwiseAbs().maxCoeff();
   MatrixXd inverse = MatrixXd::Zero(information.rows(), information.cols());
   std::vector<bool> is_open(static_cast<std::size_t>(information.rows()), false);
   for (Index k = 0; k < information.rows(); ++k) {
-    const VectorXd vector = solver.eigenvectors().col(k);
-    if (solver.eigenvalues()[k] > kNothing * largest) {
-      inverse += vector * vector.transpose() / solver.eigenvalues()[k];
+    const VectorXd vector = vectors.col(k);
+    if (values[k] > kNothing * largest) {
+      inverse += vector * vector.transpose() / values[k];
       continue;
     }
     for (Index i = 0; i < vector.size(); ++i)

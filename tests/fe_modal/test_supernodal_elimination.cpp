@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <catch2/catch.hpp>
 
 #include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/cholmod_handles.h"
 #include "fe_modal/algebra/inertia_count.h"
+#include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/algebra/signed_cholesky.h"
+#include "fe_modal/algebra/supernodal_factor.h"
 #include "fe_modal/solve/refined/panel_factor.h"
 #include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
@@ -49,7 +54,17 @@ SystemMatrices plates_with_a_common_node(std::int32_t count) {
 }
 
 std::optional<Eigen::Index> count(const SymmetricMatrix& matrix) {
-  return count_without_pivoting(matrix.get(), CholmodOrder::best, {}, 1);
+  return count_without_pivoting(matrix.get(), matrix.get(), CholmodOrder::best, {}, 1);
+}
+
+/// By a factor in single precision alone.
+std::optional<Eigen::Index> count_in_single(const SymmetricMatrix& matrix) {
+  const cholmod_sparse view = cholmod_view(matrix.get());
+  CholmodAnalysis analysis(view, CholmodOrder::best, {});
+  const SupernodalFactor<float> factor(analysis, 1, {}, Pivots::of_any_sign);
+  const auto inverse = [&](const Eigen::MatrixXd& x) { return factor.solution(x, 1); };
+  if (!has_inertia_of_factor({}, matrix.get(), inverse)) return std::nullopt;
+  return factor.negative_pivots();
 }
 
 /// A symmetric matrix with about half of its eigenvalues below zero.
@@ -123,6 +138,50 @@ TEST_CASE("pivots without pivoting count all negative eigenvalues or nothing") {
     ++counted;
   }
   CHECK(counted > 15);
+}
+
+TEST_CASE("a factor in single precision counts modes but where an eigenvalue is near") {
+  const SystemMatrices system = clamped({3, 3, 2});
+  const Eigen::VectorXd values =
+      testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get())).values;
+  for (const Eigen::Index k : {0, 2, 5, 9}) {
+    for (const double beside : {-1e-3, -1e-5, -1e-7, -1e-9, 1e-9, 1e-7, 1e-5, 1e-3}) {
+      INFO("eigenvalue " << k << ", beside it by " << beside);
+      const double sigma = values[k] * (1 + beside);
+      const Eigen::Index below = (values.array() < sigma).count();
+      const SymmetricMatrix shifted = shifted_stiffness(system, sigma);
+      CHECK(count(shifted) == below);
+      const std::optional<Eigen::Index> in_single = count_in_single(shifted);
+      CHECK(in_single.value_or(below) == below);
+      if (std::abs(beside) == 1e-3) CHECK(in_single);
+      if (std::abs(beside) == 1e-9) CHECK_FALSE(in_single);
+    }
+  }
+}
+
+TEST_CASE("a factor has the inertia of a matrix that it is near to, of others nothing is said") {
+  constexpr Eigen::Index kSize = 40;
+  const Eigen::MatrixXd random = Eigen::MatrixXd::Random(kSize, kSize);
+  const Eigen::MatrixXd vectors = Eigen::HouseholderQR<Eigen::MatrixXd>(random).householderQ();
+  Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(kSize, -3, 7);
+  const Eigen::MatrixXd matrix = vectors * values.asDiagonal() * vectors.transpose();
+  const OperatorMatrix product(kSize, [&](const Eigen::MatrixXd& x) { return matrix * x; });
+  // The factor's eigenvalue over the matrix's: refinement leaves |1 - 1 / ratio| of an error.
+  const auto is_shown = [&](double ratio) {
+    Eigen::VectorXd factor = values;
+    factor[kSize / 3] *= ratio;
+    const Eigen::MatrixXd inverse =
+        vectors * factor.cwiseInverse().asDiagonal() * vectors.transpose();
+    return has_inertia_of_factor({}, product.get(),
+                                 [&](const Eigen::MatrixXd& x) { return inverse * x; });
+  };
+  CHECK(is_shown(1));
+  CHECK(is_shown(0.9));
+  CHECK(is_shown(1.1));
+  CHECK_FALSE(is_shown(0.4));
+  CHECK_FALSE(is_shown(-1));
+  CHECK_FALSE(is_shown(-1e-6));
+  CHECK_FALSE(is_shown(-1e6));
 }
 
 TEST_CASE("a pivot that is zero counts nothing") {

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/algebra/random_block.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -86,11 +86,10 @@ Eigen::MatrixXd orthonormal(const Ranks& ranks, const Basis& basis, Eigen::Matri
     Eigen::MatrixXd gram = inner_products(ranks, block, momenta);
     const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
-    const Eigen::VectorXd& lengths = solver.eigenvalues();
+    const auto [lengths, vectors] = symmetric_pairs(gram);
     const Eigen::Index dropped = (lengths.array() < kNothingNew).count();
     const Eigen::Index kept = lengths.size() - dropped;
-    const Eigen::MatrixXd combination = scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
+    const Eigen::MatrixXd combination = scale.asDiagonal() * vectors.rightCols(kept) *
                                         lengths.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
     block = product(block, combination);
     if (pass == 0) momenta = product(momenta, combination);
@@ -130,9 +129,9 @@ std::optional<DavidsonResult> block_davidson(const Ranks& ranks, const BlockOper
     block = orthonormal(ranks, basis, std::move(block), mass);
     if (block.cols() == 0) break;
     basis.append(block, stiffness(block));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.projected());
-    const Eigen::VectorXd values = ritz.eigenvalues().head(std::min(width, basis.count()));
-    const Eigen::MatrixXd best = ritz.eigenvectors().leftCols(values.size());
+    const SymmetricPairs ritz = symmetric_pairs(basis.projected());
+    const Eigen::VectorXd values = ritz.values.head(std::min(width, basis.count()));
+    const Eigen::MatrixXd best = ritz.vectors.leftCols(values.size());
     block.resize(0, 0);  // the preconditioner needs memory, so nothing else is kept meanwhile
     const Eigen::MatrixXd residuals = residuals_of(product(basis.vectors(), best), values);
     block = preconditioner(residuals);

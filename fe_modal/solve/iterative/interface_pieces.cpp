@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include "fe_modal/algebra/ghost_exchange.h"
 #include "fe_modal/body/skew.h"
 #include "fe_modal/system/rank_part.h"
+#include "geometry/foundation/symmetric_pairs.h"
 #include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
@@ -111,10 +111,9 @@ Eigen::MatrixXd rigid_motions_of(const std::vector<std::int32_t>& blocks,
                    .eval();
   const double largest = rotations.rowwise().norm().maxCoeff();
   if (largest > 0) rotations /= largest;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motions.transpose() * motions);
-  const Eigen::VectorXd& squares = gram.eigenvalues();
+  const auto [squares, vectors] = symmetric_pairs(motions.transpose() * motions);
   const Eigen::Index rank = (squares.array() > kNoMotion * squares[5]).count();
-  return motions * gram.eigenvectors().rightCols(rank) *
+  return motions * vectors.rightCols(rank) *
          squares.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 

@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 #include "fe_modal/algebra/matrix_product.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -135,16 +134,15 @@ class Basis {
 EigenPairs ritz_pairs(const Basis& basis, Eigen::Index count) {
   const Eigen::MatrixXd& mass = basis.mass();
   const Eigen::VectorXd scale = mass.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> lengths(scale.asDiagonal() * mass *
-                                                               scale.asDiagonal());
-  const Eigen::Index kept = (lengths.eigenvalues().array() > kNothingNew).count();
+  const SymmetricPairs lengths = symmetric_pairs(scale.asDiagonal() * mass * scale.asDiagonal());
+  const Eigen::Index kept = (lengths.values.array() > kNothingNew).count();
   const Eigen::MatrixXd independent =
-      scale.asDiagonal() * lengths.eigenvectors().rightCols(kept) *
-      lengths.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(independent.transpose() *
-                                                            basis.stiffness() * independent);
+      scale.asDiagonal() * lengths.vectors.rightCols(kept) *
+      lengths.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const SymmetricPairs ritz =
+      symmetric_pairs(independent.transpose() * basis.stiffness() * independent);
   count = std::min(count, kept);
-  return {ritz.eigenvalues().head(count), independent * ritz.eigenvectors().leftCols(count)};
+  return {ritz.values.head(count), independent * ritz.vectors.leftCols(count)};
 }
 
 /// How the eigenvalues settle: what steps gain is continued as a geometric series.
