@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/algebra/inertia_count.h"
 
+#include <cmath>
+
 #include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/cholmod_handles.h"
@@ -32,9 +34,9 @@ bool has_inertia_of_factor(const Ranks& ranks, Mat matrix, const BlockOperator& 
   constexpr Eigen::Index kColumns = 8;  // which a factor takes together
   constexpr std::uint64_t kSeed = 20240611;
   constexpr int kMaxSteps = 12;
-  // A direction has a share of about 1e-3 in a column of a million random entries, so that one
-  // which does not contract has a hundred times more than this in some of the columns.
-  constexpr double kContracted = 1e-6;
+  // A direction has about the first share of a column of random entries. One that does not contract
+  // keeps it, and has less than a tenth of it in all eight columns once in a billion.
+  const double contracted = 0.1 / std::sqrt(static_cast<double>(size_of(matrix)));
   Eigen::MatrixXd errors = random_block(matrix, kColumns, kSeed);
   const Eigen::VectorXd squares = column_products(ranks, errors, errors);
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -44,7 +46,7 @@ bool has_inertia_of_factor(const Ranks& ranks, Mat matrix, const BlockOperator& 
     const Eigen::ArrayXd left =
         (column_products(ranks, errors, errors).array() / squares.array()).sqrt();
     if (!left.isFinite().all()) return false;
-    if ((left < kContracted).all()) return true;
+    if ((left < contracted).all()) return true;
   }
   return false;
 }

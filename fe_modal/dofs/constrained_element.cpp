@@ -37,7 +37,7 @@ ConstrainedElement::ConstrainedElement(std::span<const std::int32_t> sites, cons
   }
 }
 
-Eigen::MatrixXd ConstrainedElement::reduced(const Eigen::MatrixXd& element) const {
+Eigen::MatrixXd ConstrainedElement::reduced(Eigen::MatrixXd element) const {
   if (motion_.size() == 0 && 3 * numbers_.size() == static_cast<std::size_t>(element.rows())) {
     return element;
   }

@@ -21,7 +21,7 @@ class ConstrainedElement {
   /// Block of each place, -1 if fixed: (m) places.
   std::span<const std::int32_t> numbers() const { return numbers_; }
   /// T^T E T, (3m, 3m) with degree of freedom a m + i, of an element's matrix (3n, 3n).
-  Eigen::MatrixXd reduced(const Eigen::MatrixXd& element) const;
+  Eigen::MatrixXd reduced(Eigen::MatrixXd element) const;
 
  private:
   std::vector<std::int32_t> numbers_;

@@ -132,9 +132,13 @@ void ElementOperator::for_each_stiffness(const Visitor& visit) const {
           geometric->add(coordinates, material, displacements_m, stiffness);
         }
         const ConstrainedElement constrained(nodes, dof_map_);
-        visit(constrained.numbers(), constrained.reduced(stiffness));
+        stiffness = constrained.reduced(std::move(stiffness));
+        visit(constrained.numbers(), stiffness);
       });
-  for (const Point& point : points_) visit(point.element.numbers(), point.stiffness);
+  for (const Point& point : points_) {
+    stiffness = point.stiffness;
+    visit(point.element.numbers(), stiffness);
+  }
 }
 
 void ElementOperator::for_each_numbers(

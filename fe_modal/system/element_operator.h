@@ -38,9 +38,9 @@ class ElementOperator {
 
   /// Calls visit(numbers, stiffness) for each element, point masses and springs behind: the blocks
   /// of its places, -1 where there is none, and its stiffness under the constraints, (3m, 3m) with
-  /// degree of freedom a m + i.
+  /// degree of freedom a m + i, which visit() may change.
   using Visitor =
-      std::function<void(std::span<const std::int32_t> numbers, const Eigen::MatrixXd& stiffness)>;
+      std::function<void(std::span<const std::int32_t> numbers, Eigen::MatrixXd& stiffness)>;
   void for_each_stiffness(const Visitor& visit) const;
   /// The numbers alone.
   void for_each_numbers(const std::function<void(std::span<const std::int32_t>)>& visit) const;

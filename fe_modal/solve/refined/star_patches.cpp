@@ -3,110 +3,15 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
 
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "geometry/foundation/error.h"
-#include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-using PatchLists = std::vector<std::vector<std::int32_t>>;
-
-/// For each node of a kind the corners whose stars it belongs to: those of the edge, the face or
-/// the element that it lies within.
-std::vector<std::vector<std::size_t>> corners_of_nodes(mesher::ElementKind kind) {
-  const auto nodes = mesher::reference_nodes(kind);
-  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(nodes.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    positions.col(static_cast<Eigen::Index>(i)) = Eigen::Vector3d(nodes[i].data());
-  }
-  const mesher::ElementKind linear = mesher::linear_kind_of(mesher::shape_of(kind));
-  const Eigen::MatrixXd values = mesher::tabulate(linear, positions).values;
-  constexpr double kNothing = 1e-9;
-  std::vector<std::vector<std::size_t>> corners(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (Eigen::Index c = 0; c < values.rows(); ++c) {
-      if (values(c, static_cast<Eigen::Index>(i)) > kNothing) {
-        corners[i].push_back(static_cast<std::size_t>(c));
-      }
-    }
-  }
-  return corners;
-}
-
-/// The blocks of each star, ascending.
-PatchLists find_stars(const StarMesh& body) {
-  const DofMap& dof_map = body.dof_map;
-  // Tied corners have one star.
-  const auto star_of = [&](std::int32_t corner) {
-    const std::int32_t block = dof_map.index(corner);
-    return block >= 0 ? block : static_cast<std::int32_t>(dof_map.free_count()) + corner;
-  };
-  const auto is_center = [&](std::int32_t corner) {
-    return body.is_center.empty() || body.is_center[static_cast<std::size_t>(corner)];
-  };
-  std::vector<std::pair<std::int32_t, std::int32_t>> members;
-  for (const mesher::ElementBlock& block : body.mesh.blocks) {
-    const auto corners = corners_of_nodes(block.kind);
-    for (std::size_t first = 0; first < block.nodes.size(); first += corners.size()) {
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const std::int32_t own = dof_map.index(block.nodes[first + i]);
-        if (own < 0) continue;
-        for (const std::size_t c : corners[i]) {
-          const std::int32_t corner = block.nodes[first + c];
-          if (is_center(corner)) members.emplace_back(star_of(corner), own);
-        }
-      }
-    }
-  }
-  std::sort(members.begin(), members.end());
-  members.erase(std::unique(members.begin(), members.end()), members.end());
-  PatchLists stars;
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    if (k == 0 || members[k].first != members[k - 1].first) stars.emplace_back();
-    stars.back().push_back(members[k].second);
-  }
-  return stars;
-}
-
-/// Of the stars that lie within one parent, the largest of each parent.
-std::vector<std::size_t> find_cells(const StarMesh& body, const PatchLists& stars) {
-  constexpr std::int32_t kNone = -1;
-  constexpr std::int32_t kSeveral = -2;
-  std::vector<std::int32_t> parent_of(static_cast<std::size_t>(body.dof_map.free_count()), kNone);
-  std::size_t element = 0;
-  for (const mesher::ElementBlock& block : body.mesh.blocks) {
-    const std::size_t width = mesher::nodes_per_element(block.kind);
-    for (std::size_t k = 0; k < block.nodes.size(); ++k) {
-      const std::int32_t parent = body.parents[element + k / width];
-      body.dof_map.for_each_number(block.nodes[k], [&](std::int32_t number) {
-        std::int32_t& known = parent_of[static_cast<std::size_t>(number)];
-        known = known == kNone || known == parent ? parent : kSeveral;
-      });
-    }
-    element += block.size();
-  }
-  std::map<std::int32_t, std::size_t> cells;
-  for (std::size_t s = 0; s < stars.size(); ++s) {
-    const std::int32_t parent = parent_of[static_cast<std::size_t>(stars[s].front())];
-    if (parent < 0 || !std::all_of(stars[s].begin(), stars[s].end(), [&](std::int32_t block) {
-          return parent_of[static_cast<std::size_t>(block)] == parent;
-        })) {
-      continue;
-    }
-    const auto [place, is_new] = cells.try_emplace(parent, s);
-    if (!is_new && stars[s].size() > stars[place->second].size()) place->second = s;
-  }
-  std::vector<std::size_t> numbers;
-  numbers.reserve(cells.size());
-  for (const auto& [parent, star] : cells) numbers.push_back(star);
-  return numbers;
-}
 
 /// A block's place in a patch.
 struct Place {
@@ -141,6 +46,41 @@ class Places {
   std::vector<std::size_t> offsets_;
   std::vector<Place> places_;
 };
+
+/// For each element the place whose block no other element has and all stars of the element have;
+/// -1: none.
+std::vector<std::int32_t> find_inner(const ElementOperator& elements, const Places& places,
+                                     std::size_t block_count) {
+  std::vector<std::int32_t> visits(block_count, 0);
+  elements.for_each_numbers([&](std::span<const std::int32_t> numbers) {
+    for (const std::int32_t number : numbers) {
+      if (number >= 0) ++visits[static_cast<std::size_t>(number)];
+    }
+  });
+  // Whether all stars of a block are stars of the other.
+  const auto has_stars_of = [&](std::int32_t other, std::int32_t block) {
+    const std::span<const Place> stars = places.of(other);
+    const std::span<const Place> own = places.of(block);
+    return std::all_of(own.begin(), own.end(), [&](const Place& place) {
+      return std::any_of(stars.begin(), stars.end(),
+                         [&](const Place& star) { return star.patch == place.patch; });
+    });
+  };
+  std::vector<std::int32_t> inner;
+  elements.for_each_numbers([&](std::span<const std::int32_t> numbers) {
+    const auto is_inner = [&](std::int32_t number) {
+      return number >= 0 && visits[static_cast<std::size_t>(number)] == 1 &&
+             places.of(number).size() > 1 &&
+             std::all_of(numbers.begin(), numbers.end(), [&](std::int32_t other) {
+               return other < 0 || has_stars_of(number, other);
+             });
+    };
+    const auto found = std::find_if(numbers.begin(), numbers.end(), is_inner);
+    inner.push_back(found == numbers.end() ? -1
+                                           : static_cast<std::int32_t>(found - numbers.begin()));
+  });
+  return inner;
+}
 
 /// A place of an element's local node.
 struct LocalPlace {
@@ -203,8 +143,12 @@ PanelFactor factorised(Eigen::MatrixXd& matrix) {
 
 StarPatches::StarPatches(const StarMesh& body, const ElementOperator& stiffness) {
   PatchLists stars = find_stars(body);
-  cells_ = find_cells(body, stars);
-  const Places places(stars, static_cast<std::size_t>(body.dof_map.free_count()));
+  all_.patches.resize(stars.size());
+  std::iota(all_.patches.begin(), all_.patches.end(), std::size_t{0});
+  cells_.patches = find_cells(body, stars);
+  const auto block_count = static_cast<std::size_t>(body.dof_map.free_count());
+  const std::vector<std::int32_t> inner = take_inner(stiffness, block_count, stars);
+  const Places places(stars, block_count);
   std::vector<LocalPlace> workspace;
   // Elements that a patch waits for: it is factorised as soon as it is whole.
   std::vector<std::int32_t> awaited(stars.size(), 0);
@@ -214,8 +158,11 @@ StarPatches::StarPatches(const StarMesh& body, const ElementOperator& stiffness)
   });
   std::vector<Eigen::MatrixXd> open(stars.size());
   patches_.resize(stars.size());
+  std::size_t number = 0;
   stiffness.for_each_stiffness(
-      [&](std::span<const std::int32_t> numbers, const Eigen::MatrixXd& element) {
+      [&](std::span<const std::int32_t> numbers, Eigen::MatrixXd& element) {
+        const std::int32_t place = inner[number++];
+        if (place >= 0) inner_.emplace_back(numbers, static_cast<std::size_t>(place), element);
         for_each_patch(places, numbers, workspace,
                        [&](std::size_t patch, std::span<const LocalPlace> own) {
                          Eigen::MatrixXd& matrix = open[patch];
@@ -228,8 +175,32 @@ StarPatches::StarPatches(const StarMesh& body, const ElementOperator& stiffness)
                        });
       });
   for (std::size_t p = 0; p < stars.size(); ++p) patches_[p].blocks = std::move(stars[p]);
-  all_.resize(patches_.size());
-  std::iota(all_.begin(), all_.end(), std::size_t{0});
+}
+
+std::vector<std::int32_t> StarPatches::take_inner(const ElementOperator& elements,
+                                                  std::size_t block_count, PatchLists& stars) {
+  const Places places(stars, block_count);
+  std::vector<bool> is_cell(stars.size(), false);
+  for (const std::size_t cell : cells_.patches) is_cell[cell] = true;
+  const std::vector<std::int32_t> inner = find_inner(elements, places, block_count);
+  std::vector<bool> is_inner(block_count, false);
+  std::size_t element = 0;
+  elements.for_each_numbers([&](std::span<const std::int32_t> numbers) {
+    const std::int32_t place = inner[element++];
+    if (place < 0) return;
+    const std::int32_t number = numbers[static_cast<std::size_t>(place)];
+    is_inner[static_cast<std::size_t>(number)] = true;
+    const std::span<const Place> own = places.of(number);
+    all_.stars_of_inner.push_back(own.size());
+    cells_.stars_of_inner.push_back(
+        static_cast<std::size_t>(std::count_if(own.begin(), own.end(), [&](const Place& star) {
+          return is_cell[static_cast<std::size_t>(star.patch)];
+        })));
+  });
+  for (auto& blocks : stars) {
+    std::erase_if(blocks, [&](std::int32_t b) { return is_inner[static_cast<std::size_t>(b)]; });
+  }
+  return inner;
 }
 
 Eigen::MatrixXd StarPatches::smooth(const Eigen::MatrixXd& residuals) const {
@@ -240,16 +211,16 @@ Eigen::MatrixXd StarPatches::solve_cells(const Eigen::MatrixXd& residuals) const
   return sum_of(cells_, residuals);
 }
 
-Eigen::MatrixXd StarPatches::sum_of(const std::vector<std::size_t>& patches,
+Eigen::MatrixXd StarPatches::sum_of(const Selection& selection,
                                     const Eigen::MatrixXd& residuals) const {
   if (residuals.cols() <= static_cast<Eigen::Index>(kColumnsTogether)) {
-    return sum_by_lanes<kColumnsTogether>(patches, residuals);
+    return sum_by_lanes<kColumnsTogether>(selection, residuals);
   }
-  return sum_by_lanes<kSinglesTogether>(patches, residuals);
+  return sum_by_lanes<kSinglesTogether>(selection, residuals);
 }
 
 template <std::size_t lanes>
-Eigen::MatrixXd StarPatches::sum_by_lanes(const std::vector<std::size_t>& patches,
+Eigen::MatrixXd StarPatches::sum_by_lanes(const Selection& selection,
                                           const Eigen::MatrixXd& residuals) const {
   // Of unit size: forces of slow modes may be too small for single precision.
   const double largest = residuals.size() == 0 ? 0 : residuals.cwiseAbs().maxCoeff();
@@ -257,16 +228,25 @@ Eigen::MatrixXd StarPatches::sum_by_lanes(const std::vector<std::size_t>& patche
   // Row by row the columns in groups, all of which a patch's factor meets in turn.
   constexpr auto kTogether = static_cast<Eigen::Index>(lanes);
   using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Index groups = (residuals.cols() + kTogether - 1) / kTogether;
-  std::vector<RowOf<float, lanes>> given(static_cast<std::size_t>(residuals.rows() * groups));
+  const Eigen::Index width = (residuals.cols() + kTogether - 1) / kTogether;
+  const auto groups = static_cast<std::size_t>(width);
+  std::vector<RowOf<float, lanes>> given(static_cast<std::size_t>(residuals.rows()) * groups);
   std::vector<RowOf<float, lanes>> sums(given.size());
   const auto columns_of = [&](std::vector<RowOf<float, lanes>>& rows) {
-    return Eigen::Map<RowMajor>(rows.front().value, residuals.rows(), groups * kTogether);
+    return Eigen::Map<RowMajor>(rows.front().value, residuals.rows(), width * kTogether);
   };
   columns_of(given).leftCols(residuals.cols()) = (residuals / largest).cast<float>();
-  for (const std::size_t number : patches) {
-    add_solution<lanes>(patches_[number], static_cast<std::size_t>(groups), given, sums);
+  for (std::size_t k = 0; k < inner_.size(); ++k) {
+    if (selection.stars_of_inner[k] > 0) inner_[k].eliminate<lanes>(groups, given);
   }
+  for (const std::size_t number : selection.patches) {
+    add_solution<lanes>(patches_[number], groups, given, sums);
+  }
+  for (std::size_t k = 0; k < inner_.size(); ++k) {
+    const std::size_t count = selection.stars_of_inner[k];
+    if (count > 0) inner_[k].substitute<lanes>(groups, given, count, sums);
+  }
+  given = {};  // its memory is the result's
   return largest * columns_of(sums).leftCols(residuals.cols()).template cast<double>();
 }
 

@@ -8,22 +8,12 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/dofs/dof_map.h"
+#include "fe_modal/solve/refined/inner_block.h"
 #include "fe_modal/solve/refined/panel_factor.h"
+#include "fe_modal/solve/refined/star_lists.h"
 #include "fe_modal/system/element_operator.h"
-#include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
-
-/// What the patches of a refined mesh are made of.
-struct StarMesh {
-  const mesher::Mesh& mesh;
-  const DofMap& dof_map;
-  /// (elements) what each was cut from; its elements follow one another.
-  std::vector<std::int32_t> parents;
-  /// (nodes) whose stars are wanted; empty: all.
-  std::vector<bool> is_center;
-};
 
 /// Exact solves on the star of each corner of the elements: the blocks of the nodes within all
 /// edges, faces and elements that end there, the corner among them. In a nearly incompressible body
@@ -43,25 +33,32 @@ class StarPatches {
 
  private:
   struct Patch {
-    std::vector<std::int32_t> blocks;  ///< ascending
+    std::vector<std::int32_t> blocks;  ///< ascending, without those of inner_
     PanelFactor factor;
   };
+  struct Selection {
+    std::vector<std::size_t> patches;
+    std::vector<std::size_t> stars_of_inner;  ///< those of the patches that have an inner block
+  };
 
-  Eigen::MatrixXd sum_of(const std::vector<std::size_t>& patches,
-                         const Eigen::MatrixXd& residuals) const;
+  /// Takes inner blocks out of the stars, and counts for both selections those that had them.
+  /// @return the place in each element, -1: none
+  std::vector<std::int32_t> take_inner(const ElementOperator& elements, std::size_t block_count,
+                                       PatchLists& stars);
+  Eigen::MatrixXd sum_of(const Selection& selection, const Eigen::MatrixXd& residuals) const;
   /// So many columns at a time.
   template <std::size_t lanes>
-  Eigen::MatrixXd sum_by_lanes(const std::vector<std::size_t>& patches,
-                               const Eigen::MatrixXd& residuals) const;
+  Eigen::MatrixXd sum_by_lanes(const Selection& selection, const Eigen::MatrixXd& residuals) const;
   /// @param forces, sums (dofs x groups), row by row
   template <std::size_t lanes>
   static void add_solution(const Patch& patch, std::size_t groups,
                            std::span<const RowOf<float, lanes>> forces,
                            std::span<RowOf<float, lanes>> sums);
 
+  std::vector<InnerBlock> inner_;  ///< of elements, in their order
   std::vector<Patch> patches_;
-  std::vector<std::size_t> all_;    ///< 0 … patches - 1
-  std::vector<std::size_t> cells_;  ///< those of solve_cells()
+  Selection all_;
+  Selection cells_;  ///< those of solve_cells()
 };
 
 }  // namespace flexneck::fe_modal

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fe_modal/dofs/dof_map.h"
+#include "mesher/mesh/mesh.h"
+
+namespace flexneck::fe_modal {
+
+/// What the patches of a refined mesh are made of.
+struct StarMesh {
+  const mesher::Mesh& mesh;
+  const DofMap& dof_map;
+  /// (elements) what each was cut from; its elements follow one another.
+  std::vector<std::int32_t> parents;
+  /// (nodes) whose stars are wanted; empty: all.
+  std::vector<bool> is_center;
+};
+
+/// The blocks of each patch.
+using PatchLists = std::vector<std::vector<std::int32_t>>;
+
+/// The blocks of each corner's star, ascending: of the nodes within all edges, faces and elements
+/// that end there, the corner among them.
+PatchLists find_stars(const StarMesh& body);
+
+/// Of the stars that lie within one parent, the largest of each parent.
+std::vector<std::size_t> find_cells(const StarMesh& body, const PatchLists& stars);
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/solve/refined/star_patches.h"
+#include "mesher/mesh/refinement.h"
+#include "tests/support/block_mesh.h"
+#include "tests/support/dense_solvers.h"
+#include "tests/support/element_meshes.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+using mesher::ElementKind;
+
+const mesher::Material kRubber{"rubber", 8.3e6, 0.49, 950};
+
+/// The exact solutions of the stars with the assembled matrix, added up.
+Eigen::MatrixXd sum_of_solutions(const Eigen::MatrixXd& stiffness, const PatchLists& stars,
+                                 const std::vector<std::size_t>& chosen,
+                                 const Eigen::MatrixXd& forces) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
+  for (const std::size_t star : chosen) {
+    std::vector<Eigen::Index> rows;
+    for (const std::int32_t block : stars[star]) {
+      for (Eigen::Index a = 0; a < 3; ++a) rows.push_back(3 * block + a);
+    }
+    sum(rows, Eigen::all) +=
+        testing::symmetric_solution(stiffness(rows, rows), forces(rows, Eigen::all));
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("stars solve as the assembled matrix does on their nodes, also without the inner ones") {
+  for (const ElementKind kind : {ElementKind::hex27, ElementKind::hex20, ElementKind::prism18,
+                                 ElementKind::pyramid13, ElementKind::tet10}) {
+    CAPTURE(mesher::name_of(kind));
+    const mesher::Mesh mesh =
+        testing::with_kind(testing::box({2, 1, 1}, {0.04, 0.03, 0.02}, kRubber).make(), kind);
+    ModalOptions options;
+    options.fixed_set = "bottom";
+    const mesher::RefinedMesh fine = mesher::refine(mesh);
+    const DofMap dof_map = dof_map_of(fine.mesh, options);
+    const AssembledSystem system(fine.mesh, dof_map, options);
+    const StarMesh body{fine.mesh, dof_map, fine.parents, {}};
+    const StarPatches patches(body, {fine.mesh, dof_map, options.formulation, {}});
+    const Eigen::Index size = system.fields().own_dof_count();
+    const Eigen::MatrixXd stiffness =
+        block_product(system.stiffness(), Eigen::MatrixXd::Identity(size, size));
+    const PatchLists stars = find_stars(body);
+    std::vector<std::size_t> all(stars.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    for (const Eigen::Index columns : {3, 10, 17}) {
+      const Eigen::MatrixXd forces = Eigen::MatrixXd::Random(size, columns);
+      const auto is_near = [](const Eigen::MatrixXd& found, const Eigen::MatrixXd& truth) {
+        return (found - truth).norm() < 1e-4 * truth.norm();
+      };
+      CHECK(is_near(patches.smooth(forces), sum_of_solutions(stiffness, stars, all, forces)));
+      CHECK(is_near(patches.solve_cells(forces),
+                    sum_of_solutions(stiffness, stars, find_cells(body, stars), forces)));
+    }
+  }
+}
+
+}  // namespace flexneck::fe_modal
