@@ -178,6 +178,8 @@ TEST_CASE("a factor has the inertia of a matrix that it is near to, of others no
   CHECK(is_shown(1));
   CHECK(is_shown(0.9));
   CHECK(is_shown(1.1));
+  CHECK(is_shown(0.56));
+  CHECK_FALSE(is_shown(0.51));
   CHECK_FALSE(is_shown(0.4));
   CHECK_FALSE(is_shown(-1));
   CHECK_FALSE(is_shown(-1e-6));
