@@ -29,6 +29,10 @@ InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place,
   const auto width = static_cast<Eigen::Index>(numbers.size());
   const auto rows_of = [&](Eigen::Index i) { return Eigen::seqN(i, 3, width); };
   const auto inner = static_cast<Eigen::Index>(place);
+  // Dependent degrees of freedom have no stiffness.
+  for (Eigen::Index row = inner; row < element.rows(); row += width) {
+    if (element(row, row) == 0) element(row, row) = 1;
+  }
   const Eigen::Matrix3d own = element(rows_of(inner), rows_of(inner));
   const Eigen::LLT<Eigen::Matrix3d> factor(own);
   if (factor.info() != Eigen::Success) throw ComputationError(kNotDefinite);
