@@ -182,7 +182,7 @@ std::vector<std::int32_t> StarPatches::take_inner(const ElementOperator& element
   const Places places(stars, block_count);
   std::vector<bool> is_cell(stars.size(), false);
   for (const std::size_t cell : cells_.patches) is_cell[cell] = true;
-  const std::vector<std::int32_t> inner = find_inner(elements, places, block_count);
+  std::vector<std::int32_t> inner = find_inner(elements, places, block_count);
   std::vector<bool> is_inner(block_count, false);
   std::size_t element = 0;
   elements.for_each_numbers([&](std::span<const std::int32_t> numbers) {
