@@ -62,7 +62,8 @@ struct Purpose {
   const char* advice;
   Pivots pivots;
 };
-constexpr Purpose kForSolutions{"the factor", "take a coarser mesh or more machines", Pivots::positive};
+constexpr Purpose kForSolutions{"the factor", "take a coarser mesh or more machines",
+                                Pivots::positive};
 constexpr Purpose kForCount{"counting modes by inertia",
                             "take a coarser mesh, or leave out modes.certify", Pivots::of_any_sign};
 
@@ -134,7 +135,8 @@ template <typename Scalar>
 class DistributedFactor {
  public:
   /// Collective.
-  explicit DistributedFactor(const DistributedMatrix& matrix, const Purpose& purpose = kForSolutions);
+  explicit DistributedFactor(const DistributedMatrix& matrix,
+                             const Purpose& purpose = kForSolutions);
 
   /// A^-1 times each column, (own dofs, k). Collective.
   Eigen::MatrixXd solution(const Eigen::MatrixXd& right_hand_sides) const;
