@@ -33,9 +33,11 @@ std::optional<Eigen::Index> count_by_factor(CholmodAnalysis& analysis, Mat produ
 bool has_inertia_of_factor(const Ranks& ranks, Mat matrix, const BlockOperator& inverse) {
   constexpr Eigen::Index kColumns = 8;  // which a factor takes together
   constexpr std::uint64_t kSeed = 20240611;
-  constexpr int kMaxSteps = 40;  // as long as half a factor of 200 000 rows in double takes
-  // A direction has about the first share of a column of random entries. One that does not contract
-  // keeps it, and has less than a tenth of it in all eight columns once in a billion.
+  // Calibrated: with 200 000 rows as long as half a factor in double takes.
+  constexpr int kMaxSteps = 40;
+  // Of a column of random entries an eigenvector v has a share of about |A v| |v| / |v^T A v| over
+  // the root of the rows, and that ratio is no less than 1. One that does not contract keeps its
+  // share, which is below a tenth of that in all eight columns once in a billion.
   const double contracted = 0.1 / std::sqrt(static_cast<double>(size_of(matrix)));
   Eigen::MatrixXd errors = random_block(matrix, kColumns, kSeed);
   const Eigen::VectorXd squares = column_products(ranks, errors, errors);

@@ -163,9 +163,7 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) con
     ranks().together([&] { shifted = shifted_stiffness(*matrices_, sigma); });
     const OperatorMatrix product(
         fields_.own_dof_count(),
-        [&](const Eigen::MatrixXd& x) {
-          return Eigen::MatrixXd(block_product(stiffness(), x) - sigma * block_product(mass(), x));
-        },
+        [&](const Eigen::MatrixXd& x) { return shifted_product(stiffness(), mass(), sigma, x); },
         ranks());
     if (ranks().are_many()) {
       if (const auto counted = count_on_ranks(distributed(*shifted), product.get())) return counted;

@@ -9,10 +9,15 @@
 
 namespace flexneck::fe_modal {
 
-Eigen::MatrixXd PreconditionedInverse::multiply(const Eigen::MatrixXd& columns) const {
-  Eigen::MatrixXd forces = block_product(stiffness_, columns);
-  if (shift() != 0) forces -= shift() * block_product(mass_, columns);
+Eigen::MatrixXd shifted_product(Mat stiffness, Mat mass, double shift,
+                                const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd forces = block_product(stiffness, columns);
+  if (shift != 0) forces -= shift * block_product(mass, columns);
   return forces;
+}
+
+Eigen::MatrixXd PreconditionedInverse::multiply(const Eigen::MatrixXd& columns) const {
+  return shifted_product(stiffness_, mass_, shift(), columns);
 }
 
 Eigen::MatrixXd PreconditionedInverse::gradient_solution(const Eigen::MatrixXd& right_hand_sides,

@@ -9,6 +9,10 @@
 
 namespace flexneck::fe_modal {
 
+/// (K - shift M) times each column.
+Eigen::MatrixXd shifted_product(Mat stiffness, Mat mass, double shift,
+                                const Eigen::MatrixXd& columns);
+
 /// (K - shift M)^-1 by iteration with a preconditioner near it: conjugate gradients for solutions,
 /// block Davidson for modes. Stiffness and mass are multiplied with in double precision, so that
 /// the preconditioner's may be a lower one.
