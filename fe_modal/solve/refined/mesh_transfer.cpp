@@ -30,7 +30,7 @@ void MeshTransfer::for_each_own(const Action& action) const {
   }
 }
 
-Eigen::MatrixXd MeshTransfer::to_fine(const Eigen::MatrixXd& vectors) const {
+void MeshTransfer::to_fine(const Eigen::MatrixXd& vectors, Eigen::MatrixXd& result) const {
   const DofMap& coarse = coarse_.dof_map();
   const DofMap& fine = fine_.dof_map();
   const Eigen::MatrixXd whole = coarse_.layout().whole(vectors);
@@ -43,7 +43,7 @@ Eigen::MatrixXd MeshTransfer::to_fine(const Eigen::MatrixXd& vectors) const {
     }
   }
   const FieldRows after = prolongation_ * before;
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(fine_.own_dof_count(), k);
+  result.setZero();
   for_each_own([&](Eigen::Index row, std::int32_t block, std::int32_t site) {
     const bool is_point = site >= fine.node_count();
     const std::int32_t same =
@@ -57,7 +57,6 @@ Eigen::MatrixXd MeshTransfer::to_fine(const Eigen::MatrixXd& vectors) const {
       }
     }
   });
-  return result;
 }
 
 Eigen::MatrixXd MeshTransfer::to_coarse(const Eigen::MatrixXd& forces) const {

@@ -20,8 +20,9 @@ class MeshTransfer {
   /// @param prolongation of mesher::refine(); all must outlive this
   MeshTransfer(const FieldMap& coarse, const FieldMap& fine, const Prolongation& prolongation);
 
-  /// (own coarse dofs, k) -> (own fine dofs, k)
-  Eigen::MatrixXd to_fine(const Eigen::MatrixXd& vectors) const;
+  /// @param vectors (own coarse dofs, k)
+  /// @param result (own fine dofs, k), whose memory is written to
+  void to_fine(const Eigen::MatrixXd& vectors, Eigen::MatrixXd& result) const;
   /// (own fine dofs, k) -> (own coarse dofs, k)
   Eigen::MatrixXd to_coarse(const Eigen::MatrixXd& forces) const;
 

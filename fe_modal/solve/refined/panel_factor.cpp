@@ -2,7 +2,9 @@
 #include "fe_modal/solve/refined/panel_factor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "fe_modal/algebra/blas.h"
 #include "fe_modal/algebra/cholesky_factor.h"
@@ -13,6 +15,9 @@ namespace {
 
 /// As many as block_elimination.cpp has in registers at a time.
 constexpr int kPanelColumns = 6;
+
+/// Of a column in its panel.
+constexpr int first_row(int column) { return column / kPanelColumns * kPanelColumns; }
 
 std::size_t size_of(const FactorBlock<float>& block) {
   return static_cast<std::size_t>(block.rows) * static_cast<std::size_t>(block.columns);
@@ -28,13 +33,14 @@ PanelFactor::PanelFactor(Eigen::MatrixXd& matrix) : size_(static_cast<int>(matri
   for (int first = 0; first < size_; first += kPanelColumns)
     count += size_of(panel_at(nullptr, first));
   values_.resize(count);
-  float* place = values_.data();
-  for (int first = 0; first < size_; first += kPanelColumns) {
-    const int end = std::min(first + kPanelColumns, size_);
-    for (int j = first; j < end; ++j) {
-      const double* const column = matrix.col(j).data();
-      place = std::transform(column + first, column + size_, place,
-                             [](double value) { return static_cast<float>(value); });
+  steps_.reserve(static_cast<std::size_t>(size_));
+  std::int16_t* place = values_.data();
+  for (int j = 0; j < size_; ++j) {
+    const double largest = matrix.col(j).tail(size_ - j).cwiseAbs().maxCoeff();
+    const double step = largest / std::numeric_limits<std::int16_t>::max();
+    steps_.push_back(static_cast<float>(step));
+    for (int i = first_row(j); i < size_; ++i, ++place) {
+      if (i >= j) *place = static_cast<std::int16_t>(std::lround(matrix(i, j) / step));
     }
   }
 }
@@ -43,9 +49,25 @@ FactorBlock<float> PanelFactor::panel_at(const float* values, int first) const {
   return {values, size_ - first, std::min(kPanelColumns, size_ - first)};
 }
 
+void PanelFactor::unpack(std::vector<float>& entries) const {
+  entries.resize(values_.size());
+  const std::int16_t* given = values_.data();
+  float* place = entries.data();
+  run_with(
+      widest_registers(), [&]<std::size_t /*bytes*/>() __attribute__((always_inline)) {
+        for (int j = 0; j < size_; ++j) {
+          const float step = steps_[static_cast<std::size_t>(j)];
+          const int rows = size_ - first_row(j);
+          for (int i = 0; i < rows; ++i) place[i] = step * static_cast<float>(given[i]);
+          place += rows;
+          given += rows;
+        }
+      });
+}
+
 template <std::size_t lanes>
-void PanelFactor::solve(RowOf<float, lanes>* x) const {
-  const float* values = values_.data();
+void PanelFactor::solve(std::span<const float> entries, RowOf<float, lanes>* x) const {
+  const float* values = entries.data();
   int first = 0;
   for (; first < size_; first += kPanelColumns) {
     const FactorBlock<float> panel = panel_at(values, first);
@@ -59,7 +81,7 @@ void PanelFactor::solve(RowOf<float, lanes>* x) const {
   }
 }
 
-template void PanelFactor::solve(RowOf<float>*) const;
-template void PanelFactor::solve(RowOf<float, kSinglesTogether>*) const;
+template void PanelFactor::solve(std::span<const float>, RowOf<float>*) const;
+template void PanelFactor::solve(std::span<const float>, RowOf<float, kSinglesTogether>*) const;
 
 }  // namespace flexneck::fe_modal

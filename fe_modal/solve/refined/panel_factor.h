@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,8 +12,10 @@
 
 namespace flexneck::fe_modal {
 
-/// Cholesky factor of a small matrix, made in double and kept in single precision: panels of a few
-/// columns from their diagonal down, in hardly more memory than its lower half takes.
+/// Cholesky factor of a small matrix, made in double and kept in 16 bits an entry: panels of a few
+/// columns from their diagonal down, in hardly more memory than its lower half takes. Entries are
+/// rounded to a 65534th of the largest of their column, which a preconditioner may: the product of
+/// the factor with its transpose stays positive definite.
 class PanelFactor {
  public:
   PanelFactor() = default;
@@ -19,16 +23,19 @@ class PanelFactor {
   /// @throws ComputationError if it is not positive definite.
   explicit PanelFactor(Eigen::MatrixXd& matrix);
 
+  /// The entries, for solve().
+  void unpack(std::vector<float>& entries) const;
   /// x = (L L^T)^-1 x, as many rows as the matrix, of 8 or 16 columns.
   template <std::size_t lanes>
-  void solve(RowOf<float, lanes>* x) const;
+  void solve(std::span<const float> entries, RowOf<float, lanes>* x) const;
 
  private:
   /// @param first column
   FactorBlock<float> panel_at(const float* values, int first) const;
 
   int size_ = 0;
-  std::vector<float> values_;
+  std::vector<float> steps_;  ///< what 1 stands for in each column
+  std::vector<std::int16_t> values_;
 };
 
 }  // namespace flexneck::fe_modal

@@ -32,29 +32,47 @@ constexpr double kSlowing = 1.1;
 /// Directions of a basis of unit columns that are shorter have nothing new.
 constexpr double kNothingNew = 1e-12;
 
-/// Columns with their forces and momenta.
+/// Calls visit(first, rows) for rows of some columns that a cache holds.
+template <typename Visitor>
+void for_each_panel(Eigen::Index size, const Visitor& visit) {
+  constexpr Eigen::Index kRows = 1024;
+  for (Eigen::Index first = 0; first < size; first += kRows) {
+    visit(first, std::min(kRows, size - first));
+  }
+}
+
+/// Columns with their forces.
 struct Block {
   Eigen::MatrixXd vectors;
   Eigen::MatrixXd forces;
-  Eigen::MatrixXd momenta;
 };
 
 /// What the modes are sought in: the modes so far, the directions that they went, and new ones;
-/// with K and M projected on them.
+/// with K and M projected on them. Momenta are kept in single precision: in residuals they are no
+/// larger than what is sought, where terms of the forces cancel by six digits.
 class Basis {
  public:
-  explicit Basis(const Ranks& ranks) : ranks_(ranks) {}
+  /// @param rows of this rank
+  /// @param columns at most
+  Basis(const Ranks& ranks, Eigen::Index rows, Eigen::Index columns)
+      : ranks_(ranks), momenta_(rows, columns) {}
 
   void append(Eigen::MatrixXd vectors, ElementOperator::Products products) {
-    blocks_.push_back(
-        {std::move(vectors), std::move(products.forces), std::move(products.momenta)});
-    project_last(&Block::forces, stiffness_);
-    project_last(&Block::momenta, mass_);
+    const Eigen::Index before = stiffness_.rows();
+    const Eigen::Index count = vectors.cols();
+    momenta_.middleCols(before, count) = products.momenta.cast<float>();
+    blocks_.push_back({std::move(vectors), std::move(products.forces)});
+    project_last(blocks_.back().forces, stiffness_);
+    project_last(products.momenta, mass_);
   }
-  const Block& modes() const { return blocks_.front(); }
-  /// Combinations of the vectors of all columns.
-  Eigen::MatrixXd vectors_of(const Eigen::MatrixXd& combinations) const {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(modes().vectors.rows(), combinations.cols());
+  const Eigen::MatrixXd& forces_of_modes() const { return blocks_.front().forces; }
+  auto momenta_of_modes() const { return momenta_.leftCols(blocks_.front().vectors.cols()); }
+  /// Combinations of the vectors of all columns; of the basis nothing is left.
+  Eigen::MatrixXd combined(const Eigen::MatrixXd& combinations) && {
+    momenta_.resize(0, 0);
+    for (Block& block : blocks_) block.forces.resize(0, 0);
+    Eigen::MatrixXd result =
+        Eigen::MatrixXd::Zero(blocks_.front().vectors.rows(), combinations.cols());
     Eigen::Index first = 0;
     for (const Block& block : blocks_) {
       const Eigen::Index count = block.vectors.cols();
@@ -66,67 +84,84 @@ class Basis {
   const Eigen::MatrixXd& stiffness() const { return stiffness_; }
   const Eigen::MatrixXd& mass() const { return mass_; }
 
-  /// Combinations of all columns become the modes and, if there are any, the directions; no other
-  /// block is left.
-  /// @pre no more than the columns of the first and the second block
-  void combine(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& directions) {
-    constexpr Eigen::Index kRows = 1024;
-    std::vector<const Eigen::MatrixXd*> combinations = {&modes};
-    if (directions.cols() > 0) combinations.push_back(&directions);
-    Eigen::MatrixXd before;
-    Eigen::MatrixXd after;
-    for (Eigen::MatrixXd Block::*const field : {&Block::vectors, &Block::forces, &Block::momenta}) {
-      const Eigen::Index size = (blocks_.front().*field).rows();
-      for (Eigen::Index first = 0; first < size; first += kRows) {
-        const Eigen::Index rows = std::min(kRows, size - first);
-        before.resize(rows, modes.rows());
-        Eigen::Index column = 0;
-        for (const Block& block : blocks_) {
-          const auto own = (block.*field).middleRows(first, rows);
-          before.middleCols(column, own.cols()) = own;
-          column += own.cols();
-        }
-        for (std::size_t k = 0; k < combinations.size(); ++k) {
-          after.resize(rows, combinations[k]->cols());
-          multiply(1, before, *combinations[k], 0, after);
-          (blocks_[k].*field).block(first, 0, rows, after.cols()) = after;
-        }
+  /// The modes become combinations of all columns. What the last of them take from the other blocks
+  /// becomes the only other block: the directions that they went.
+  /// @param of_modes (modes, modes)
+  /// @param of_others (other columns, as many as the second block has), or nothing
+  void combine(const Eigen::MatrixXd& of_modes, const Eigen::MatrixXd& of_others) {
+    const auto combined = [&](const Eigen::MatrixXd& all) {
+      return combine_rows(all, of_modes, of_others);
+    };
+    const Eigen::Index moved = of_others.cols();
+    for_each_panel(momenta_.rows(), [&](Eigen::Index first, Eigen::Index rows) {
+      for (Eigen::MatrixXd Block::*const fields : {&Block::vectors, &Block::forces}) {
+        const Eigen::MatrixXd after = combined(rows_of_all(fields, first, rows));
+        (blocks_[0].*fields).middleRows(first, rows) = after.leftCols(of_modes.cols());
+        if (moved > 0) (blocks_[1].*fields).middleRows(first, rows) = after.rightCols(moved);
       }
-      for (std::size_t k = 0; k < blocks_.size(); ++k) {
-        const Eigen::Index kept = k < combinations.size() ? combinations[k]->cols() : 0;
-        if ((blocks_[k].*field).cols() > kept) {
-          (blocks_[k].*field).conservativeResize(Eigen::NoChange, kept);
-        }
-      }
-    }
-    blocks_.resize(combinations.size());
-    Eigen::MatrixXd all(modes.rows(), modes.cols() + directions.cols());
-    all.leftCols(modes.cols()) = modes;
-    if (directions.cols() > 0) all.rightCols(directions.cols()) = directions;
+      auto momenta = momenta_.middleRows(first, rows);
+      const Eigen::MatrixXd after = combined(momenta.leftCols(stiffness_.rows()).cast<double>());
+      momenta.leftCols(after.cols()) = after.cast<float>();
+    });
+    blocks_.resize(moved > 0 ? 2 : 1);
+    const Eigen::MatrixXd all =
+        combined(Eigen::MatrixXd::Identity(stiffness_.rows(), stiffness_.rows()));
     stiffness_ = all.transpose() * stiffness_ * all;
     mass_ = all.transpose() * mass_ * all;
   }
 
  private:
-  /// Adds the columns and rows of the last block.
-  void project_last(Eigen::MatrixXd Block::*field, Eigen::MatrixXd& projected) const {
-    const Eigen::Index more = blocks_.back().vectors.cols();
-    const Eigen::Index count = projected.rows() + more;
-    projected.conservativeResize(count, count);
-    Eigen::Index row = 0;
-    for (const Block& block : blocks_) {
-      const Eigen::Index rows = block.vectors.cols();
-      const Eigen::MatrixXd part = inner_products(ranks_, block.vectors, blocks_.back().*field);
-      projected.block(row, count - more, rows, more) = part;
-      projected.block(count - more, row, more, rows) = part.transpose();
-      row += rows;
+  /// @param all rows of all columns
+  /// @return those of the modes and of their directions, as combine() has them
+  static Eigen::MatrixXd combine_rows(const Eigen::MatrixXd& all, const Eigen::MatrixXd& of_modes,
+                                      const Eigen::MatrixXd& of_others) {
+    const Eigen::Index count = of_modes.cols();
+    const Eigen::Index moved = of_others.cols();
+    Eigen::MatrixXd after(all.rows(), count + moved);
+    multiply(1, all.leftCols(count), of_modes, 0, after.leftCols(count));
+    if (moved > 0) {
+      multiply(1, all.rightCols(of_others.rows()), of_others, 0, after.rightCols(moved));
+      after.middleCols(count - moved, moved) += after.rightCols(moved);
     }
+    return after;
+  }
+  Eigen::MatrixXd rows_of_all(Eigen::MatrixXd Block::*fields, Eigen::Index first,
+                              Eigen::Index rows) const {
+    Eigen::MatrixXd all(rows, stiffness_.rows());
+    Eigen::Index column = 0;
+    for (const Block& block : blocks_) {
+      const auto own = (block.*fields).middleRows(first, rows);
+      all.middleCols(column, own.cols()) = own;
+      column += own.cols();
+    }
+    return all;
+  }
+  /// Adds the columns and rows of the last block.
+  /// @param products of K or M with it
+  void project_last(const Eigen::MatrixXd& products, Eigen::MatrixXd& projected) const {
+    const Eigen::Index before = projected.rows();
+    const Eigen::Index more = products.cols();
+    Eigen::MatrixXd added = Eigen::MatrixXd::Zero(before + more, more);
+    for_each_panel(products.rows(), [&](Eigen::Index first, Eigen::Index rows) {
+      Eigen::Index row = 0;
+      for (const Block& block : blocks_) {
+        const Eigen::Index count = block.vectors.cols();
+        multiply_transpose(1, block.vectors.middleRows(first, rows),
+                           products.middleRows(first, rows), 1, added.middleRows(row, count));
+        row += count;
+      }
+    });
+    ranks_.sum(added);
+    projected.conservativeResize(before + more, before + more);
+    projected.rightCols(more) = added;
+    projected.bottomLeftCorner(more, before) = added.topRows(before).transpose();
   }
 
   Ranks ranks_;
   Eigen::MatrixXd stiffness_;
   Eigen::MatrixXd mass_;
   std::vector<Block> blocks_;
+  Eigen::MatrixXf momenta_;  ///< of the columns of all blocks
 };
 
 /// The lowest pairs of the projection on the columns, as combinations of them; fewer where the
@@ -199,44 +234,41 @@ class Settling {
 };
 
 /// K x - lambda M x of the elastic modes.
-Eigen::MatrixXd residuals_of(const Block& modes, const Eigen::VectorXd& values,
-                             Eigen::Index rigid_count) {
-  const Eigen::Index elastic = values.size() - rigid_count;
-  return modes.forces.rightCols(elastic) -
-         modes.momenta.rightCols(elastic) * values.tail(elastic).asDiagonal();
+Eigen::MatrixXd residuals_of(const Basis& basis, const Eigen::VectorXd& values,
+                             Eigen::Index elastic) {
+  return basis.forces_of_modes().rightCols(elastic) -
+         basis.momenta_of_modes().rightCols(elastic).cast<double>() *
+             values.tail(elastic).asDiagonal();
 }
 
-/// Where vectors with these residuals are to go.
-Eigen::MatrixXd directions_against(const RefinedSystem& system, Eigen::MatrixXd residuals) {
-  Eigen::MatrixXd directions = system.precondition(residuals);
+/// Where the elastic modes are to go.
+Eigen::MatrixXd find_directions(const RefinedSystem& system, const Basis& basis,
+                                const Eigen::VectorXd& values, Eigen::Index elastic) {
+  // What is kept takes its memory before what is freed: no holes.
+  Eigen::MatrixXd directions(basis.forces_of_modes().rows(), elastic);
+  Eigen::MatrixXd residuals = residuals_of(basis, values, elastic);
+  system.precondition(residuals, directions);
   residuals -= system.forces(directions);
-  directions += system.solve_cells(residuals);
-  return directions;
-}
-
-/// What elastic Ritz vectors have of other columns than the Ritz vectors before: the directions
-/// that they went. None where there are no other columns.
-Eigen::MatrixXd directions_of(const Eigen::MatrixXd& best, Eigen::Index rigid_count) {
-  if (best.rows() == best.cols()) return {};
-  Eigen::MatrixXd directions = best.rightCols(best.cols() - rigid_count);
-  directions.topRows(best.cols()).setZero();
+  system.add_cells(1, residuals, directions);
   return directions;
 }
 
 /// The modes of the mesh before, with what is within its elements as it must be. Where nothing is
 /// left of some, which were within an element, all are taken as they were.
-void start(const RefinedSystem& system, const EigenPairs& coarse, Basis& basis) {
-  const auto append = [&](Eigen::MatrixXd vectors) {
+/// @param columns of the basis at most
+Basis first_basis(const RefinedSystem& system, const EigenPairs& coarse, Eigen::Index columns) {
+  const auto basis_of = [&](Eigen::MatrixXd vectors) {
+    Basis basis(system.ranks(), vectors.rows(), columns);
     ElementOperator::Products products = system.products(vectors);
     basis.append(std::move(vectors), std::move(products));
+    return basis;
   };
   Eigen::MatrixXd vectors = system.prolonged(coarse.vectors);
-  vectors -= system.solve_cells(system.forces(vectors));
-  append(std::move(vectors));
+  system.add_cells(-1, system.forces(vectors), vectors);
+  Basis basis = basis_of(std::move(vectors));
   const Eigen::Index count = coarse.values.size();
-  if (ritz_pairs(basis, count).values.size() == count) return;
-  basis = Basis(system.ranks());
-  append(system.prolonged(coarse.vectors));
+  if (ritz_pairs(basis, count).values.size() == count) return basis;
+  return basis_of(system.prolonged(coarse.vectors));
 }
 
 }  // namespace
@@ -245,19 +277,20 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
                            Eigen::Index rigid_count) {
   const Eigen::Index count = coarse.values.size();
   rigid_count = std::min(rigid_count, count);
-  Basis basis(system.ranks());
-  start(system, coarse, basis);
+  Basis basis = first_basis(system, coarse, 3 * count - 2 * rigid_count);
   Settling settling(coarse.values, rigid_count);
   for (int step = 0; step <= kMaxSteps; ++step) {
     const EigenPairs ritz = ritz_pairs(basis, count);
     settling.take(ritz.values);
     if (settling.has_ended() || rigid_count == count) {
       return {ritz.values, rigid_count == count ? Eigen::VectorXd::Zero(count) : settling.excess(),
-              basis.vectors_of(ritz.vectors)};
+              std::move(basis).combined(ritz.vectors)};
     }
-    basis.combine(ritz.vectors, directions_of(ritz.vectors, rigid_count));
-    Eigen::MatrixXd directions =
-        directions_against(system, residuals_of(basis.modes(), ritz.values, rigid_count));
+    // Of rigid motions there is nothing but rounding in the other columns.
+    const Eigen::Index others = ritz.vectors.rows() - count;
+    basis.combine(ritz.vectors.topRows(count),
+                  ritz.vectors.bottomRows(others).rightCols(others > 0 ? count - rigid_count : 0));
+    Eigen::MatrixXd directions = find_directions(system, basis, ritz.values, count - rigid_count);
     ElementOperator::Products products = system.products(directions);
     basis.append(std::move(directions), std::move(products));
   }

@@ -120,18 +120,24 @@ Eigen::MatrixXd RefinedSystem::forces(const Eigen::MatrixXd& columns) const {
                           [&](const Eigen::MatrixXd& rows) { return operator_->forces(rows); });
 }
 
-Eigen::MatrixXd RefinedSystem::precondition(const Eigen::MatrixXd& residuals) const {
-  Eigen::MatrixXd result = transfer_.to_fine(inverse_.approximate(transfer_.to_coarse(residuals)));
-  result +=
-      kStarWeight *
-      (around_ ? around_->exchange.sum_to_own(stars_->smooth(around_->exchange.to_local(residuals)))
-               : stars_->smooth(residuals));
-  return result;
+void RefinedSystem::precondition(const Eigen::MatrixXd& residuals,
+                                 Eigen::MatrixXd& directions) const {
+  transfer_.to_fine(inverse_.approximate(transfer_.to_coarse(residuals)), directions);
+  add_solutions(&StarPatches::add_stars, kStarWeight, residuals, directions);
 }
 
-Eigen::MatrixXd RefinedSystem::solve_cells(const Eigen::MatrixXd& residuals) const {
-  if (!around_) return stars_->solve_cells(residuals);
-  return around_->exchange.sum_to_own(stars_->solve_cells(around_->exchange.to_local(residuals)));
+void RefinedSystem::add_cells(double weight, const Eigen::MatrixXd& residuals,
+                              Eigen::MatrixXd& sums) const {
+  add_solutions(&StarPatches::add_cells, weight, residuals, sums);
+}
+
+void RefinedSystem::add_solutions(AddSolutions add, double weight, const Eigen::MatrixXd& residuals,
+                                  Eigen::MatrixXd& sums) const {
+  if (!around_) return ((*stars_).*add)(weight, residuals, sums);
+  const Eigen::MatrixXd local = around_->exchange.to_local(residuals);
+  Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(local.rows(), local.cols());
+  ((*stars_).*add)(weight, local, solutions);
+  sums += around_->exchange.sum_to_own(solutions);
 }
 
 }  // namespace flexneck::fe_modal

@@ -38,12 +38,15 @@ class RefinedSystem {
   ElementOperator::Products products(const Eigen::MatrixXd& columns) const;
   Eigen::MatrixXd forces(const Eigen::MatrixXd& columns) const;
   Eigen::MatrixXd prolonged(const Eigen::MatrixXd& coarse) const {
-    return transfer_.to_fine(coarse);
+    Eigen::MatrixXd fine(fields_.own_dof_count(), coarse.cols());
+    transfer_.to_fine(coarse, fine);
+    return fine;
   }
   /// By the mesh before and the stars, of which it takes twice the solution, added up: symmetric.
-  Eigen::MatrixXd precondition(const Eigen::MatrixXd& residuals) const;
-  /// Solves within the elements of the mesh before, StarPatches::solve_cells().
-  Eigen::MatrixXd solve_cells(const Eigen::MatrixXd& residuals) const;
+  /// @param directions of the residuals' shape; their memory is written to
+  void precondition(const Eigen::MatrixXd& residuals, Eigen::MatrixXd& directions) const;
+  /// Adds solutions within the elements of the mesh before, StarPatches::add_cells().
+  void add_cells(double weight, const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const;
 
  private:
   /// Elements around the corners that this rank has, whose stars are whole there.
@@ -51,6 +54,11 @@ class RefinedSystem {
     RankPart part;
     GhostExchange exchange;
   };
+
+  using AddSolutions = void (StarPatches::*)(double, const Eigen::MatrixXd&,
+                                             Eigen::MatrixXd&) const;
+  void add_solutions(AddSolutions add, double weight, const Eigen::MatrixXd& residuals,
+                     Eigen::MatrixXd& sums) const;
 
   const ShiftInverse& inverse_;
   std::vector<std::int32_t> rank_of_element_;

@@ -203,65 +203,61 @@ std::vector<std::int32_t> StarPatches::take_inner(const ElementOperator& element
   return inner;
 }
 
-Eigen::MatrixXd StarPatches::smooth(const Eigen::MatrixXd& residuals) const {
-  return sum_of(all_, residuals);
-}
-
-Eigen::MatrixXd StarPatches::solve_cells(const Eigen::MatrixXd& residuals) const {
-  return sum_of(cells_, residuals);
-}
-
-Eigen::MatrixXd StarPatches::sum_of(const Selection& selection,
-                                    const Eigen::MatrixXd& residuals) const {
+void StarPatches::add_solutions(const Selection& selection, double weight,
+                                const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const {
   if (residuals.cols() <= static_cast<Eigen::Index>(kColumnsTogether)) {
-    return sum_by_lanes<kColumnsTogether>(selection, residuals);
+    add_by_lanes<kColumnsTogether>(selection, weight, residuals, sums);
+  } else {
+    add_by_lanes<kSinglesTogether>(selection, weight, residuals, sums);
   }
-  return sum_by_lanes<kSinglesTogether>(selection, residuals);
 }
 
 template <std::size_t lanes>
-Eigen::MatrixXd StarPatches::sum_by_lanes(const Selection& selection,
-                                          const Eigen::MatrixXd& residuals) const {
+void StarPatches::add_by_lanes(const Selection& selection, double weight,
+                               const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const {
   // Of unit size: forces of slow modes may be too small for single precision.
   const double largest = residuals.size() == 0 ? 0 : residuals.cwiseAbs().maxCoeff();
-  if (largest == 0) return Eigen::MatrixXd::Zero(residuals.rows(), residuals.cols());
+  if (largest == 0) return;
   // Row by row the columns in groups, all of which a patch's factor meets in turn.
   constexpr auto kTogether = static_cast<Eigen::Index>(lanes);
   using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::Index width = (residuals.cols() + kTogether - 1) / kTogether;
   const auto groups = static_cast<std::size_t>(width);
   std::vector<RowOf<float, lanes>> given(static_cast<std::size_t>(residuals.rows()) * groups);
-  std::vector<RowOf<float, lanes>> sums(given.size());
+  std::vector<RowOf<float, lanes>> solutions(given.size());
   const auto columns_of = [&](std::vector<RowOf<float, lanes>>& rows) {
-    return Eigen::Map<RowMajor>(rows.front().value, residuals.rows(), width * kTogether);
+    return Eigen::Map<RowMajor>(rows.front().value, residuals.rows(), width * kTogether)
+        .leftCols(residuals.cols());
   };
-  columns_of(given).leftCols(residuals.cols()) = (residuals / largest).cast<float>();
+  columns_of(given) = (residuals / largest).cast<float>();
   for (std::size_t k = 0; k < inner_.size(); ++k) {
     if (selection.stars_of_inner[k] > 0) inner_[k].eliminate<lanes>(groups, given);
   }
+  Workspace<lanes> workspace;
   for (const std::size_t number : selection.patches) {
-    add_solution<lanes>(patches_[number], groups, given, sums);
+    add_solution<lanes>(patches_[number], groups, given, solutions, workspace);
   }
   for (std::size_t k = 0; k < inner_.size(); ++k) {
     const std::size_t count = selection.stars_of_inner[k];
-    if (count > 0) inner_[k].substitute<lanes>(groups, given, count, sums);
+    if (count > 0) inner_[k].substitute<lanes>(groups, given, count, solutions);
   }
-  given = {};  // its memory is the result's
-  return largest * columns_of(sums).leftCols(residuals.cols()).template cast<double>();
+  sums += weight * largest * columns_of(solutions).template cast<double>();
 }
 
 template <std::size_t lanes>
 void StarPatches::add_solution(const Patch& patch, std::size_t groups,
                                std::span<const RowOf<float, lanes>> forces,
-                               std::span<RowOf<float, lanes>> sums) {
+                               std::span<RowOf<float, lanes>> sums, Workspace<lanes>& workspace) {
   constexpr std::size_t kNode = 3;
-  std::vector<RowOf<float, lanes>> own(kNode * patch.blocks.size());
+  std::vector<RowOf<float, lanes>>& own = workspace.rows;
+  own.resize(kNode * patch.blocks.size());
+  patch.factor.unpack(workspace.factor);
   const auto row_of = [&](std::size_t i) {
     return groups * (kNode * static_cast<std::size_t>(patch.blocks[i / kNode]) + i % kNode);
   };
   for (std::size_t group = 0; group < groups; ++group) {
     for (std::size_t i = 0; i < own.size(); ++i) own[i] = forces[row_of(i) + group];
-    patch.factor.solve(own.data());
+    patch.factor.solve(workspace.factor, own.data());
     for (std::size_t i = 0; i < own.size(); ++i) {
       RowOf<float, lanes>& sum = sums[row_of(i) + group];
       for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += own[i].value[c];

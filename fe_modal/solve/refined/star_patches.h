@@ -25,11 +25,16 @@ class StarPatches {
   /// @throws ComputationError if the stiffness is not positive definite.
   StarPatches(const StarMesh& body, const ElementOperator& stiffness);
 
-  /// The sum of the solutions of all stars for each column, (dofs, k).
-  Eigen::MatrixXd smooth(const Eigen::MatrixXd& residuals) const;
+  /// Adds the solutions of all stars for each column, times a weight.
+  /// @param residuals, sums (dofs, k)
+  void add_stars(double weight, const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const {
+    add_solutions(all_, weight, residuals, sums);
+  }
   /// The same of one star at most within each element of the mesh before, that of its middle where
   /// it has one: these do not meet, and together they are exact.
-  Eigen::MatrixXd solve_cells(const Eigen::MatrixXd& residuals) const;
+  void add_cells(double weight, const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const {
+    add_solutions(cells_, weight, residuals, sums);
+  }
 
  private:
   struct Patch {
@@ -45,20 +50,27 @@ class StarPatches {
   /// @return the place in each element, -1: none
   std::vector<std::int32_t> take_inner(const ElementOperator& elements, std::size_t block_count,
                                        PatchLists& stars);
-  Eigen::MatrixXd sum_of(const Selection& selection, const Eigen::MatrixXd& residuals) const;
+  void add_solutions(const Selection& selection, double weight, const Eigen::MatrixXd& residuals,
+                     Eigen::MatrixXd& sums) const;
   /// So many columns at a time.
   template <std::size_t lanes>
-  Eigen::MatrixXd sum_by_lanes(const Selection& selection, const Eigen::MatrixXd& residuals) const;
+  void add_by_lanes(const Selection& selection, double weight, const Eigen::MatrixXd& residuals,
+                    Eigen::MatrixXd& sums) const;
+  template <std::size_t lanes>
+  struct Workspace {
+    std::vector<RowOf<float, lanes>> rows;
+    std::vector<float> factor;
+  };
   /// @param forces, sums (dofs x groups), row by row
   template <std::size_t lanes>
   static void add_solution(const Patch& patch, std::size_t groups,
                            std::span<const RowOf<float, lanes>> forces,
-                           std::span<RowOf<float, lanes>> sums);
+                           std::span<RowOf<float, lanes>> sums, Workspace<lanes>& workspace);
 
   std::vector<InnerBlock> inner_;  ///< of elements, in their order
   std::vector<Patch> patches_;
   Selection all_;
-  Selection cells_;  ///< those of solve_cells()
+  Selection cells_;  ///< those of add_cells()
 };
 
 }  // namespace flexneck::fe_modal
