@@ -68,6 +68,11 @@ Mat SymmetricMatrix::get() const {
   return handle_.get();
 }
 
+void SymmetricMatrix::free_columns() const {
+  handle_ = MatHandle();
+  std::vector<PetscInt>().swap(arrays_->columns);
+}
+
 SymmetricMatrix SymmetricMatrix::clone() const { return SymmetricMatrix(Arrays(*arrays_)); }
 
 std::span<const std::int32_t> SymmetricMatrix::later(std::int32_t node) const {

@@ -150,11 +150,15 @@ std::unique_ptr<ShiftInverse> AssembledSystem::factor(double shift, Precision pr
   const bool is_in_order = fields_.dof_map().is_renumbered();
   const CholmodOrder kind = is_in_order ? CholmodOrder::numbering : CholmodOrder::given;
   const auto given = is_in_order ? std::span<const std::int32_t>() : order();
+  std::unique_ptr<ShiftInverse> inverse;
   if (precision == Precision::of_double) {
-    return std::make_unique<CholeskyFactor>(matrix.get(), shift, kind, given, ranks().threads());
+    inverse = std::make_unique<CholeskyFactor>(matrix.get(), shift, kind, given, ranks().threads());
+  } else {
+    inverse = make_shift_inverse(matrix.get(), products, shift, kind, given, ranks().threads(),
+                                 make_in_double);
   }
-  return make_shift_inverse(matrix.get(), products, shift, kind, given, ranks().threads(),
-                            make_in_double);
+  matrix.free_columns();  // products do without
+  return inverse;
 }
 
 std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) const {

@@ -42,6 +42,8 @@ InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place,
   for (Eigen::Index i = 0; i < width; ++i) {
     if (i != inner && numbers[static_cast<std::size_t>(i)] >= 0) places.push_back(i);
   }
+  numbers_.reserve(places.size());
+  columns_.reserve(9 * places.size());
   for (const Eigen::Index i : places) numbers_.push_back(numbers[static_cast<std::size_t>(i)]);
   for (Eigen::Index column = 0; column < 3; ++column) {
     for (const Eigen::Index i : places) {

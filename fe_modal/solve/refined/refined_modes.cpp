@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/algebra/row_panels.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/symmetric_pairs.h"
 
@@ -32,47 +33,34 @@ constexpr double kSlowing = 1.1;
 /// Directions of a basis of unit columns that are shorter have nothing new.
 constexpr double kNothingNew = 1e-12;
 
-/// Calls visit(first, rows) for rows of some columns that a cache holds.
-template <typename Visitor>
-void for_each_panel(Eigen::Index size, const Visitor& visit) {
-  constexpr Eigen::Index kRows = 1024;
-  for (Eigen::Index first = 0; first < size; first += kRows) {
-    visit(first, std::min(kRows, size - first));
-  }
-}
-
-/// Columns with their forces.
+/// Columns with their forces and momenta. These are kept in single precision: in residuals they are
+/// no larger than what is sought, where terms of the forces cancel by six digits.
 struct Block {
   Eigen::MatrixXd vectors;
   Eigen::MatrixXd forces;
+  Eigen::MatrixXf momenta;
 };
 
 /// What the modes are sought in: the modes so far, the directions that they went, and new ones;
-/// with K and M projected on them. Momenta are kept in single precision: in residuals they are no
-/// larger than what is sought, where terms of the forces cancel by six digits.
+/// with K and M projected on them.
 class Basis {
  public:
-  /// @param rows of this rank
-  /// @param columns at most
-  Basis(const Ranks& ranks, Eigen::Index rows, Eigen::Index columns)
-      : ranks_(ranks), momenta_(rows, columns) {}
+  explicit Basis(const Ranks& ranks) : ranks_(ranks) {}
 
   void append(Eigen::MatrixXd vectors, ElementOperator::Products products) {
-    const Eigen::Index before = stiffness_.rows();
-    const Eigen::Index count = vectors.cols();
-    momenta_.middleCols(before, count) = products.momenta.cast<float>();
-    blocks_.push_back({std::move(vectors), std::move(products.forces)});
+    blocks_.push_back(
+        {std::move(vectors), std::move(products.forces), products.momenta.cast<float>()});
     project_last(blocks_.back().forces, stiffness_);
     project_last(products.momenta, mass_);
   }
-  const Eigen::MatrixXd& forces_of_modes() const { return blocks_.front().forces; }
-  auto momenta_of_modes() const { return momenta_.leftCols(blocks_.front().vectors.cols()); }
+  const Block& modes() const { return blocks_.front(); }
   /// Combinations of the vectors of all columns; of the basis nothing is left.
   Eigen::MatrixXd combined(const Eigen::MatrixXd& combinations) && {
-    momenta_.resize(0, 0);
-    for (Block& block : blocks_) block.forces.resize(0, 0);
-    Eigen::MatrixXd result =
-        Eigen::MatrixXd::Zero(blocks_.front().vectors.rows(), combinations.cols());
+    for (Block& block : blocks_) {
+      block.forces.resize(0, 0);
+      block.momenta.resize(0, 0);
+    }
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(modes().vectors.rows(), combinations.cols());
     Eigen::Index first = 0;
     for (const Block& block : blocks_) {
       const Eigen::Index count = block.vectors.cols();
@@ -89,53 +77,59 @@ class Basis {
   /// @param of_modes (modes, modes)
   /// @param of_others (other columns, as many as the second block has), or nothing
   void combine(const Eigen::MatrixXd& of_modes, const Eigen::MatrixXd& of_others) {
-    const auto combined = [&](const Eigen::MatrixXd& all) {
-      return combine_rows(all, of_modes, of_others);
-    };
-    const Eigen::Index moved = of_others.cols();
-    for_each_panel(momenta_.rows(), [&](Eigen::Index first, Eigen::Index rows) {
-      for (Eigen::MatrixXd Block::*const fields : {&Block::vectors, &Block::forces}) {
-        const Eigen::MatrixXd after = combined(rows_of_all(fields, first, rows));
-        (blocks_[0].*fields).middleRows(first, rows) = after.leftCols(of_modes.cols());
-        if (moved > 0) (blocks_[1].*fields).middleRows(first, rows) = after.rightCols(moved);
-      }
-      auto momenta = momenta_.middleRows(first, rows);
-      const Eigen::MatrixXd after = combined(momenta.leftCols(stiffness_.rows()).cast<double>());
-      momenta.leftCols(after.cols()) = after.cast<float>();
+    const Combination combination{of_modes, of_others};
+    for_each_panel(modes().vectors.rows(), [&](Eigen::Index first, Eigen::Index rows) {
+      combine_rows(&Block::vectors, first, rows, combination);
+      combine_rows(&Block::forces, first, rows, combination);
+      combine_rows(&Block::momenta, first, rows, combination);
     });
-    blocks_.resize(moved > 0 ? 2 : 1);
+    blocks_.resize(of_others.cols() > 0 ? 2 : 1);
     const Eigen::MatrixXd all =
-        combined(Eigen::MatrixXd::Identity(stiffness_.rows(), stiffness_.rows()));
+        combination.of(Eigen::MatrixXd::Identity(stiffness_.rows(), stiffness_.rows()));
     stiffness_ = all.transpose() * stiffness_ * all;
     mass_ = all.transpose() * mass_ * all;
   }
 
  private:
-  /// @param all rows of all columns
-  /// @return those of the modes and of their directions, as combine() has them
-  static Eigen::MatrixXd combine_rows(const Eigen::MatrixXd& all, const Eigen::MatrixXd& of_modes,
-                                      const Eigen::MatrixXd& of_others) {
-    const Eigen::Index count = of_modes.cols();
-    const Eigen::Index moved = of_others.cols();
-    Eigen::MatrixXd after(all.rows(), count + moved);
-    multiply(1, all.leftCols(count), of_modes, 0, after.leftCols(count));
-    if (moved > 0) {
-      multiply(1, all.rightCols(of_others.rows()), of_others, 0, after.rightCols(moved));
-      after.middleCols(count - moved, moved) += after.rightCols(moved);
+  /// As combine() has them.
+  struct Combination {
+    const Eigen::MatrixXd& of_modes;
+    const Eigen::MatrixXd& of_others;
+
+    /// @param all rows of all columns
+    /// @return those of the modes and of the directions that they went
+    Eigen::MatrixXd of(const Eigen::MatrixXd& all) const {
+      const Eigen::Index count = of_modes.cols();
+      const Eigen::Index moved = of_others.cols();
+      Eigen::MatrixXd after(all.rows(), count + moved);
+      multiply(1, all.leftCols(count), of_modes, 0, after.leftCols(count));
+      if (moved > 0) {
+        multiply(1, all.rightCols(of_others.rows()), of_others, 0, after.rightCols(moved));
+        after.middleCols(count - moved, moved) += after.rightCols(moved);
+      }
+      return after;
     }
-    return after;
-  }
-  Eigen::MatrixXd rows_of_all(Eigen::MatrixXd Block::*fields, Eigen::Index first,
-                              Eigen::Index rows) const {
+  };
+
+  template <typename Columns>
+  void combine_rows(Columns Block::*field, Eigen::Index first, Eigen::Index rows,
+                    const Combination& combination) {
+    using Scalar = typename Columns::Scalar;
     Eigen::MatrixXd all(rows, stiffness_.rows());
     Eigen::Index column = 0;
     for (const Block& block : blocks_) {
-      const auto own = (block.*fields).middleRows(first, rows);
-      all.middleCols(column, own.cols()) = own;
+      const auto own = (block.*field).middleRows(first, rows);
+      all.middleCols(column, own.cols()) = own.template cast<double>();
       column += own.cols();
     }
-    return all;
+    const Eigen::MatrixXd after = combination.of(all);
+    const Eigen::Index moved = combination.of_others.cols();
+    (blocks_[0].*field).middleRows(first, rows) =
+        after.leftCols(after.cols() - moved).template cast<Scalar>();
+    if (moved == 0) return;
+    (blocks_[1].*field).middleRows(first, rows) = after.rightCols(moved).template cast<Scalar>();
   }
+
   /// Adds the columns and rows of the last block.
   /// @param products of K or M with it
   void project_last(const Eigen::MatrixXd& products, Eigen::MatrixXd& projected) const {
@@ -161,7 +155,6 @@ class Basis {
   Eigen::MatrixXd stiffness_;
   Eigen::MatrixXd mass_;
   std::vector<Block> blocks_;
-  Eigen::MatrixXf momenta_;  ///< of the columns of all blocks
 };
 
 /// The lowest pairs of the projection on the columns, as combinations of them; fewer where the
@@ -234,19 +227,18 @@ class Settling {
 };
 
 /// K x - lambda M x of the elastic modes.
-Eigen::MatrixXd residuals_of(const Basis& basis, const Eigen::VectorXd& values,
+Eigen::MatrixXd residuals_of(const Block& modes, const Eigen::VectorXd& values,
                              Eigen::Index elastic) {
-  return basis.forces_of_modes().rightCols(elastic) -
-         basis.momenta_of_modes().rightCols(elastic).cast<double>() *
-             values.tail(elastic).asDiagonal();
+  return modes.forces.rightCols(elastic) -
+         modes.momenta.rightCols(elastic).cast<double>() * values.tail(elastic).asDiagonal();
 }
 
 /// Where the elastic modes are to go.
-Eigen::MatrixXd find_directions(const RefinedSystem& system, const Basis& basis,
+Eigen::MatrixXd find_directions(const RefinedSystem& system, const Block& modes,
                                 const Eigen::VectorXd& values, Eigen::Index elastic) {
   // What is kept takes its memory before what is freed: no holes.
-  Eigen::MatrixXd directions(basis.forces_of_modes().rows(), elastic);
-  Eigen::MatrixXd residuals = residuals_of(basis, values, elastic);
+  Eigen::MatrixXd directions(modes.vectors.rows(), elastic);
+  Eigen::MatrixXd residuals = residuals_of(modes, values, elastic);
   system.precondition(residuals, directions);
   residuals -= system.forces(directions);
   system.add_cells(1, residuals, directions);
@@ -255,10 +247,9 @@ Eigen::MatrixXd find_directions(const RefinedSystem& system, const Basis& basis,
 
 /// The modes of the mesh before, with what is within its elements as it must be. Where nothing is
 /// left of some, which were within an element, all are taken as they were.
-/// @param columns of the basis at most
-Basis first_basis(const RefinedSystem& system, const EigenPairs& coarse, Eigen::Index columns) {
+Basis first_basis(const RefinedSystem& system, const EigenPairs& coarse) {
   const auto basis_of = [&](Eigen::MatrixXd vectors) {
-    Basis basis(system.ranks(), vectors.rows(), columns);
+    Basis basis(system.ranks());
     ElementOperator::Products products = system.products(vectors);
     basis.append(std::move(vectors), std::move(products));
     return basis;
@@ -277,7 +268,7 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
                            Eigen::Index rigid_count) {
   const Eigen::Index count = coarse.values.size();
   rigid_count = std::min(rigid_count, count);
-  Basis basis = first_basis(system, coarse, 3 * count - 2 * rigid_count);
+  Basis basis = first_basis(system, coarse);
   Settling settling(coarse.values, rigid_count);
   for (int step = 0; step <= kMaxSteps; ++step) {
     const EigenPairs ritz = ritz_pairs(basis, count);
@@ -290,7 +281,8 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
     const Eigen::Index others = ritz.vectors.rows() - count;
     basis.combine(ritz.vectors.topRows(count),
                   ritz.vectors.bottomRows(others).rightCols(others > 0 ? count - rigid_count : 0));
-    Eigen::MatrixXd directions = find_directions(system, basis, ritz.values, count - rigid_count);
+    Eigen::MatrixXd directions =
+        find_directions(system, basis.modes(), ritz.values, count - rigid_count);
     ElementOperator::Products products = system.products(directions);
     basis.append(std::move(directions), std::move(products));
   }

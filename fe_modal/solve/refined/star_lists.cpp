@@ -46,7 +46,7 @@ PatchLists find_stars(const StarMesh& body) {
   const auto is_center = [&](std::int32_t corner) {
     return body.is_center.empty() || body.is_center[static_cast<std::size_t>(corner)];
   };
-  std::vector<std::pair<std::int32_t, std::int32_t>> members;
+  PatchLists stars(static_cast<std::size_t>(dof_map.free_count() + dof_map.node_count()));
   for (const mesher::ElementBlock& block : body.mesh.blocks) {
     const auto corners = corners_of_nodes(block.kind);
     for (std::size_t first = 0; first < block.nodes.size(); first += corners.size()) {
@@ -55,17 +55,16 @@ PatchLists find_stars(const StarMesh& body) {
         if (own < 0) continue;
         for (const std::size_t c : corners[i]) {
           const std::int32_t corner = block.nodes[first + c];
-          if (is_center(corner)) members.emplace_back(star_of(corner), own);
+          if (is_center(corner)) stars[static_cast<std::size_t>(star_of(corner))].push_back(own);
         }
       }
     }
   }
-  std::sort(members.begin(), members.end());
-  members.erase(std::unique(members.begin(), members.end()), members.end());
-  PatchLists stars;
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    if (k == 0 || members[k].first != members[k - 1].first) stars.emplace_back();
-    stars.back().push_back(members[k].second);
+  std::erase_if(stars, [](const auto& blocks) { return blocks.empty(); });
+  for (auto& blocks : stars) {
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    blocks.shrink_to_fit();
   }
   return stars;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fe_modal/algebra/cholesky_factor.h"
+#include "fe_modal/algebra/row_panels.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -229,7 +230,10 @@ void StarPatches::add_by_lanes(const Selection& selection, double weight,
     return Eigen::Map<RowMajor>(rows.front().value, residuals.rows(), width * kTogether)
         .leftCols(residuals.cols());
   };
-  columns_of(given) = (residuals / largest).cast<float>();
+  for_each_panel(residuals.rows(), [&](Eigen::Index first, Eigen::Index rows) {
+    columns_of(given).middleRows(first, rows) =
+        (residuals.middleRows(first, rows) / largest).template cast<float>();
+  });
   for (std::size_t k = 0; k < inner_.size(); ++k) {
     if (selection.stars_of_inner[k] > 0) inner_[k].eliminate<lanes>(groups, given);
   }
@@ -241,7 +245,10 @@ void StarPatches::add_by_lanes(const Selection& selection, double weight,
     const std::size_t count = selection.stars_of_inner[k];
     if (count > 0) inner_[k].substitute<lanes>(groups, given, count, solutions);
   }
-  sums += weight * largest * columns_of(solutions).template cast<double>();
+  for_each_panel(residuals.rows(), [&](Eigen::Index first, Eigen::Index rows) {
+    sums.middleRows(first, rows) +=
+        weight * largest * columns_of(solutions).middleRows(first, rows).template cast<double>();
+  });
 }
 
 template <std::size_t lanes>
