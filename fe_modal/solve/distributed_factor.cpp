@@ -172,6 +172,7 @@ DistributedFactor<Scalar>::DistributedFactor(const DistributedMatrix& matrix,
     shared_rows_ = own_rows(matrix, separator_.shared());
   });
   part.reset();
+  matrix.summand.free_columns();  // room for what is between the parts; products do without
   SchurComplement<Scalar> complement = inside_.take_complement();
   between_.emplace(ranks_, separator_.panels(), purpose.pivots,
                    diagonal_between(matrix, separator_), summands(separator_, complement));
