@@ -43,9 +43,7 @@ bool has_inertia_of_factor(const Ranks& ranks, Mat matrix, const BlockOperator& 
   const Eigen::VectorXd squares = column_products(ranks, errors, errors);
   double before = 1;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Eigen::MatrixXd forces = block_product(matrix, errors);
-    const Eigen::VectorXd scales = column_scales(ranks, forces);
-    errors -= inverse(forces * scales.cwiseInverse().asDiagonal()) * scales.asDiagonal();
+    errors -= with_unit_columns(ranks, block_product(matrix, errors), inverse);
     const Eigen::ArrayXd shares =
         (column_products(ranks, errors, errors).array() / squares.array()).sqrt();
     if (!shares.isFinite().all()) return false;

@@ -119,6 +119,11 @@ const std::vector<std::int32_t>& AssembledSystem::order() const {
   return order_;
 }
 
+AssembledSystem::Elimination AssembledSystem::elimination() const {
+  if (fields_.dof_map().is_renumbered()) return {CholmodOrder::numbering, {}};
+  return {CholmodOrder::given, order()};
+}
+
 DistributedMatrix AssembledSystem::distributed(const SymmetricMatrix& summand) const {
   return {fields_.layout(), part_.blocks(), matrices_->graph, summand,
           part_.dof_map().is_renumbered()};
@@ -147,9 +152,7 @@ std::unique_ptr<ShiftInverse> AssembledSystem::factor(double shift, Precision pr
                ? make_distributed_in_double(distributed(matrix), shift)
                : make_shift_inverse(distributed(matrix), products, shift, make_in_double);
   }
-  const bool is_in_order = fields_.dof_map().is_renumbered();
-  const CholmodOrder kind = is_in_order ? CholmodOrder::numbering : CholmodOrder::given;
-  const auto given = is_in_order ? std::span<const std::int32_t>() : order();
+  const auto [kind, given] = elimination();
   std::unique_ptr<ShiftInverse> inverse;
   if (precision == Precision::of_double) {
     inverse = std::make_unique<CholeskyFactor>(matrix.get(), shift, kind, given, ranks().threads());
@@ -172,11 +175,9 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) con
     if (ranks().are_many()) {
       if (const auto counted = count_on_ranks(distributed(*shifted), product.get())) return counted;
     } else {
-      const bool is_in_order = fields_.dof_map().is_renumbered();
-      const auto counted = count_without_pivoting(
-          shifted->get(), product.get(),
-          is_in_order ? CholmodOrder::numbering : CholmodOrder::given,
-          is_in_order ? std::span<const std::int32_t>() : order(), ranks().threads());
+      const auto [kind, given] = elimination();
+      const auto counted =
+          count_without_pivoting(shifted->get(), product.get(), kind, given, ranks().threads());
       if (counted) return counted;
     }
     return count_with_pivoting(fields_.layout(), *shifted, part_.blocks(), order());

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "fe_modal/algebra/cholmod_order.h"
 #include "fe_modal/algebra/ghost_exchange.h"
 #include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/solve/iterative/subdomains.h"
@@ -61,6 +62,13 @@ class AssembledSystem : public ModalSystem {
 
   /// Of elimination of all blocks, on the first rank.
   const std::vector<std::int32_t>& order() const;
+
+  /// The same for a factor in one process.
+  struct Elimination {
+    CholmodOrder kind;
+    std::span<const std::int32_t> order;
+  };
+  Elimination elimination() const;
 
   /// A matrix of this rank's elements with its place in the whole.
   DistributedMatrix distributed(const SymmetricMatrix& summand) const;

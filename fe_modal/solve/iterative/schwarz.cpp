@@ -38,9 +38,12 @@ SchwarzPreconditioner::SchwarzPreconditioner(const CutBody& body, const PartMatr
 }
 
 Eigen::MatrixXd SchwarzPreconditioner::apply(const Eigen::MatrixXd& residuals) const {
-  const Eigen::VectorXd scales = column_scales(ranks_, residuals);
-  const Eigen::MatrixXd scaled = residuals * scales.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXf local = exchange_.to_local(scaled).cast<float>();
+  return with_unit_columns(ranks_, residuals,
+                           [this](const Eigen::MatrixXd& scaled) { return apply_to_unit(scaled); });
+}
+
+Eigen::MatrixXd SchwarzPreconditioner::apply_to_unit(const Eigen::MatrixXd& residuals) const {
+  const Eigen::MatrixXf local = exchange_.to_local(residuals).cast<float>();
   Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(local.rows(), local.cols());
   // One for each thread at a time: all of them would be several times the field.
   for (auto rest = std::span(regions_); !rest.empty();) {
@@ -53,8 +56,8 @@ Eigen::MatrixXd SchwarzPreconditioner::apply(const Eigen::MatrixXd& residuals) c
     rest = rest.subspan(count);
   }
   Eigen::MatrixXf coarse = Eigen::MatrixXf::Zero(residuals.rows(), residuals.cols());
-  coarse_.add_correction(scaled.cast<float>(), coarse);
-  return (exchange_.sum_to_own(sums.cast<double>()) + coarse.cast<double>()) * scales.asDiagonal();
+  coarse_.add_correction(residuals.cast<float>(), coarse);
+  return exchange_.sum_to_own(sums.cast<double>()) + coarse.cast<double>();
 }
 
 }  // namespace flexneck::fe_modal

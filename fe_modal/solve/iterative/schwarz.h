@@ -36,6 +36,9 @@ class SchwarzPreconditioner {
   Eigen::Index coarse_size() const { return coarse_.size(); }
 
  private:
+  /// Of columns whose largest entries are 1.
+  Eigen::MatrixXd apply_to_unit(const Eigen::MatrixXd& residuals) const;
+
   struct Region {
     SubdomainFactor factor;
     std::vector<Eigen::Index> rows;  ///< of `around`, in the order of elimination

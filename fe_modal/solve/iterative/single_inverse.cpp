@@ -35,8 +35,7 @@ void SingleInverse::go_on_in_double() const {
 
 Eigen::MatrixXd SingleInverse::apply(const Eigen::MatrixXd& residuals) const {
   if (in_double_) return in_double_->solve(residuals);
-  const Eigen::VectorXd scales = column_scales(ranks(), residuals);
-  return factor_.apply(residuals * scales.cwiseInverse().asDiagonal()) * scales.asDiagonal();
+  return with_unit_columns(ranks(), residuals, factor_.apply);
 }
 
 Eigen::MatrixXd SingleInverse::solve(const Eigen::MatrixXd& right_hand_sides) const {
