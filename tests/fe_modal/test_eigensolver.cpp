@@ -10,6 +10,7 @@
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/solve/iterative/block_davidson.h"
 #include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
@@ -117,6 +118,26 @@ TEST_CASE("all copies of manifold eigenvalues are found") {
               .cwiseAbs()
               .maxCoeff() < 1e-9);
   }
+}
+
+TEST_CASE("a Davidson block of dependent columns settles as many modes as it has, not more") {
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::LinSpaced(30, 1, 30);
+  const MatHandle mass = diagonal_matrix(Eigen::VectorXd::Ones(30));
+  const auto stiffness = [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd {
+    return diagonal.asDiagonal() * x;
+  };
+  const auto of_two = [&](const Eigen::MatrixXd& x) {
+    Eigen::MatrixXd y = diagonal.cwiseInverse().asDiagonal() * x;
+    y.bottomRows(28).setZero();
+    return y;
+  };
+  const auto found = [&](Eigen::Index count) {
+    return block_davidson({}, stiffness, mass.get(), of_two, count, {1e-15, 20});
+  };
+  const auto two = found(2);
+  REQUIRE(two);
+  CHECK((two->pairs.values - diagonal.head(2)).cwiseAbs().maxCoeff() < 1e-14);
+  CHECK_FALSE(found(3));
 }
 
 TEST_CASE("every mode of a small system can be asked for") {

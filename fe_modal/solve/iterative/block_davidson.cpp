@@ -136,7 +136,10 @@ std::optional<DavidsonResult> block_davidson(const Ranks& ranks, const BlockOper
     const Eigen::MatrixXd residuals = residuals_of(product(basis.vectors(), best), values);
     block = preconditioner(residuals);
     const Eigen::VectorXd errors = column_products(ranks, block, residuals).cwiseQuotient(values);
-    if (errors.head(count).maxCoeff() < limits.tolerance || basis.count() >= size) {
+    // Of a block whose columns depend on one another there may be fewer.
+    const bool has_settled =
+        values.size() >= count && errors.head(count).maxCoeff() < limits.tolerance;
+    if (has_settled || basis.count() >= size) {
       EigenPairs lowest{values.head(count), product(basis.vectors(), best).leftCols(count)};
       if (values.size() > count) lowest.next = values[count];
       return DavidsonResult{std::move(lowest), iteration};
@@ -144,7 +147,7 @@ std::optional<DavidsonResult> block_davidson(const Ranks& ranks, const BlockOper
     if (basis.count() + width > basis.capacity()) {
       const Eigen::MatrixXd combination = restart_combination(best, before);
       basis.cut_back(combination);
-      before = Eigen::MatrixXd::Identity(combination.cols(), width);
+      before = Eigen::MatrixXd::Identity(combination.cols(), best.cols());
     } else {
       before = best;
     }
@@ -153,6 +156,7 @@ std::optional<DavidsonResult> block_davidson(const Ranks& ranks, const BlockOper
     for (Eigen::Index k = 0; k < errors.size(); ++k) {
       if (errors[k] >= limits.tolerance) block.col(open++) = block.col(k);
     }
+    if (open == 0) break;
     block.conservativeResize(Eigen::NoChange, open);
   }
   return std::nullopt;
