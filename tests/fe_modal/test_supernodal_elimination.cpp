@@ -213,7 +213,7 @@ TEST_CASE("a signed factor is that of the matrix and has its inertia") {
   }
 }
 
-TEST_CASE("a factor in panels solves as the factor rounded to 16 bits a column does") {
+TEST_CASE("a factor in panels solves as one whose columns are rounded to 16 bits does") {
   for (const int size : {1, 5, 6, 7, 12, 81}) {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(size, size);
     matrix = (matrix * matrix.transpose() + size * Eigen::MatrixXd::Identity(size, size)).eval();
@@ -223,9 +223,10 @@ TEST_CASE("a factor in panels solves as the factor rounded to 16 bits a column d
     const Eigen::MatrixXd forces = scale.asDiagonal() * Eigen::MatrixXd::Random(size, 8);
     const Eigen::MatrixXd exact = testing::symmetric_solution(matrix, forces);
     Eigen::MatrixXd rounded = Eigen::LLT<Eigen::MatrixXd>(matrix).matrixL();
-    for (auto column : rounded.colwise()) {
-      const double step = column.cwiseAbs().maxCoeff() / 32767;
-      column = (column / step).array().round() * step;
+    for (Eigen::Index j = 0; j + 1 < size; ++j) {
+      auto below = rounded.col(j).tail(size - j - 1);
+      const double step = below.cwiseAbs().maxCoeff() / 32767;
+      below = (below / step).array().round() * step;
     }
     const Eigen::MatrixXd expected =
         testing::symmetric_solution(rounded * rounded.transpose(), forces);
@@ -241,6 +242,14 @@ TEST_CASE("a factor in panels solves as the factor rounded to 16 bits a column d
     CHECK((found - scale.asDiagonal() * expected).norm() < 1e-6 * found.norm());
     CHECK((found - scale.asDiagonal() * exact).norm() < 1e-4 * found.norm());
   }
+  // The first column has 1 on its diagonal and a million below it.
+  Eigen::MatrixXd steep(2, 2);
+  steep << 1, 1e6, 1e6, 1.01e12;
+  const PanelFactor factor(steep);
+  std::vector<float> entries;
+  factor.unpack(entries);
+  CHECK(entries[0] == 1);
+  CHECK(entries[1] == Approx(1e6));
   Eigen::MatrixXd negative = -Eigen::MatrixXd::Identity(3, 3);
   CHECK_THROWS_AS(PanelFactor(negative), ComputationError);
 }

@@ -33,14 +33,17 @@ PanelFactor::PanelFactor(Eigen::MatrixXd& matrix) : size_(static_cast<int>(matri
   for (int first = 0; first < size_; first += kPanelColumns)
     count += size_of(panel_at(nullptr, first));
   values_.resize(count);
+  diagonal_.reserve(static_cast<std::size_t>(size_));
   steps_.reserve(static_cast<std::size_t>(size_));
   std::int16_t* place = values_.data();
   for (int j = 0; j < size_; ++j) {
-    const double largest = matrix.col(j).tail(size_ - j).cwiseAbs().maxCoeff();
+    const double largest =
+        j + 1 < size_ ? matrix.col(j).tail(size_ - j - 1).cwiseAbs().maxCoeff() : 0;
     const double step = largest / std::numeric_limits<std::int16_t>::max();
+    diagonal_.push_back(static_cast<float>(matrix(j, j)));
     steps_.push_back(static_cast<float>(step));
     for (int i = first_row(j); i < size_; ++i, ++place) {
-      if (i >= j) *place = static_cast<std::int16_t>(std::lround(matrix(i, j) / step));
+      if (i > j && step > 0) *place = static_cast<std::int16_t>(std::lround(matrix(i, j) / step));
     }
   }
 }
@@ -59,6 +62,7 @@ void PanelFactor::unpack(std::vector<float>& entries) const {
           const float step = steps_[static_cast<std::size_t>(j)];
           const int rows = size_ - first_row(j);
           for (int i = 0; i < rows; ++i) place[i] = step * static_cast<float>(given[i]);
+          place[j - first_row(j)] = diagonal_[static_cast<std::size_t>(j)];
           place += rows;
           given += rows;
         }

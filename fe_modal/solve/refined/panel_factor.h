@@ -13,9 +13,9 @@
 namespace flexneck::fe_modal {
 
 /// Cholesky factor of a small matrix, made in double and kept in 16 bits an entry: panels of a few
-/// columns from their diagonal down, in hardly more memory than its lower half takes. Entries are
-/// rounded to a 65534th of the largest of their column, which a preconditioner may: the product of
-/// the factor with its transpose stays positive definite.
+/// columns from their diagonal down, in hardly more memory than its lower half takes. Entries below
+/// the diagonal are rounded to a 65534th of the largest of their column, which a preconditioner
+/// may: the product of the factor with its transpose stays positive definite.
 class PanelFactor {
  public:
   PanelFactor() = default;
@@ -34,6 +34,7 @@ class PanelFactor {
   FactorBlock<float> panel_at(const float* values, int first) const;
 
   int size_ = 0;
+  std::vector<float> diagonal_;
   std::vector<float> steps_;  ///< what 1 stands for in each column
   std::vector<std::int16_t> values_;
 };

@@ -45,9 +45,15 @@ struct Block {
 /// with K and M projected on them.
 class Basis {
  public:
-  explicit Basis(const Ranks& ranks) : ranks_(ranks) {}
+  /// @param capacity columns at most. What is kept all along takes its memory once: it would cut
+  /// up what large blocks leave.
+  Basis(const Ranks& ranks, Eigen::Index capacity)
+      : ranks_(ranks), stiffness_(capacity, capacity), mass_(capacity, capacity) {
+    blocks_.reserve(3);
+  }
 
   void append(Eigen::MatrixXd vectors, ElementOperator::Products products) {
+    count_ += vectors.cols();
     blocks_.push_back(
         {std::move(vectors), std::move(products.forces), products.momenta.cast<float>()});
     project_last(blocks_.back().forces, stiffness_);
@@ -69,8 +75,8 @@ class Basis {
     }
     return result;
   }
-  const Eigen::MatrixXd& stiffness() const { return stiffness_; }
-  const Eigen::MatrixXd& mass() const { return mass_; }
+  auto stiffness() const { return stiffness_.topLeftCorner(count_, count_); }
+  auto mass() const { return mass_.topLeftCorner(count_, count_); }
 
   /// The modes become combinations of all columns. What the last of them take from the other blocks
   /// becomes the only other block: the directions that they went.
@@ -84,10 +90,12 @@ class Basis {
       combine_rows(&Block::momenta, first, rows, combination);
     });
     blocks_.resize(of_others.cols() > 0 ? 2 : 1);
-    const Eigen::MatrixXd all =
-        combination.of(Eigen::MatrixXd::Identity(stiffness_.rows(), stiffness_.rows()));
-    stiffness_ = all.transpose() * stiffness_ * all;
-    mass_ = all.transpose() * mass_ * all;
+    const Eigen::MatrixXd all = combination.of(Eigen::MatrixXd::Identity(count_, count_));
+    const Eigen::MatrixXd stiffness_after = all.transpose() * stiffness() * all;
+    const Eigen::MatrixXd mass_after = all.transpose() * mass() * all;
+    count_ = all.cols();
+    stiffness_.topLeftCorner(count_, count_) = stiffness_after;
+    mass_.topLeftCorner(count_, count_) = mass_after;
   }
 
  private:
@@ -115,7 +123,7 @@ class Basis {
   void combine_rows(Columns Block::*field, Eigen::Index first, Eigen::Index rows,
                     const Combination& combination) {
     using Scalar = typename Columns::Scalar;
-    Eigen::MatrixXd all(rows, stiffness_.rows());
+    Eigen::MatrixXd all(rows, count_);
     Eigen::Index column = 0;
     for (const Block& block : blocks_) {
       const auto own = (block.*field).middleRows(first, rows);
@@ -133,9 +141,9 @@ class Basis {
   /// Adds the columns and rows of the last block.
   /// @param products of K or M with it
   void project_last(const Eigen::MatrixXd& products, Eigen::MatrixXd& projected) const {
-    const Eigen::Index before = projected.rows();
     const Eigen::Index more = products.cols();
-    Eigen::MatrixXd added = Eigen::MatrixXd::Zero(before + more, more);
+    const Eigen::Index before = count_ - more;
+    Eigen::MatrixXd added = Eigen::MatrixXd::Zero(count_, more);
     for_each_panel(products.rows(), [&](Eigen::Index first, Eigen::Index rows) {
       Eigen::Index row = 0;
       for (const Block& block : blocks_) {
@@ -146,12 +154,12 @@ class Basis {
       }
     });
     ranks_.sum(added);
-    projected.conservativeResize(before + more, before + more);
-    projected.rightCols(more) = added;
-    projected.bottomLeftCorner(more, before) = added.topRows(before).transpose();
+    projected.block(0, before, count_, more) = added;
+    projected.block(before, 0, more, before) = added.topRows(before).transpose();
   }
 
   Ranks ranks_;
+  Eigen::Index count_ = 0;  ///< of the columns of all blocks
   Eigen::MatrixXd stiffness_;
   Eigen::MatrixXd mass_;
   std::vector<Block> blocks_;
@@ -160,7 +168,7 @@ class Basis {
 /// The lowest pairs of the projection on the columns, as combinations of them; fewer where the
 /// columns depend on one another.
 EigenPairs ritz_pairs(const Basis& basis, Eigen::Index count) {
-  const Eigen::MatrixXd& mass = basis.mass();
+  const auto mass = basis.mass();
   const Eigen::VectorXd scale = mass.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const SymmetricPairs lengths = symmetric_pairs(scale.asDiagonal() * mass * scale.asDiagonal());
   const Eigen::Index kept = (lengths.values.array() > kNothingNew).count();
@@ -177,7 +185,9 @@ EigenPairs ritz_pairs(const Basis& basis, Eigen::Index count) {
 class Settling {
  public:
   Settling(const Eigen::VectorXd& coarse, Eigen::Index rigid_count)
-      : coarse_(coarse), rigid_count_(std::min(rigid_count, coarse.size())) {}
+      : coarse_(coarse), rigid_count_(std::min(rigid_count, coarse.size())) {
+    gains_.reserve(kMaxSteps);
+  }
 
   void take(const Eigen::VectorXd& values) {
     if (values_.size() > 0) gains_.push_back((values_ - values).cwiseMax(0));
@@ -247,9 +257,9 @@ Eigen::MatrixXd find_directions(const RefinedSystem& system, const Block& modes,
 
 /// The modes of the mesh before, with what is within its elements as it must be. Where nothing is
 /// left of some, which were within an element, all are taken as they were.
-Basis first_basis(const RefinedSystem& system, const EigenPairs& coarse) {
+Basis first_basis(const RefinedSystem& system, const EigenPairs& coarse, Eigen::Index capacity) {
   const auto basis_of = [&](Eigen::MatrixXd vectors) {
-    Basis basis(system.ranks());
+    Basis basis(system.ranks(), capacity);
     ElementOperator::Products products = system.products(vectors);
     basis.append(std::move(vectors), std::move(products));
     return basis;
@@ -268,7 +278,7 @@ RefinedModes refined_modes(const RefinedSystem& system, const EigenPairs& coarse
                            Eigen::Index rigid_count) {
   const Eigen::Index count = coarse.values.size();
   rigid_count = std::min(rigid_count, count);
-  Basis basis = first_basis(system, coarse);
+  Basis basis = first_basis(system, coarse, 3 * count - 2 * rigid_count);
   Settling settling(coarse.values, rigid_count);
   for (int step = 0; step <= kMaxSteps; ++step) {
     const EigenPairs ritz = ritz_pairs(basis, count);
