@@ -26,7 +26,7 @@ class SymmetricMatrix {
   PetscInt size() const { return static_cast<PetscInt>(arrays_->offsets.size()) - 1; }
   /// The matrix for PETSc. Changes of the entries show in it.
   Mat get() const;
-  /// Frees that and the columns until somebody asks for them again.
+  /// Frees what get() and columns() made; they make it again when they are called.
   void free_columns() const;
 
   /// The upper half by scalar rows: row i has columns()[offsets()[i]] … and their values.

@@ -10,6 +10,7 @@
 
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/algebra/random_block.h"
+#include "fe_modal/algebra/row_panels.h"
 #include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
@@ -54,12 +55,11 @@ class Basis {
   /// Keeps combinations of the columns.
   /// @param combination orthonormal
   void cut_back(const Eigen::MatrixXd& combination) {
-    constexpr Eigen::Index kRows = 4096;
-    for (Eigen::Index first = 0; first < vectors_.rows(); first += kRows) {
-      auto rows = vectors_.middleRows(first, std::min(kRows, vectors_.rows() - first));
+    for_each_panel(vectors_.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      auto rows = vectors_.middleRows(first, count);
       const Eigen::MatrixXd turned = product(rows.leftCols(count_), combination);
       rows.leftCols(combination.cols()) = turned;
-    }
+    });
     const Eigen::MatrixXd turned = combination.transpose() * projected() * combination;
     count_ = combination.cols();
     projected_.topLeftCorner(count_, count_) = turned;

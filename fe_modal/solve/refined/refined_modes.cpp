@@ -45,8 +45,8 @@ struct Block {
 /// with K and M projected on them.
 class Basis {
  public:
-  /// @param capacity columns at most. What is kept all along takes its memory once: it would cut
-  /// up what large blocks leave.
+  /// @param capacity columns at most. The projections are allocated once: small blocks that come
+  /// and go between the vectors would fragment the heap.
   Basis(const Ranks& ranks, Eigen::Index capacity)
       : ranks_(ranks), stiffness_(capacity, capacity), mass_(capacity, capacity) {
     blocks_.reserve(3);
@@ -246,7 +246,7 @@ Eigen::MatrixXd residuals_of(const Block& modes, const Eigen::VectorXd& values,
 /// Where the elastic modes are to go.
 Eigen::MatrixXd find_directions(const RefinedSystem& system, const Block& modes,
                                 const Eigen::VectorXd& values, Eigen::Index elastic) {
-  // What is kept takes its memory before what is freed: no holes.
+  // Allocated before the temporaries, which else would leave gaps in the heap.
   Eigen::MatrixXd directions(modes.vectors.rows(), elastic);
   Eigen::MatrixXd residuals = residuals_of(modes, values, elastic);
   system.precondition(residuals, directions);
