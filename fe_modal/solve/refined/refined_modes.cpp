@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxSteps = 60;
 /// Of the change from mesh to mesh, what the steps left out included: what that may come to.
-constexpr double kShare = 0.28;
+constexpr double kShare = 1.0 / 3;
 /// The same of a mode that is above that of the mesh before, whose change shrinks as it settles.
 constexpr double kShareAbove = 0.05;
 constexpr double kRounding = 1e-7;
