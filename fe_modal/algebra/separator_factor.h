@@ -18,16 +18,17 @@ namespace flexneck::fe_modal {
 /// Adds factor times values of some of a panel's rows, in all of its columns, to the panel.
 /// @param rows (values.rows) of the separator, ascending
 template <typename Scalar>
-void add_rows(double factor, const DenseBlock<const Scalar>& values, std::span<const int> rows,
-              const Panel& panel, const DenseBlock<double>& sum);
+void add_rows(Scalar factor, const DenseBlock<const Scalar>& values, std::span<const int> rows,
+              const Panel& panel, const DenseBlock<Scalar>& sum);
 
 /// L S L^T of the Schur complement of a separator, to which each rank has its summand. Each panel
 /// is kept by one rank: it factorises it and sends it to all, which update those that they keep.
-/// Every member is collective and gives the same on all ranks.
+/// Every member is collective and gives the same on all ranks. Of double and float.
+template <typename Scalar>
 class SeparatorFactor {
  public:
   /// Adds this rank's summand to the lower half of a panel, (rows, columns), and may let it go.
-  using AddSummand = std::function<void(std::size_t panel, const DenseBlock<double>& sum)>;
+  using AddSummand = std::function<void(std::size_t panel, const DenseBlock<Scalar>& sum)>;
 
   /// @param panels must outlive this
   /// @param diagonal (rows of the separator) of the matrix before anything was eliminated
@@ -49,8 +50,8 @@ class SeparatorFactor {
 
   Ranks ranks_;
   const std::vector<Panel>& panels_;
-  std::vector<std::vector<double>> values_;  ///< (panels), empty where another rank keeps one
-  std::vector<double> signs_;                ///< (rows)
+  std::vector<std::vector<Scalar>> values_;  ///< (panels), empty where another rank keeps one
+  std::vector<Scalar> signs_;                ///< (rows)
   double smallest_pivot_ = 1;
 };
 

@@ -97,9 +97,9 @@ Eigen::VectorXd diagonal_between(const DistributedMatrix& matrix, const Separato
 
 /// Adds a part's Schur complement to the panels, block by block, and lets the blocks go.
 template <typename Scalar>
-SeparatorFactor::AddSummand summands(const Separator& separator,
-                                     SchurComplement<Scalar>& complement) {
-  return [&](std::size_t p, const DenseBlock<double>& sum) {
+typename SeparatorFactor<Scalar>::AddSummand summands(const Separator& separator,
+                                                      SchurComplement<Scalar>& complement) {
+  return [&](std::size_t p, const DenseBlock<Scalar>& sum) {
     const auto& own = separator.own_panels();
     const auto place = std::lower_bound(own.begin(), own.end(), p);
     if (place == own.end() || *place != p) return;
@@ -109,7 +109,7 @@ SeparatorFactor::AddSummand summands(const Separator& separator,
     const auto begin =
         std::lower_bound(separator.rows().begin(), separator.rows().end(), panel.first);
     const auto rows = static_cast<int>(separator.rows().end() - begin);
-    add_rows(1, DenseBlock<const Scalar>{values.data(), rows, panel.columns, rows},
+    add_rows(Scalar(1), DenseBlock<const Scalar>{values.data(), rows, panel.columns, rows},
              {begin, separator.rows().end()}, panel, sum);
   };
 }
@@ -130,7 +130,7 @@ std::vector<Eigen::Index> own_rows(const DistributedMatrix& matrix,
   return rows;
 }
 
-/// A = L S L^T on all ranks. What is between their parts is factorised in double precision.
+/// A = L S L^T on all ranks.
 template <typename Scalar>
 class DistributedFactor {
  public:
@@ -153,7 +153,7 @@ class DistributedFactor {
   std::vector<Eigen::Index> inside_rows_;
   std::vector<Eigen::Index> shared_rows_;
   SupernodalFactor<Scalar> inside_;
-  std::optional<SeparatorFactor> between_;
+  std::optional<SeparatorFactor<Scalar>> between_;
   double smallest_pivot_ = 1;
   double nonzeros_ = 0;
 };
