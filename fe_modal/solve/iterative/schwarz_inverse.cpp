@@ -58,18 +58,17 @@ std::unique_ptr<const SchwarzPreconditioner> make_preconditioner(
   const PartMatrix own{shifted ? *shifted : matrices.stiffness, matrices.graph, part.blocks()};
   if (!ranks.are_many()) return std::make_unique<const SchwarzPreconditioner>(body, own, own);
   std::optional<RankPart> around;
-  std::optional<SystemMatrices> whole;
-  std::optional<SymmetricMatrix> shifted_whole;
+  std::optional<NodeGraph> graph;
+  std::optional<SymmetricMatrix> whole;
   ranks.together([&] {
     around.emplace(body.mesh, body.fields.dof_map(), elements_around(body), 1);
-    whole.emplace(assemble(around->mesh(), around->dof_map(), formulation,
-                           around->columns_of_nodes(prestress_m)));
-    if (shift != 0) shifted_whole = shifted_stiffness(*whole, shift);
+    SystemMatrices all = assemble(around->mesh(), around->dof_map(), formulation,
+                                  around->columns_of_nodes(prestress_m));
+    whole.emplace(shift != 0 ? shifted_stiffness(all, shift) : std::move(all.stiffness));
+    graph.emplace(std::move(all.graph));
   });
   return std::make_unique<const SchwarzPreconditioner>(
-      body, own,
-      PartMatrix{shifted_whole ? *shifted_whole : whole->stiffness, whole->graph,
-                 around->blocks()});
+      body, own, PartMatrix{*whole, *graph, around->blocks()});
 }
 
 }  // namespace
