@@ -58,7 +58,7 @@ void check_against_assembled(const mesher::RefinedMesh& fine) {
       }
     }
     const auto is_near = [](const Eigen::MatrixXd& found, const Eigen::MatrixXd& truth) {
-      return (found - truth).norm() < 1e-4 * truth.norm();
+      return (found - truth).norm() <= 1e-4 * truth.norm();
     };
     Eigen::MatrixXd of_stars = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
     patches.add_stars(1, forces, of_stars);

@@ -250,6 +250,7 @@ Eigen::MatrixXd find_directions(const RefinedSystem& system, const Block& modes,
   Eigen::MatrixXd directions(modes.vectors.rows(), elastic);
   Eigen::MatrixXd residuals = residuals_of(modes, values, elastic);
   system.precondition(residuals, directions);
+  if (!system.has_cells()) return directions;
   residuals -= system.forces(directions);
   system.add_cells(1, residuals, directions);
   return directions;
@@ -265,6 +266,7 @@ Basis first_basis(const RefinedSystem& system, const EigenPairs& coarse, Eigen::
     return basis;
   };
   Eigen::MatrixXd vectors = system.prolonged(coarse.vectors);
+  if (!system.has_cells()) return basis_of(std::move(vectors));
   system.add_cells(-1, system.forces(vectors), vectors);
   Basis basis = basis_of(std::move(vectors));
   const Eigen::Index count = coarse.values.size();

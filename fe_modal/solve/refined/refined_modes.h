@@ -20,8 +20,8 @@ struct RefinedModes {
 /// Improves the modes of the mesh before by a block conjugate gradient method for eigenvectors
 /// (Knyazev, SIAM J. Sci. Comput. 23 (2001) 517), preconditioned by the stars and the mesh before.
 /// Fields of that mesh have a divergence on the refined one which its own pressures do not see, and
-/// of which nearly incompressible rubber makes much energy: each step ends with exact solves within
-/// the elements of that mesh, which take it away where these have a middle node (Schoeberl, as
+/// of which nearly incompressible rubber makes much energy: where elements have a middle node, each
+/// step ends with exact solves within the elements of that mesh, which take it away (Schoeberl, as
 /// StarPatches). Ends when the steps, continued as a geometric series, would not change any
 /// eigenvalue by more than a third of its change from mesh to mesh.
 /// @param coarse pairs of the mesh before

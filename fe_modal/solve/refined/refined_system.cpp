@@ -84,7 +84,10 @@ RefinedSystem::RefinedSystem(const AssembledSystem& coarse, const ShiftInverse& 
       fields_(dof_map, layout_of(coarse.ranks(), refined.mesh, dof_map, rank_of_element_)),
       part_(own_part(coarse.ranks(), refined.mesh, dof_map, rank_of_element_)),
       exchange_(fields_.layout(), rows_of(part_.blocks())),
-      transfer_(coarse.fields(), fields_, refined.prolongation) {
+      transfer_(coarse.fields(), fields_, refined.prolongation),
+      has_cells_(std::any_of(
+          refined.mesh.blocks.begin(), refined.mesh.blocks.end(),
+          [](const mesher::ElementBlock& block) { return has_inner_node(block.kind); })) {
   const auto operator_of = [&](const RankPart& part) {
     return ElementOperator(part.mesh(), part.dof_map(), options.formulation,
                            part.columns_of_nodes(options.prestress_m));

@@ -45,6 +45,8 @@ class RefinedSystem {
   /// By the mesh before and the stars, of which it takes twice the solution, added up: symmetric.
   /// @param directions of the residuals' shape; their memory is written to
   void precondition(const Eigen::MatrixXd& residuals, Eigen::MatrixXd& directions) const;
+  /// Whether add_cells() finds anything, on any rank.
+  bool has_cells() const { return has_cells_; }
   /// Adds solutions within the elements of the mesh before, StarPatches::add_cells().
   void add_cells(double weight, const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const;
 
@@ -69,6 +71,7 @@ class RefinedSystem {
   std::optional<ElementOperator> operator_;
   std::optional<Around> around_;  ///< nothing in a process alone
   std::unique_ptr<const StarPatches> stars_;
+  bool has_cells_;
 };
 
 }  // namespace flexneck::fe_modal

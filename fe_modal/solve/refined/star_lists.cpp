@@ -69,6 +69,13 @@ PatchLists find_stars(const StarMesh& body) {
   return stars;
 }
 
+bool has_inner_node(mesher::ElementKind kind) {
+  const auto corners = corners_of_nodes(kind);
+  return std::any_of(corners.begin(), corners.end(), [&](const auto& of_node) {
+    return of_node.size() == mesher::corners_per_element(kind);
+  });
+}
+
 std::vector<std::size_t> find_cells(const StarMesh& body, const PatchLists& stars) {
   constexpr std::int32_t kNone = -1;
   constexpr std::int32_t kSeveral = -2;
@@ -76,8 +83,9 @@ std::vector<std::size_t> find_cells(const StarMesh& body, const PatchLists& star
   std::size_t element = 0;
   for (const mesher::ElementBlock& block : body.mesh.blocks) {
     const std::size_t width = mesher::nodes_per_element(block.kind);
+    const bool has_cells = has_inner_node(block.kind);
     for (std::size_t k = 0; k < block.nodes.size(); ++k) {
-      const std::int32_t parent = body.parents[element + k / width];
+      const std::int32_t parent = has_cells ? body.parents[element + k / width] : kSeveral;
       body.dof_map.for_each_number(block.nodes[k], [&](std::int32_t number) {
         std::int32_t& known = parent_of[static_cast<std::size_t>(number)];
         known = known == kNone || known == parent ? parent : kSeveral;

@@ -27,7 +27,11 @@ using PatchLists = std::vector<std::vector<std::int32_t>>;
 /// that end there, the corner among them.
 PatchLists find_stars(const StarMesh& body);
 
-/// Of the stars that lie within one parent, the largest of each parent.
+/// Whether elements of a kind have a node within.
+bool has_inner_node(mesher::ElementKind kind);
+
+/// Of the stars that lie within one parent whose elements have a node within, the largest of each.
+/// In others there are too few nodes to make up for a divergence: solves there save no steps.
 std::vector<std::size_t> find_cells(const StarMesh& body, const PatchLists& stars);
 
 }  // namespace flexneck::fe_modal

@@ -30,8 +30,7 @@ class StarPatches {
   void add_stars(double weight, const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const {
     add_solutions(all_, weight, residuals, sums);
   }
-  /// The same of one star at most within each element of the mesh before, that of its middle where
-  /// it has one: these do not meet, and together they are exact.
+  /// The same of the stars of find_cells(): these do not meet, and together they are exact.
   void add_cells(double weight, const Eigen::MatrixXd& residuals, Eigen::MatrixXd& sums) const {
     add_solutions(cells_, weight, residuals, sums);
   }
