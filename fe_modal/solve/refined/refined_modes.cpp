@@ -25,11 +25,11 @@ constexpr double kRounding = 1e-7;
 constexpr double kLargest = 0.05;
 /// Of the excess a step leaves from three to seven tenths, more from step to step. Gains go up and
 /// down, and the first ones fall faster: the series is taken with the ratio over two steps, of a
-/// mode or of all, whichever falls slower, and a tenth slower than that, but not below the first of
-/// these. Calibrated on the meshes of certificate_benchmark, as is kShare.
+/// mode or of all, whichever falls slower, and a twentieth slower than that, but not below the
+/// first of these. Calibrated on the meshes of certificate_benchmark.
 constexpr double kFastest = 0.6;
 constexpr double kSlowest = 0.9;
-constexpr double kSlowing = 1.1;
+constexpr double kSlowing = 1.05;
 /// Directions of a basis of unit columns that are shorter have nothing new.
 constexpr double kNothingNew = 1e-12;
 
