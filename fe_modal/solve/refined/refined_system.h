@@ -42,7 +42,8 @@ class RefinedSystem {
     transfer_.to_fine(coarse, fine);
     return fine;
   }
-  /// By the mesh before and the stars, of which it takes twice the solution, added up: symmetric.
+  /// By the mesh before and the stars, of which it takes several times the solution, added up:
+  /// symmetric.
   /// @param directions of the residuals' shape; their memory is written to
   void precondition(const Eigen::MatrixXd& residuals, Eigen::MatrixXd& directions) const;
   /// Whether add_cells() finds anything, on any rank.
