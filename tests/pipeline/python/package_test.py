@@ -344,7 +344,7 @@ class Leaks(unittest.TestCase):
             return [after - was for after, was in zip(in_use(), before)]
         more()  # fills what is kept for good
         # Caches of Python still fill now and then; a leak shows in each repetition.
-        more_bytes, more_blocks = (min(each) for each in zip(more(), more()))
+        more_bytes, more_blocks = (min(each) for each in zip(more(), more(), more()))
         print(f"{self.COUNT} calls, {more_bytes} bytes and {more_blocks} blocks of Python more")
         # The C library keeps some that are free for each thread. A leak of 16 bytes a call shows in 10^4.
         self.assertLess(more_bytes, 100_000)
