@@ -34,13 +34,14 @@ RankPart own_part(const Ranks& ranks, const mesher::Mesh& mesh, const DofMap& do
   return {mesh, dof_map, rank_of_element, ranks.own()};
 }
 
-/// Nodes whose lowest rank is this one.
-std::vector<bool> own_nodes(const Ranks& ranks, const mesher::Mesh& mesh,
+/// Nodes of whose elements the lowest rank is this one. Springs and masses do not count: all stars
+/// within one parent must be of the rank that has it, which takes the largest.
+std::vector<bool> own_nodes(const Ranks& ranks, const mesher::RefinedMesh& refined,
                             const std::vector<std::int32_t>& rank_of_element) {
-  std::vector<std::int32_t> lowest(mesh.nodes.size(), ranks.count());
-  for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> sites) {
+  std::vector<std::int32_t> lowest(refined.mesh.nodes.size(), ranks.count());
+  for_each_element(refined.mesh, [&](std::size_t element, std::span<const std::int32_t> sites) {
+    if (element >= refined.parents.size()) return;
     for (const std::int32_t site : sites) {
-      if (static_cast<std::size_t>(site) >= lowest.size()) continue;
       std::int32_t& rank = lowest[static_cast<std::size_t>(site)];
       rank = std::min(rank, rank_of_element[element]);
     }
@@ -63,6 +64,22 @@ std::vector<std::int32_t> elements_at(const mesher::Mesh& mesh, const std::vecto
                         ? 1
                         : 0);
   });
+  return marks;
+}
+
+/// 1 for each element that has one of the nodes, and for each spring and mass at any node of these:
+/// it belongs to a star though it may not reach the corner.
+std::vector<std::int32_t> elements_around(const mesher::RefinedMesh& refined,
+                                          const std::vector<bool>& is_one) {
+  const std::size_t element_count = refined.parents.size();
+  std::vector<std::int32_t> marks = elements_at(refined.mesh, is_one);
+  std::vector<bool> is_near(is_one.size(), false);
+  for_each_element(refined.mesh, [&](std::size_t element, std::span<const std::int32_t> sites) {
+    if (element >= element_count || marks[element] == 0) return;
+    for (const std::int32_t site : sites) is_near[static_cast<std::size_t>(site)] = true;
+  });
+  const std::vector<std::int32_t> near = elements_at(refined.mesh, is_near);
+  for (std::size_t k = element_count; k < marks.size(); ++k) marks[k] = near[k];
   return marks;
 }
 
@@ -102,8 +119,8 @@ RefinedSystem::RefinedSystem(const AssembledSystem& coarse, const ShiftInverse& 
         StarMesh{refined.mesh, dof_map, refined.parents, {}}, *operator_);
     return;
   }
-  const std::vector<bool> is_own = own_nodes(ranks(), refined.mesh, rank_of_element_);
-  const std::vector<std::int32_t> marks = elements_at(refined.mesh, is_own);
+  const std::vector<bool> is_own = own_nodes(ranks(), refined, rank_of_element_);
+  const std::vector<std::int32_t> marks = elements_around(refined, is_own);
   RankPart around(refined.mesh, dof_map, marks, 1);
   GhostExchange exchange(fields_.layout(), rows_of(around.blocks()));
   ranks().together([&] {
