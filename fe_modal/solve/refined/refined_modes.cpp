@@ -26,7 +26,8 @@ constexpr double kLargest = 0.05;
 /// Of the excess a step leaves from three to seven tenths, more from step to step. Gains go up and
 /// down, and the first ones fall faster: the series is taken with the ratio over two steps, of a
 /// mode or of all, whichever falls slower, and a twentieth slower than that, but not below the
-/// first of these. Calibrated on the meshes of certificate_benchmark.
+/// first of these. These and the shares above are calibrated on the meshes of
+/// certificate_benchmark.
 constexpr double kFastest = 0.6;
 constexpr double kSlowest = 0.9;
 constexpr double kSlowing = 1.05;
