@@ -6,32 +6,32 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Rows that are worked on together. With as many groups as kGroups they take twelve registers of
-/// the sixteen that there are at least.
-constexpr std::size_t kTogether = 3;
+/// Rows that are worked on together, a strip. With as many groups as kGroups they take twelve
+/// registers of the sixteen that there are at least.
+constexpr std::size_t kMostRows = 3;
 template <typename Row>
 constexpr std::size_t kGroups = 4 / Row::kRegisters;
 
-/// Some rows of y, of which there are stored as many as there are.
-struct Strip {
-  const double* values;  ///< (columns, kTogether)
-  std::size_t columns;
-  std::size_t stored;
-};
+/// Of the rows from the first of a strip on those that it has: two and two rather than three and
+/// one, since a row alone would wait for each of its sums.
+constexpr std::size_t rows_of_strip(std::size_t left) {
+  return left == kMostRows + 1 ? 2 : std::min(kMostRows, left);
+}
 
-template <typename Row, std::size_t count>
-[[gnu::always_inline]] inline void multiply_strip(const Strip& strip, const RowOf<double>* x,
-                                                  std::size_t groups, RowOf<double>* y) {
-  Row sums[kTogether][count];
-  for (std::size_t c = 0; c < strip.columns; ++c) {
-    const double* const factors = strip.values + c * kTogether;
+/// @param values (columns, height) of the strip
+template <typename Row, std::size_t count, std::size_t height>
+[[gnu::always_inline]] inline void multiply_strip(const double* values, std::size_t columns,
+                                                  const RowOf<double>* x, std::size_t groups,
+                                                  RowOf<double>* y) {
+  Row sums[height][count];
+  for (std::size_t c = 0; c < columns; ++c) {
     for (std::size_t g = 0; g < count; ++g) {
       Row row;
       row.load(x[c * groups + g]);
-      for (std::size_t r = 0; r < kTogether; ++r) sums[r][g].add(factors[r], row);
+      for (std::size_t r = 0; r < height; ++r) sums[r][g].add(values[c * height + r], row);
     }
   }
-  for (std::size_t r = 0; r < strip.stored; ++r) {
+  for (std::size_t r = 0; r < height; ++r) {
     for (std::size_t g = 0; g < count; ++g) sums[r][g].store(y[r * groups + g]);
   }
 }
@@ -39,14 +39,19 @@ template <typename Row, std::size_t count>
 /// The first groups of x and y, count of them at a time.
 /// @return how many groups were done
 template <typename Row, std::size_t count>
-[[gnu::always_inline]] inline std::size_t multiply_groups(const std::vector<double>& values,
-                                                          std::size_t rows, std::size_t columns,
+[[gnu::always_inline]] inline std::size_t multiply_groups(const double* values, std::size_t rows,
+                                                          std::size_t columns,
                                                           const RowOf<double>* x, std::size_t first,
                                                           std::size_t groups, RowOf<double>* y) {
   for (; first + count <= groups; first += count) {
-    for (std::size_t r = 0; r < rows; r += kTogether) {
-      const Strip strip{values.data() + r * columns, columns, std::min(kTogether, rows - r)};
-      multiply_strip<Row, count>(strip, x + first, groups, y + r * groups + first);
+    for (std::size_t r = 0; r < rows;) {
+      const double* const strip = values + r * columns;
+      RowOf<double>* const to = y + r * groups + first;
+      const std::size_t height = rows_of_strip(rows - r);
+      if (height == 3) multiply_strip<Row, count, 3>(strip, columns, x + first, groups, to);
+      if (height == 2) multiply_strip<Row, count, 2>(strip, columns, x + first, groups, to);
+      if (height == 1) multiply_strip<Row, count, 1>(strip, columns, x + first, groups, to);
+      r += height;
     }
   }
   return first;
@@ -56,15 +61,14 @@ template <typename Row, std::size_t count>
 
 PackedMatrix::PackedMatrix(const Eigen::MatrixXd& matrix)
     : rows_(static_cast<std::size_t>(matrix.rows())),
-      columns_(static_cast<std::size_t>(matrix.cols())) {
-  const std::size_t strips = (rows_ + kTogether - 1) / kTogether;
-  values_.assign(strips * kTogether * columns_, 0);
-  for (std::size_t r = 0; r < rows_; ++r) {
-    double* const strip = values_.data() + r / kTogether * kTogether * columns_;
-    for (std::size_t c = 0; c < columns_; ++c) {
-      strip[c * kTogether + r % kTogether] =
-          matrix(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
-    }
+      columns_(static_cast<std::size_t>(matrix.cols())),
+      values_((rows_ * columns_ + kColumnsTogether - 1) / kColumnsTogether) {
+  for (Eigen::Index r = 0; r < matrix.rows();) {
+    const auto height =
+        static_cast<Eigen::Index>(rows_of_strip(rows_ - static_cast<std::size_t>(r)));
+    Eigen::Map<Eigen::MatrixXd>(values_.front().value + r * matrix.cols(), height, matrix.cols()) =
+        matrix.middleRows(r, height);
+    r += height;
   }
 }
 
@@ -74,11 +78,28 @@ void PackedMatrix::multiply(const RowOf<double>* x, std::size_t groups, RowOf<do
       registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
         using Row = RegisterRow<double, bytes>;
         constexpr std::size_t kMost = kGroups<Row>;
-        std::size_t first = multiply_groups<Row, kMost>(values_, rows_, columns_, x, 0, groups, y);
+        const double* const values = values_.front().value;
+        std::size_t first = multiply_groups<Row, kMost>(values, rows_, columns_, x, 0, groups, y);
         if constexpr (kMost > 2) {
-          first = multiply_groups<Row, 2>(values_, rows_, columns_, x, first, groups, y);
+          first = multiply_groups<Row, 2>(values, rows_, columns_, x, first, groups, y);
         }
-        multiply_groups<Row, 1>(values_, rows_, columns_, x, first, groups, y);
+        multiply_groups<Row, 1>(values, rows_, columns_, x, first, groups, y);
+      });
+}
+
+void PackedMatrix::take_sum(std::span<const PackedMatrix> terms, const Eigen::VectorXd& factors,
+                            VectorRegisters registers) {
+  run_with(
+      registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
+        for (std::size_t r = 0; r < values_.size(); ++r) {
+          RegisterRow<double, bytes> sum;
+          for (std::size_t k = 0; k < terms.size(); ++k) {
+            RegisterRow<double, bytes> term;
+            term.load(terms[k].values_[r]);
+            sum.add(factors.data()[k], term);
+          }
+          sum.store(values_[r]);
+        }
       });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,12 +26,16 @@ class PackedMatrix {
   /// @param y (rows, groups) likewise; may not overlap x
   void multiply(const RowOf<double>* x, std::size_t groups, RowOf<double>* y,
                 VectorRegisters registers = widest_registers()) const;
+  /// Becomes the sum of factors[k] terms[k].
+  /// @param terms as many, of the shape of this
+  void take_sum(std::span<const PackedMatrix> terms, const Eigen::VectorXd& factors,
+                VectorRegisters registers = widest_registers());
 
  private:
   std::size_t rows_;
   std::size_t columns_;
-  /// By rows kTogether at a time, column by column; zeros for the rows that the last ones lack.
-  std::vector<double> values_;
+  /// Up to three rows at a time, column by column; zeros behind.
+  std::vector<RowOf<double>> values_;
 };
 
 }  // namespace flexneck::fe_modal

@@ -78,6 +78,7 @@ void connect(const Rows& elements, std::size_t node_count, std::vector<std::int3
     std::sort(columns.begin() + row, columns.end());
     offsets.push_back(static_cast<std::int32_t>(columns.size()));
   }
+  columns.shrink_to_fit();
 }
 
 }  // namespace

@@ -111,7 +111,8 @@ void ElementProduct::take_positions(const Eigen::Matrix3Xd& nodes_m) {
   }
 }
 
-void ElementProduct::map(Rule& rule) {
+template <typename Visitor>
+void ElementProduct::find_roots(Rule& rule, const Visitor& visit) {
   at_points_.resize(3 * rule.point_count());
   rule.tables.to_gradients(positions_.data(), 1, at_points_.data());
   for (Eigen::Index p = 0; p < rule.roots.size(); ++p) {
@@ -120,15 +121,17 @@ void ElementProduct::map(Rule& rule) {
       jacobian.col(b) =
           Eigen::Map<const Eigen::Vector3d>(at_points_[static_cast<std::size_t>(3 * p + b)].value);
     }
-    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
-    double determinant = 0;
-    bool is_invertible = false;
-    jacobian.computeInverseAndDetWithCheck(inverse, determinant, is_invertible, 0.0);
-    const double volume = rule.quadrature.weights[p] * determinant;
+    const double volume = rule.quadrature.weights[p] * jacobian.determinant();
     if (!(volume > 0)) throw ComputationError("it is inverted at an integration point");
     rule.roots[p] = std::sqrt(volume);
-    rule.to_physical.middleCols<3>(3 * p) = rule.roots[p] * inverse;
+    visit(p, jacobian);
   }
+}
+
+void ElementProduct::map(Rule& rule) {
+  find_roots(rule, [&](Eigen::Index p, const Eigen::Matrix3d& jacobian) {
+    rule.to_physical.middleCols<3>(3 * p) = rule.roots[p] * jacobian.inverse();
+  });
 }
 
 void ElementProduct::find_element_pressures() {
@@ -169,27 +172,6 @@ void ElementProduct::turn_to_stress(const Moduli& moduli, std::size_t field_coun
           __attribute__((always_inline)) { find_stress(moduli.mu, of_point(p), gradients); });
 }
 
-void ElementProduct::find_momenta(const Rule& rule, double density_kg_m3,
-                                  const RowOf<double>* fields, std::size_t groups,
-                                  RowOf<double>* momenta) {
-  at_points_.resize(rule.point_count() * groups);
-  rule.tables.to_values(fields, groups, at_points_.data());
-  run_with(
-      registers_, [&]<std::size_t bytes>() __attribute__((always_inline)) {
-        RowOf<double>* row = at_points_.data();
-        for (const double root : rule.roots) {
-          for (std::size_t g = 0; g < groups; ++g, ++row) {
-            RegisterRow<double, bytes> value;
-            RegisterRow<double, bytes> momentum;
-            value.load(*row);
-            momentum.add(density_kg_m3 * root * root, value);
-            momentum.store(*row);
-          }
-        }
-      });
-  rule.tables.from_values(at_points_.data(), groups, momenta);
-}
-
 void ElementProduct::apply(const Eigen::Matrix3Xd& nodes_m, const mesher::Material& material,
                            const RowOf<double>* fields, std::size_t field_count,
                            RowOf<double>* forces, RowOf<double>* momenta) {
@@ -215,8 +197,10 @@ void ElementProduct::apply(const Eigen::Matrix3Xd& nodes_m, const mesher::Materi
   rule_.tables.from_gradients(at_points_.data(), groups, forces);
 
   if (momenta == nullptr) return;
-  if (mass_rule_) map(*mass_rule_);
-  find_momenta(mass_rule_ ? *mass_rule_ : rule_, material.density_kg_m3, fields, groups, momenta);
+  if (mass_rule_) find_roots(*mass_rule_, [](Eigen::Index /*p*/, const auto& /*jacobian*/) {});
+  Rule& mass_rule = mass_rule_ ? *mass_rule_ : rule_;
+  masses_kg_ = material.density_kg_m3 * mass_rule.roots.cwiseAbs2();
+  mass_rule.tables.multiply_by_mass(masses_kg_, fields, groups, momenta);
 }
 
 }  // namespace flexneck::fe_modal

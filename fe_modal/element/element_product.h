@@ -53,15 +53,16 @@ class ElementProduct {
   };
 
   void take_positions(const Eigen::Matrix3Xd& nodes_m);
-  /// Finds the roots of a rule and what makes its gradients physical.
+  /// Finds the roots of a rule and calls visit(point, Jacobian) for each.
   /// @throws ComputationError if the element is inverted at a point.
+  template <typename Visitor>
+  void find_roots(Rule& rule, const Visitor& visit);
+  /// Finds the roots of a rule and what makes its gradients physical.
   void map(Rule& rule);
   void find_element_pressures();
   /// Gradients at the points become stresses, both times the points' roots: row 3 p + b, column
   /// a k + c is du_a / dx_b of field c, then sigma_ab.
   void turn_to_stress(const Moduli& moduli, std::size_t field_count);
-  void find_momenta(const Rule& rule, double density_kg_m3, const RowOf<double>* fields,
-                    std::size_t groups, RowOf<double>* momenta);
 
   ElementScheme scheme_;
   VectorRegisters registers_;
@@ -74,6 +75,7 @@ class ElementProduct {
   Eigen::MatrixX3d point_positions_;  ///< (q, 3)
   Eigen::MatrixXd volumetric_;        ///< (k, q)
   Eigen::MatrixXd coefficients_;      ///< (k, p), of the pressures
+  Eigen::VectorXd masses_kg_;         ///< that the points of the mass stand for
 };
 
 }  // namespace flexneck::fe_modal

@@ -32,6 +32,14 @@ template <std::size_t step, bool adds, typename Row>
   }
 }
 
+/// y = the same table in all three directions; x is overwritten.
+template <typename Row>
+[[gnu::always_inline]] inline void contract_all(const double* table, Row* x, Row* y) {
+  contract<kStepX, false>(table, x, y);
+  contract<kStepY, false>(table, y, x);
+  contract<kStepZ, false>(table, x, y);
+}
+
 /// Row 3 p + b: derivative b at point p.
 Eigen::MatrixXd gradient_table(const mesher::ShapeTable& table) {
   Eigen::MatrixXd result(3 * table.values.cols(), table.values.rows());
@@ -143,33 +151,40 @@ void LineTables::from_gradients(const RowOf<double>* x, std::size_t groups,
       });
 }
 
-void LineTables::multiply(const Table& table, bool to_points, const RowOf<double>* x,
-                          std::size_t groups, RowOf<double>* y) const {
+void LineTables::to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
   run_with(
       registers_, [&]<std::size_t bytes>() __attribute__((always_inline)) {
         using Row = RegisterRow<double, bytes>;
         for (std::size_t g = 0; g < groups; ++g) {
-          Row one[kCube];
-          Row other[kCube];
-          for (std::size_t i = 0; i < kCube; ++i) {
-            one[to_points ? place_of_node_[i] : i].load(x[i * groups + g]);
-          }
-          contract<kStepX, false>(table.data(), one, other);
-          contract<kStepY, false>(table.data(), other, one);
-          contract<kStepZ, false>(table.data(), one, other);
-          for (std::size_t i = 0; i < kCube; ++i) {
-            other[to_points ? i : place_of_node_[i]].store(y[i * groups + g]);
-          }
+          Row nodes[kCube];
+          for (std::size_t i = 0; i < kCube; ++i) nodes[place_of_node_[i]].load(x[i * groups + g]);
+          Row points[kCube];
+          contract_all(values_.data(), nodes, points);
+          for (std::size_t p = 0; p < kCube; ++p) points[p].store(y[p * groups + g]);
         }
       });
 }
 
-void LineTables::to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
-  multiply(values_, true, x, groups, y);
-}
-
-void LineTables::from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
-  multiply(values_transposed_, false, x, groups, y);
+void LineTables::multiply_by_mass(const Eigen::VectorXd& masses_kg, const RowOf<double>* x,
+                                  std::size_t groups, RowOf<double>* y) const {
+  run_with(
+      registers_, [&]<std::size_t bytes>() __attribute__((always_inline)) {
+        using Row = RegisterRow<double, bytes>;
+        const double* const masses = masses_kg.data();
+        for (std::size_t g = 0; g < groups; ++g) {
+          Row nodes[kCube];
+          for (std::size_t i = 0; i < kCube; ++i) nodes[place_of_node_[i]].load(x[i * groups + g]);
+          Row points[kCube];
+          contract_all(values_.data(), nodes, points);
+          for (std::size_t p = 0; p < kCube; ++p) {
+            Row momentum;
+            momentum.add(masses[p], points[p]);
+            points[p] = momentum;
+          }
+          contract_all(values_transposed_.data(), points, nodes);
+          for (std::size_t i = 0; i < kCube; ++i) nodes[place_of_node_[i]].store(y[i * groups + g]);
+        }
+      });
 }
 
 FullTables::FullTables(const mesher::ShapeTable& table, VectorRegisters registers)
@@ -177,7 +192,17 @@ FullTables::FullTables(const mesher::ShapeTable& table, VectorRegisters register
       gradients_(gradient_table(table)),
       gradients_transposed_(gradient_table(table).transpose()),
       values_(table.values.transpose()),
-      values_transposed_(table.values) {}
+      mass_(Eigen::MatrixXd::Zero(table.values.rows(), table.values.rows())) {
+  for (const auto& at_point : table.values.colwise()) {
+    unit_masses_.emplace_back(at_point * at_point.transpose());
+  }
+}
+
+void FullTables::multiply_by_mass(const Eigen::VectorXd& masses_kg, const RowOf<double>* x,
+                                  std::size_t groups, RowOf<double>* y) {
+  mass_.take_sum(unit_masses_, masses_kg, registers_);
+  mass_.multiply(x, groups, y, registers_);
+}
 
 PointTables::PointTables(mesher::ElementKind kind, const mesher::Quadrature& rule,
                          VectorRegisters registers)

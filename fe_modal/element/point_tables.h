@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -24,15 +25,12 @@ class LineTables {
   void to_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
   void from_gradients(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
   void to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
-  void from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const;
+  void multiply_by_mass(const Eigen::VectorXd& masses_kg, const RowOf<double>* x,
+                        std::size_t groups, RowOf<double>* y) const;
 
  private:
   /// Of the three functions at the three points of a line, point by point, or transposed.
   using Table = std::array<double, 9>;
-
-  /// The same table in all three directions.
-  void multiply(const Table& table, bool to_points, const RowOf<double>* x, std::size_t groups,
-                RowOf<double>* y) const;
 
   VectorRegisters registers_;
   std::array<std::size_t, 27> place_of_node_;  ///< 9 i + 3 j + k of the node's coordinates
@@ -57,16 +55,16 @@ class FullTables {
   void to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
     values_.multiply(x, groups, y, registers_);
   }
-  void from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
-    values_transposed_.multiply(x, groups, y, registers_);
-  }
+  void multiply_by_mass(const Eigen::VectorXd& masses_kg, const RowOf<double>* x,
+                        std::size_t groups, RowOf<double>* y);
 
  private:
   VectorRegisters registers_;
   PackedMatrix gradients_;
   PackedMatrix gradients_transposed_;
   PackedMatrix values_;
-  PackedMatrix values_transposed_;
+  std::vector<PackedMatrix> unit_masses_;  ///< of each point, N N^T
+  PackedMatrix mass_;                      ///< workspace
 };
 
 /// Shape functions of an element with n nodes at the q points of a rule, times fields: rows of
@@ -89,9 +87,12 @@ class PointTables {
   void to_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
     std::visit([&](const auto& tables) { tables.to_values(x, groups, y); }, tables_);
   }
-  /// The transpose of that.
-  void from_values(const RowOf<double>* x, std::size_t groups, RowOf<double>* y) const {
-    std::visit([&](const auto& tables) { tables.from_values(x, groups, y); }, tables_);
+  /// The mass matrix of an element times x.
+  /// @param masses_kg (q), that each point stands for
+  /// @param x, y (n, groups)
+  void multiply_by_mass(const Eigen::VectorXd& masses_kg, const RowOf<double>* x,
+                        std::size_t groups, RowOf<double>* y) {
+    std::visit([&](auto& tables) { tables.multiply_by_mass(masses_kg, x, groups, y); }, tables_);
   }
 
  private:

@@ -342,6 +342,7 @@ Slit refine_slit(const Slit& slit, const NodeNumbers& numbers) {
 
 void place_nodes(const Mesh& before, const std::vector<Weights>& positions, RefinedMesh& result) {
   std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  result.mesh.nodes.reserve(positions.size());
   for (std::size_t k = 0; k < positions.size(); ++k) {
     std::array<double, 3> x{};
     for (const auto& [node, value] : positions[k]) {
@@ -367,6 +368,7 @@ RefinedMesh refine(const Mesh& mesh) {
   std::int32_t first = 0;
   for (const ElementBlock& block : mesh.blocks) {
     for (auto& [kind, nodes] : cut(block.kind, block.nodes, numbers)) {
+      nodes.shrink_to_fit();
       blocks.append({block.part, kind, block.material, std::move(nodes)}, first, block.size());
     }
     first += static_cast<std::int32_t>(block.size());
