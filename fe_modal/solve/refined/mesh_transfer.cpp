@@ -23,16 +23,25 @@ MeshTransfer::MeshTransfer(const FieldMap& coarse, const FieldMap& fine,
 template <typename Action>
 void MeshTransfer::for_each_own(const Action& action) const {
   const DofLayout& layout = fine_.layout();
+  const auto nodes = static_cast<std::int32_t>(fine_.dof_map().node_count());
+  const auto coarse_nodes = static_cast<std::int32_t>(coarse_.dof_map().node_count());
   for (std::size_t k = 0; k < site_of_block_.size(); ++k) {
     const auto block = static_cast<std::int32_t>(k);
-    if (layout.owner(block) != layout.ranks().own() || site_of_block_[k] < 0) continue;
-    action(3 * static_cast<Eigen::Index>(layout.place(block)), block, site_of_block_[k]);
+    const std::int32_t site = site_of_block_[k];
+    if (layout.owner(block) != layout.ranks().own() || site < 0) continue;
+    const bool is_point = site >= nodes;
+    const OwnBlock own{3 * static_cast<Eigen::Index>(layout.place(block)), is_point,
+                       is_point ? 3 * static_cast<Eigen::Index>(
+                                          coarse_.dof_map().index(site - nodes + coarse_nodes))
+                                : site};
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      if (!fine_.dof_map().is_dependent(block, a)) action(own, a);
+    }
   }
 }
 
 void MeshTransfer::to_fine(const Eigen::MatrixXd& vectors, Eigen::MatrixXd& result) const {
   const DofMap& coarse = coarse_.dof_map();
-  const DofMap& fine = fine_.dof_map();
   const Eigen::MatrixXd whole = coarse_.layout().whole(vectors);
   const Eigen::Index k = vectors.cols();
   FieldRows before(coarse.node_count(), 3 * k);
@@ -44,42 +53,22 @@ void MeshTransfer::to_fine(const Eigen::MatrixXd& vectors, Eigen::MatrixXd& resu
   }
   const FieldRows after = prolongation_ * before;
   result.setZero();
-  for_each_own([&](Eigen::Index row, std::int32_t block, std::int32_t site) {
-    const bool is_point = site >= fine.node_count();
-    const std::int32_t same =
-        is_point ? coarse.index(site -
-                                static_cast<std::int32_t>(fine.node_count() - coarse.node_count()))
-                 : -1;
-    for (Eigen::Index a = 0; a < 3; ++a) {
-      if (fine.is_dependent(block, a)) continue;
-      for (Eigen::Index c = 0; c < k; ++c) {
-        result(row + a, c) = is_point ? whole(3 * same + a, c) : after(site, a * k + c);
-      }
+  for_each_own([&](const OwnBlock& own, Eigen::Index a) {
+    for (Eigen::Index c = 0; c < k; ++c) {
+      result(own.row + a, c) = own.is_point ? whole(own.place + a, c) : after(own.place, a * k + c);
     }
   });
 }
 
 Eigen::MatrixXd MeshTransfer::to_coarse(const Eigen::MatrixXd& forces) const {
   const DofMap& coarse = coarse_.dof_map();
-  const DofMap& fine = fine_.dof_map();
   const Eigen::Index k = forces.cols();
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(coarse.dof_count(), k);
-  FieldRows after = FieldRows::Zero(fine.node_count(), 3 * k);
-  for_each_own([&](Eigen::Index row, std::int32_t block, std::int32_t site) {
-    const bool is_point = site >= fine.node_count();
-    const std::int32_t same =
-        is_point ? coarse.index(site -
-                                static_cast<std::int32_t>(fine.node_count() - coarse.node_count()))
-                 : -1;
-    for (Eigen::Index a = 0; a < 3; ++a) {
-      if (fine.is_dependent(block, a)) continue;
-      for (Eigen::Index c = 0; c < k; ++c) {
-        if (is_point) {
-          whole(3 * same + a, c) += forces(row + a, c);
-        } else {
-          after(site, a * k + c) = forces(row + a, c);
-        }
-      }
+  FieldRows after = FieldRows::Zero(fine_.dof_map().node_count(), 3 * k);
+  for_each_own([&](const OwnBlock& own, Eigen::Index a) {
+    for (Eigen::Index c = 0; c < k; ++c) {
+      double& sum = own.is_point ? whole(own.place + a, c) : after(own.place, a * k + c);
+      sum += forces(own.row + a, c);
     }
   });
   const FieldRows before = prolongation_.transpose() * after;

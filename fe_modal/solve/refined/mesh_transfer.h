@@ -27,7 +27,13 @@ class MeshTransfer {
   Eigen::MatrixXd to_coarse(const Eigen::MatrixXd& forces) const;
 
  private:
-  /// Calls action(row of the own fine vectors, fine block, its site) for each own block.
+  struct OwnBlock {
+    Eigen::Index row;  ///< of the own fine vectors
+    bool is_point;     ///< of a reference point, which the mesh before has, too
+    /// Of a point its row in vectors of the mesh before, else a node that moves as the block does.
+    Eigen::Index place;
+  };
+  /// Calls action(block, direction) for each own block and direction that depends on no other.
   template <typename Action>
   void for_each_own(const Action& action) const;
 
