@@ -115,7 +115,7 @@ TEST_CASE("a product with an inverted element is refused") {
 
 TEST_CASE("a packed matrix multiplies like a plain one, of any shape and in every width") {
   for (const VectorRegisters registers : widths()) {
-    for (const Eigen::Index rows : {1, 2, 3, 27, 32}) {
+    for (const Eigen::Index rows : {1, 2, 3, 4, 10, 27, 32}) {
       for (const Eigen::Index columns : {1, 8, 24, 30, 56}) {
         CAPTURE(static_cast<int>(registers), rows, columns);
         const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(rows, 7);
