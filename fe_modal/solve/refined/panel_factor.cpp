@@ -29,21 +29,19 @@ PanelFactor::PanelFactor(Eigen::MatrixXd& matrix) : size_(static_cast<int>(matri
   if (!factorise_in_place(DenseBlock<double>{matrix.data(), size_, size_, size_})) {
     throw ComputationError(kNotDefinite);
   }
-  std::size_t count = 0;
-  for (int first = 0; first < size_; first += kPanelColumns)
-    count += size_of(panel_at(nullptr, first));
-  values_.resize(count);
-  diagonal_.reserve(static_cast<std::size_t>(size_));
-  steps_.reserve(static_cast<std::size_t>(size_));
-  std::int16_t* place = values_.data();
+  const auto n = static_cast<std::size_t>(size_);
+  values_.reserve((n * n - n) / 2);
+  diagonal_.reserve(n);
+  steps_.reserve(n);
   for (int j = 0; j < size_; ++j) {
     const double largest =
         j + 1 < size_ ? matrix.col(j).tail(size_ - j - 1).cwiseAbs().maxCoeff() : 0;
     const double step = largest / std::numeric_limits<std::int16_t>::max();
     diagonal_.push_back(static_cast<float>(matrix(j, j)));
     steps_.push_back(static_cast<float>(step));
-    for (int i = first_row(j); i < size_; ++i, ++place) {
-      if (i > j && step > 0) *place = static_cast<std::int16_t>(std::lround(matrix(i, j) / step));
+    for (int i = j + 1; i < size_; ++i) {
+      values_.push_back(step > 0 ? static_cast<std::int16_t>(std::lround(matrix(i, j) / step))
+                                 : std::int16_t{0});
     }
   }
 }
@@ -53,18 +51,22 @@ FactorBlock<float> PanelFactor::panel_at(const float* values, int first) const {
 }
 
 void PanelFactor::unpack(std::vector<float>& entries) const {
-  entries.resize(values_.size());
+  std::size_t count = 0;
+  for (int first = 0; first < size_; first += kPanelColumns)
+    count += size_of(panel_at(nullptr, first));
+  entries.resize(count);
   const std::int16_t* given = values_.data();
   float* place = entries.data();
   run_with(
       widest_registers(), [&]<std::size_t /*bytes*/>() __attribute__((always_inline)) {
         for (int j = 0; j < size_; ++j) {
           const float step = steps_[static_cast<std::size_t>(j)];
-          const int rows = size_ - first_row(j);
-          for (int i = 0; i < rows; ++i) place[i] = step * static_cast<float>(given[i]);
-          place[j - first_row(j)] = diagonal_[static_cast<std::size_t>(j)];
-          place += rows;
-          given += rows;
+          for (int i = first_row(j); i < j; ++i) *place++ = 0;
+          *place++ = diagonal_[static_cast<std::size_t>(j)];
+          const int below = size_ - j - 1;
+          for (int i = 0; i < below; ++i) place[i] = step * static_cast<float>(given[i]);
+          place += below;
+          given += below;
         }
       });
 }

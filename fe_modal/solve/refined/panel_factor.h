@@ -12,10 +12,10 @@
 
 namespace flexneck::fe_modal {
 
-/// Cholesky factor of a small matrix, made in double and kept in 16 bits an entry: panels of a few
-/// columns from their diagonal down, in hardly more memory than its lower half takes. Entries below
-/// the diagonal are rounded to a 65534th of the largest of their column, which a preconditioner
-/// may: the product of the factor with its transpose stays positive definite.
+/// Cholesky factor of a small matrix, made in double and kept in 16 bits an entry below the
+/// diagonal, which is kept in single precision; panels of a few columns are unpacked for solutions.
+/// Entries are rounded to a 65534th of the largest of their column, which a preconditioner may: the
+/// product of the factor with its transpose stays positive definite.
 class PanelFactor {
  public:
   PanelFactor() = default;
@@ -23,7 +23,7 @@ class PanelFactor {
   /// @throws ComputationError if it is not positive definite.
   explicit PanelFactor(Eigen::MatrixXd& matrix);
 
-  /// The entries, for solve().
+  /// The panels, for solve(); of zeros above the diagonal.
   void unpack(std::vector<float>& entries) const;
   /// x = (L L^T)^-1 x, as many rows as the matrix, of 8 or 16 columns.
   template <std::size_t lanes>
@@ -35,8 +35,8 @@ class PanelFactor {
 
   int size_ = 0;
   std::vector<float> diagonal_;
-  std::vector<float> steps_;  ///< what 1 stands for in each column
-  std::vector<std::int16_t> values_;
+  std::vector<float> steps_;          ///< what 1 stands for in each column
+  std::vector<std::int16_t> values_;  ///< below the diagonal, column by column
 };
 
 }  // namespace flexneck::fe_modal
