@@ -90,20 +90,25 @@ def where(stack):
     return "", ""
 
 
+def is_ended_by_mpi(end):
+    """MPI ends the process by the system's call, with the class of its error: any of 1 to 92."""
+    return end.status != "hang" and end.status > 0 and "MPI_ERRORS_ARE_FATAL" in end.text
+
+
 def is_librarys_end(scenario, end, plan, library):
     """Whether a library may have ended the command that was refused memory: by a signal, or with
     lines of its own."""
     return plan["kind"].startswith("memory") and library not in OURS and \
         (end.status in (-6, -11) or (end.status == 3 and not end.is_one_line(scenario)) or
-         (end.status == 1 and "MPI_ERRORS_ARE_FATAL" in end.text))
+         is_ended_by_mpi(end))
 
 
 def fault_of(scenario, end, found, plan, reached, library):
     """What is wrong with how a disturbed command ended; empty if nothing is."""
     if is_librarys_end(scenario, end, plan, library):
         wrong = scenarios.differences(found, scenarios.either(scenario))
-        # MPI ends the process by the system's call, which leaves no time for the lock.
-        wrong = [name for name in wrong if end.status != 1 or name != scenarios.LOCK]
+        # MPI leaves no time for the lock.
+        wrong = [name for name in wrong if not (is_ended_by_mpi(end) and name == scenarios.LOCK)]
         return f"status {end.status} and " + ", ".join(wrong) if wrong else ""
     if end.status in (0, 1) and "Warning: " in end.text and ": gmsh: " in end.text:
         return ""  # another mesh, and it is told

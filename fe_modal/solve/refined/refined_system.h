@@ -73,6 +73,7 @@ class RefinedSystem {
   std::optional<Around> around_;  ///< nothing in a process alone
   std::unique_ptr<const StarPatches> stars_;
   bool has_cells_;
+  double star_weight_;  ///< of their solutions beside that of the mesh before
 };
 
 }  // namespace flexneck::fe_modal
