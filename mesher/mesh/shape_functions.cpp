@@ -97,13 +97,4 @@ ShapeTable tabulate(ElementKind kind, const Eigen::Matrix3Xd& points) {
   return table;
 }
 
-Eigen::MatrixXd linear_functions_at_nodes(ElementKind kind) {
-  const auto nodes = reference_nodes(kind);
-  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(nodes.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    places.col(static_cast<Eigen::Index>(i)) = Eigen::Vector3d(nodes[i].data());
-  }
-  return tabulate(linear_kind_of(shape_of(kind)), places).values;
-}
-
 }  // namespace flexneck::mesher

@@ -31,8 +31,4 @@ struct ShapeTable {
 
 ShapeTable tabulate(ElementKind kind, const Eigen::Matrix3Xd& points);
 
-/// The linear shape functions of the corners at the element's nodes, (corners, n): where edges are
-/// straight, a node's place as a combination of those of the corners.
-Eigen::MatrixXd linear_functions_at_nodes(ElementKind kind);
-
 }  // namespace flexneck::mesher

@@ -15,10 +15,16 @@ namespace {
 /// For each node of a kind the corners whose stars it belongs to: those of the edge, the face or
 /// the element that it lies within.
 std::vector<std::vector<std::size_t>> corners_of_nodes(mesher::ElementKind kind) {
-  const Eigen::MatrixXd values = mesher::linear_functions_at_nodes(kind);
+  const auto nodes = mesher::reference_nodes(kind);
+  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    positions.col(static_cast<Eigen::Index>(i)) = Eigen::Vector3d(nodes[i].data());
+  }
+  const mesher::ElementKind linear = mesher::linear_kind_of(mesher::shape_of(kind));
+  const Eigen::MatrixXd values = mesher::tabulate(linear, positions).values;
   constexpr double kNothing = 1e-9;
-  std::vector<std::vector<std::size_t>> corners(mesher::nodes_per_element(kind));
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  std::vector<std::vector<std::size_t>> corners(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (Eigen::Index c = 0; c < values.rows(); ++c) {
       if (values(c, static_cast<Eigen::Index>(i)) > kNothing) {
         corners[i].push_back(static_cast<std::size_t>(c));
