@@ -68,7 +68,8 @@ class ImportedSystem : public ModalSystem {
     const UpperMatrix shifted = body_.stiffness - shift * body_.mass;
     return std::make_unique<CholeskyFactor>(wrap(shifted).get(), shift);
   }
-  std::optional<Eigen::Index> eigenvalues_below(double sigma) const override {
+  std::optional<Eigen::Index> eigenvalues_below(double sigma,
+                                                const Eigen::MatrixXd& /*known*/) const override {
     const UpperMatrix shifted = body_.stiffness - sigma * body_.mass;
     return negative_eigenvalues(wrap(shifted).get());
   }

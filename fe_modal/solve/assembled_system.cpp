@@ -164,7 +164,8 @@ std::unique_ptr<ShiftInverse> AssembledSystem::factor(double shift, Precision pr
   return inverse;
 }
 
-std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) const {
+std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma,
+                                                               const Eigen::MatrixXd& known) const {
   try {
     std::optional<SymmetricMatrix> shifted;
     ranks().together([&] { shifted = shifted_stiffness(*matrices_, sigma); });
@@ -172,14 +173,16 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma) con
         fields_.own_dof_count(),
         [&](const Eigen::MatrixXd& x) { return shifted_product(stiffness(), mass(), sigma, x); },
         ranks());
+    const KnownVectors vectors{known, block_product(mass(), known)};
+    std::optional<Eigen::Index> counted;
     if (ranks().are_many()) {
-      if (const auto counted = count_on_ranks(distributed(*shifted), product.get())) return counted;
+      counted = count_on_ranks(distributed(*shifted), product.get(), vectors);
     } else {
       const auto [kind, given] = elimination();
-      const auto counted =
-          count_without_pivoting(shifted->get(), product.get(), kind, given, ranks().threads());
-      if (counted) return counted;
+      counted = count_without_pivoting(shifted->get(), product.get(), kind, given, vectors,
+                                       ranks().threads());
     }
+    if (counted) return counted;
     return count_with_pivoting(fields_.layout(), *shifted, part_.blocks(), order());
   } catch (const InputError&) {  // the memory that is free does not suffice
     if (solver_ == Solver::direct) throw;

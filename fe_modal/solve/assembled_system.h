@@ -37,7 +37,8 @@ class AssembledSystem : public ModalSystem {
   Mat stiffness() const override { return stiffness_->get(); }
   Mat mass() const override { return mass_->get(); }
   std::unique_ptr<ShiftInverse> shift_inverse(double shift) const override;
-  std::optional<Eigen::Index> eigenvalues_below(double sigma) const override;
+  std::optional<Eigen::Index> eigenvalues_below(double sigma,
+                                                const Eigen::MatrixXd& known) const override;
 
   /// Between the nodes of this rank's elements; alone between all, kg.
   const NodalMass& nodal_mass() const { return matrices_->nodal_mass; }

@@ -10,7 +10,6 @@
 #include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/algebra/cholmod_handles.h"
-#include "fe_modal/algebra/inertia_count.h"
 #include "fe_modal/algebra/separator_factor.h"
 #include "fe_modal/algebra/supernodal_factor.h"
 #include "fe_modal/solve/iterative/submatrix.h"
@@ -222,15 +221,16 @@ std::string DistributedFactor<Scalar>::entries_text() const {
 }
 
 template <typename Scalar>
-std::optional<Eigen::Index> count_by_factor(const DistributedMatrix& matrix, Mat product) {
+std::optional<Eigen::Index> count_in(const DistributedMatrix& matrix, Mat product,
+                                     const KnownVectors& known) {
   try {
     const DistributedFactor<Scalar> factor(matrix, kForCount);
     const auto inverse = [&](const Eigen::MatrixXd& x) { return factor.solution(x); };
-    if (has_inertia_of_factor(matrix.layout.ranks(), product, inverse))
-      return factor.negative_pivots();
+    return count_by_factor(matrix.layout.ranks(), product, {inverse, factor.negative_pivots()},
+                           known);
   } catch (const ComputationError&) {  // a pivot is zero
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 /// In double precision.
@@ -282,9 +282,10 @@ std::unique_ptr<ShiftInverse> make_distributed_in_double(const DistributedMatrix
   return std::make_unique<DistributedInverse>(matrix, shift);
 }
 
-std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix, Mat product) {
-  if (const auto counted = count_by_factor<float>(matrix, product)) return counted;
-  return count_by_factor<double>(matrix, product);
+std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix, Mat product,
+                                           const KnownVectors& known) {
+  if (const auto counted = count_in<float>(matrix, product, known)) return counted;
+  return count_in<double>(matrix, product, known);
 }
 
 }  // namespace flexneck::fe_modal

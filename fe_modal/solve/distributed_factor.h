@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "fe_modal/algebra/inertia_count.h"
 #include "fe_modal/algebra/separator.h"
 #include "fe_modal/algebra/shift_inverse.h"
 #include "fe_modal/algebra/symmetric_matrix.h"
@@ -48,6 +49,7 @@ std::unique_ptr<ShiftInverse> make_distributed_in_double(const DistributedMatrix
 /// sign. Those of the parts and of the Schur complement between them add up (Haynsworth, Linear
 /// Algebra Appl. 1 (1968) 73). As count_without_pivoting().
 /// @param product the matrix, for products
-std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix, Mat product);
+std::optional<Eigen::Index> count_on_ranks(const DistributedMatrix& matrix, Mat product,
+                                           const KnownVectors& known);
 
 }  // namespace flexneck::fe_modal

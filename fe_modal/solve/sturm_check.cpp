@@ -59,6 +59,21 @@ std::string name_of(const Cluster& cluster, const Eigen::VectorXd& values, doubl
                                                        : " modes at " + hertz(first));
 }
 
+/// The columns of no more than so many modes whose eigenvalues are nearest to sigma.
+Eigen::MatrixXd nearest(const EigenPairs& pairs, double sigma, Eigen::Index count) {
+  const Eigen::VectorXd& values = pairs.values;
+  Eigen::Index begin = 0;
+  Eigen::Index end = values.size();
+  while (end - begin > count) {
+    if (sigma - values[begin] > values[end - 1] - sigma) {
+      ++begin;
+    } else {
+      --end;
+    }
+  }
+  return pairs.vectors.middleCols(begin, end - begin);
+}
+
 double between(const Eigen::VectorXd& values, Eigen::Index k) {
   return (std::max(values[k - 1], 0.0) + values[k]) / 2;
 }
@@ -80,12 +95,15 @@ std::string certificate_of(const Eigen::VectorXd& values, Eigen::Index count, do
 
 }  // namespace
 
-std::optional<std::string> prove_complete(const ModalSystem& system, const Eigen::VectorXd& values,
+std::optional<std::string> prove_complete(const ModalSystem& system, const EigenPairs& pairs,
                                           Eigen::Index count, double shift) {
+  constexpr Eigen::Index kKnown = 8;  // which a factor takes together
+  const Eigen::VectorXd& values = pairs.values;
   const Eigen::Index end = cluster_of(values, count - 1, shift).end;
   if (end == values.size()) return std::nullopt;
   const double sigma = between(values, end);
-  const std::optional<Eigen::Index> counted = system.eigenvalues_below(sigma);
+  const std::optional<Eigen::Index> counted =
+      system.eigenvalues_below(sigma, nearest(pairs, sigma, kKnown));
   if (!counted) return std::string(kNotCertified) + ": memory does not hold the factor that counts";
   if (*counted != end) {
     throw ComputationError("the eigensolver found " + std::to_string(end) + " modes below " +
@@ -133,7 +151,7 @@ CertifiedModes lowest_modes(const ModalSystem& system, const ShiftInverse& inver
   for (Eigen::Index more = 1;; more *= 2) {
     const Eigen::Index asked = std::min<Eigen::Index>(count + more, size);
     const EigenPairs pairs = solve(asked);
-    auto certificate = prove_complete(system, pairs.values, count, inverse.shift());
+    auto certificate = prove_complete(system, pairs, count, inverse.shift());
     if (!certificate && asked == size) {
       certificate = certificate_of(pairs.values, count, inverse.shift());
     }

@@ -29,12 +29,12 @@ CertifiedModes lowest_modes(const ModalSystem& system, const ShiftInverse& inver
                             Eigen::Index count, bool certify, const Progress& warn);
 
 /// Proves that there are no eigenvalues but those given below the first gap above
-/// values[count - 1]: the sentence that says up to where the lowest `count` are complete, or
+/// pairs.values[count - 1]: the sentence that says up to where the lowest `count` are complete, or
 /// nothing if there is no gap.
-/// @param values ascending, those above `count` serve to find the gap
+/// @param pairs ascending, those above `count` serve to find the gap
 /// @param shift of the inverse; eigenvalues much smaller than it are rigid-body motions
 /// @throws ComputationError if the inertia counts another number.
-std::optional<std::string> prove_complete(const ModalSystem& system, const Eigen::VectorXd& values,
+std::optional<std::string> prove_complete(const ModalSystem& system, const EigenPairs& pairs,
                                           Eigen::Index count, double shift);
 
 /// @param shift of the inverse; eigenvalues are those of a body with positive stiffness otherwise

@@ -231,7 +231,8 @@ int count_all(const Ranks& ranks) {
               x, [&](const Eigen::MatrixXd& rows) { return block_product(shifted.get(), rows); });
         },
         ranks);
-    const auto counted = count_on_ranks({layout, part.blocks(), own.graph, shifted}, product.get());
+    const auto counted =
+        count_on_ranks({layout, part.blocks(), own.graph, shifted}, product.get(), {});
     const bool must_count = below < 10;  // above, rounding errors may be too large
     if (counted ? *counted != below : must_count) ++failures;
     const Eigen::Index with_pivoting = count_with_pivoting(layout, shifted, part.blocks(), order);

@@ -55,17 +55,17 @@ SystemMatrices plates_with_a_common_node(std::int32_t count) {
 }
 
 std::optional<Eigen::Index> count(const SymmetricMatrix& matrix) {
-  return count_without_pivoting(matrix.get(), matrix.get(), CholmodOrder::best, {}, 1);
+  return count_without_pivoting(matrix.get(), matrix.get(), CholmodOrder::best, {}, {}, 1);
 }
 
 /// By a factor in single precision alone.
-std::optional<Eigen::Index> count_in_single(const SymmetricMatrix& matrix) {
+std::optional<Eigen::Index> count_in_single(const SymmetricMatrix& matrix,
+                                            const KnownVectors& known) {
   const cholmod_sparse view = cholmod_view(matrix.get());
   CholmodAnalysis analysis(view, CholmodOrder::best, {});
   const SupernodalFactor<float> factor(analysis, 1, {}, Pivots::of_any_sign);
   const auto inverse = [&](const Eigen::MatrixXd& x) { return factor.solution(x, 1); };
-  if (!has_inertia_of_factor({}, matrix.get(), inverse)) return std::nullopt;
-  return factor.negative_pivots();
+  return count_by_factor({}, matrix.get(), {inverse, factor.negative_pivots()}, known);
 }
 
 /// A symmetric matrix with about half of its eigenvalues below zero.
@@ -75,6 +75,43 @@ Eigen::MatrixXd indefinite(int size) {
   for (int k = 0; k < size; ++k) matrix(k, k) += k % 2 == 0 ? 3.0 * size : -3.0 * size;
   return matrix;
 }
+
+/// A matrix, and factors of others that have all its eigenvectors and all its eigenvalues but one.
+class Spectrum {
+ public:
+  static constexpr Eigen::Index kSize = 40;
+  static constexpr Eigen::Index kOther = kSize / 3;
+
+  Spectrum()
+      : vectors_(Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::Random(kSize, kSize))
+                     .householderQ()),
+        values_(Eigen::VectorXd::LinSpaced(kSize, -3, 7)),
+        matrix_(vectors_ * values_.asDiagonal() * vectors_.transpose()) {}
+
+  Eigen::Index negative() const { return (values_.array() < 0).count(); }
+  /// So many eigenvectors, the one in the middle that of the eigenvalue which factors have not.
+  Eigen::MatrixXd around(Eigen::Index count) const {
+    return vectors_.middleCols(kOther - count / 2, count);
+  }
+  /// @param ratio the factor's eigenvalue over the matrix's: refinement leaves |1 - 1 / ratio| of
+  /// an error
+  /// @param known of unit mass; columns, or nothing
+  std::optional<Eigen::Index> count_with(double ratio, const Eigen::MatrixXd& known) const {
+    Eigen::VectorXd values = values_;
+    values[kOther] *= ratio;
+    const Eigen::MatrixXd inverse =
+        vectors_ * values.cwiseInverse().asDiagonal() * vectors_.transpose();
+    const OperatorMatrix product(kSize, [&](const Eigen::MatrixXd& x) { return matrix_ * x; });
+    const SignedFactor factor{[&](const Eigen::MatrixXd& x) { return inverse * x; },
+                              (values.array() < 0).count()};
+    return count_by_factor({}, product.get(), factor, {known, known});
+  }
+
+ private:
+  Eigen::MatrixXd vectors_;
+  Eigen::VectorXd values_;
+  Eigen::MatrixXd matrix_;
+};
 
 }  // namespace
 
@@ -141,10 +178,13 @@ TEST_CASE("pivots without pivoting count all negative eigenvalues or nothing") {
   CHECK(counted > 15);
 }
 
-TEST_CASE("a factor in single precision counts modes but where an eigenvalue is near") {
+TEST_CASE("a factor in single precision counts modes but where one is near that is not known") {
   const SystemMatrices system = clamped({3, 3, 2});
-  const Eigen::VectorXd values =
-      testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get())).values;
+  const testing::DensePairs pairs =
+      testing::dense_pairs(dense(system.stiffness.get()), dense(system.mass.get()));
+  const Eigen::VectorXd& values = pairs.values;
+  const Eigen::MatrixXd vectors = pairs.vectors.leftCols(12);
+  const KnownVectors known{vectors, block_product(system.mass.get(), vectors)};
   for (const Eigen::Index k : {0, 2, 5, 9}) {
     for (const double beside : {-1e-3, -1e-5, -1e-7, -1e-9, 1e-9, 1e-7, 1e-5, 1e-3}) {
       INFO("eigenvalue " << k << ", beside it by " << beside);
@@ -152,39 +192,51 @@ TEST_CASE("a factor in single precision counts modes but where an eigenvalue is 
       const Eigen::Index below = (values.array() < sigma).count();
       const SymmetricMatrix shifted = shifted_stiffness(system, sigma);
       CHECK(count(shifted) == below);
-      const std::optional<Eigen::Index> in_single = count_in_single(shifted);
+      const std::optional<Eigen::Index> in_single = count_in_single(shifted, {});
       CHECK(in_single.value_or(below) == below);
       if (std::abs(beside) == 1e-3) CHECK(in_single);
       if (std::abs(beside) == 1e-9) CHECK_FALSE(in_single);
+      CHECK(count_in_single(shifted, known) == below);
     }
   }
 }
 
-TEST_CASE("a factor has the inertia of a matrix that it is near to, of others nothing is said") {
-  constexpr Eigen::Index kSize = 40;
-  const Eigen::MatrixXd random = Eigen::MatrixXd::Random(kSize, kSize);
-  const Eigen::MatrixXd vectors = Eigen::HouseholderQR<Eigen::MatrixXd>(random).householderQ();
-  Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(kSize, -3, 7);
-  const Eigen::MatrixXd matrix = vectors * values.asDiagonal() * vectors.transpose();
-  const OperatorMatrix product(kSize, [&](const Eigen::MatrixXd& x) { return matrix * x; });
-  // The factor's eigenvalue over the matrix's: refinement leaves |1 - 1 / ratio| of an error.
-  const auto is_shown = [&](double ratio) {
-    Eigen::VectorXd factor = values;
-    factor[kSize / 3] *= ratio;
-    const Eigen::MatrixXd inverse =
-        vectors * factor.cwiseInverse().asDiagonal() * vectors.transpose();
-    return has_inertia_of_factor({}, product.get(),
-                                 [&](const Eigen::MatrixXd& x) { return inverse * x; });
+TEST_CASE("a factor counts for a matrix that it is near to, of others nothing is said") {
+  const Spectrum spectrum;
+  const auto is_counted = [&](double ratio) {
+    const std::optional<Eigen::Index> counted = spectrum.count_with(ratio, {});
+    if (counted) CHECK(*counted == spectrum.negative());
+    return counted.has_value();
   };
-  CHECK(is_shown(1));
-  CHECK(is_shown(0.9));
-  CHECK(is_shown(1.1));
-  CHECK(is_shown(0.56));
-  CHECK_FALSE(is_shown(0.51));
-  CHECK_FALSE(is_shown(0.4));
-  CHECK_FALSE(is_shown(-1));
-  CHECK_FALSE(is_shown(-1e-6));
-  CHECK_FALSE(is_shown(-1e6));
+  CHECK(is_counted(1));
+  CHECK(is_counted(0.9));
+  CHECK(is_counted(1.1));
+  CHECK(is_counted(0.56));
+  CHECK_FALSE(is_counted(0.51));
+  CHECK_FALSE(is_counted(0.4));
+  CHECK_FALSE(is_counted(-1));
+  CHECK_FALSE(is_counted(-1e-6));
+  CHECK_FALSE(is_counted(-1e6));
+}
+
+TEST_CASE("with vectors that are known the count is that of the matrix, whatever the factor has") {
+  const Spectrum spectrum;
+  const Eigen::MatrixXd random = Eigen::MatrixXd::Random(Spectrum::kSize, 3);
+  for (const double ratio : {0.51, 0.4, 1e-2, -1e-2, -1.0, -100.0}) {
+    INFO("the factor has one eigenvalue " << ratio << " times");
+    for (const double wrong : {0.0, 1e-9, 1e-4}) {
+      const Eigen::MatrixXd known = spectrum.around(3) + wrong * random;
+      const std::optional<Eigen::Index> counted = spectrum.count_with(ratio, known);
+      if (wrong < 1e-6) CHECK(counted);
+      CHECK(counted.value_or(spectrum.negative()) == spectrum.negative());
+    }
+    // That one is not among them, or not alone.
+    CHECK_FALSE(spectrum.count_with(ratio, spectrum.around(3).leftCols(1)));
+    CHECK_FALSE(spectrum.count_with(ratio, random));
+    const Eigen::MatrixXd twice = spectrum.around(3)(Eigen::all, {0, 1, 1});
+    CHECK_FALSE(spectrum.count_with(ratio, twice));
+  }
+  CHECK(spectrum.count_with(0.9, random).value_or(spectrum.negative()) == spectrum.negative());
 }
 
 TEST_CASE("a pivot that is zero counts nothing") {
