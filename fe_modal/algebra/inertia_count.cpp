@@ -18,9 +18,12 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// With a diagonal of ones, as V^T A V and V^T M B^-1 M V have where V are modes but for signs,
-/// their eigenvalues are far from rounding in single precision if they are larger than this.
+/// Scaled to a diagonal of ones and minus ones, V^T A V and V^T M B^-1 M V have such eigenvalues
+/// where V are modes. Signs of smaller ones than this are not trusted: far above rounding in single
+/// precision (inferred).
 constexpr double kUncertain = 1e-2;
+/// Q on the scale of V^T A V: a hundredth of what signs are told by (inferred).
+constexpr double kUncoupled = 1e-4;
 
 /// With a diagonal of ones and minus ones.
 Eigen::MatrixXd scaled(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& diagonal) {
@@ -72,7 +75,8 @@ class ProjectedInverse {
   Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
 };
 
-/// neg(V^T A V - Q)
+/// neg(V^T A V - Q), of a Q that is too small to matter: what B_W^-1 makes of it tells that, for
+/// where I - B_W^-1 A_W contracts as contracts() asks A_W^-1 makes less than ten times as much.
 std::optional<Eigen::Index> count_among(const Ranks& ranks, Mat matrix, const KnownVectors& known,
                                         const ProjectedInverse& inverse) {
   const Eigen::MatrixXd& v = known.vectors;
@@ -82,7 +86,7 @@ std::optional<Eigen::Index> count_among(const Ranks& ranks, Mat matrix, const Kn
   // What is left of A V without its shares of M V, which the projection would take from it.
   const Eigen::MatrixXd residuals = forces - known.mass_products * projected;
   const Eigen::MatrixXd coupling = inner_products(ranks, residuals, inverse(residuals));
-  const bool is_small = scaled(coupling, projected.diagonal()).norm() < kUncertain * kUncertain;
+  const bool is_small = scaled(coupling, projected.diagonal()).norm() < kUncoupled;
   return is_small ? count_negative(projected) : std::nullopt;
 }
 

@@ -29,7 +29,7 @@ class ModalSystem {
   /// Number of eigenvalues below sigma, by inertia; nothing where the solver does without a factor
   /// and memory would not hold one.
   /// @param known (own dofs, k) modes near sigma, of which k may be 0: with them a factor of less
-  /// precision counts. The number is that of K and M whatever they are.
+  /// precision counts, if one does. The number is that of K and M whatever they are.
   /// @throws ComputationError if sigma is an eigenvalue to rounding, or the factorisation fails.
   virtual std::optional<Eigen::Index> eigenvalues_below(double sigma,
                                                         const Eigen::MatrixXd& known) const = 0;

@@ -18,7 +18,9 @@
 #include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/algebra/rank_session.h"
 #include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/distributed_factor.h"
+#include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/assembly.h"
 #include "mesher/partition/element_partition.h"
 #include "tests/fe_modal/dense.h"
@@ -217,6 +219,12 @@ int count_all(const Ranks& ranks) {
       testing::dense_pairs(dense(whole.stiffness.get()), dense(whole.mass.get())).values;
   std::vector<std::int32_t> order(static_cast<std::size_t>(dof_map.free_count()));
   std::iota(order.begin(), order.end(), 0);
+  ModalOptions options;
+  options.ranks = ranks;
+  options.element_ranks = owners;
+  const AssembledSystem system(mesh, dof_map, options);
+  const EigenPairs modes = lowest_eigenpairs(system.mass(), *system.shift_inverse(0), 9);
+  const KnownVectors known{modes.vectors, block_product(system.mass(), modes.vectors)};
   int failures = 0;
   for (const Eigen::Index below : {Eigen::Index(0), Eigen::Index(1), Eigen::Index(7),
                                    values.size() / 4, values.size() / 2, values.size()}) {
@@ -231,15 +239,18 @@ int count_all(const Ranks& ranks) {
               x, [&](const Eigen::MatrixXd& rows) { return block_product(shifted.get(), rows); });
         },
         ranks);
-    const auto counted =
-        count_on_ranks({layout, part.blocks(), own.graph, shifted}, product.get(), {});
+    const DistributedMatrix matrix{layout, part.blocks(), own.graph, shifted};
+    const auto counted = count_on_ranks(matrix, product.get(), {});
     const bool must_count = below < 10;  // above, rounding errors may be too large
     if (counted ? *counted != below : must_count) ++failures;
+    const auto with_known = count_on_ranks(matrix, product.get(), known);
+    if (with_known ? *with_known != below : must_count) ++failures;
     const Eigen::Index with_pivoting = count_with_pivoting(layout, shifted, part.blocks(), order);
     if (with_pivoting != below) ++failures;
     if (ranks.is_first())
-      std::printf("%d ranks, %td modes: %td counted, %td with pivoting\n", ranks.count(), below,
-                  counted.value_or(-1), with_pivoting);
+      std::printf("%d ranks, %td modes: %td counted, %td with known modes, %td with pivoting\n",
+                  ranks.count(), below, counted.value_or(-1), with_known.value_or(-1),
+                  with_pivoting);
   }
   return failures;
 }
