@@ -64,8 +64,8 @@ struct Truth {
   Eigen::MatrixXd compliance;  ///< of the top's average motion
 };
 
-Eigen::VectorXd hertz(const Eigen::VectorXd& values) {
-  return values.head(kModes).cwiseSqrt() / (2 * std::numbers::pi);
+Eigen::VectorXd lowest_Hz(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+  return testing::lowest_values(stiffness, mass, kModes).cwiseSqrt() / (2 * std::numbers::pi);
 }
 
 /// Of the head about the tip: velocities of its centre, then the inertia about it.
@@ -99,8 +99,7 @@ Truth truth_of(mesher::Mesh mesh, const Cell& cell) {
   const Eigen::MatrixXd average =
       average_motion(mesh, "top", kTip, all) * motions.topRows(all.dof_count());
   const Eigen::MatrixXd with_head = mass + average.transpose() * head_mass() * average;
-  return {hertz(testing::dense_pairs(stiffness, mass).values),
-          hertz(testing::dense_pairs(stiffness, with_head).values),
+  return {lowest_Hz(stiffness, mass), lowest_Hz(stiffness, with_head),
           average * testing::symmetric_solution(stiffness, average.transpose())};
 }
 

@@ -12,6 +12,13 @@ DensePairs dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& 
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+Eigen::VectorXd lowest_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
+                              Eigen::Index count) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(mass, stiffness,
+                                                                         Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().tail(count).reverse().cwiseInverse();
+}
+
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
 }

@@ -14,6 +14,11 @@ struct DensePairs {
 
 /// K x = lambda M x
 DensePairs dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+/// The lowest lambda of them, ascending, from the largest mu of M x = mu K x with a definite K:
+/// their rounding errors are not those of the highest lambda, which is ten million times the lowest
+/// where metal stands between rubber.
+Eigen::VectorXd lowest_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
+                              Eigen::Index count);
 /// Ascending, of a symmetric matrix.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 /// Of any square matrix.
