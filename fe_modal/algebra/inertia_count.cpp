@@ -75,8 +75,9 @@ class ProjectedInverse {
   Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
 };
 
-/// neg(V^T A V - Q), of a Q that is too small to matter: what B_W^-1 makes of it tells that, for
-/// where I - B_W^-1 A_W contracts as contracts() asks A_W^-1 makes less than ten times as much.
+/// neg(V^T A V - Q), where Q must be too small to change a sign. Q has A_W^-1, which is not at
+/// hand; it is estimated with B_W^-1: where I - B_W^-1 A_W contracts as contracts() asks, A_W^-1
+/// makes less than ten times as much of it.
 std::optional<Eigen::Index> count_among(const Ranks& ranks, Mat matrix, const KnownVectors& known,
                                         const ProjectedInverse& inverse) {
   const Eigen::MatrixXd& v = known.vectors;

@@ -14,9 +14,9 @@ struct DensePairs {
 
 /// K x = lambda M x
 DensePairs dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
-/// The lowest lambda of them, ascending, from the largest mu of M x = mu K x with a definite K:
-/// their rounding errors are not those of the highest lambda, which is ten million times the lowest
-/// where metal stands between rubber.
+/// The lowest eigenvalues of K x = lambda M x, ascending, as reciprocals of the largest mu of
+/// M x = mu K x with a positive definite K. dense_pairs() has rounding errors in proportion to the
+/// highest lambda, which are large beside the lowest where metal is bonded to rubber.
 Eigen::VectorXd lowest_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
                               Eigen::Index count);
 /// Ascending, of a symmetric matrix.
