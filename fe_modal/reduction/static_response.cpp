@@ -19,8 +19,11 @@ Eigen::VectorXd modal_energy(const Ranks& ranks, const EigenPairs& kept,
 ModalResponse modal_response(const Eigen::VectorXd& values, const Eigen::MatrixXd& modal_loads) {
   const Eigen::VectorXd flexibility =
       (values.array() > 0).select(values.array().inverse(), 0).matrix();
-  const Eigen::MatrixXd amplitudes = flexibility.asDiagonal() * modal_loads;
-  return {modal_loads.transpose() * amplitudes, amplitudes.transpose() * amplitudes};
+  ModalResponse response;
+  response.amplitudes = flexibility.asDiagonal() * modal_loads;
+  response.compliance = modal_loads.transpose() * response.amplitudes;
+  response.mass = response.amplitudes.transpose() * response.amplitudes;
+  return response;
 }
 
 void remove_modes(const Ranks& ranks, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& momenta,

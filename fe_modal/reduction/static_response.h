@@ -30,6 +30,7 @@ Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPai
 /// What the modes have of static shapes: X^T M X and F^T X of X = sum phi (phi^T F) / lambda over
 /// the modes that are no rigid motion.
 struct ModalResponse {
+  Eigen::MatrixXd amplitudes;  ///< of the modes, (m, n)
   Eigen::MatrixXd compliance;  ///< F^T X, (n, n)
   Eigen::MatrixXd mass;        ///< X^T M X, (n, n)
 };

@@ -6,6 +6,26 @@
 #include "fe_modal/reduction/static_response.h"
 
 namespace flexneck::fe_modal {
+namespace {
+
+/// What modes have of the shapes. Exact ones would have no stiffness with the shapes beyond them;
+/// with what these have the compliance of both is wrong by squares of the modes' errors alone.
+ModalResponse modal_part(const BodyOperators& body, const EigenPairs& kept,
+                         const StaticShapes& shapes) {
+  const Eigen::Index count = shapes.loads.cols();
+  if (kept.values.size() == 0) {
+    return {{}, Eigen::MatrixXd::Zero(count, count), Eigen::MatrixXd::Zero(count, count)};
+  }
+  ModalResponse modal =
+      modal_response(kept.values, inner_products(body.ranks, kept.vectors, shapes.loads));
+  const Eigen::MatrixXd stiffness =
+      inner_products(body.ranks, kept.vectors, body.stiffness(shapes.beyond));
+  const Eigen::MatrixXd coupled = modal.amplitudes.transpose() * stiffness;
+  modal.compliance -= coupled + coupled.transpose();
+  return modal;
+}
+
+}  // namespace
 
 InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
                                const FieldMap& field_map) {
@@ -24,10 +44,7 @@ StaticShapes static_shapes(const BodyOperators& body, const EigenPairs& kept,
   shapes.rest = inner_products(body.ranks, shapes.loads, shapes.beyond);
   const Eigen::MatrixXd rest_mass =
       inner_products(body.ranks, shapes.beyond, body.mass(shapes.beyond));
-  ModalResponse modal{Eigen::MatrixXd::Zero(count, count), Eigen::MatrixXd::Zero(count, count)};
-  if (kept.values.size() > 0) {
-    modal = modal_response(kept.values, inner_products(body.ranks, kept.vectors, shapes.loads));
-  }
+  const ModalResponse modal = modal_part(body, kept, shapes);
   const Eigen::MatrixXd compliance = modal.compliance + shapes.rest;
   const Eigen::MatrixXd mass = modal.mass + rest_mass;
   shapes.compliance = compliance.diagonal();
