@@ -35,14 +35,6 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& c
   return result;
 }
 
-/// Whether r^T P r is within the tolerance of each energy at the next step, if it falls as it did
-/// in the last one.
-bool will_have_converged(const Eigen::ArrayXd& last, const Eigen::ArrayXd& now,
-                         const Eigen::ArrayXd& energies) {
-  const Eigen::ArrayXd rate = (now < last).select(now / last, 1);
-  return (rate * now <= kTolerance * energies).all();
-}
-
 }  // namespace
 
 Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& matrix,
@@ -53,8 +45,7 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& mat
       Eigen::MatrixXd::Zero(right_hand_sides.rows(), right_hand_sides.cols());
   Eigen::MatrixXd residuals = right_hand_sides;
   Eigen::MatrixXd directions = preconditioner(residuals);
-  Eigen::VectorXd squares = column_products(ranks, residuals, directions);
-  Eigen::VectorXd energies = squares;
+  Eigen::VectorXd energies = column_products(ranks, residuals, directions);
   if (known_energies.size() > 0) energies += known_energies;
   bool converged = false;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
@@ -68,10 +59,9 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& mat
     forces = product(forces, combinations);
     multiply(-1, forces, steps, 1, residuals);
     Eigen::MatrixXd next = preconditioner(residuals);
-    // The direction is at hand by then: the next step costs no preconditioner.
-    const Eigen::VectorXd squares_now = column_products(ranks, residuals, next);
-    converged = will_have_converged(squares, squares_now, energies);
-    squares = squares_now;
+    // The direction is at hand by then: one more step costs no preconditioner.
+    converged =
+        (column_products(ranks, residuals, next).array() <= kTolerance * energies.array()).all();
     multiply(-1, directions, inner_products(ranks, forces, next), 1, next);
     directions = std::move(next);
   }

@@ -9,9 +9,9 @@ namespace flexneck::fe_modal {
 
 /// A x = b for each column by preconditioned conjugate gradients with a block of directions, in
 /// which all columns share (O'Leary, Linear Algebra Appl. 29 (1980) 293); those that have become
-/// dependent are dropped (Ji and Li, BIT 57 (2017) 379). Ends with the step that brings
-/// r^T P r of each column, near the square of the error in the energy norm, to 1e-20 of what it was
-/// at first and of the energy that is known, if it falls as it did in the step before.
+/// dependent are dropped (Ji and Li, BIT 57 (2017) 379). Ends a step after r^T P r of each column,
+/// near the square of the error in the energy norm, is 1e-20 of what it was at first and of the
+/// energy that is known.
 /// @param matrix A, symmetric, positive definite on the range of P
 /// @param preconditioner P, symmetric, near the inverse of A
 /// @param known_energies of each column: of what has been taken out of the solution before, of

@@ -52,7 +52,7 @@ Motions motions_of(const ModalBody& body) {
 /// Combinations of modes of the least energy that part the slits one way each and move no
 /// interface, (m, ways).
 MatrixXd parting(const Motions& motions, const VectorXd& stiffness) {
-  constexpr double kDependent = 1e-10;
+  constexpr double kLeastReciprocalCondition = 1e-10;
   MatrixXd held(motions.slits.rows() + motions.interfaces.rows(), stiffness.size());
   held << motions.slits, motions.interfaces;
   // In coordinates sqrt(stiffness) a the energy is the length.
@@ -61,7 +61,8 @@ MatrixXd parting(const Motions& motions, const VectorXd& stiffness) {
   const VectorXd sizes = held.rowwise().norm();
   held = sizes.cwiseInverse().asDiagonal() * held;
   const Eigen::FullPivLU<MatrixXd> pivots(held * held.transpose());
-  if (held.rows() > held.cols() || !(sizes.array() > 0).all() || pivots.rcond() < kDependent)
+  if (held.rows() > held.cols() || !(sizes.array() > 0).all() ||
+      pivots.rcond() < kLeastReciprocalCondition)
     throw InputError(
         "its modes do not move its interfaces and part its slits independently of one another; a "
         "body whose slits open and close needs the static shapes of all its interfaces");

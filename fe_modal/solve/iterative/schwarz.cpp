@@ -24,7 +24,7 @@ SchwarzPreconditioner::SchwarzPreconditioner(const CutBody& body, const PartMatr
       const std::vector<std::int32_t>& subdomain = body.subdomains.blocks[s];
       if (body.rank_of_subdomain[s] != ranks_.own() || subdomain.empty()) continue;
       const std::vector<std::int32_t> nodes =
-          extended(around.graph, places_in(around.blocks, subdomain));
+          extended(body.subdomains, s, around.graph, around.blocks);
       const NodeGraph graph = restrict_to(around.graph, nodes);
       SubdomainFactor factor(principal_part(around.matrix, graph, nodes),
                              mesher::nested_dissection(graph.offsets(), graph.columns()),

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "fe_modal/solve/iterative/submatrix.h"
 #include "fe_modal/system/rank_part.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/partition/element_partition.h"
@@ -17,6 +18,9 @@ namespace {
 /// ones hardly save memory, for they overlap more, and take more iterations: every cut through a
 /// thin layer of rubber or a plate costs some.
 constexpr std::size_t kNodesOfSubdomain = 10000;
+
+/// Times the modulus of another material. Of those in between, both sides overlap.
+constexpr double kMuchStiffer = 10;
 
 void sort_out_copies(std::vector<std::int32_t>& list) {
   std::sort(list.begin(), list.end());
@@ -79,6 +83,38 @@ std::vector<std::size_t> counts_of(const std::vector<PartSize>& sizes, std::size
   return counts;
 }
 
+void set_blocks(const mesher::Mesh& mesh, const DofMap& dof_map, std::size_t count,
+                Subdomains& subdomains) {
+  subdomains.blocks.resize(count);
+  for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
+    auto& own = subdomains.blocks[static_cast<std::size_t>(subdomains.of_element[element])];
+    for (const std::int32_t node : nodes) {
+      dof_map.for_each_number(node, [&](std::int32_t block) { own.push_back(block); });
+    }
+  });
+  for (std::vector<std::int32_t>& blocks : subdomains.blocks) sort_out_copies(blocks);
+}
+
+/// @param of_element Young's moduli; 0 of springs and masses, which have none
+void set_moduli(const mesher::Mesh& mesh, const DofMap& dof_map,
+                const std::vector<double>& of_element, Subdomains& subdomains) {
+  subdomains.moduli_Pa.resize(subdomains.blocks.size(), 0);
+  subdomains.softest_Pa.resize(static_cast<std::size_t>(dof_map.free_count()), 0);
+  for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
+    const double modulus = of_element[element];
+    if (modulus == 0) return;
+    double& highest =
+        subdomains.moduli_Pa[static_cast<std::size_t>(subdomains.of_element[element])];
+    highest = std::max(highest, modulus);
+    for (const std::int32_t node : nodes) {
+      dof_map.for_each_number(node, [&](std::int32_t block) {
+        double& lowest = subdomains.softest_Pa[static_cast<std::size_t>(block)];
+        lowest = lowest == 0 ? modulus : std::min(lowest, modulus);
+      });
+    }
+  });
+}
+
 }  // namespace
 
 Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int least_count) {
@@ -101,6 +137,7 @@ Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int 
   }
 
   Subdomains result;
+  std::vector<double> moduli_Pa;  // of each element
   std::vector<std::size_t> next(parts.size(), 0);
   for (const mesher::ElementBlock& block : mesh.blocks) {
     const auto p =
@@ -108,16 +145,12 @@ Subdomains find_subdomains(const mesher::Mesh& mesh, const DofMap& dof_map, int 
     for (std::size_t e = 0; e < block.size(); ++e) {
       result.of_element.push_back(of_element_of_part[p][next[p]++]);
     }
+    moduli_Pa.resize(result.of_element.size(), mesh.materials[block.material].youngs_modulus_Pa);
   }
   result.of_element.resize(element_count(mesh), 0);  // springs and masses
-  result.blocks.resize(static_cast<std::size_t>(first));
-  for_each_element(mesh, [&](std::size_t element, std::span<const std::int32_t> nodes) {
-    auto& own = result.blocks[static_cast<std::size_t>(result.of_element[element])];
-    for (const std::int32_t node : nodes) {
-      dof_map.for_each_number(node, [&](std::int32_t block) { own.push_back(block); });
-    }
-  });
-  for (std::vector<std::int32_t>& blocks : result.blocks) sort_out_copies(blocks);
+  moduli_Pa.resize(element_count(mesh), 0);
+  set_blocks(mesh, dof_map, static_cast<std::size_t>(first), result);
+  set_moduli(mesh, dof_map, moduli_Pa, result);
   return result;
 }
 
@@ -176,19 +209,30 @@ std::vector<std::int32_t> ranks_of_elements(const mesher::Mesh& mesh, const Subd
   return result;
 }
 
-std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes) {
-  std::vector<bool> is_near(static_cast<std::size_t>(graph.node_count()), false);
-  const auto is_in = [&](std::int32_t node) { return is_near[static_cast<std::size_t>(node)]; };
-  for (const std::int32_t node : nodes) {
-    for (const std::int32_t other : graph.neighbours(node)) {
+std::vector<std::int32_t> extended(const Subdomains& subdomains, std::size_t number,
+                                   const NodeGraph& graph,
+                                   const std::vector<std::int32_t>& blocks) {
+  const std::vector<std::int32_t> own = places_in(blocks, subdomains.blocks[number]);
+  std::vector<bool> is_near(blocks.size(), false);
+  const auto is_in = [&](std::int32_t row) { return is_near[static_cast<std::size_t>(row)]; };
+  for (const std::int32_t row : own) {
+    for (const std::int32_t other : graph.neighbours(row)) {
       is_near[static_cast<std::size_t>(other)] = true;
     }
   }
+  const double own_Pa = subdomains.moduli_Pa[number];
+  const auto joins = [&](std::int32_t row) {
+    const std::int32_t block = blocks[static_cast<std::size_t>(row)];
+    const double softest_Pa = subdomains.softest_Pa[static_cast<std::size_t>(block)];
+    if (kMuchStiffer * softest_Pa < own_Pa) return true;
+    const auto neighbours = graph.neighbours(row);
+    return softest_Pa <= kMuchStiffer * own_Pa &&
+           std::all_of(neighbours.begin(), neighbours.end(), is_in);
+  };
   std::vector<std::int32_t> result;
-  for (std::int32_t node = 0; node < graph.node_count(); ++node) {
-    const auto neighbours = graph.neighbours(node);
-    if (is_in(node) && std::all_of(neighbours.begin(), neighbours.end(), is_in)) {
-      result.push_back(node);
+  for (std::int32_t row = 0; row < graph.node_count(); ++row) {
+    if (is_in(row) && (joins(row) || std::binary_search(own.begin(), own.end(), row))) {
+      result.push_back(row);
     }
   }
   return result;

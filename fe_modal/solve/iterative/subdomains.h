@@ -19,6 +19,8 @@ using NodeLists = std::vector<std::vector<std::int32_t>>;
 struct Subdomains {
   std::vector<std::int32_t> of_element;  ///< as for_each_element() counts them
   NodeLists blocks;                      ///< of each; together they are all
+  std::vector<double> moduli_Pa;         ///< Young's, the highest of each
+  std::vector<double> softest_Pa;        ///< the lowest around each block, 0 without any
 
   std::int32_t count() const { return static_cast<std::int32_t>(blocks.size()); }
 };
@@ -38,8 +40,13 @@ std::vector<std::int32_t> ranks_of_subdomains(const mesher::Mesh& mesh,
 std::vector<std::int32_t> ranks_of_elements(const mesher::Mesh& mesh, const Subdomains& subdomains,
                                             int rank_count);
 
-/// An overlap extended by one layer of elements: of the nodes and their neighbours, those all of
-/// whose neighbours are among these.
-std::vector<std::int32_t> extended(const NodeGraph& graph, const std::vector<std::int32_t>& nodes);
+/// A subdomain that overlaps the others by a layer of elements: its blocks and of their neighbours
+/// those all of whose neighbours are among these. Of much softer material it takes all neighbours,
+/// into much stiffer one, which to a soft one is a support wherever it is held, it does not go.
+/// @param graph of some blocks, which are all of these and their neighbours
+/// @param blocks their numbers in the body, ascending
+/// @return rows of the graph
+std::vector<std::int32_t> extended(const Subdomains& subdomains, std::size_t number,
+                                   const NodeGraph& graph, const std::vector<std::int32_t>& blocks);
 
 }  // namespace flexneck::fe_modal

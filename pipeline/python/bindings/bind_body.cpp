@@ -17,7 +17,7 @@ namespace {
 
 using fe_modal::ModalBody;
 
-std::shared_ptr<ModalBody> read(const std::string& path) {
+std::shared_ptr<ModalBody> read_body(const std::string& path) {
   std::shared_ptr<ModalBody> body;
   compute(Place::own_thread, [&](const Checkpoint&) {
     body = std::make_shared<ModalBody>(pipeline::read_modal_body(path).body);
@@ -181,7 +181,7 @@ void bind_body(py::module_& module) {
       .def_property_readonly("shapes", shapes)
       .def_property_readonly("interfaces", interfaces)
       .def_property_readonly("invariants", invariants);
-  module.def("read_body", read, py::arg("path"));
+  module.def("read_body", read_body, py::arg("path"));
   module.def("build_body", build, py::arg("path"), py::arg("names"), py::arg("kinds"),
              py::arg("arrays"), py::arg("interfaces"), py::arg("invariants"));
 }

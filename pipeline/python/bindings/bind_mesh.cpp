@@ -16,7 +16,7 @@ namespace {
 
 using mesher::Mesh;
 
-std::shared_ptr<Mesh> read(const std::string& path) {
+std::shared_ptr<Mesh> read_mesh(const std::string& path) {
   std::shared_ptr<Mesh> mesh;
   compute(Place::own_thread, [&](const Checkpoint&) {
     mesh = std::make_shared<Mesh>(pipeline::read_mesh(path).mesh);
@@ -76,7 +76,7 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("node_sets", node_sets)
       .def_property_readonly("materials", materials)
       .def_property_readonly("parts", parts);
-  module.def("read_mesh", read, py::arg("path"));
+  module.def("read_mesh", read_mesh, py::arg("path"));
 }
 
 }  // namespace flexneck::python

@@ -17,7 +17,7 @@ namespace {
 
 using multibody::HistoryFile;
 
-std::shared_ptr<HistoryFile> read(const std::string& path) {
+std::shared_ptr<HistoryFile> read_run(const std::string& path) {
   std::shared_ptr<HistoryFile> run;
   compute(Place::own_thread, [&](const Checkpoint&) {
     run = std::make_shared<HistoryFile>(pipeline::read_history(path));
@@ -151,7 +151,7 @@ void bind_run(py::module_& module) {
                              [](const HistoryFile& run) { return run.history.warnings; })
       .def("write", write, py::arg("path"))
       .def("write_table", write_table, py::arg("path"));
-  module.def("read_run", read, py::arg("path"));
+  module.def("read_run", read_run, py::arg("path"));
 }
 
 }  // namespace flexneck::python
