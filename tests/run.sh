@@ -34,4 +34,4 @@ ctest --preset ci --parallel "$cores"
 
 echo '== fuzz'
 cmake --build --preset fuzz
-python3 tests/reliability/fuzz/fuzz.py --seconds 60
+python3 tests/reliability/fuzz/fuzz.py --seconds 30
