@@ -16,9 +16,9 @@
 namespace flexneck::fe_modal {
 
 /// Additive Schwarz preconditioner with two levels (Toselli and Widlund, Domain Decomposition
-/// Methods, 2005, ch. 3): exact solves on subdomains that overlap by a layer of elements, and one
-/// in a coarse space. It works in single precision: half the memory, which is what bounds the size
-/// of the body, and half the time.
+/// Methods, 2005, ch. 3): exact solves on subdomains that overlap, extended(), and one in a coarse
+/// space. It works in single precision: half the memory, which is what bounds the size of the body,
+/// and half the time.
 class SchwarzPreconditioner {
  public:
   /// @param body all of it, and how it is cut; the same on all ranks

@@ -91,7 +91,7 @@ Eigen::MatrixXd SchwarzInverse::solve(const Eigen::MatrixXd& right_hand_sides) c
 
 std::optional<EigenPairs> SchwarzInverse::iterate(Mat mass, Eigen::Index count) const {
   constexpr int kMaxIterations = 500;
-  // Static compliances, which are asked for to 1e-8, take shapes as exact.
+  // Of squares: shapes are as exact as its root.
   constexpr double kTolerance = 1e-15;
   std::optional<EigenPairs> pairs = davidson_pairs(mass, count, {kTolerance, kMaxIterations});
   if (pairs) return pairs;
