@@ -8,8 +8,9 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// What modes have of the shapes. Exact ones would have no stiffness with the shapes beyond them;
-/// with what these have the compliance of both is wrong by squares of the modes' errors alone.
+/// What modes have of the static shapes. The stiffness couples modes that are not exact with the
+/// shapes beyond them; with this coupling in the compliance, its error is of second order in those
+/// of the modes.
 ModalResponse modal_part(const BodyOperators& body, const EigenPairs& kept,
                          const StaticShapes& shapes) {
   const Eigen::Index count = shapes.loads.cols();

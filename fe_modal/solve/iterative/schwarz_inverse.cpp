@@ -91,7 +91,7 @@ Eigen::MatrixXd SchwarzInverse::solve(const Eigen::MatrixXd& right_hand_sides) c
 
 std::optional<EigenPairs> SchwarzInverse::iterate(Mat mass, Eigen::Index count) const {
   constexpr int kMaxIterations = 500;
-  // Of squares: shapes are as exact as its root.
+  // Of eigenvalues; shapes are exact to its square root, 3e-8.
   constexpr double kTolerance = 1e-15;
   std::optional<EigenPairs> pairs = davidson_pairs(mass, count, {kTolerance, kMaxIterations});
   if (pairs) return pairs;

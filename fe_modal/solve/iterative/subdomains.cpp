@@ -19,7 +19,9 @@ namespace {
 /// thin layer of rubber or a plate costs some.
 constexpr std::size_t kNodesOfSubdomain = 10000;
 
-/// Times the modulus of another material. Of those in between, both sides overlap.
+/// Ratio of Young's moduli from which a material is much stiffer than another (synthetic: between
+/// that of two rubbers, a few, and that of metal and rubber, thousands). Below it, the subdomains
+/// of both materials overlap each other.
 constexpr double kMuchStiffer = 10;
 
 void sort_out_copies(std::vector<std::int32_t>& list) {

@@ -19,8 +19,8 @@ using NodeLists = std::vector<std::vector<std::int32_t>>;
 struct Subdomains {
   std::vector<std::int32_t> of_element;  ///< as for_each_element() counts them
   NodeLists blocks;                      ///< of each; together they are all
-  std::vector<double> moduli_Pa;         ///< Young's, the highest of each
-  std::vector<double> softest_Pa;        ///< the lowest around each block, 0 without any
+  std::vector<double> moduli_Pa;         ///< Young's, of the stiffest material of each
+  std::vector<double> softest_Pa;        ///< Young's, of the softest element at each block, 0: none
 
   std::int32_t count() const { return static_cast<std::int32_t>(blocks.size()); }
 };
