@@ -91,7 +91,7 @@ void VtuWriter::write(const std::filesystem::path& path, std::span<const double>
   document.write(path);
 }
 
-std::span<const double> positions_of(const Mesh& mesh) {
+std::span<const double> node_coordinates(const Mesh& mesh) {
   return {mesh.nodes.front().data(), 3 * mesh.nodes.size()};
 }
 

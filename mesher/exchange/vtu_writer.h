@@ -38,7 +38,7 @@ class VtuWriter {
 };
 
 /// The nodes' places, (n, 3), as the writer takes them.
-std::span<const double> positions_of(const Mesh& mesh);
+std::span<const double> node_coordinates(const Mesh& mesh);
 
 /// A collection of such files over time (.pvd), which ParaView plays.
 struct TimedFile {

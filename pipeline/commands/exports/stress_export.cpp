@@ -32,7 +32,7 @@ void export_stress_vtu(const FileInput& input) {
     fields.push_back({"stress of " + each.material + " [Pa]", each.tensor_Pa, 9});
     fields.push_back({"von Mises stress of " + each.material + " [Pa]", each.von_mises_Pa, 1});
   }
-  mesher::VtuWriter(mesh).write(input.target, mesher::positions_of(mesh), fields);
+  mesher::VtuWriter(mesh).write(input.target, mesher::node_coordinates(mesh), fields);
 }
 
 }  // namespace flexneck::pipeline

@@ -11,7 +11,7 @@ void export_modes_vtu(const CommandInput& input, mesher::Mesh& mesh) {
   for (std::size_t k = 0; k < body.modes.size(); ++k)
     shapes.push_back({body.modes[k].name,
                       {body.shapes[k].data(), static_cast<std::size_t>(body.shapes[k].size())}});
-  mesher::VtuWriter(mesh).write(input.target, mesher::positions_of(mesh), shapes);
+  mesher::VtuWriter(mesh).write(input.target, mesher::node_coordinates(mesh), shapes);
 }
 
 }  // namespace flexneck::pipeline

@@ -28,8 +28,8 @@ TEST_CASE("VTK and meshio read every kind of element as it is") {
   for (const ElementKind kind : element_kinds()) {
     if (dimension(kind) != 3) continue;
     const Mesh mesh = box_of(kind);
-    VtuWriter(mesh).write(folder / (std::string(name_of(kind)) + ".vtu"), positions_of(mesh),
-                          {{"place", positions_of(mesh)}});
+    VtuWriter(mesh).write(folder / (std::string(name_of(kind)) + ".vtu"), node_coordinates(mesh),
+                          {{"place", node_coordinates(mesh)}});
     ++kinds;
   }
   CHECK(kinds == 11);
@@ -48,7 +48,8 @@ TEST_CASE("names in a .vtu and a .pvd may hold what XML would take for its own")
   const TemporaryFolder folder;
   const Mesh mesh = box_of(ElementKind::hex8);
   const std::string name = "a < b & \"c\"";
-  VtuWriter(mesh).write(folder / "box.vtu", positions_of(mesh), {{name, positions_of(mesh)}});
+  VtuWriter(mesh).write(folder / "box.vtu", node_coordinates(mesh),
+                        {{name, node_coordinates(mesh)}});
   write_pvd(folder / "box.pvd", {{0, "box.vtu"}, {0.0025, "b&x.vtu"}});
   const std::string escaped = "Name=\"a &lt; b &amp; &quot;c&quot;\"";
   CHECK_THAT(testing::bytes_of(folder / "box.vtu"), Contains(escaped));
