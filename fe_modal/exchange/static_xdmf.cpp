@@ -9,7 +9,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr FileFormat kViewFormat{"flexneck stress view", 1, "flexneck stress"};
+constexpr FileFormat kStressViewFormat{"flexneck stress view", 1, "flexneck stress"};
 
 /// Datasets of the stresses of a material.
 struct StressItems {
@@ -19,7 +19,7 @@ struct StressItems {
 /// By the mesh's materials.
 std::vector<StressItems> write_stresses(const std::filesystem::path& path, const mesher::Mesh& mesh,
                                         const StaticSolution& solution) {
-  Hdf5Writer file(path, kViewFormat);
+  Hdf5Writer file(path, kStressViewFormat);
   std::vector<StressItems> items(mesh.materials.size());
   for (const SpreadStresses& each : spread_stresses(solution)) {
     const StressItems written{{path, "/stress/" + each.material, {mesh.nodes.size(), 9}, true},

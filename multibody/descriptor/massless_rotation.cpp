@@ -21,13 +21,13 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kNone = 1e-13;
+constexpr double kNoInertia = 1e-13;
 /// A joint that a unit rotation moves by less, of l, does not hold it.
 constexpr double kHeld = 1e-6;
 
 /// Whether all moments are there whatever l is: no body reaches further than twice the size.
 bool is_massive(const RigidBody& body, const Vector3d& moments, double size_m) {
-  return moments[0] > kNone * body.mass_kg * 4 * size_m * size_m;
+  return moments[0] > kNoInertia * body.mass_kg * 4 * size_m * size_m;
 }
 
 /// l in the header.
@@ -58,7 +58,7 @@ std::vector<MasslessRotation> massless_rotations(const System& system) {
     if (is_massive(*rigid, moments.eigenvalues(), system.size_m)) continue;
     const double length = length_m(system.model, index, system.size_m);
     for (Index k = 0; k < 3; ++k)
-      if (moments.eigenvalues()[k] <= kNone * rigid->mass_kg * length * length)
+      if (moments.eigenvalues()[k] <= kNoInertia * rigid->mass_kg * length * length)
         found.push_back({b, moments.eigenvectors().col(k), length});
   }
   return found;
@@ -116,7 +116,7 @@ Matrix3d raised_inertia(const Model& model, std::size_t body, double size_m) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> moments(rigid.inertia_kg_m2);
   if (is_massive(rigid, moments.eigenvalues(), size_m)) return rigid.inertia_kg_m2;
   const double length = length_m(model, body, size_m);
-  const double least = kNone * rigid.mass_kg * length * length;
+  const double least = kNoInertia * rigid.mass_kg * length * length;
   const Vector3d missing = (least - moments.eigenvalues().array()).max(0);
   return rigid.inertia_kg_m2 +
          moments.eigenvectors() * missing.asDiagonal() * moments.eigenvectors().transpose();

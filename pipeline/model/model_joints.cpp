@@ -42,7 +42,7 @@ namespace {
 
 constexpr FormerText kFormerKinds[] = {{"slider", "prismatic"}};
 
-constexpr auto kKeys = std::to_array<Key>({
+constexpr auto kJointKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the joint"),
     Key::text("kind", kRequired, "Which motion it leaves",
               {.choices = [] { return names_of_kinds(multibody::kJointKinds); },
@@ -94,7 +94,7 @@ void read_joint(const StudyTable& table, Assembly& assembly) {
 }  // namespace
 
 ModelSection joint_section() {
-  return {Key::tables("joint", "Joints between markers", kKeys), read_joint};
+  return {Key::tables("joint", "Joints between markers", kJointKeys), read_joint};
 }
 
 }  // namespace flexneck::pipeline

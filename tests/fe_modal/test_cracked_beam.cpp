@@ -17,7 +17,7 @@ namespace {
 
 // A cantilever along z, clamped at z = 0, with a crack across its front, x > 0.
 constexpr double kLength = 0.4;
-constexpr double kDepth = 0.02;
+constexpr double kBeamDepth = 0.02;
 constexpr double kWidth = 0.01;
 constexpr double kCrackAt = 0.08;
 // Without Poisson's ratio plane stress and plane strain are the same.
@@ -30,14 +30,14 @@ Eigen::Vector3d place(const Eigen::Vector3d& p) {
   const auto graded = [](double t) { return std::expm1(kGrowth * t) / std::expm1(kGrowth); };
   const double z = p[2] < 0.5 ? kCrackAt * (1 - graded(1 - 2 * p[2]))
                               : kCrackAt + (kLength - kCrackAt) * graded(2 * p[2] - 1);
-  return {(p[0] - 0.5) * kDepth, p[1] * kWidth, z};
+  return {(p[0] - 0.5) * kBeamDepth, p[1] * kWidth, z};
 }
 
 /// From the front to `depth`.
 mesher::FaceSet crack(const mesher::Mesh& mesh, double depth) {
   constexpr double kNear = 1e-9;
   return testing::crack_faces(mesh, "crack", [&](const Eigen::Vector3d& x) {
-    return std::abs(x.z() - kCrackAt) < kNear && x.x() > kDepth / 2 - depth - kNear;
+    return std::abs(x.z() - kCrackAt) < kNear && x.x() > kBeamDepth / 2 - depth - kNear;
   });
 }
 
@@ -62,14 +62,14 @@ double crack_compliance(double depth) {
     return 1.122 + s * (-1.40 + s * (7.33 + s * (-13.08 + s * 14.0)));
   };
   constexpr int kPoints = 1000;
-  const double ratio = depth / kDepth;
+  const double ratio = depth / kBeamDepth;
   double integral = 0;
   for (int k = 0; k < kPoints; ++k) {
     const double s = ratio * (k + 0.5) / kPoints;
     integral += s * F(s) * F(s) * ratio / kPoints;
   }
   return 72 * std::numbers::pi * integral /
-         (kMaterial.youngs_modulus_Pa * kWidth * kDepth * kDepth);
+         (kMaterial.youngs_modulus_Pa * kWidth * kBeamDepth * kBeamDepth);
 }
 
 /// Euler's beam of a length as it carries deflection, slope, moment and shear along.
@@ -91,8 +91,8 @@ Eigen::Matrix4d transfer(double length, double omega, double stiffness, double m
 
 /// First frequency of the clamped beam with a hinge spring in place of the crack.
 double beam_frequency(double compliance) {
-  const double stiffness = kMaterial.youngs_modulus_Pa * kWidth * std::pow(kDepth, 3) / 12;
-  const double mass_per_length = kMaterial.density_kg_m3 * kWidth * kDepth;
+  const double stiffness = kMaterial.youngs_modulus_Pa * kWidth * std::pow(kBeamDepth, 3) / 12;
+  const double mass_per_length = kMaterial.density_kg_m3 * kWidth * kBeamDepth;
   const auto at_free_end = [&](double hertz) {
     const double omega = 2 * std::numbers::pi * hertz;
     Eigen::Matrix4d hinge = Eigen::Matrix4d::Identity();
@@ -123,11 +123,12 @@ TEST_CASE(
   const double uncracked = first_frequency(whole);
   for (const double share : {0.2, 0.5}) {
     mesher::Mesh open = whole;
-    open.face_sets.push_back(crack(whole, share * kDepth));
+    open.face_sets.push_back(crack(whole, share * kBeamDepth));
     mesher::Mesh closed = open;
     mesher::open_slits(open, {"crack"}, false);
     mesher::open_slits(closed, {"crack"}, true);
-    const double expected = beam_frequency(crack_compliance(share * kDepth)) / beam_frequency(0);
+    const double expected =
+        beam_frequency(crack_compliance(share * kBeamDepth)) / beam_frequency(0);
     const double found = first_frequency(open) / uncracked;
     INFO(share << ": " << found << " of the uncracked beam's frequency, expected " << expected);
     // Elements without a singular tip release 2 % less energy; a beam's own error is of its

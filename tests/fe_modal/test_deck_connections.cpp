@@ -15,13 +15,12 @@
 #include "mesher/mesh/mesh_file.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/calculix.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
 #include "tests/support/files.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
 mesher::Mesh bar(mesher::ElementKind kind) {
   return testing::with_kind(testing::box({2, 2, 4}, {0.2, 0.3, 0.8}, kSteel).make(), kind);

@@ -6,11 +6,10 @@
 #include "fe_modal/system/elimination_order.h"
 #include "mesher/partition/node_order.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
 /// Displacements of all nodes under a force in one direction on the node at a corner.
 Eigen::Matrix3Xd bent(const DofMap& dof_map, const CholeskyFactor& factor) {

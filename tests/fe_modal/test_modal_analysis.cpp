@@ -11,11 +11,10 @@
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/assembly.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
 ModalOptions fixed_at_bottom(int mode_count, double height_m) {
   ModalOptions options;

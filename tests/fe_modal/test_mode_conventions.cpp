@@ -5,11 +5,11 @@
 
 #include "fe_modal/analysis/modal_analysis.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 constexpr double kLength = 0.8;
 
 /// A bar fixed at the bottom, its motion seen at the top.

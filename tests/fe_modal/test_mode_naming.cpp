@@ -4,11 +4,10 @@
 
 #include "fe_modal/reduction/mode_naming.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
 Eigen::Matrix3Xd rigid_field(const mesher::Mesh& mesh, const Eigen::Vector3d& centre,
                              const Eigen::Vector3d& translation, const Eigen::Vector3d& rotation) {

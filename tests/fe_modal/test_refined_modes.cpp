@@ -54,7 +54,7 @@ struct Pair {
   AssembledSystem assembled;  ///< of the refined mesh
 };
 
-double difference(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
+double relative_difference(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
   return (one - other).norm() / other.norm();
 }
 
@@ -97,8 +97,10 @@ TEST_CASE("products element by element are those of the assembled matrices, cons
     Eigen::MatrixXd columns = random_block(pair.coarse.mass(), 5, 1);
     columns = pair.refined.prolonged(columns);
     const ElementOperator::Products products = pair.refined.products(columns);
-    CHECK(difference(products.forces, block_product(pair.assembled.stiffness(), columns)) < 1e-12);
-    CHECK(difference(products.momenta, block_product(pair.assembled.mass(), columns)) < 1e-12);
+    CHECK(relative_difference(products.forces, block_product(pair.assembled.stiffness(), columns)) <
+          1e-12);
+    CHECK(relative_difference(products.momenta, block_product(pair.assembled.mass(), columns)) <
+          1e-12);
   }
 }
 
@@ -116,7 +118,7 @@ TEST_CASE("forces go to the mesh before by the transpose of what carries fields 
   transfer.to_fine(fields, carried);
   const Eigen::MatrixXd one = forces.transpose() * carried;
   const Eigen::MatrixXd other = transfer.to_coarse(forces).transpose() * fields;
-  CHECK(difference(one, other) < 1e-13);
+  CHECK(relative_difference(one, other) < 1e-13);
 }
 
 TEST_CASE("the finer modes are within a third of their change of those by a factor") {

@@ -6,12 +6,12 @@
 
 #include "fe_modal/system/rigid_average.h"
 #include "tests/support/block_mesh.h"
+#include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 constexpr double kRounding = 1e-12;
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
 Eigen::Matrix3Xd sample(const mesher::Mesh& mesh,
                         const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& field) {

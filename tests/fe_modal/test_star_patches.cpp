@@ -11,14 +11,13 @@
 #include "mesher/mesh/refinement.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"
+#include "tests/support/element_choices.h"
 #include "tests/support/element_meshes.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 using mesher::ElementKind;
-
-const mesher::Material kRubber{"rubber", 8.3e6, 0.49, 950};
 
 /// The exact solutions of the stars with the assembled matrix, added up.
 Eigen::MatrixXd sum_of_solutions(const Eigen::MatrixXd& stiffness, const PatchLists& stars,

@@ -24,11 +24,10 @@
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"
+#include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
 namespace {
-
-const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
 
 SystemMatrices clamped(std::array<int, 3> divisions) {
   const mesher::Mesh mesh = testing::box(divisions, {0.1, 0.1, 0.1}, kSteel).make();

@@ -13,7 +13,7 @@
 namespace flexneck::mesher {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kFieldRounding = 1e-12;
 
 Mesh box(std::array<int, 3> divisions, bool distorted = false) {
   testing::BlockMesh block = testing::box(divisions, {1, 1, 1}, {"steel", 2.1e11, 0.3, 7850});
@@ -118,7 +118,8 @@ TEST_CASE("the prolongation carries a quadratic field over exactly") {
     }
     const Eigen::VectorXd found = fine.prolongation * coarse;
     for (Eigen::Index k = 0; k < found.size(); ++k) {
-      CHECK(std::abs(found[k] - field(fine.mesh.nodes[static_cast<std::size_t>(k)])) < kRounding);
+      CHECK(std::abs(found[k] - field(fine.mesh.nodes[static_cast<std::size_t>(k)])) <
+            kFieldRounding);
     }
   }
 }

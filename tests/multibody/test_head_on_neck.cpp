@@ -16,8 +16,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-SolverOptions tight() { return flexneck::testing::solver_of(1e-11, 1e-13); }
-
 /// Modal coordinates at each whole interval by the classical Runge-Kutta rule from rest.
 std::vector<VectorXd> integrate(const MinimalModel& model, double interval_s, int intervals,
                                 int steps) {
@@ -60,7 +58,8 @@ TEST_CASE("Prescribed base, neck and head move as the modal coordinates alone do
   const PrescribedBody base{pose.rotation * direction_N, 7, strong_pulse()};
   ModelBuilder build = head_on_neck(base, pose, beam, 0.9, head);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
-  const History history = simulate(build.model, tight(), {.end_time_s = 0.1, .interval_s = 0.01});
+  const History history =
+      simulate(build.model, tight_solver(), {.end_time_s = 0.1, .interval_s = 0.01});
 
   const MinimalModel minimal{make_beam_body(beam),
                              0.9,
@@ -95,7 +94,8 @@ TEST_CASE("A pulse at 45 degrees on equal bending modes and a centred head makes
   ModelBuilder build =
       head_on_neck({pose.rotation * diagonal_N, 7, strong_pulse()}, pose, beam, 0.9, head);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
-  const History history = simulate(build.model, tight(), {.end_time_s = 0.25, .interval_s = 0.005});
+  const History history =
+      simulate(build.model, tight_solver(), {.end_time_s = 0.25, .interval_s = 0.005});
   double largest_turn = 0;
   for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
     const Eigen::AngleAxisd turned(pose.rotation.conjugate() *

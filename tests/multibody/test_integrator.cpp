@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr StepLimits kLimits{1.0, 1e-10};
+constexpr StepLimits kStepLimits{1.0, 1e-10};
 
 /// s = exp(sin t) satisfies s'' = s'^2 / s - s sin t: nonlinear, and in time too, so that no order
 /// condition is met by luck.
@@ -40,14 +40,14 @@ InitialValueProblem problem(double tolerance) {
 VectorXd start() { return Eigen::Vector2d(exact(0), exact_rate(0)); }
 
 double error_at_end(int steps) {
-  DormandPrince integrator(problem(1), kLimits, 0, start());
+  DormandPrince integrator(problem(1), kStepLimits, 0, start());
   for (int k = 0; k < steps; ++k) integrator.fixed_step(1.0 / steps);
   return std::abs(integrator.state()[0] - exact(1));
 }
 
 /// Largest error inside the first step.
 double dense_error(double length) {
-  DormandPrince integrator(problem(1), kLimits, 0, start());
+  DormandPrince integrator(problem(1), kStepLimits, 0, start());
   integrator.fixed_step(length);
   VectorXd y(2);
   double worst = 0;
@@ -61,7 +61,7 @@ double dense_error(double length) {
 }  // namespace
 
 TEST_CASE("before the first step the dense output is the state at the start") {
-  const DormandPrince integrator(problem(1), kLimits, 0.5, start());
+  const DormandPrince integrator(problem(1), kStepLimits, 0.5, start());
   VectorXd y(2);
   integrator.interpolate(0.5, y);
   CHECK(y == start());
@@ -81,7 +81,7 @@ TEST_CASE("dense output is of order four") {
 }
 
 TEST_CASE("dense output meets the ends of its step") {
-  DormandPrince integrator(problem(1), kLimits, 0, start());
+  DormandPrince integrator(problem(1), kStepLimits, 0, start());
   integrator.fixed_step(0.1);
   const VectorXd before = integrator.state();
   integrator.fixed_step(0.2);
@@ -95,7 +95,7 @@ TEST_CASE("dense output meets the ends of its step") {
 TEST_CASE("the error follows the tolerance and the steps the error") {
   double previous_error = 1;
   for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) {
-    DormandPrince integrator(problem(tolerance), kLimits, 0, start());
+    DormandPrince integrator(problem(tolerance), kStepLimits, 0, start());
     while (integrator.time_s() < 1.2) integrator.step(1.2);
     const double error = std::abs(integrator.state()[0] - exact(1.2));
     CHECK(integrator.time_s() == 1.2);
@@ -108,7 +108,7 @@ TEST_CASE("the error follows the tolerance and the steps the error") {
 }
 
 TEST_CASE("a step cut short by a limit does not shrink the next one") {
-  DormandPrince integrator(problem(1e-6), kLimits, 0, start());
+  DormandPrince integrator(problem(1e-6), kStepLimits, 0, start());
   for (int k = 0; k < 10; ++k) integrator.step(1.0);
   const double at = integrator.time_s();
   integrator.step(at + 1e-7);
@@ -124,7 +124,7 @@ TEST_CASE("a solution that runs away stops with its time and what limits the ste
   blow_up.measure = [](const VectorXd& y, const VectorXd&, const VectorXd& error) {
     return ErrorEstimate{error.norm() / (1e-6 * y.norm()), 0};
   };
-  DormandPrince integrator(blow_up, kLimits, 0, VectorXd::Ones(1));
+  DormandPrince integrator(blow_up, kStepLimits, 0, VectorXd::Ones(1));
   const auto run = [&] {
     while (integrator.time_s() < 2) integrator.step(2);
   };
@@ -140,13 +140,13 @@ TEST_CASE("a rate that is not a number stops the run instead of hanging it") {
   };
   broken.derivative = root;
   broken.finish_step = root;
-  DormandPrince integrator(broken, kLimits, 0, VectorXd::Ones(2));
+  DormandPrince integrator(broken, kStepLimits, 0, VectorXd::Ones(2));
   const auto run = [&] {
     while (integrator.time_s() < 2) integrator.step(2);
   };
   CHECK_THROWS_AS(run(), flexneck::ComputationError);
   CHECK(integrator.time_s() == Approx(1).margin(1e-3));
 
-  DormandPrince from_nothing(problem(1e-6), kLimits, 0, VectorXd::Constant(2, std::nan("")));
+  DormandPrince from_nothing(problem(1e-6), kStepLimits, 0, VectorXd::Constant(2, std::nan("")));
   CHECK_THROWS_WITH(from_nothing.step(1), Contains("not a number"));
 }

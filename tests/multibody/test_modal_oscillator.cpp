@@ -21,8 +21,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kForce_N = 400;
-SolverOptions tight() { return flexneck::testing::solver_of(1e-11, 1e-13); }
-
 Beam twisting_beam() {
   Beam beam;
   beam.twist_modes = 1;
@@ -59,7 +57,8 @@ TEST_CASE("A sudden force sets each mode swinging as its closed form says") {
   ModelBuilder build = held_beam(body, zeta);
   const Vector3d direction = Vector3d(1, -0.7, 0.2).normalized();
   build.force("push", build.model.marker_index("top"), direction, constant_table(kForce_N));
-  const History history = simulate(build.model, tight(), {.end_time_s = 0.1, .interval_s = 5e-4});
+  const History history =
+      simulate(build.model, tight_solver(), {.end_time_s = 0.1, .interval_s = 5e-4});
   const Eigen::MatrixXd& a = history.modal[0].coordinates;
   const Eigen::VectorXd load = kForce_N * body.interface("top").translation.transpose() * direction;
   REQUIRE(a.cols() == 201);
@@ -92,7 +91,7 @@ TEST_CASE("A force that rises slowly bends the body by the inverse of its stiffn
   build.force("push", build.model.marker_index("top"), {1, 0, 0},
               TimeTable({0, kRise_s}, {0, kForce_N}, TimeTable::Outside::constant));
   const History history =
-      simulate(build.model, tight(), {.end_time_s = kRise_s, .interval_s = 0.5});
+      simulate(build.model, tight_solver(), {.end_time_s = kRise_s, .interval_s = 0.5});
   for (const Eigen::Index k : {2, 3, 4}) {
     // A damped ramp lags by 2 zeta / w in each mode once the start has died away.
     const double t = history.time_s[k];
@@ -116,8 +115,8 @@ TEST_CASE("A run from equilibrium starts at K^-1 f with the reactions of statics
   ModelBuilder build = held_beam(body, 0.1);
   const Vector3d force(kForce_N, 100, -30);
   build.force("push", build.model.marker_index("top"), force, constant_table(force.norm()));
-  const History history =
-      simulate_from_equilibrium(build.model, tight(), {.end_time_s = 0.02, .interval_s = 0.01});
+  const History history = simulate_from_equilibrium(build.model, tight_solver(),
+                                                    {.end_time_s = 0.02, .interval_s = 0.01});
   const Eigen::VectorXd a = (top.transpose() * force).array() / stiffness.array();
   const Vector3d expected = body.interface("top").position_m + top * a;
   for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
@@ -137,8 +136,8 @@ TEST_CASE("A prescribed base excites the modes by their first moments") {
   const auto body = make_beam_body({});
   const Vector3d direction = Vector3d(2, 1, 0.5).normalized();
   const PrescribedBody base{direction, kSpeed, constant_table(kAcceleration)};
-  const History history =
-      simulate(held_beam(body, zeta, base).model, tight(), {.end_time_s = 0.1, .interval_s = 1e-3});
+  const History history = simulate(held_beam(body, zeta, base).model, tight_solver(),
+                                   {.end_time_s = 0.1, .interval_s = 1e-3});
   const Eigen::VectorXd load = -kAcceleration * body.invariants.S2.transpose() * direction;
   const double scale = load.cwiseAbs().maxCoeff() / std::pow(2 * kPi * 36.1, 2);
   for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {

@@ -17,14 +17,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kEnd_s = 0.5;
+constexpr double kMotionEnd_s = 0.5;
 const SolverOptions kSolver{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-12};
 const Vector3d kAxis(0.6, 0, 0.8);
 
 /// Four turns and back a little.
 SmoothMotion winding() {
   return SmoothMotion::of_displacement([](double t) { return 60 * t - 3 * std::sin(9 * t); },
-                                       kEnd_s);
+                                       kMotionEnd_s);
 }
 
 /// A pendulum whose pivot is turned as winding() says, by a motor or by a prescribed body.
@@ -55,9 +55,10 @@ ModelBuilder turned_pendulum(bool by_motor) {
 }  // namespace
 
 TEST_CASE("a motor on the ground moves what hangs on it as a prescribed body does, and as hard") {
-  const History motor = simulate(turned_pendulum(true).model, kSolver, {.end_time_s = kEnd_s});
+  const History motor =
+      simulate(turned_pendulum(true).model, kSolver, {.end_time_s = kMotionEnd_s});
   const History prescribed =
-      simulate(turned_pendulum(false).model, kSolver, {.end_time_s = kEnd_s});
+      simulate(turned_pendulum(false).model, kSolver, {.end_time_s = kMotionEnd_s});
   const Index last = motor.time_s.size() - 1;
   REQUIRE(prescribed.time_s.size() == last + 1);
   for (const char* const name : {"rotor end", "bob"}) {
@@ -91,11 +92,12 @@ TEST_CASE("a motor between two free bodies moves each by its share, and its work
   const auto j = build.body("j", mass(kMass_j), {0.4 * kAxis}, share * rate * kAxis);
   const auto joint =
       build.joint("piston", &kPrismaticJoint, build.marker("i", i), build.marker("j", j), kAxis);
-  build.model.joints[joint].motors = {{"drive",
-                                       JointCoordinate::distance,
-                                       0,
-                                       {0, {}, SmoothMotion::of_displacement(stroke, kEnd_s)}}};
-  const History history = simulate(build.model, kSolver, {.end_time_s = kEnd_s});
+  build.model.joints[joint].motors = {
+      {"drive",
+       JointCoordinate::distance,
+       0,
+       {0, {}, SmoothMotion::of_displacement(stroke, kMotionEnd_s)}}};
+  const History history = simulate(build.model, kSolver, {.end_time_s = kMotionEnd_s});
   const auto& at_i = history.marker("i");
   const auto& at_j = history.marker("j");
   for (Index k = 0; k < history.time_s.size(); k += 20) {

@@ -24,7 +24,7 @@ namespace {
 const std::vector<const JointKind*> kKinds = {
     &kUniversalJoint, &kCylindricalJoint, &kPrismaticJoint, &kRevoluteJoint,
     &kSphericalJoint, &kFixedJoint,       &kPlanarJoint,    &kScrewJoint};
-constexpr double kInterval_s = 1e-3;
+constexpr double kOutputInterval_s = 1e-3;
 constexpr double kLead_m = 0.2;
 /// Differences over 1 ms of momenta known to 1e-10.
 constexpr double kTolerance = 1e-7;
@@ -65,7 +65,7 @@ Load needed(const Model& model, const History& history, std::size_t first, Index
     const auto& body = std::get<RigidBody>(model.bodies[k + 1].kind);
     const MarkerHistory& center = history.marker("cg " + std::to_string(k));
     const auto spin = [&](double t) -> Vector3d {
-      const Index at = column + static_cast<Index>(std::lround(t / kInterval_s));
+      const Index at = column + static_cast<Index>(std::lround(t / kOutputInterval_s));
       const Matrix3d R = rotation_at(center.rotation, at).toRotationMatrix();
       return R * body.inertia_kg_m2 * R.transpose() * center.angular_velocity_rad_s.col(at);
     };
@@ -73,7 +73,7 @@ Load needed(const Model& model, const History& history, std::size_t first, Index
         body.mass_kg * (center.acceleration_m_s2.col(column) - model.gravity_m_s2);
     sum.force += force;
     sum.moment += (Vector3d(center.position_m.col(column)) - about).cross(force) +
-                  first_derivative(spin, kInterval_s);
+                  first_derivative(spin, kOutputInterval_s);
   }
   return sum;
 }
@@ -82,8 +82,8 @@ Load needed(const Model& model, const History& history, std::size_t first, Index
 
 TEST_CASE("every joint of a chain carries what hangs on it") {
   const Model model = chain();
-  const History history =
-      simulate(model, solver_of(1e-11, 1e-13), {.end_time_s = 0.2, .interval_s = kInterval_s});
+  const History history = simulate(model, solver_of(1e-11, 1e-13),
+                                   {.end_time_s = 0.2, .interval_s = kOutputInterval_s});
   for (std::size_t k = 0; k < kKinds.size(); ++k) {
     const Joint& joint = model.joints[k];
     const MarkerHistory& marker_i = history.markers[joint.marker_i];

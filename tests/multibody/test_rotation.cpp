@@ -6,6 +6,7 @@
 
 #include "multibody/numerics/rotation.h"
 #include "tests/support/finite_differences.h"
+#include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Matrix3d;
@@ -13,23 +14,18 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using flexneck::testing::first_derivative;
 using flexneck::testing::RandomNumbers;
+using flexneck::testing::turned;
 using namespace flexneck::multibody;
 
 namespace {
 
 /// Central differences of order 6 with a step of 0.01: truncation and rounding are below 1e-11.
-constexpr double kStep = 1e-2;
+constexpr double kAngleStep = 1e-2;
 constexpr double kDifferenceTolerance = 1e-10;
 constexpr double kRounding = 1e-14;
 
 /// Tiny and large angles, and both sides of the switch from series to closed form.
 const std::vector<double> kAngles = {0, 1e-9, 1e-4, 1e-2, 0.299, 0.301, 1.0, 2.5, 3.1};
-
-Matrix3d turned(const Vector3d& theta) {
-  const double angle = theta.norm();
-  if (angle == 0) return Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, theta / angle).toRotationMatrix();
-}
 
 Vector3d unskew(const Matrix3d& m) {
   return 0.5 * Vector3d(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
@@ -54,7 +50,7 @@ TEST_CASE("the left Jacobian gives the angular velocity of a changing rotation v
     const Vector3d rate = random.vector();
     // d/dt exp(~theta) exp(~theta)^T = ~omega, omega = J_l thetadot.
     const Matrix3d derivative =
-        first_derivative([&](double t) { return Matrix3d(turned(theta + t * rate)); }, kStep);
+        first_derivative([&](double t) { return Matrix3d(turned(theta + t * rate)); }, kAngleStep);
     const Vector3d omega = unskew(derivative * turned(theta).transpose());
     CHECK((left_jacobian(theta) * rate - omega).norm() < kDifferenceTolerance);
   }
@@ -66,7 +62,7 @@ TEST_CASE("C_n is the change of the left Jacobian along the motion") {
     const Vector3d theta = angle * random.vector().normalized();
     const Vector3d rate = random.vector();
     const Vector3d expected = first_derivative(
-        [&](double t) { return Vector3d(left_jacobian(theta + t * rate) * rate); }, kStep);
+        [&](double t) { return Vector3d(left_jacobian(theta + t * rate) * rate); }, kAngleStep);
     CHECK((left_jacobian_rate_times_rate(theta, rate) - expected).norm() < kDifferenceTolerance);
   }
 }
@@ -91,7 +87,7 @@ TEST_CASE("a quaternion's rate turns with the angular velocity in its own axes")
         const Quaterniond moved = q * Quaterniond(turned(t * omega));
         return Eigen::Vector4d(moved.w(), moved.x(), moved.y(), moved.z());
       },
-      kStep);
+      kAngleStep);
   const Eigen::Vector4d coefficients(q.w(), q.x(), q.y(), q.z());
   CHECK((quaternion_rate(coefficients, omega) - expected).norm() < kDifferenceTolerance);
 }

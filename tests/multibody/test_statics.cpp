@@ -21,8 +21,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-SolverOptions tight() { return flexneck::testing::solver_of(1e-11, 1e-13); }
-
 /// SAE J211 channel of the joint "OC" between a held chest and a head that a force acts on.
 VectorXd channels_of_manipulation(const Vector3d& at_m, const Vector3d& force_N) {
   ModelBuilder build;
@@ -65,8 +63,8 @@ TEST_CASE("Hanging at rest, the head's joint carries the head and the base both,
   const Beam beam;
   ModelBuilder build = head_on_neck({}, hanging_pose(), beam, 0.9, head);
   build.model.gravity_m_s2 = {0, 0, -kGravity};
-  const History history =
-      simulate_from_equilibrium(build.model, tight(), {.end_time_s = 0.2, .interval_s = 0.1});
+  const History history = simulate_from_equilibrium(build.model, tight_solver(),
+                                                    {.end_time_s = 0.2, .interval_s = 0.1});
   const double head_weight = head.mass_kg * kGravity;
   const double weight = head_weight + beam.mass_kg * kGravity;
   const Vector3d rest = history.marker("head cg").position_m.col(0);
@@ -124,7 +122,7 @@ TEST_CASE("Small motions of the hanging head have the frequency and damping of t
   const TimeTable tap({0.0, 0.005, 0.01}, {0, 0.1, 0}, TimeTable::Outside::zero);
   build.force("tap", build.model.marker_index("head cg"), {1, 0, 0}, tap);
   const History history =
-      simulate_from_equilibrium(build.model, tight(), {.end_time_s = 1, .interval_s = 5e-4});
+      simulate_from_equilibrium(build.model, tight_solver(), {.end_time_s = 1, .interval_s = 5e-4});
   const VectorXd signal = history.modal[0].coordinates.row(0).transpose();
   const FreeOscillation found = free_oscillation(history.time_s, signal, signal[0], 0.011);
   REQUIRE(cycle_damping_ratio(found));

@@ -11,7 +11,7 @@
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using namespace flexneck::pipeline;
-using testing::write_text;
+using testing::write_test_file;
 
 namespace {
 
@@ -99,9 +99,9 @@ std::string assembly(const std::string& name, const std::string& file,
 
 struct Files {
   TemporaryFolder folder;
-  Files() { write_text(folder / "bar.toml", kBar); }
+  Files() { write_test_file(folder / "bar.toml", kBar); }
   ModelFile model(const std::string& text, const std::vector<std::string>& settings = {}) const {
-    return read_model_file(write_text(folder / "model.toml", text), settings);
+    return read_model_file(write_test_file(folder / "model.toml", text), settings);
   }
 };
 
@@ -186,12 +186,12 @@ TEST_CASE("each assembly has its own variables, which the command line and prove
 TEST_CASE("assemblies hold assemblies, files of their own folders and what they include") {
   const Files files;
   std::filesystem::create_directory(files.folder / "parts");
-  write_text(files.folder / "parts/loads.toml",
-             "[[force]]\nname = \"pull\"\nmarker = \"inner:bar.top\"\ndirection = [1, 0, 0]\n"
-             "magnitude = \"1 N\"\n");
-  write_text(files.folder / "parts/pair.toml",
-             "include = [\"loads.toml\"]\n[variables]\nheavy = \"9 kg\"\n" +
-                 assembly("inner", "../bar.toml", "variables = { mass = \"$heavy\" }\n"));
+  write_test_file(files.folder / "parts/loads.toml",
+                  "[[force]]\nname = \"pull\"\nmarker = \"inner:bar.top\"\ndirection = [1, 0, 0]\n"
+                  "magnitude = \"1 N\"\n");
+  write_test_file(files.folder / "parts/pair.toml",
+                  "include = [\"loads.toml\"]\n[variables]\nheavy = \"9 kg\"\n" +
+                      assembly("inner", "../bar.toml", "variables = { mass = \"$heavy\" }\n"));
   const std::string text = kFrame + assembly("outer", "parts/pair.toml") + R"([[force]]
 name = "mine"
 marker = "outer:inner:bar.top"
@@ -236,7 +236,7 @@ TEST_CASE("what an assembly gets wrong is told with file, line, column and key")
   refused("[assembly]\n", "assembly: expected tables [[assembly]]");
 
   const auto inside = [&](const std::string& content, const std::string& why) {
-    write_text(files.folder / "part.toml", content);
+    write_test_file(files.folder / "part.toml", content);
     refused(assembly("a", "part.toml"), why);
   };
   inside("[solver]\nend_time = \"1 s\"\n", "part.toml:1:1: solver: expected tables [[body]]");
@@ -252,10 +252,10 @@ TEST_CASE("assemblies have an end: 16 within one another, 100 files") {
   const Files files;
   for (int k = 0; k < 20; ++k) {
     const std::string next = std::to_string(k + 1) + ".toml";
-    write_text(files.folder / (std::to_string(k) + ".toml"),
-               assembly("a", next) + assembly("b", next));
+    write_test_file(files.folder / (std::to_string(k) + ".toml"),
+                    assembly("a", next) + assembly("b", next));
   }
-  write_text(files.folder / "20.toml", "");
+  write_test_file(files.folder / "20.toml", "");
   const std::string why = "expected at most 100 files, and 16 within one another";
   CHECK_THROWS_WITH(files.model(kFrame + assembly("a", "0.toml")), Contains(why));
   CHECK_THROWS_WITH(files.model(kFrame + assembly("a", "10.toml")), Contains(why));

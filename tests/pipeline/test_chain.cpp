@@ -123,7 +123,7 @@ kind = "ground"
           ("magnitude = \"" + std::to_string(load_lbf) + " lbf\"\n");
   const TemporaryFolder folder;
   ModelFile file =
-      read_model_file(testing::write_text(folder / "sections.toml", text).string(), {});
+      read_model_file(testing::write_test_file(folder / "sections.toml", text).string(), {});
   file.solver.formulation = formulation;
   const History history =
       multibody::simulate_from_equilibrium(file.model, file.solver, {1e-4, 1e-4});
@@ -190,7 +190,7 @@ TEST_CASE("a section between two files of modes relaxes from the one stiffness t
         "[[section]]\nname = \"disc\"\nlower = \"ground.top\"\nupper = \"plate.at\"\n"
         "modes_file = \"" +
         bodies().file_of("disc_4") + "\"\nbase = \"to_disc_3\"\ntop = \"top\"\n" + relaxation;
-    return read_model_file(testing::write_text(folder / "section.toml", text).string(), {})
+    return read_model_file(testing::write_test_file(folder / "section.toml", text).string(), {})
         .model.forces.of<multibody::Section>()
         .front();
   };

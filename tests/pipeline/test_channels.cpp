@@ -27,9 +27,9 @@ struct Swing {
   multibody::History history;
 
   explicit Swing(const std::string& channels, const std::string& interval = "1 ms")
-      : file(read_model_file(
-            testing::write_text(folder / "swing.toml", testing::double_pendulum_text() + channels),
-            {"output.interval=" + interval})),
+      : file(read_model_file(testing::write_test_file(folder / "swing.toml",
+                                                      testing::double_pendulum_text() + channels),
+                             {"output.interval=" + interval})),
         history(multibody::simulate(file.model, file.solver,
                                     {file.end_time_s, file.output.interval_s})) {}
 

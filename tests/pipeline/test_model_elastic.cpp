@@ -34,7 +34,7 @@ relaxation_shares = [0.5, 0.25]
 
 ModelFile read(const std::string& text) {
   const TemporaryFolder folder;
-  return read_model_file(testing::write_text(folder / "model.toml", text).string(), {});
+  return read_model_file(testing::write_test_file(folder / "model.toml", text).string(), {});
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ using testing::origin_marker_text;
 using testing::read_model;
 using testing::refusal_of_model;
 using testing::with;
-using testing::write_text;
+using testing::write_test_file;
 
 TEST_CASE("bodies are where their joints put them and move as their joints say") {
   const TemporaryFolder folder;
@@ -53,8 +53,8 @@ TEST_CASE("bodies are where their joints put them and move as their joints say")
 
 TEST_CASE("every kind of force is read in its units") {
   const TemporaryFolder folder;
-  write_text(folder / "load.csv",
-             "# a comment\ntime [ms], idle [1], load [lbf]\n0, 1, 2\n\n5, 1, 4\n");
+  write_test_file(folder / "load.csv",
+                  "# a comment\ntime [ms], idle [1], load [lbf]\n0, 1, 2\n\n5, 1, 4\n");
   const ModelFile file = read_model(folder, double_pendulum_text() + R"(
 [[force]]
 name = "push"
@@ -238,6 +238,6 @@ rotation = ["0 deg", "0 deg", "90 deg"]
   };
   CHECK_THAT(spoilt(1.01), Contains("beam.h5") && Contains("not mass-normalised"));
   CHECK_THAT(spoilt(std::nan("")), Contains("beam.h5"));
-  write_text(folder / "beam.h5", "not HDF5");
+  write_test_file(folder / "beam.h5", "not HDF5");
   CHECK_THAT(refusal_of_model(folder, beam("damping_ratio = 0.1")), Contains("beam.h5"));
 }

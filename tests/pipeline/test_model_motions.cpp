@@ -23,7 +23,7 @@ using testing::origin_marker_text;
 using testing::read_model;
 using testing::refusal_of_model;
 using testing::with;
-using testing::write_text;
+using testing::write_test_file;
 
 TEST_CASE("a prescribed body follows a table, a pulse or an expression, and one of them only") {
   const TemporaryFolder folder;
@@ -100,7 +100,8 @@ TEST_CASE("a prescribed body turns by the same kinds of motion, and its body sta
   CHECK(turn("initial_rate = \"3 rad/s\"\npulse_times = [\"0 s\", \"1 s\"]\n"
              "pulse_deceleration = [\"5 rad/s^2\", \"0 rad/s^2\"]")
             .acceleration_rad_s2.integral(1) == Approx(-3));
-  write_text(folder / "angle.csv", "time [ms], angle [deg]\n0, 30\n100, 35\n200, 37\n300, 30\n");
+  write_test_file(folder / "angle.csv",
+                  "time [ms], angle [deg]\n0, 30\n100, 35\n200, 37\n300, 30\n");
   const auto tabulated = turn("angle_table = \"angle.csv\"");
   CHECK(tabulated.motion.displacement_m(0.1) == Approx(35 * std::numbers::pi / 180));
   // What hangs on the body is turned with it by the 30 degrees of the first row.
@@ -114,10 +115,11 @@ TEST_CASE("a prescribed body turns by the same kinds of motion, and its body sta
              Contains("motion is given already by 'angle'"));
   CHECK_THAT(refusal_of_model(folder, turntable("initial_rate = \"3 m/s\"")),
              Contains("body.ground.turn.initial_rate"));
-  write_text(folder / "short.csv", "time [ms], angle [deg]\n0, 30\n50, 35\n100, 37\n150, 30\n");
+  write_test_file(folder / "short.csv",
+                  "time [ms], angle [deg]\n0, 30\n50, 35\n100, 37\n150, 30\n");
   CHECK_THAT(refusal_of_model(folder, turntable("angle_table = \"short.csv\"")),
              Contains("must cover the run, from 0 to 0.2 s, but are from 0 to 0.15 s"));
-  write_text(folder / "back.csv", "time [ms], angle [deg]\n0, 30\n50, 35\n40, 37\n300, 30\n");
+  write_test_file(folder / "back.csv", "time [ms], angle [deg]\n0, 30\n50, 35\n40, 37\n300, 30\n");
   CHECK_THAT(refusal_of_model(folder, turntable("angle_table = \"back.csv\"")),
              Contains("back.csv:4"));
 }

@@ -11,13 +11,13 @@
 using Catch::Matchers::Contains;
 using namespace flexneck;
 using namespace flexneck::pipeline;
-using testing::write_text;
+using testing::write_test_file;
 
 TEST_CASE("a CSV file that is not sound is told with its line") {
   const TemporaryFolder folder;
   const auto told = [&](const std::string& text) {
     try {
-      read_csv_columns(write_text(folder / "t.csv", text), "s", "N", "");
+      read_csv_columns(write_test_file(folder / "t.csv", text), "s", "N", "");
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -42,7 +42,7 @@ TEST_CASE("a CSV file that is not sound is told with its line") {
 TEST_CASE("surplus cells, decimal commas and other separators of a CSV file are refused") {
   const TemporaryFolder folder;
   const auto columns = [&](const std::string& text, const std::string& column = "") {
-    return read_csv_columns(write_text(folder / "t.csv", text), "s", "N", column);
+    return read_csv_columns(write_test_file(folder / "t.csv", text), "s", "N", column);
   };
   const std::string names = "time [s], load [N]\n";
   const auto refused = [&](const std::string& text, const std::string& why) {

@@ -88,16 +88,17 @@ TEST_CASE("ranks as few as elements work, also without free nodes, and more are 
       text += std::to_string(node++) + "," + corner + std::to_string(level) + "\n";
   }
   const auto write = [&](const std::string& elements) {
-    testing::write_text(folder / "bar.inp",
-                        text + "*ELEMENT,TYPE=C3D8,ELSET=bar\n" + elements +
-                            "*MATERIAL,NAME=steel\n*ELASTIC\n2.1e11,0.3\n*DENSITY\n7850\n"
-                            "*SOLID SECTION,ELSET=bar,MATERIAL=steel\n"
-                            "*NSET,NSET=lower\n1,2,3,4,5,6,7,8\n");
+    testing::write_test_file(folder / "bar.inp",
+                             text + "*ELEMENT,TYPE=C3D8,ELSET=bar\n" + elements +
+                                 "*MATERIAL,NAME=steel\n*ELASTIC\n2.1e11,0.3\n*DENSITY\n7850\n"
+                                 "*SOLID SECTION,ELSET=bar,MATERIAL=steel\n"
+                                 "*NSET,NSET=lower\n1,2,3,4,5,6,7,8\n");
   };
-  const std::string study = testing::write_text(folder / "bar.toml",
-                                                "[geometry]\nfile = \"bar.inp\"\nunit = \"m\"\n"
-                                                "[modes]\ncount = 3\nfixed = [\"lower\"]\n")
-                                .string();
+  const std::string study =
+      testing::write_test_file(folder / "bar.toml",
+                               "[geometry]\nfile = \"bar.inp\"\nunit = \"m\"\n"
+                               "[modes]\ncount = 3\nfixed = [\"lower\"]\n")
+          .string();
   const std::string arguments = " -q " + study + " -o " + folder.path().string();
   write("1,1,2,3,4,5,6,7,8\n2,5,6,7,8,9,10,11,12\n");
   require_success(run_flexneck("mesh" + arguments));

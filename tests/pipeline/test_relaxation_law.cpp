@@ -42,7 +42,7 @@ relaxation_law = { )" +
       law + " }\n";
   const TemporaryFolder folder;
   const ModelFile file =
-      read_model_file(testing::write_text(folder / "model.toml", text).string(), {});
+      read_model_file(testing::write_test_file(folder / "model.toml", text).string(), {});
   Relaxation found;
   for (const auto& branch : file.model.forces.of<multibody::Section>().front().branches) {
     found.times_s.push_back(branch.relaxation_time_s);

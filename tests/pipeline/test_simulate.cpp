@@ -19,7 +19,7 @@ using testing::bytes_of;
 using testing::CommandOutcome;
 using testing::double_pendulum_text;
 using testing::with;
-using testing::write_text;
+using testing::write_test_file;
 
 namespace {
 
@@ -37,7 +37,7 @@ std::ptrdiff_t lines_in(const std::string& text) {
 
 TEST_CASE("simulate writes histories and a table, tells what it took, and does so again") {
   const TemporaryFolder folder;
-  const fs::path model = write_text(folder / "swing.toml", double_pendulum_text());
+  const fs::path model = write_test_file(folder / "swing.toml", double_pendulum_text());
   const CommandOutcome outcome = simulate(model, folder / "out");
   INFO(outcome.text);
   REQUIRE(outcome.exit_code == 0);
@@ -61,7 +61,7 @@ TEST_CASE("simulate writes histories and a table, tells what it took, and does s
 
 TEST_CASE("simulate tells what branches were fitted to, how well, and their loss factor") {
   const TemporaryFolder folder;
-  const fs::path model = write_text(
+  const fs::path model = write_test_file(
       folder / "rubber.toml",
       "[solver]\nend_time = \"10 ms\"\n[[body]]\nname = \"ground\"\nkind = \"ground\"\n" +
           testing::origin_marker_text("ground", "hook") + testing::box_text("box", "at") + R"(
@@ -84,8 +84,8 @@ relaxation_law = { branches = 5, share = 0.6, time = "30 ms", order = 0.5, from 
 TEST_CASE("simulate tells the modes of small motions and keeps their shapes") {
   const TemporaryFolder folder;
   const fs::path model =
-      write_text(folder / "swing.toml",
-                 double_pendulum_text() + "\n[linearisation]\nabout = \"equilibrium\"\n");
+      write_test_file(folder / "swing.toml",
+                      double_pendulum_text() + "\n[linearisation]\nabout = \"equilibrium\"\n");
   const CommandOutcome outcome = simulate(model, folder / "out", " --set 'solver.end_time=10 ms'");
   INFO(outcome.text);
   REQUIRE(outcome.exit_code == 0);
@@ -149,7 +149,8 @@ coordinate = "distance"
 stiffness = "400 N/m"
 )";
   const TemporaryFolder folder;
-  const CommandOutcome outcome = simulate(write_text(folder / "rotor.toml", text), folder / "out");
+  const CommandOutcome outcome =
+      simulate(write_test_file(folder / "rotor.toml", text), folder / "out");
   INFO(outcome.text);
   REQUIRE(outcome.exit_code == 0);
   // sqrt(30^2 - 20^2) / s.
@@ -172,7 +173,8 @@ TEST_CASE("a model that is not sound ends in one line, exit code 2 and no file")
   const TemporaryFolder folder;
   const auto check_refused = [&](const std::string& part, const std::string& by,
                                  const std::string& reason) {
-    const fs::path model = write_text(folder / "bad.toml", with(double_pendulum_text(), part, by));
+    const fs::path model =
+        write_test_file(folder / "bad.toml", with(double_pendulum_text(), part, by));
     const CommandOutcome outcome = simulate(model, folder / "out", " -q");
     INFO(outcome.text);
     CHECK(outcome.exit_code == 2);
@@ -203,15 +205,15 @@ TEST_CASE("what a terminal would obey reaches it spelt out, in one line of bound
     CHECK(find_unprintable(outcome.text, "\n") == std::string::npos);
   };
   check_refused(simulate + "'" + evil.string() + "'", "a\\x1b]0;title\\x07\\nb.toml: no such file");
-  write_text(evil, double_pendulum_text() + "\n[[body]]\n");
+  write_test_file(evil, double_pendulum_text() + "\n[[body]]\n");
   check_refused(simulate + "'" + evil.string() + "'", "a\\x1b]0;title\\x07\\nb.toml:");
   check_refused("'\x1b[2J'", "there is no command '\\x1b[2J'");
   check_refused("--'\x1b[2J'", "\\x1b[2J");
   check_refused("study --set 'a\x1b=1'", "--set a\\x1b=1");
-  const fs::path named = write_text(
+  const fs::path named = write_test_file(
       folder / "named.toml", with(double_pendulum_text(), "\"shoulder\"", "\"\\u001b[31m\""));
   check_refused(simulate + named.string(), "found \"\\x1b[31m\"");
-  const fs::path wide = write_text(
+  const fs::path wide = write_test_file(
       folder / "wide.toml",
       with(double_pendulum_text(), "\"upper.top\"", "\"" + std::string(1'000'000, 'x') + "\""));
   check_refused(simulate + wide.string(), "[…]");
@@ -219,7 +221,7 @@ TEST_CASE("what a terminal would obey reaches it spelt out, in one line of bound
 
 TEST_CASE("a run that cannot go on says when and why and keeps what it has, marked incomplete") {
   const TemporaryFolder folder;
-  const fs::path model = write_text(folder / "stuck.toml", double_pendulum_text());
+  const fs::path model = write_test_file(folder / "stuck.toml", double_pendulum_text());
   const CommandOutcome outcome = simulate(model, folder / "out", " -q --set solver.max_steps=20");
   INFO(outcome.text);
   CHECK(outcome.exit_code == 3);

@@ -47,7 +47,7 @@ filter = "CFC 60"
 ModelFile model_in(const TemporaryFolder& folder, const std::string& channels) {
   const std::string fast =
       testing::with(double_pendulum_text(), "rate = \"300 deg/s\"", "rate = \"40 rad/s\"");
-  return read_model_file(testing::write_text(folder / "swing.toml", fast + channels), {});
+  return read_model_file(testing::write_test_file(folder / "swing.toml", fast + channels), {});
 }
 
 /// Runs a model whose outputs come in blocks.

@@ -85,7 +85,7 @@ std::string plates(double moment_Nm) {
 /// Rotation about y of a marker at the end of a run.
 double rotation(const std::filesystem::path& folder, const std::string& text,
                 const std::string& marker) {
-  const auto model = testing::write_text(folder / "bend.toml", text);
+  const auto model = testing::write_test_file(folder / "bend.toml", text);
   const testing::CommandOutcome outcome =
       testing::run_flexneck("simulate " + model.string() + " -q -o " + folder.string());
   INFO(outcome.text);
@@ -199,7 +199,7 @@ TEST_CASE("a slit neck as one body with gaps bends as plates and sections do, bo
   CHECK(open == Approx(-rotation(folder.path(), plates(-kSmall_Nm), "disc_4.face")).epsilon(0.01));
 
   const auto refused = [&](const std::string& key, const char* message) {
-    const auto model = testing::write_text(folder / "bad.toml", one_body(kSmall_Nm, key));
+    const auto model = testing::write_test_file(folder / "bad.toml", one_body(kSmall_Nm, key));
     const testing::CommandOutcome outcome =
         testing::run_flexneck("simulate " + model.string() + " -q -o " + folder.path().string());
     CHECK(outcome.exit_code == 2);

@@ -11,7 +11,6 @@
 
 using namespace flexneck;
 using namespace flexneck::pipeline;
-using Experiment = testing::BeamExperiment;
 
 namespace {
 
@@ -34,7 +33,7 @@ constexpr double kNewton = 400 * 4.4482216152605;
 }  // namespace
 
 TEST_CASE("at rest the tester shows K^-1 f in every direction") {
-  const Experiment experiment;
+  const testing::BeamExperiment experiment;
   for (const auto& [name, along, about, sense, turn] :
        {std::tuple("flexion", 0, 1, 1.0, 1.0), std::tuple("extension", 0, 1, -1.0, 1.0),
         std::tuple("lateral", 1, 0, 1.0, -1.0)}) {
@@ -56,7 +55,7 @@ TEST_CASE("at rest the tester shows K^-1 f in every direction") {
 }
 
 TEST_CASE("the moving ramp lags by the damping of the modes") {
-  const Experiment experiment;
+  const testing::BeamExperiment experiment;
   StaticEntry entry;
   entry.experiment = experiment.named("flexion");
   const multibody::Model model = case_model(entry.experiment, experiment.body);

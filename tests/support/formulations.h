@@ -18,4 +18,7 @@ inline multibody::SolverOptions solver_of(double relative, double absolute) {
           .formulation = either_formulation()};
 }
 
+/// Of runs that are compared with closed forms.
+inline multibody::SolverOptions tight_solver() { return solver_of(1e-11, 1e-13); }
+
 }  // namespace flexneck::testing

@@ -12,7 +12,7 @@
 namespace flexneck::testing {
 
 inline pipeline::ModelFile read_model(const TemporaryFolder& folder, const std::string& text) {
-  return pipeline::read_model_file(write_text(folder / "model.toml", text), {});
+  return pipeline::read_model_file(write_test_file(folder / "model.toml", text), {});
 }
 
 inline multibody::History run(const pipeline::ModelFile& file, bool states = false) {

@@ -123,8 +123,8 @@ inline std::string fixed_joint_text(const std::string& name, const std::string& 
          "\"\nupper = \"" + upper + "\"\n";
 }
 
-inline std::filesystem::path write_text(const std::filesystem::path& path,
-                                        const std::string& text) {
+inline std::filesystem::path write_test_file(const std::filesystem::path& path,
+                                             const std::string& text) {
   std::ofstream(path) << text;
   return path;
 }

@@ -44,7 +44,7 @@ std::string warning_of(const std::string& bdf) {
   return testing::warnings_of(options_of(files, "deck.bdf", bdf));
 }
 
-std::string refusal_of(const std::string& bdf) {
+std::string nastran_refusal(const std::string& bdf) {
   const Files files;
   return testing::refusal(options_of(files, "deck.bdf", bdf));
 }
@@ -80,17 +80,19 @@ PARAM,POST,-1
 }
 
 TEST_CASE("a .bdf that gmsh would read as another structure is refused with its line") {
-  CHECK_THAT(refusal_of(deck("GRID,30,2,0.,0.,0.\n")),
+  CHECK_THAT(nastran_refusal(deck("GRID,30,2,0.,0.,0.\n")),
              Contains("deck.bdf: line 21: GRID: coordinates in system 2 are not supported"));
-  CHECK_THAT(refusal_of(deck("GRDSET,,2\n")), Contains("GRDSET: coordinates in system 2"));
-  CHECK_THAT(refusal_of(deck("INCLUDE 'more.bdf'\n")), Contains("other files are not followed"));
-  CHECK_THAT(refusal_of(deck("GRID,30,,0.,0.,3.\n=,*(1),=,*(1.),==\n=3\n")),
+  CHECK_THAT(nastran_refusal(deck("GRDSET,,2\n")), Contains("GRDSET: coordinates in system 2"));
+  CHECK_THAT(nastran_refusal(deck("INCLUDE 'more.bdf'\n")),
+             Contains("other files are not followed"));
+  CHECK_THAT(nastran_refusal(deck("GRID,30,,0.,0.,3.\n=,*(1),=,*(1.),==\n=3\n")),
              Contains("line 22: =: replicated cards"));
-  CHECK_THAT(refusal_of(deck("GRID\t30\t\t0.\t0.\t3.\n")), Contains("GRID: tabs between fixed"));
-  CHECK_THAT(refusal_of(deck("CHEXA,3,1,1,2,3,4,5,6\n,7,8,9\n")),
+  CHECK_THAT(nastran_refusal(deck("GRID\t30\t\t0.\t0.\t3.\n")),
+             Contains("GRID: tabs between fixed"));
+  CHECK_THAT(nastran_refusal(deck("CHEXA,3,1,1,2,3,4,5,6\n,7,8,9\n")),
              Contains("CHEXA: expected 8 or 20 nodes, found 9"));
   const std::string lower = deck("CHEXA,3,1,1,2,3,4,9,10\n,11,12\n");
-  CHECK_THAT(refusal_of(std::string(lower).replace(lower.find("CHEXA,3"), 7, "chexa,3")),
+  CHECK_THAT(nastran_refusal(std::string(lower).replace(lower.find("CHEXA,3"), 7, "chexa,3")),
              Contains("3 solid elements of 8 nodes, but gmsh reads 2 of them"));
 }
 

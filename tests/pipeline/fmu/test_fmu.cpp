@@ -154,7 +154,7 @@ quantity = "energy"
 /// The FMU of a model in the folder, unpacked.
 std::filesystem::path unpacked(const TemporaryFolder& folder, const std::string& text) {
   testing::write_beam_modes(folder / "neck.h5");
-  testing::write_text(folder / "sled.toml", text);
+  testing::write_test_file(folder / "sled.toml", text);
   const std::string at = folder.path().string();
   const auto outcome =
       testing::run_flexneck("export -q " + at + "/sled.toml --to " + at + "/sled.fmu");

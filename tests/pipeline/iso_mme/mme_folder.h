@@ -44,7 +44,7 @@ class MmeFolder {
     write("Channel/test.002", kMmeAcceleration);
   }
   void write(const std::string& name, const std::string& text) const {
-    write_text(folder_ / name, text);
+    write_test_file(folder_ / name, text);
   }
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
   const std::filesystem::path& path() const { return folder_.path(); }

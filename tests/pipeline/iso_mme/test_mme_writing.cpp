@@ -121,11 +121,11 @@ TEST_CASE("a folder that holds anything else is left as it is") {
   CHECK_THROWS_WITH(write_mme_test(folder / "a.mme", test), Contains("is a folder of its own"));
   CHECK_THROWS_WITH(write_mme_test(folder / "b/a/a.mme", test), Contains("cannot be written"));
   fs::create_directory(folder / "a");
-  testing::write_text(folder / "a/notes.txt", "mine");
+  testing::write_test_file(folder / "a/notes.txt", "mine");
   CHECK_THROWS_WITH(write_mme_test(folder / "a/a.mme", test), Contains("found notes.txt in it"));
   CHECK(names_in(folder / "a") == std::vector<std::string>{"notes.txt"});
   CHECK(names_in(folder.path()) == std::vector<std::string>{"a"});
-  testing::write_text(folder / "c", "a file");
+  testing::write_test_file(folder / "c", "a file");
   CHECK_THROWS_WITH(write_mme_test(folder / "c/c.mme", test), Contains("expected a folder"));
   CHECK_THROWS_WITH(write_mme_test(folder / "d/d.mme", {"d", "", "", {}, {}}),
                     Contains("expected 1 to 999 channels, found 0"));
@@ -189,7 +189,7 @@ TEST_CASE("other channels have codes of a laboratory, or the code that is their 
 TEST_CASE("'flexneck export' writes a run, and a rating reads it again") {
   const TemporaryFolder folder;
   const std::string in = folder.path().string();
-  testing::write_text(folder / "swing.toml", testing::double_pendulum_text());
+  testing::write_test_file(folder / "swing.toml", testing::double_pendulum_text());
   REQUIRE(run_flexneck("simulate -q " + in + "/swing.toml -o " + in + "/out").exit_code == 0);
   const std::string run = in + "/out/swing.h5";
   const auto outcome = run_flexneck("export " + run + " --to " + in + "/swing/swing.mme");

@@ -50,7 +50,7 @@ class RatedFolder {
   static VectorXd computed() { return 1.1 * pulse(500, 75, 410); }
 
   void write(const std::string& name, const std::string& text) const {
-    testing::write_text(folder_ / name, text);
+    testing::write_test_file(folder_ / name, text);
   }
   /// In the folder, so that files are named as they are.
   CommandOutcome run(const std::string& arguments) const {
