@@ -21,6 +21,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+/// Moments of inertia up to this, of m l^2, count as none (synthetic: the rounding of a tensor that
+/// was turned and moved some hundred times).
 constexpr double kNoInertia = 1e-13;
 /// A joint that a unit rotation moves by less, of l, does not hold it.
 constexpr double kHeld = 1e-6;

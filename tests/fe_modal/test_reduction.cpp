@@ -12,6 +12,7 @@
 #include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
+#include "tests/fe_modal/interface_compliance.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"
 
@@ -76,12 +77,6 @@ Dense dense_model(const std::vector<std::int32_t>& fixed_nodes, const std::strin
 }
 
 Dense fixed_model() { return dense_model(block().node_set("bottom").nodes, "top", kTip); }
-
-/// Largest difference, with entries scaled by those of the diagonal.
-double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
-  const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
-  return (scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff();
-}
 
 /// Compliance that a body's modes have at an interface.
 Matrix6d captured(const ModalBody& body, const std::string& interface) {

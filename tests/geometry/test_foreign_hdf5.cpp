@@ -16,7 +16,7 @@ using namespace flexneck;
 
 namespace {
 
-constexpr FileFormat kNewerFormat{"flexneck example", 2, "flexneck example"};
+constexpr FileFormat kForeignFormat{"flexneck example", 2, "flexneck example"};
 using Strings = std::vector<std::string>;
 
 /// Files that h5py has written.
@@ -36,7 +36,7 @@ struct Foreign {
 
 TEST_CASE("what another program writes in its own types is read") {
   const Foreign foreign;
-  const Hdf5Reader file(foreign.folder / "foreign.h5", kNewerFormat);
+  const Hdf5Reader file(foreign.folder / "foreign.h5", kForeignFormat);
   CHECK(file.trust() == Trust::foreign);
   CHECK(format_of(file.path()) == "flexneck example");
   CHECK(file.read_strings("/strings/variable") == Strings{"a", "", "ζ"});
@@ -59,7 +59,7 @@ TEST_CASE("what another program writes in its own types is read") {
 
 TEST_CASE("what is not in the file, or more than fits, is refused before it is read") {
   const Foreign foreign;
-  const Hdf5Reader file(foreign.folder / "foreign.h5", kNewerFormat);
+  const Hdf5Reader file(foreign.folder / "foreign.h5", kForeignFormat);
   const auto check_refused = [&](const std::string& dataset, const std::string& reason) {
     INFO(dataset);
     CHECK_THROWS_WITH(file.read_doubles("/refused/" + dataset, {kAnyExtent}, "m"),

@@ -49,8 +49,8 @@ void check_power(Keep&& keep) {
     forces.evaluate(0);
     return forces.stored_J();
   };
-  constexpr double kTimeStep = 1e-3;
-  const double rate = first_derivative(stored, kTimeStep);
+  constexpr double kTimeStep_s = 1e-3;
+  const double rate = first_derivative(stored, kTimeStep_s);
   stored(0);
   double power = 0;
   Vector3d force = Vector3d::Zero();

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kForce_N = 400;
+
 Beam twisting_beam() {
   Beam beam;
   beam.twist_modes = 1;
