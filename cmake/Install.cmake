@@ -12,6 +12,7 @@ set(flexneck_config "${CMAKE_INSTALL_LIBDIR}/cmake/flexneck")
 install(TARGETS flexneck RUNTIME COMPONENT runtime)
 # The same place for every architecture: the program looks for it beside or above itself.
 install(TARGETS flexneck_fmu flexneck_fmu_formulas LIBRARY DESTINATION lib/flexneck COMPONENT runtime)
+install(TARGETS flexneck_mesher_program RUNTIME DESTINATION lib/flexneck COMPONENT runtime)
 set(made "${PROJECT_BINARY_DIR}/generated/reference")
 install(FILES "${made}/flexneck.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
 install(FILES "${made}/flexneck"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "geometry/foundation/progress.h"
+#include "mesher/exchange/import_options.h"
 #include "mesher/exchange/left_out.h"
-#include "mesher/exchange/mesh_import.h"
 
 namespace flexneck::mesher {
 

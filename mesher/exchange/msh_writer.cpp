@@ -7,8 +7,8 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
-#include "mesher/gmsh/gmsh_groups.h"
 #include "mesher/mesh/bounding_box.h"
+#include "mesher/mesh/element_kind.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -91,7 +91,7 @@ Entity& entity_named(std::vector<Entity>& entities, int dimension, const std::st
 }
 
 Rows rows_of(ElementKind kind, const std::vector<std::int32_t>& nodes) {
-  return {gmsh_type_of(kind), nodes_per_element(kind), nodes};
+  return {traits_of(kind).gmsh_type, nodes_per_element(kind), nodes};
 }
 
 /// Points first, volumes last, as the format lists them.

@@ -144,8 +144,6 @@ void require_one_part_per_volume(const std::vector<GmshGroup>& volumes) {
   }
 }
 
-int gmsh_type_of(ElementKind kind) { return traits_of(kind).gmsh_type; }
-
 GroupElements elements_of(const GmshGroup& group) {
   GroupElements elements;
   std::map<int, std::size_t> unknown;

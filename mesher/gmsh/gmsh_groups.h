@@ -32,9 +32,6 @@ std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source);
 /// counted twice.
 void require_one_part_per_volume(const std::vector<GmshGroup>& volumes);
 
-/// gmsh's number of an element type.
-int gmsh_type_of(ElementKind kind);
-
 /// Node tags of a group's elements, row-major (elements, nodes per element), by kind.
 using GroupElements = std::map<ElementKind, std::vector<std::size_t>>;
 /// @throws InputError if the group has no elements, or elements of a kind that a mesh cannot hold:

@@ -175,14 +175,12 @@ NodeSet patch_nodes(const Mesh& mesh, const NodePatches& patches) {
 
 }  // namespace
 
-std::string gmsh_version() { return GMSH_API_VERSION; }
-
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress, const Progress& warn) {
   require_meshable(options);
   Mesh mesh;
   {
     GmshSession session;
-    report(progress, "gmsh " + gmsh_version() + " runs " + options.script.filename().string());
+    report(progress, "gmsh " GMSH_API_VERSION " runs " + options.script.filename().string());
     run_script(session, options);
     generate(session, options);
     for (const std::string& failure : session.failures())

@@ -52,7 +52,4 @@ struct ScriptMeshOptions {
 Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress,
                  const Progress& warn = {});
 
-/// Version of gmsh's interface that the program was built with.
-std::string gmsh_version();
-
 }  // namespace flexneck::mesher

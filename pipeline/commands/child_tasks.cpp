@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/child_tasks.h"
 
-#include "pipeline/evaluation/make_mesh.h"
 #include "pipeline/isolation/result_files.h"
 
 namespace flexneck::pipeline {
 
 const std::vector<ChildTask>& child_tasks() {
-  static const std::vector<ChildTask> list = {{"mesh", mesh_task}, {"copy", copy_task}};
+  static const std::vector<ChildTask> list = {{"copy", copy_task}};
   return list;
 }
 

@@ -13,7 +13,7 @@
 #include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/node_velocity.h"
-#include "pipeline/evaluation/make_mesh.h"
+#include "pipeline/meshing/make_mesh.h"
 
 namespace flexneck::pipeline {
 
@@ -70,25 +70,52 @@ class MovedMeshes {
       : study_(study), mesh_(mesh), console_(console), runs_(runs) {}
 
   /// None where the study or the script refuses the value, or the topology is another one.
-  std::optional<mesher::Mesh> at(const Dimension& dimension, double value) {
-    std::vector<std::string> settings = study_.settings;
-    settings.push_back(fmt::format("{}={:.17g}{}", dimension.key, value / dimension.setting_unit,
-                                   dimension.suffix));
-    try {
-      const Study moved = read_study(study_.file, settings);
-      ++runs_;
-      mesher::Mesh mesh = make_mesh(moved, console_);
-      mesher::require_same_topology(mesh_, mesh);
-      return mesh;
-    } catch (const InputError& error) {
-      if (refusal_.empty()) refusal_ = error.what();
-      return std::nullopt;
-    }
+  std::vector<std::optional<mesher::Mesh>> at(const Dimension& dimension,
+                                              const std::vector<double>& values) {
+    std::vector<std::optional<Study>> moved;
+    for (const double value : values) moved.push_back(study_at(dimension, value));
+    std::vector<const Study*> readable;
+    for (const auto& each : moved)
+      if (each) readable.push_back(&*each);
+    runs_ += static_cast<int>(readable.size());
+    std::vector<MeshOutcome> outcomes = make_meshes(readable, console_);
+    std::vector<std::optional<mesher::Mesh>> meshes(values.size());
+    auto next = outcomes.begin();
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (moved[k]) meshes[k] = fitting(std::move(*next++));
+    return meshes;
   }
   /// Why the first of them that was refused was; empty if none was.
   const std::string& refusal() const { return refusal_; }
 
  private:
+  std::optional<Study> study_at(const Dimension& dimension, double value) {
+    std::vector<std::string> settings = study_.settings;
+    settings.push_back(fmt::format("{}={:.17g}{}", dimension.key, value / dimension.setting_unit,
+                                   dimension.suffix));
+    try {
+      return read_study(study_.file, settings);
+    } catch (const InputError& error) {
+      return refused(error.what());
+    }
+  }
+
+  /// The mesh if its topology is that of the study's.
+  std::optional<mesher::Mesh> fitting(MeshOutcome outcome) {
+    if (!outcome.mesh) return refused(outcome.refusal);
+    try {
+      mesher::require_same_topology(mesh_, *outcome.mesh);
+      return std::move(outcome.mesh);
+    } catch (const InputError& error) {
+      return refused(error.what());
+    }
+  }
+
+  std::nullopt_t refused(const std::string& why) {
+    if (refusal_.empty()) refusal_ = why;
+    return std::nullopt;
+  }
+
   const Study& study_;
   const mesher::Mesh& mesh_;
   const Console& console_;
@@ -102,12 +129,13 @@ Eigen::Matrix3Xd velocity_of(const Dimension& dimension, const mesher::Mesh& mes
                              MovedMeshes& moved) {
   const double size_m = mesher::bounding_box(mesh).extent_m().maxCoeff();
   const double step = kStep * (dimension.value != 0 ? std::abs(dimension.value) : size_m);
-  const auto below = moved.at(dimension, dimension.value - step);
-  const auto above = moved.at(dimension, dimension.value + step);
+  const auto beside = moved.at(dimension, {dimension.value - step, dimension.value + step});
+  const auto& below = beside[0];
+  const auto& above = beside[1];
   if (below && above) return mesher::node_velocity(mesh, *below, *above, 2 * step);
   const double side = above ? step : -step;
   const auto& near = above ? above : below;
-  const auto far = near ? moved.at(dimension, dimension.value + 2 * side) : std::nullopt;
+  const auto far = near ? moved.at(dimension, {dimension.value + 2 * side}).front() : std::nullopt;
   if (!far) throw InputError(moved.refusal());
   return 2 * mesher::node_velocity(mesh, mesh, *near, side) -
          mesher::node_velocity(mesh, mesh, *far, 2 * side);

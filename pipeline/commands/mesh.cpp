@@ -12,7 +12,7 @@
 #include "geometry/neck/neck_measures.h"
 #include "pipeline/commands/commands.h"
 #include "pipeline/commands/mesh_result.h"
-#include "pipeline/evaluation/make_mesh.h"
+#include "pipeline/meshing/make_mesh.h"
 
 namespace flexneck::pipeline {
 

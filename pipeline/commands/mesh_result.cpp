@@ -5,12 +5,12 @@
 
 #include "geometry/plausibility.h"
 #include "mesher/exchange/xdmf_writer.h"
-#include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/mesh_summary.h"
 #include "mesher/partition/element_partition.h"
 #include "mesher/partition/node_order.h"
 #include "pipeline/console/text_table.h"
+#include "pipeline/version.h"
 
 namespace flexneck::pipeline {
 
@@ -60,7 +60,7 @@ std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact, bool 
 }
 
 void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVolumes& exact) {
-  file.provenance.libraries["gmsh"] = mesher::gmsh_version();
+  file.provenance.libraries["gmsh"] = kGmshVersion;
   const std::string partition_lines = add_orders(input.study.mesh_orders, file);
   warn_of_replaced(input, input.folder.mesh(), mesher::kMeshFormat, file.provenance);
   mesher::write_mesh(input.folder.mesh(), file);

@@ -17,8 +17,8 @@ std::filesystem::path shipped_folder();
 /// A file in it. @param path  as in the sources, such as "geometry/neck.geo"
 std::filesystem::path shipped_file(const std::filesystem::path& path);
 
-/// A shared object that comes with the program: in lib/flexneck beside or above the running
-/// program.
+/// A shared object or another program that comes with the program: in lib/flexneck beside or above
+/// the running program or Python module.
 /// @throws ComputationError if there is none.
 std::filesystem::path library_file(const std::string& name);
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
-#include "pipeline/evaluation/make_mesh.h"
 #include "pipeline/folder/results_folder.h"
+#include "pipeline/meshing/make_mesh.h"
 
 namespace flexneck::pipeline {
 

@@ -10,9 +10,9 @@
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/node_velocity.h"
 #include "pipeline/evaluation/figures.h"
-#include "pipeline/evaluation/make_mesh.h"
 #include "pipeline/evaluation/modes_options.h"
 #include "pipeline/folder/results_folder.h"
+#include "pipeline/meshing/make_mesh.h"
 
 namespace flexneck::pipeline {
 
@@ -38,6 +38,17 @@ std::string text_beside_mesh(const Study& study) {
     if (std::find(of_mesh.begin(), of_mesh.end(), each.key) == of_mesh.end())
       text += each.key + '\n' + each.value + '\n';
   return text;
+}
+
+std::vector<mesher::Mesh> meshes_of(const std::vector<MovedStudy>& moved, const Console& console) {
+  std::vector<const Study*> studies;
+  for (const MovedStudy& each : moved) studies.push_back(&each.study);
+  std::vector<mesher::Mesh> meshes;
+  for (MeshOutcome& outcome : make_meshes(studies, console)) {
+    if (!outcome.mesh) throw InputError(outcome.refusal);
+    meshes.push_back(std::move(*outcome.mesh));
+  }
+  return meshes;
 }
 
 /// First those of the nodes for each number, then all constants of all materials.
@@ -139,9 +150,7 @@ FigureSlopes modes_slopes(const Study& study, const mesher::Mesh& mesh, BodyUse 
   static_cast<void>(rounding_remark(solved, options, body));  // refuses what is wrong
   if (std::none_of(figures.begin(), figures.end(), is_stiffness_figure))
     fields.responses.clear();  // whose derivatives nobody asks for
-  std::vector<mesher::Mesh> others;
-  others.reserve(moved.size());
-  for (const MovedStudy& each : moved) others.push_back(make_mesh(each.study, console));
+  const std::vector<mesher::Mesh> others = meshes_of(moved, console);
   const fe_modal::Sensitivities found = fe_modal::sensitivities(
       solved, options, body, fields, design_parameters(solved, others, moved));
   const MatrixXd all = by_numbers(found.derivatives, mesh, others, moved);

@@ -11,7 +11,7 @@
 
 #include "fe_modal/element/formulation.h"
 #include "geometry/neck/neck_measures.h"
-#include "mesher/exchange/mesh_import.h"
+#include "mesher/exchange/import_options.h"
 #include "mesher/gmsh/script_mesher.h"
 #include "pipeline/study/neck_section.h"
 

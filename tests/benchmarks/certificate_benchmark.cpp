@@ -10,7 +10,7 @@
 
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/analysis/modal_analysis.h"
-#include "mesher/exchange/mesh_import.h"
+#include "mesher/gmsh/mesh_import.h"
 #include "mesher/mesh/refinement.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"

@@ -11,7 +11,7 @@
 #include "fe_modal/analysis/modal_analysis.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "mesher/exchange/inp_writer.h"
-#include "mesher/exchange/mesh_import.h"
+#include "mesher/gmsh/mesh_import.h"
 #include "mesher/mesh/mesh_file.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/calculix.h"

@@ -67,6 +67,23 @@ class Installed(unittest.TestCase):
         study = (self.folder / "bar/study.json").read_text()
         self.assertNotIn(str(self.prefix), study)
 
+    def test_only_the_mesher_loads_gmsh(self):
+        for name, loads in (("bin/flexneck", False), ("lib/flexneck/flexneck-mesher", True)):
+            code, text = run("ldd", self.prefix / name, at=self.folder)
+            self.assertEqual((code, "libgmsh" in text), (0, loads), name)
+
+    def test_a_mesher_that_is_missing_or_started_by_hand_is_told(self):
+        mesher = self.one("flexneck-mesher")
+        self.assertEqual(run(mesher, at=self.folder), (
+            2, "flexneck-mesher: flexneck starts this program; see 'flexneck mesh --help'\n"))
+        aside = mesher.rename(mesher.with_name("aside"))
+        try:
+            code, text = self.flexneck("mesh", "-q", "cantilever", "-o", "unmeshed")
+        finally:
+            aside.rename(mesher)
+        self.assertEqual((code, text.count("\n")), (3, 1))
+        self.assertIn("there is no lib/flexneck/flexneck-mesher beside or above it; install flexneck again", text)
+
     def test_the_built_in_study_and_regulations_are_found(self):
         code, text = self.flexneck("study")
         self.assertEqual(code, 0, text)

@@ -7,7 +7,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "mesher/exchange/mesh_import.h"
+#include "mesher/gmsh/mesh_import.h"
 
 namespace flexneck::testing {
 

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/temporary_folder.h"
-#include "mesher/exchange/mesh_import.h"
+#include "mesher/gmsh/mesh_import.h"
 #include "mesher/gmsh/script_mesher.h"
 #include "mesher/mesh/mesh_file.h"
 #include "tests/support/files.h"

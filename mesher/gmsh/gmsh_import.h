@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mesher/exchange/foreign_file.h"
+#include "mesher/exchange/import_options.h"
 #include "mesher/exchange/left_out.h"
-#include "mesher/exchange/mesh_import.h"
 
 namespace flexneck::mesher {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/exchange/gmsh_import.h"
+#include "mesher/gmsh/gmsh_import.h"
 
 #include <algorithm>
 #include <array>

@@ -1,46 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/exchange/mesh_import.h"
+#include "mesher/gmsh/mesh_import.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <Eigen/Core>
 
 #include "geometry/foundation/error.h"
-#include "geometry/foundation/names.h"
+#include "mesher/exchange/checked_import.h"
 #include "mesher/exchange/file_survey.h"
 #include "mesher/exchange/foreign_file.h"
-#include "mesher/exchange/gmsh_import.h"
-#include "mesher/exchange/import_check.h"
 #include "mesher/exchange/inp_import.h"
 #include "mesher/exchange/nastran_connections.h"
-#include "mesher/mesh/boundary.h"
+#include "mesher/gmsh/gmsh_import.h"
 #include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::mesher {
 namespace {
-
-bool is_inside(const std::array<double, 3>& x, const BoxSet& box) {
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (!(x[d] >= box.low_m[d] && x[d] <= box.high_m[d])) return false;
-  }
-  return true;
-}
-
-void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
-  if (boxes.empty()) return;
-  const std::vector<Facet> boundary = boundary_facets(mesh);
-  for (const BoxSet& box : boxes) {
-    FaceSet faces = faces_among(boundary, box.name, [&](std::int32_t node) {
-      return is_inside(mesh.nodes[static_cast<std::size_t>(node)], box);
-    });
-    if (faces.blocks.empty()) {
-      throw InputError("set '" + box.name + "': no face of the surface lies in its box");
-    }
-    mesh.node_sets.push_back(nodes_of(faces));
-    mesh.face_sets.push_back(std::move(faces));
-  }
-}
 
 /// gmsh keeps the numbers of nodes, and the mesh their order.
 /// @return how many nodes that no element uses became reference points
@@ -68,7 +43,7 @@ std::size_t connect(std::string_view text, const ImportOptions& options, Mesh& m
 }
 
 /// gmsh reads the copy; a .bdf or .unv is read by us as well, for what gmsh passes over.
-Mesh read_with_gmsh(const ImportOptions& options, LeftOut& left_out) {
+Mesh read_with_gmsh(const ImportOptions& options, const Progress& /*progress*/, LeftOut& left_out) {
   const CheckedCopy copy(options.file);
   FileSurvey survey;
   if (copy.format() == ForeignFormat::bdf) {
@@ -86,34 +61,11 @@ Mesh read_with_gmsh(const ImportOptions& options, LeftOut& left_out) {
   return mesh;
 }
 
-Mesh read(const ImportOptions& options, const Progress& progress, LeftOut& left_out) {
-  return foreign_format_of(options.file) == ForeignFormat::inp
-             ? import_inp(options, progress, left_out)
-             : read_with_gmsh(options, left_out);
-}
-
-/// The message begins with the file, unless it does already, with a line.
-[[noreturn]] void rethrow(const std::filesystem::path& file, const InputError& error) {
-  const std::string text = error.what();
-  if (text.starts_with(file.string())) throw InputError(text);
-  throw InputError(file.string() + ": " + text);
-}
-
 }  // namespace
 
 Mesh import_mesh(const ImportOptions& options, const Progress& progress, const Progress& warn) {
-  if (progress) progress("reading " + options.file.filename().string());
-  try {
-    LeftOut left_out;
-    Mesh mesh = read(options, progress, left_out);
-    add_box_sets(options.box_sets, mesh);
-    check(mesh);
-    check_import(mesh, options.keeps_doubles);
-    if (warn && !left_out.empty()) warn(options.file.string() + ": " + left_out.text());
-    return mesh;
-  } catch (const InputError& error) {
-    rethrow(options.file, error);
-  }
+  const bool is_deck = foreign_format_of(options.file) == ForeignFormat::inp;
+  return checked_import(options, is_deck ? import_inp : read_with_gmsh, progress, warn);
 }
 
 }  // namespace flexneck::mesher

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/mesh/mesh.h"
+#include "pipeline/console/console.h"
+#include "pipeline/study/study.h"
+
+namespace flexneck::pipeline {
+
+/// The mesh that a study asks for. Decks in .inp are read here, by our own reader. All else is for
+/// gmsh, and OpenCASCADE within it, which may crash, hang or take all memory over files from
+/// elsewhere, and a script is a program: the program flexneck-mesher meshes it (mesh_task.h), with
+/// limits, so that the command does without gmsh's libraries.
+///  - A finished mesh may take 0.75 GB and 16 times its size, 10 s of the processor and 1 s/MB.
+///  - A shape may take 10 s and 10 s/MB until it is read; then it and a script may take any time,
+///    since how fine a mesh becomes is the study's choice.
+///  - Shapes and scripts may take the memory that is free.
+/// What OpenCASCADE complains of, though it makes a shape of it, is a warning.
+/// @pre study.structure
+/// @throws InputError or ComputationError as the mesher does; InputError if the child dies.
+mesher::Mesh make_mesh(const Study& study, const Console& console);
+
+/// The mesh of a study, or why the file or the script gives none.
+struct MeshOutcome {
+  std::optional<mesher::Mesh> mesh;
+  std::string refusal;  ///< empty if there is a mesh
+};
+
+/// Meshes of studies that differ in values of one structure: of all with one start of the program.
+/// @throws ComputationError or InputError as make_mesh(), but for what a study's file or script is
+/// refused for.
+std::vector<MeshOutcome> make_meshes(const std::vector<const Study*>& studies,
+                                     const Console& console);
+
+}  // namespace flexneck::pipeline
