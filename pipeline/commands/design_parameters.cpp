@@ -73,6 +73,7 @@ class MovedMeshes {
   std::vector<std::optional<mesher::Mesh>> at(const Dimension& dimension,
                                               const std::vector<double>& values) {
     std::vector<std::optional<Study>> moved;
+    moved.reserve(values.size());
     for (const double value : values) moved.push_back(study_at(dimension, value));
     std::vector<const Study*> readable;
     for (const auto& each : moved)

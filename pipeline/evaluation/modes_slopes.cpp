@@ -42,6 +42,7 @@ std::string text_beside_mesh(const Study& study) {
 
 std::vector<mesher::Mesh> meshes_of(const std::vector<MovedStudy>& moved, const Console& console) {
   std::vector<const Study*> studies;
+  studies.reserve(moved.size());
   for (const MovedStudy& each : moved) studies.push_back(&each.study);
   std::vector<mesher::Mesh> meshes;
   for (MeshOutcome& outcome : make_meshes(studies, console)) {

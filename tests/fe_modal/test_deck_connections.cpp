@@ -179,7 +179,7 @@ Eigen::VectorXd frequencies_of(const mesher::Mesh& mesh) {
 /// The mesh's own deck with the cards before its step.
 std::filesystem::path write_deck(const TemporaryFolder& folder, const mesher::Mesh& mesh,
                                  const std::string& more = {}) {
-  const std::filesystem::path path = folder / "deck.inp";
+  std::filesystem::path path = folder / "deck.inp";
   mesher::write_inp(path, mesh, {.reduced = {}, .fixed = {}, .mode_count = 8});
   std::string text = testing::bytes_of(path);
   text.insert(text.find("*STEP"), inp_cards(Deck(mesh)) + more);
