@@ -73,6 +73,11 @@ void SymmetricMatrix::free_columns() const {
   std::vector<PetscInt>().swap(arrays_->columns);
 }
 
+void SymmetricMatrix::clear() {
+  handle_ = MatHandle();
+  arrays_ = std::make_unique<Arrays>(Arrays{{}, {}, {0}, {}, {}});
+}
+
 SymmetricMatrix SymmetricMatrix::clone() const { return SymmetricMatrix(Arrays(*arrays_)); }
 
 std::span<const std::int32_t> SymmetricMatrix::later(std::int32_t node) const {

@@ -28,6 +28,8 @@ class SymmetricMatrix {
   Mat get() const;
   /// Frees what get() and columns() made; they make it again when they are called.
   void free_columns() const;
+  /// Frees all; it has no rows from then on.
+  void clear();
 
   /// The upper half by scalar rows: row i has columns()[offsets()[i]] … and their values.
   std::span<const PetscInt> offsets() const { return arrays_->offsets; }

@@ -190,6 +190,12 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma,
   }
 }
 
+void AssembledSystem::keep_mass_alone() {
+  stiffness_.reset();
+  matrices_->stiffness.clear();
+  NodalMass().swap(matrices_->nodal_mass);
+}
+
 Eigen::MatrixXd AssembledSystem::mass_integrals(const Eigen::MatrixXd& fields) const {
   const Eigen::MatrixXd own = part_.rows_of_nodes(fields);
   Eigen::MatrixXd integrals = own.transpose() * (matrices_->nodal_mass * own);
