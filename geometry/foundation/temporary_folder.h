@@ -12,7 +12,8 @@ namespace flexneck {
 /// ends the process (signal_cleanup.h).
 class TemporaryFolder {
  public:
-  /// @throws ComputationError if the system's folder for temporary files takes none.
+  /// @throws InputError if the folder for temporary files that TMPDIR names is none;
+  /// ComputationError if it takes no other.
   TemporaryFolder();
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -97,6 +97,14 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 }  // namespace
 
+TEST_CASE("without a folder for temporary files nothing is meshed, which one line says") {
+  const TemporaryFolder folder;
+  testing::check_refused(
+      testing::run_shell("cd " + folder.path().string() + " && TMPDIR=missing " +
+                         testing::flexneck_program() + " -q mesh"),
+      "TMPDIR: expected a folder for temporary files, found 'missing'; set it to one");
+}
+
 TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one line") {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& file, const std::string& contents,
