@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -157,9 +156,7 @@ void refuse_end_by_library() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_standard_streams();
-  flexneck::clean_up_on_signals();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failure to write, no end
+  prepare_process();
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   if (is_child(words)) child_main(words, child_tasks());
   std::set_terminate(terminate);

@@ -2,6 +2,7 @@
 #include "pipeline/console/console.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -14,6 +15,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
+#include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck::pipeline {
 
@@ -38,11 +40,13 @@ std::string one_line(const std::string& text) { return shortened(printable(text)
 
 }  // namespace
 
-void keep_standard_streams() {
+void prepare_process() {
   for (int stream = 0; stream <= 2; ++stream) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
     ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest number that is free
   }
+  clean_up_on_signals();
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void require_written_output() {

@@ -17,7 +17,7 @@ MeshOrder mesh_order(const fs::path& folder, const std::vector<const Study*>& st
 
 std::vector<std::string> arguments_of(const MeshOrder& order) {
   std::vector<std::string> arguments = {order.folder.string()};
-  for (const MeshOrder::Choice& each : order.studies) {
+  for (const StudyChoice& each : order.studies) {
     arguments.push_back(each.study.string());
     arguments.push_back(std::to_string(each.settings.size()));
     arguments.insert(arguments.end(), each.settings.begin(), each.settings.end());
@@ -28,7 +28,7 @@ std::vector<std::string> arguments_of(const MeshOrder& order) {
 MeshOrder order_from(const std::vector<std::string>& arguments) {
   MeshOrder order{arguments.at(0), {}};
   for (std::size_t at = 1; at < arguments.size();) {
-    MeshOrder::Choice choice{arguments[at], {}};
+    StudyChoice choice{arguments[at], {}};
     const std::size_t settings = std::stoul(arguments.at(at + 1));
     at += 2;
     for (const std::size_t end = at + settings; at < end; ++at)

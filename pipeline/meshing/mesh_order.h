@@ -6,18 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/folder/remembered_study.h"
 #include "pipeline/study/study.h"
 
 namespace flexneck::pipeline {
 
 /// What flexneck asks of the program flexneck-mesher: studies, and a folder for a mesh of each.
 struct MeshOrder {
-  struct Choice {
-    std::filesystem::path study;
-    std::vector<std::string> settings;
-  };
   std::filesystem::path folder;
-  std::vector<Choice> studies;
+  std::vector<StudyChoice> studies;
 };
 
 MeshOrder mesh_order(const std::filesystem::path& folder, const std::vector<const Study*>& studies);

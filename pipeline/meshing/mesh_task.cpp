@@ -67,7 +67,7 @@ mesher::Mesh mesh_of(const Study& study, const ChildLines& lines) {
 void mesh_task(const std::vector<std::string>& arguments, const ChildLines& lines) {
   const MeshOrder order = order_from(arguments);
   for (std::size_t place = 0; place < order.studies.size(); ++place) {
-    const MeshOrder::Choice& choice = order.studies[place];
+    const StudyChoice& choice = order.studies[place];
     const Study study = read_study(choice.study, choice.settings);
     try {
       mesher::write_mesh(mesh_result(order, place),

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // flexneck-mesher: what flexneck starts to mesh with gmsh.
-#include <csignal>
 #include <cstdio>
 #include <span>
 
-#include "geometry/foundation/signal_cleanup.h"
 #include "pipeline/console/console.h"
 #include "pipeline/isolation/child_main.h"
 #include "pipeline/meshing/mesh_task.h"
@@ -17,9 +15,7 @@ constexpr int kUnusableInput = 2;
 
 int main(int argc, char** argv) {
   using namespace flexneck::pipeline;
-  keep_standard_streams();
-  flexneck::clean_up_on_signals();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a failure to write, no end
+  prepare_process();
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   if (is_child(words)) child_main(words, {{"mesh", mesh_task}});
   std::fputs("flexneck-mesher: flexneck starts this program; see 'flexneck mesh --help'\n", stderr);

@@ -93,8 +93,10 @@ def where(stack):
 def is_ended_by_mpi(end):
     """MPI ends the process by the system's call, with the class of its error: any of 1 to 92, 1 where it
     finds no way to send messages."""
-    return end.status != "hang" and end.status > 0 and (
-        "MPI_ERRORS_ARE_FATAL" in end.text or re.search(r"PML \w+ cannot be selected", end.text) is not None)
+    if end.status == "hang" or end.status <= 0:
+        return False
+    return "MPI_ERRORS_ARE_FATAL" in end.text or (
+        end.status == 1 and re.search(r"PML \w+ cannot be selected", end.text) is not None)
 
 
 def is_librarys_end(scenario, end, plan, library):
