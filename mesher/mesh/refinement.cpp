@@ -2,245 +2,28 @@
 #include "mesher/mesh/refinement.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
-#include <optional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include <Eigen/LU>
-
-#include "mesher/mesh/shape_functions.h"
+#include "mesher/mesh/refined_nodes.h"
+#include "mesher/mesh/subdivision.h"
 
 namespace flexneck::mesher {
 namespace {
 
-/// A piece of a reference element: the reference element of a shape under x -> origin + linear x.
-struct Piece {
-  ReferenceShape shape;
-  Eigen::Vector3d origin;
-  Eigen::Matrix3d linear;
-};
-
-using Points = std::vector<Eigen::Vector3d>;
-
-/// The reference tetrahedron onto the one with these corners, turned right side out.
-Piece onto_tetrahedron(Points corners) {
-  const auto edges = [&] {
-    Eigen::Matrix3d matrix;
-    for (int k = 0; k < 3; ++k)
-      matrix.col(k) = corners[static_cast<std::size_t>(k) + 1] - corners[0];
-    return matrix;
-  };
-  if (edges().determinant() < 0) std::swap(corners[2], corners[3]);
-  return {ReferenceShape::tetrahedron, corners[0], edges()};
-}
-
-std::vector<Piece> pieces_of_tetrahedron() {
-  const Points corner = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const auto middle = [&](std::size_t a, std::size_t b) -> Eigen::Vector3d {
-    return (corner[a] + corner[b]) / 2;
-  };
-  std::vector<Piece> pieces;
-  for (const Eigen::Vector3d& c : corner)
-    pieces.push_back({ReferenceShape::tetrahedron, c / 2, Eigen::Matrix3d::Identity() / 2});
-  // The octahedron that is left, cut along the diagonal between the middles of edges 02 and 13.
-  const Eigen::Vector3d one = middle(0, 2);
-  const Eigen::Vector3d other = middle(1, 3);
-  const Points ring = {middle(0, 1), middle(0, 3), middle(2, 3), middle(1, 2)};
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    pieces.push_back(onto_tetrahedron({one, other, ring[k], ring[(k + 1) % ring.size()]}));
-  }
-  return pieces;
-}
-
-/// Triangles in the plane zeta = 0: three corners, and the middle one turned by half a turn.
-std::vector<Piece> pieces_of_triangle() {
-  const ReferenceShape shape = ReferenceShape::triangle;
-  const Eigen::Matrix3d half = Eigen::Vector3d(0.5, 0.5, 1).asDiagonal();
-  const Eigen::Matrix3d turned = Eigen::Vector3d(-0.5, -0.5, 1).asDiagonal();
-  return {{shape, {0, 0, 0}, half},
-          {shape, {0.5, 0, 0}, half},
-          {shape, {0, 0.5, 0}, half},
-          {shape, {0.5, 0.5, 0}, turned}};
-}
-
-/// Five pyramids at the corners, one upside down under the uppermost, and four tetrahedra.
-std::vector<Piece> pieces_of_pyramid() {
-  const Eigen::Matrix3d half = Eigen::Matrix3d::Identity() / 2;
-  const Eigen::Matrix3d upside_down = Eigen::Vector3d(0.5, -0.5, -0.5).asDiagonal();
-  const ReferenceShape shape = ReferenceShape::pyramid;
-  std::vector<Piece> pieces = {{shape, {0, 0, 0.5}, half}, {shape, {0, 0, 0.5}, upside_down}};
-  const Points corners = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
-  const Eigen::Vector3d up(0, 0, 0.5);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Eigen::Vector3d& a = corners[k];
-    const Eigen::Vector3d& b = corners[(k + 1) % corners.size()];
-    pieces.push_back({shape, a, half});
-    pieces.push_back(onto_tetrahedron({Eigen::Vector3d::Zero(), a + b, a + up, b + up}));
-  }
-  return pieces;
-}
-
-std::vector<Piece> pieces_of(ReferenceShape shape) {
-  std::vector<Piece> pieces;
-  switch (shape) {
-    case ReferenceShape::hexahedron:
-      for (const double z : {-0.5, 0.5}) {
-        for (const double y : {-0.5, 0.5}) {
-          for (const double x : {-0.5, 0.5}) {
-            pieces.push_back({shape, {x, y, z}, Eigen::Matrix3d::Identity() / 2});
-          }
-        }
-      }
-      break;
-    case ReferenceShape::quadrilateral:
-      for (const double y : {-0.5, 0.5}) {
-        for (const double x : {-0.5, 0.5}) {
-          pieces.push_back({shape, {x, y, 0}, Eigen::Matrix3d::Identity() / 2});
-        }
-      }
-      break;
-    case ReferenceShape::prism:
-      for (const double z : {-0.5, 0.5}) {
-        for (Piece piece : pieces_of_triangle()) {
-          piece.shape = shape;
-          piece.origin[2] = z;
-          piece.linear(2, 2) = 0.5;
-          pieces.push_back(piece);
-        }
-      }
-      break;
-    case ReferenceShape::tetrahedron:
-      return pieces_of_tetrahedron();
-    case ReferenceShape::pyramid:
-      return pieces_of_pyramid();
-    case ReferenceShape::triangle:
-      return pieces_of_triangle();
-  }
-  return pieces;
-}
-
-/// A position as shape functions that are not zero there: (node, value).
-using Weights = std::vector<std::pair<std::int32_t, double>>;
-
-/// Pieces of one kind: row-major (pieces, nodes per element) local positions, or nodes of a mesh.
-template <typename Index>
-using ByKind = std::map<ElementKind, std::vector<Index>>;
-
-/// How a kind is cut: positions that its pieces have nodes at, and the pieces by positions.
-struct Subdivision {
-  explicit Subdivision(ElementKind kind);
-
-  std::vector<Weights> positions;  ///< by local nodes
-  ByKind<std::size_t> pieces;
-};
-
-/// The kind of a piece: that of the whole, or, where the shape differs, of the same order. All
-/// tetrahedra of an order have as many nodes on a side as the pyramids that they are cut from.
-ElementKind kind_of_piece(ElementKind whole, ReferenceShape shape) {
-  if (shape == shape_of(whole)) return whole;
-  const auto kinds = element_kinds();
-  return *std::find_if(kinds.begin(), kinds.end(), [&](ElementKind kind) {
-    return shape_of(kind) == shape && order_of(kind) == order_of(whole);
-  });
-}
-
-Subdivision::Subdivision(ElementKind kind) {
-  constexpr double kNothing = 1e-12;
-  std::map<std::array<double, 3>, std::size_t> known;  // coordinates are dyadic, so exact
-  Points points;
-  for (const Piece& piece : pieces_of(shape_of(kind))) {
-    const ElementKind kind_here = kind_of_piece(kind, piece.shape);
-    for (const auto& node : reference_nodes(kind_here)) {
-      const Eigen::Vector3d x = piece.origin + piece.linear * Eigen::Vector3d(node.data());
-      const auto [place, is_new] = known.try_emplace({x[0], x[1], x[2]}, points.size());
-      if (is_new) points.push_back(x);
-      pieces[kind_here].push_back(place->second);
-    }
-  }
-  Eigen::Matrix3Xd columns(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t k = 0; k < points.size(); ++k)
-    columns.col(static_cast<Eigen::Index>(k)) = points[k];
-  const Eigen::MatrixXd values = tabulate(kind, columns).values;
-  for (const auto& column : values.colwise()) {
-    Weights& weights = positions.emplace_back();
-    for (Eigen::Index i = 0; i < column.size(); ++i) {
-      if (std::abs(column[i]) > kNothing)
-        weights.emplace_back(static_cast<std::int32_t>(i), column[i]);
-    }
-  }
-}
-
-/// Numbers positions: neighbours that share a face, an edge or a node know it by the same weights.
-class NodeNumbers {
- public:
-  explicit NodeNumbers(std::size_t old_count) {
-    for (std::size_t k = 0; k < old_count; ++k) {
-      weights_.push_back({{static_cast<std::int32_t>(k), 1.0}});
-    }
-  }
-
-  /// Number of the position, a new one if it is not known.
-  std::int32_t number(Weights weights) {
-    if (weights.size() == 1) return weights.front().first;
-    const auto next = static_cast<std::int32_t>(weights_.size());
-    const auto [place, is_new] = numbers_.try_emplace(key_of(weights), next);
-    if (is_new) weights_.push_back(std::move(weights));
-    return place->second;
-  }
-  std::optional<std::int32_t> find(const Weights& weights) const {
-    if (weights.size() == 1) return weights.front().first;
-    const auto found = numbers_.find(key_of(weights));
-    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
-  }
-
-  const std::vector<Weights>& weights() const { return weights_; }
-
- private:
-  using Key = std::vector<std::int32_t>;
-  struct Hash {
-    std::size_t operator()(const Key& key) const {
-      std::size_t hash = key.size();
-      for (const std::int32_t x : key) {
-        hash = (hash ^ static_cast<std::size_t>(x)) * 0x9E3779B97F4A7C15ULL;
-        hash ^= hash >> 29U;
-      }
-      return hash;
-    }
-  };
-
-  /// Nodes by rising number, each with its value in 4096ths: values are multiples of 1/64.
-  static Key key_of(Weights weights) {
-    std::sort(weights.begin(), weights.end());
-    Key key;
-    for (const auto& [node, value] : weights) {
-      key.push_back(node);
-      key.push_back(static_cast<std::int32_t>(std::lround(4096 * value)));
-    }
-    return key;
-  }
-
-  std::unordered_map<Key, std::int32_t, Hash> numbers_;
-  std::vector<Weights> weights_;  ///< by number
-};
-
 /// Cuts elements or faces of one kind.
-ByKind<std::int32_t> cut(ElementKind kind, std::span<const std::int32_t> connectivity,
-                         NodeNumbers& numbers) {
-  const Subdivision subdivision(kind);
-  const std::size_t width = nodes_per_element(kind);
+ByKind<std::int32_t> cut(const Subdivision& subdivision, std::span<const std::int32_t> connectivity,
+                         RefinedNodes& refined) {
+  const std::size_t width = nodes_per_element(subdivision.kind);
   ByKind<std::int32_t> result;
   std::vector<std::int32_t> here(subdivision.positions.size());
   for (std::size_t first = 0; first < connectivity.size(); first += width) {
+    const std::int32_t* const element = connectivity.data() + first;
     for (std::size_t k = 0; k < here.size(); ++k) {
-      Weights weights = subdivision.positions[k];
-      for (auto& entry : weights) {
-        entry.first = connectivity[first + static_cast<std::size_t>(entry.first)];
-      }
-      here[k] = numbers.number(std::move(weights));
+      here[k] = refined.number({subdivision.positions[k], element});
     }
     for (const auto& [kind_of_pieces, places] : subdivision.pieces)
       for (const std::size_t k : places) result[kind_of_pieces].push_back(here[k]);
@@ -283,11 +66,13 @@ class FinerBlocks {
   std::vector<std::vector<std::int32_t>> parents_;
 };
 
-NodeSet refine_set(const NodeSet& set, const std::vector<Weights>& positions) {
+NodeSet refine_set(const NodeSet& set, const RefinedNodes& refined) {
   NodeSet result{set.name, {}};
-  for (std::size_t k = 0; k < positions.size(); ++k) {
-    if (std::all_of(positions[k].begin(), positions[k].end(), [&](const auto& entry) {
-          return std::binary_search(set.nodes.begin(), set.nodes.end(), entry.first);
+  std::vector<NodeWeight> weights;
+  for (std::size_t k = 0; k < refined.size(); ++k) {
+    refined.find_weights(k, weights);
+    if (std::all_of(weights.begin(), weights.end(), [&](const NodeWeight& weight) {
+          return std::binary_search(set.nodes.begin(), set.nodes.end(), weight.node);
         })) {
       result.nodes.push_back(static_cast<std::int32_t>(k));
     }
@@ -297,16 +82,16 @@ NodeSet refine_set(const NodeSet& set, const std::vector<Weights>& positions) {
 
 /// New nodes among those of a coupling or support belong to it; masses, springs and equations stay
 /// where they are, with reference points behind more nodes.
-Connections refine_connections(const Mesh& mesh, const std::vector<Weights>& positions) {
+Connections refine_connections(const Mesh& mesh, const RefinedNodes& refined) {
   Connections result = mesh.connections;
   const auto finer = [&](std::vector<std::int32_t>& nodes) {
-    nodes = refine_set({"", nodes}, positions).nodes;
+    nodes = refine_set({"", nodes}, refined).nodes;
   };
   for (Coupling& coupling : result.couplings) finer(coupling.nodes);
   for (Support& support : result.supports) finer(support.nodes);
   const auto behind = [&](std::int32_t& site) {
     if (static_cast<std::size_t>(site) < mesh.nodes.size()) return;
-    site += static_cast<std::int32_t>(positions.size() - mesh.nodes.size());
+    site += static_cast<std::int32_t>(refined.size() - mesh.nodes.size());
   };
   const auto all_behind = [&](std::vector<Term>& terms) {
     for (Term& term : terms) behind(term.site);
@@ -318,21 +103,22 @@ Connections refine_connections(const Mesh& mesh, const std::vector<Weights>& pos
 }
 
 /// A position of the lower face becomes one of the upper face when its nodes are exchanged.
-Slit refine_slit(const Slit& slit, const NodeNumbers& numbers) {
+Slit refine_slit(const Slit& slit, const RefinedNodes& refined) {
   std::map<std::int32_t, std::int32_t> partner;
   for (std::size_t p = 0; p < slit.lower.size(); ++p) partner[slit.lower[p]] = slit.upper[p];
   Slit result{slit.name, slit.tied, {}, {}, {}, {}};
-  for (std::size_t k = 0; k < numbers.weights().size(); ++k) {
-    Weights exchanged = numbers.weights()[k];
+  std::vector<NodeWeight> exchanged;
+  for (std::size_t k = 0; k < refined.size(); ++k) {
+    refined.find_weights(k, exchanged);
     bool is_lower = false;
-    for (auto& entry : exchanged) {
-      const auto found = partner.find(entry.first);
+    for (NodeWeight& weight : exchanged) {
+      const auto found = partner.find(weight.node);
       if (found == partner.end()) continue;
-      entry.first = found->second;
+      weight.node = found->second;
       is_lower = true;
     }
     if (!is_lower) continue;
-    if (const auto other = numbers.find(exchanged)) {
+    if (const auto other = refined.find({exchanged})) {
       result.lower.push_back(static_cast<std::int32_t>(k));
       result.upper.push_back(*other);
     }
@@ -340,34 +126,43 @@ Slit refine_slit(const Slit& slit, const NodeNumbers& numbers) {
   return result;
 }
 
-void place_nodes(const Mesh& before, const std::vector<Weights>& positions, RefinedMesh& result) {
-  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
-  result.mesh.nodes.reserve(positions.size());
-  for (std::size_t k = 0; k < positions.size(); ++k) {
+void place_nodes(const Mesh& before, const RefinedNodes& refined, RefinedMesh& result) {
+  const auto rows = static_cast<Eigen::Index>(refined.size());
+  result.prolongation.resize(rows, static_cast<Eigen::Index>(before.nodes.size()));
+  result.prolongation.reserve(static_cast<Eigen::Index>(refined.weight_count()));
+  result.mesh.nodes.reserve(refined.size());
+  std::vector<NodeWeight> weights;
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    refined.find_weights(static_cast<std::size_t>(row), weights);
     std::array<double, 3> x{};
-    for (const auto& [node, value] : positions[k]) {
+    for (const auto& [node, value] : weights) {
       for (std::size_t d = 0; d < 3; ++d) {
         x[d] += value * before.nodes[static_cast<std::size_t>(node)][d];
       }
-      entries.emplace_back(static_cast<std::int32_t>(k), node, value);
     }
     result.mesh.nodes.push_back(x);
+    std::sort(weights.begin(), weights.end(),
+              [](const NodeWeight& a, const NodeWeight& b) { return a.node < b.node; });
+    result.prolongation.startVec(row);
+    for (const auto& [node, value] : weights) result.prolongation.insertBack(row, node) = value;
   }
-  result.prolongation.resize(static_cast<Eigen::Index>(positions.size()),
-                             static_cast<Eigen::Index>(before.nodes.size()));
-  result.prolongation.setFromTriplets(entries.begin(), entries.end());
+  result.prolongation.finalize();
 }
 
 }  // namespace
 
 RefinedMesh refine(const Mesh& mesh) {
   RefinedMesh result;
-  NodeNumbers numbers(mesh.nodes.size());
+  std::map<ElementKind, Subdivision> subdivisions;  // which new nodes keep references to
+  RefinedNodes refined(mesh.nodes.size());
+  const auto pieces_of = [&](ElementKind kind, std::span<const std::int32_t> connectivity) {
+    return cut(subdivisions.try_emplace(kind, kind).first->second, connectivity, refined);
+  };
   result.mesh.materials = mesh.materials;
   FinerBlocks blocks(result.mesh);
   std::int32_t first = 0;
   for (const ElementBlock& block : mesh.blocks) {
-    for (auto& [kind, nodes] : cut(block.kind, block.nodes, numbers)) {
+    for (auto& [kind, nodes] : pieces_of(block.kind, block.nodes)) {
       nodes.shrink_to_fit();
       blocks.append({block.part, kind, block.material, std::move(nodes)}, first, block.size());
     }
@@ -375,18 +170,18 @@ RefinedMesh refine(const Mesh& mesh) {
   }
   result.parents = blocks.parents();
   for (const FaceSet& set : mesh.face_sets) {
-    FaceSet& refined = result.mesh.face_sets.emplace_back(FaceSet{set.name, {}});
+    FaceSet& finer = result.mesh.face_sets.emplace_back(FaceSet{set.name, {}});
     for (const FaceBlock& block : set.blocks) {
-      for (auto& [kind, nodes] : cut(block.kind, block.nodes, numbers))
-        refined.blocks.push_back({kind, std::move(nodes)});
+      for (auto& [kind, nodes] : pieces_of(block.kind, block.nodes))
+        finer.blocks.push_back({kind, std::move(nodes)});
     }
   }
-  place_nodes(mesh, numbers.weights(), result);
+  place_nodes(mesh, refined, result);
   for (const NodeSet& set : mesh.node_sets) {
-    result.mesh.node_sets.push_back(refine_set(set, numbers.weights()));
+    result.mesh.node_sets.push_back(refine_set(set, refined));
   }
-  for (const Slit& slit : mesh.slits) result.mesh.slits.push_back(refine_slit(slit, numbers));
-  result.mesh.connections = refine_connections(mesh, numbers.weights());
+  for (const Slit& slit : mesh.slits) result.mesh.slits.push_back(refine_slit(slit, refined));
+  result.mesh.connections = refine_connections(mesh, refined);
   return result;
 }
 
