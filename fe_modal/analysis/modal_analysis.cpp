@@ -269,10 +269,10 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
     times.start("refine and solve again");
     // A factor does without K, unlike an iteration.
     if (options.solver == Solver::direct) system.keep_mass_alone();
-    const EigenPairs normal = {pairs.values.head(eigenvectors),
-                               pairs.vectors.leftCols(eigenvectors)};
+    pairs.values.conservativeResize(eigenvectors);
+    pairs.vectors.conservativeResize(Eigen::NoChange, eigenvectors);
     const auto errors =
-        mesh_errors({mesh, system, normal, *inverse, rigid.count()}, options, progress);
+        mesh_errors({mesh, system, pairs, *inverse, rigid.count()}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) body.modes[k].mesh_error = errors[k];
   }
   body.solver = inverse->describe();

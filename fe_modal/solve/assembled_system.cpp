@@ -193,6 +193,7 @@ std::optional<Eigen::Index> AssembledSystem::eigenvalues_below(double sigma,
 void AssembledSystem::keep_mass_alone() {
   stiffness_.reset();
   matrices_->stiffness.clear();
+  matrices_->graph = NodeGraph({0}, {});
   NodalMass().swap(matrices_->nodal_mass);
 }
 
