@@ -24,7 +24,7 @@ template <typename Row>
   std::fill(y.begin(), y.end(), RowOf<double, Row::kLanes>{});
   for (std::size_t node = 0; 3 * node < x.size(); ++node) {
     Row own[3];
-    Row sum[3];
+    Row sum[3] = {};
     const double* entries[3];
     for (std::size_t a = 0; a < 3; ++a) own[a].load(x[3 * node + a]);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -64,7 +64,7 @@ template <typename Row>
                                                  std::span<const RowOf<double, Row::kLanes>> x,
                                                  std::span<RowOf<double, Row::kLanes>> y) {
   for (std::size_t node = 0; 3 * node < x.size(); ++node) {
-    Row sum[3];
+    Row sum[3] = {};
     for (std::int32_t k = mass.outerIndexPtr()[node]; k < mass.outerIndexPtr()[node + 1]; ++k) {
       const auto place = 3 * static_cast<std::size_t>(mass.innerIndexPtr()[k]);
       for (std::size_t a = 0; a < 3; ++a) {

@@ -23,7 +23,7 @@ template <typename Row, std::size_t count, std::size_t height>
 [[gnu::always_inline]] inline void multiply_strip(const double* values, std::size_t columns,
                                                   const RowOf<double>* x, std::size_t groups,
                                                   RowOf<double>* y) {
-  Row sums[height][count];
+  Row sums[height][count] = {};
   for (std::size_t c = 0; c < columns; ++c) {
     for (std::size_t g = 0; g < count; ++g) {
       Row row;
@@ -92,7 +92,7 @@ void PackedMatrix::take_sum(std::span<const PackedMatrix> terms, const Eigen::Ve
   run_with(
       registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
         for (std::size_t r = 0; r < values_.size(); ++r) {
-          RegisterRow<double, bytes> sum;
+          RegisterRow<double, bytes> sum{};
           for (std::size_t k = 0; k < terms.size(); ++k) {
             RegisterRow<double, bytes> term;
             term.load(terms[k].values_[r]);

@@ -29,7 +29,7 @@ struct RegisterRow {
   // An attribute, since no type of the standard is a register.
   typedef Scalar Register __attribute__((vector_size(kBytes), may_alias));
 
-  Register part[kRegisters] = {};
+  Register part[kRegisters];  ///< not set: zeroing rows that are loaded would take time
 
   [[gnu::always_inline]] void load(const RowOf<Scalar, lanes>& row) {
     for (std::size_t k = 0; k < kRegisters; ++k) {
@@ -47,10 +47,23 @@ struct RegisterRow {
   [[gnu::always_inline]] void subtract(Scalar factor, const RegisterRow& other) {
     for (std::size_t k = 0; k < kRegisters; ++k) part[k] -= factor * other.part[k];
   }
+  [[gnu::always_inline]] void multiply(Scalar factor) {
+    for (std::size_t k = 0; k < kRegisters; ++k) part[k] *= factor;
+  }
   [[gnu::always_inline]] void divide(Scalar divisor) {
     for (std::size_t k = 0; k < kRegisters; ++k) part[k] /= divisor;
   }
 };
+
+/// Adds rows to others; inline in loops of run_with(), whose registers it takes.
+template <typename Scalar, typename Sum, std::size_t lanes>
+[[gnu::always_inline]] inline void add_rows(const RowOf<Scalar, lanes>* from, std::size_t count,
+                                            std::size_t stride, RowOf<Sum, lanes>* to) {
+  for (std::size_t k = 0; k < count; ++k) {
+    RowOf<Sum, lanes>& sum = to[stride * k];
+    for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += static_cast<Sum>(from[k].value[c]);
+  }
+}
 
 /// A row of one.
 struct SingleRow {

@@ -22,7 +22,7 @@ template <std::size_t bytes>
     RegisterRow<double, bytes> before[3];
     for (std::size_t b = 0; b < 3; ++b) before[b].load(rows[b * groups + g]);
     for (std::size_t a = 0; a < 3; ++a) {
-      RegisterRow<double, bytes> sum;
+      RegisterRow<double, bytes> sum{};
       for (std::size_t b = 0; b < 3; ++b) sum.add(factors[a * down + b * across], before[b]);
       sum.store(rows[a * groups + g]);
     }

@@ -22,7 +22,7 @@ template <std::size_t step, bool adds, typename Row>
     // Places of the other two directions, of which the lower is below the step.
     const std::size_t first = line / step * step * kLine + line % step;
     for (std::size_t q = 0; q < kLine; ++q) {
-      Row sum;
+      Row sum{};
       if constexpr (adds) sum = y[first + q * step];
       for (std::size_t i = 0; i < kLine; ++i) {
         sum.add(table[q * kLine + i], x[first + i * step]);
@@ -177,7 +177,7 @@ void LineTables::multiply_by_mass(const Eigen::VectorXd& masses_kg, const RowOf<
           Row points[kCube];
           contract_all(values_.data(), nodes, points);
           for (std::size_t p = 0; p < kCube; ++p) {
-            Row momentum;
+            Row momentum{};
             momentum.add(masses[p], points[p]);
             points[p] = momentum;
           }

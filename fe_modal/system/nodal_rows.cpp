@@ -40,13 +40,14 @@ void NodalRows::take(const NodalRows& from, std::span<const std::int32_t> nodes)
 }
 
 void NodalRows::add_to(NodalRows& to, std::span<const std::int32_t> nodes) const {
-  const RowOf<double>* own = rows_.data();
-  for (const std::int32_t node : nodes) {
-    for (RowOf<double>& row : to.of(node)) {
-      for (std::size_t c = 0; c < kColumnsTogether; ++c) row.value[c] += own->value[c];
-      ++own;
-    }
-  }
+  run_with(
+      widest_registers(), [&]<std::size_t /*bytes*/>() __attribute__((always_inline)) {
+        const RowOf<double>* own = rows_.data();
+        for (const std::int32_t node : nodes) {
+          add_rows(own, groups_, 1, to.of(node).data());
+          own += groups_;
+        }
+      });
 }
 
 void NodalRows::add_product(const Eigen::MatrixXd& matrix, NodalRows& fields) {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/solve/refined/inner_block.h"
 
-#include <algorithm>
-
 #include <Eigen/Cholesky>
 
-#include "fe_modal/algebra/block_elimination.h"
 #include "fe_modal/algebra/pivots.h"
 #include "geometry/foundation/error.h"
 
@@ -14,13 +11,23 @@ namespace {
 
 constexpr std::size_t kNode = 3;
 
-FactorBlock<float> factor_block(const std::vector<float>& columns) {
-  return {columns.data(), static_cast<int>(columns.size() / kNode), static_cast<int>(kNode)};
+/// Of a block's rows those of all its directions, one after the other.
+std::size_t first_row(std::size_t groups, std::int32_t number) {
+  return groups * kNode * static_cast<std::size_t>(number);
 }
 
-std::size_t row_of(std::size_t groups, std::int32_t number, std::size_t direction) {
-  return groups * (kNode * static_cast<std::size_t>(number) + direction);
-}
+/// The rows of a node in one group of columns.
+template <typename Row>
+struct NodeRows {
+  Row of[kNode];
+
+  [[gnu::always_inline]] void load(const RowOf<float, Row::kLanes>* rows, std::size_t groups) {
+    for (std::size_t a = 0; a < kNode; ++a) of[a].load(rows[a * groups]);
+  }
+  [[gnu::always_inline]] void store(RowOf<float, Row::kLanes>* rows, std::size_t groups) const {
+    for (std::size_t a = 0; a < kNode; ++a) of[a].store(rows[a * groups]);
+  }
+};
 
 }  // namespace
 
@@ -43,12 +50,12 @@ InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place,
     if (i != inner && numbers[static_cast<std::size_t>(i)] >= 0) places.push_back(i);
   }
   numbers_.reserve(places.size());
-  columns_.reserve(9 * places.size());
-  for (const Eigen::Index i : places) numbers_.push_back(numbers[static_cast<std::size_t>(i)]);
-  for (Eigen::Index column = 0; column < 3; ++column) {
-    for (const Eigen::Index i : places) {
-      for (Eigen::Index a = 0; a < 3; ++a) {
-        columns_.push_back(static_cast<float>(columns(a * width + i, column)));
+  entries_.reserve(kNode * kNode * places.size());
+  for (const Eigen::Index i : places) {
+    numbers_.push_back(numbers[static_cast<std::size_t>(i)]);
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        entries_.push_back(static_cast<float>(columns(a * width + i, c)));
       }
     }
   }
@@ -57,37 +64,57 @@ InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place,
 
 template <std::size_t lanes>
 void InnerBlock::eliminate(std::size_t groups, std::span<RowOf<float, lanes>> rows) const {
-  std::vector<RowOf<float, lanes>> own(kNode * numbers_.size());
-  for (std::size_t group = 0; group < groups; ++group) {
-    for (std::size_t a = 0; a < kNode; ++a) own[a] = rows[row_of(groups, number(), a) + group];
-    std::fill(own.begin() + kNode, own.end(), RowOf<float, lanes>{});
-    fe_modal::eliminate(factor_block(columns_), own.data());
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      RowOf<float, lanes>& row = rows[row_of(groups, numbers_[i / kNode], i % kNode) + group];
-      if (i < kNode)
-        row = own[i];
-      else
-        for (std::size_t c = 0; c < lanes; ++c) row.value[c] += own[i].value[c];
-    }
-  }
+  run_with(
+      widest_registers(), [&]<std::size_t bytes>() __attribute__((always_inline)) {
+        for (std::size_t group = 0; group < groups; ++group) {
+          RowOf<float, lanes>* const first = rows.data() + group;
+          NodeRows<RegisterRow<float, bytes, lanes>> own;
+          own.load(first + first_row(groups, number()), groups);
+          const float* entries = entries_.data();
+          for (std::size_t a = 0; a < kNode; ++a, entries += kNode) {
+            for (std::size_t c = 0; c < a; ++c) own.of[a].subtract(entries[c], own.of[c]);
+            own.of[a].divide(entries[a]);
+          }
+          own.store(first + first_row(groups, number()), groups);
+          for (const std::int32_t other : std::span(numbers_).subspan(1)) {
+            NodeRows<RegisterRow<float, bytes, lanes>> next;
+            next.load(first + first_row(groups, other), groups);
+            for (std::size_t a = 0; a < kNode; ++a, entries += kNode) {
+              for (std::size_t c = 0; c < kNode; ++c) next.of[a].subtract(entries[c], own.of[c]);
+            }
+            next.store(first + first_row(groups, other), groups);
+          }
+        }
+      });
 }
 
 template <std::size_t lanes>
 void InnerBlock::substitute(std::size_t groups, std::span<const RowOf<float, lanes>> eliminated,
                             std::size_t count, std::span<RowOf<float, lanes>> sums) const {
-  std::vector<RowOf<float, lanes>> own(kNode * numbers_.size());
-  for (std::size_t group = 0; group < groups; ++group) {
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      own[i] = sums[row_of(groups, numbers_[i / kNode], i % kNode) + group];
-    }
-    for (std::size_t a = 0; a < kNode; ++a) {
-      const RowOf<float, lanes>& row = eliminated[row_of(groups, number(), a) + group];
-      for (std::size_t c = 0; c < lanes; ++c)
-        own[a].value[c] = static_cast<float>(count) * row.value[c];
-    }
-    fe_modal::substitute(factor_block(columns_), own.data());
-    for (std::size_t a = 0; a < kNode; ++a) sums[row_of(groups, number(), a) + group] = own[a];
-  }
+  run_with(
+      widest_registers(), [&]<std::size_t bytes>() __attribute__((always_inline)) {
+        for (std::size_t group = 0; group < groups; ++group) {
+          RowOf<float, lanes>* const first = sums.data() + group;
+          NodeRows<RegisterRow<float, bytes, lanes>> own;
+          own.load(eliminated.data() + group + first_row(groups, number()), groups);
+          for (auto& row : own.of) row.multiply(static_cast<float>(count));
+          const float* entries = entries_.data() + kNode * kNode;
+          for (const std::int32_t other : std::span(numbers_).subspan(1)) {
+            NodeRows<RegisterRow<float, bytes, lanes>> next;
+            next.load(first + first_row(groups, other), groups);
+            for (std::size_t a = 0; a < kNode; ++a, entries += kNode) {
+              for (std::size_t c = 0; c < kNode; ++c) own.of[c].subtract(entries[c], next.of[a]);
+            }
+          }
+          for (std::size_t a = kNode; a-- > 0;) {
+            for (std::size_t c = a + 1; c < kNode; ++c) {
+              own.of[a].subtract(entries_[kNode * c + a], own.of[c]);
+            }
+            own.of[a].divide(entries_[kNode * a + a]);
+          }
+          own.store(first + first_row(groups, number()), groups);
+        }
+      });
 }
 
 template void InnerBlock::eliminate(std::size_t, std::span<RowOf<float>>) const;

@@ -38,7 +38,7 @@ class InnerBlock {
 
  private:
   std::vector<std::int32_t> numbers_;  ///< its own, then those that it is coupled with
-  std::vector<float> columns_;         ///< (3 numbers, 3), of the factor
+  std::vector<float> entries_;         ///< (3 numbers, 3) of the factor, row by row
 };
 
 }  // namespace flexneck::fe_modal

@@ -23,6 +23,20 @@ std::size_t size_of(const FactorBlock<float>& block) {
   return static_cast<std::size_t>(block.rows) * static_cast<std::size_t>(block.columns);
 }
 
+/// Packs numbers as multiples of a step.
+/// @return the step
+[[gnu::always_inline]] inline float packed(const double* numbers, int count, std::int16_t* values) {
+  constexpr double kMost = std::numeric_limits<std::int16_t>::max();
+  double largest = 0;
+  for (int i = 0; i < count; ++i) largest = std::max(largest, std::abs(numbers[i]));
+  const double per_step = largest > 0 ? kMost / largest : 0;
+  for (int i = 0; i < count; ++i) {
+    const double half = numbers[i] < 0 ? -0.5 : 0.5;
+    values[i] = static_cast<std::int16_t>(static_cast<int>(per_step * numbers[i] + half));
+  }
+  return static_cast<float>(largest / kMost);
+}
+
 }  // namespace
 
 PanelFactor::PanelFactor(Eigen::MatrixXd& matrix) : size_(static_cast<int>(matrix.rows())) {
@@ -30,20 +44,20 @@ PanelFactor::PanelFactor(Eigen::MatrixXd& matrix) : size_(static_cast<int>(matri
     throw ComputationError(kNotDefinite);
   }
   const auto n = static_cast<std::size_t>(size_);
-  values_.reserve((n * n - n) / 2);
+  values_.resize((n * n - n) / 2);
   diagonal_.reserve(n);
   steps_.reserve(n);
-  for (int j = 0; j < size_; ++j) {
-    const double largest =
-        j + 1 < size_ ? matrix.col(j).tail(size_ - j - 1).cwiseAbs().maxCoeff() : 0;
-    const double step = largest / std::numeric_limits<std::int16_t>::max();
-    diagonal_.push_back(static_cast<float>(matrix(j, j)));
-    steps_.push_back(static_cast<float>(step));
-    for (int i = j + 1; i < size_; ++i) {
-      values_.push_back(step > 0 ? static_cast<std::int16_t>(std::lround(matrix(i, j) / step))
-                                 : std::int16_t{0});
-    }
-  }
+  std::int16_t* values = values_.data();
+  run_with(
+      widest_registers(), [&]<std::size_t /*bytes*/>() __attribute__((always_inline)) {
+        for (int j = 0; j < size_; ++j) {
+          const double* const column = matrix.data() + j * matrix.rows();
+          const int below = size_ - j - 1;
+          diagonal_.push_back(static_cast<float>(column[j]));
+          steps_.push_back(packed(column + j + 1, below, values));
+          values += below;
+        }
+      });
 }
 
 FactorBlock<float> PanelFactor::panel_at(const float* values, int first) const {

@@ -232,7 +232,7 @@ void StarPatches::add_by_lanes(const Selection& selection, double weight,
   };
   for_each_panel(residuals.rows(), [&](Eigen::Index first, Eigen::Index rows) {
     columns_of(given).middleRows(first, rows) =
-        (residuals.middleRows(first, rows) / largest).template cast<float>();
+        (residuals.middleRows(first, rows) * (1 / largest)).template cast<float>();
   });
   for (std::size_t k = 0; k < inner_.size(); ++k) {
     if (selection.stars_of_inner[k] > 0) inner_[k].eliminate<lanes>(groups, given);
@@ -259,16 +259,21 @@ void StarPatches::add_solution(const Patch& patch, std::size_t groups,
   std::vector<RowOf<float, lanes>>& own = workspace.rows;
   own.resize(kNode * patch.blocks.size());
   patch.factor.unpack(workspace.factor);
-  const auto row_of = [&](std::size_t i) {
-    return groups * (kNode * static_cast<std::size_t>(patch.blocks[i / kNode]) + i % kNode);
+  const std::size_t node_count = patch.blocks.size();
+  const auto first_row = [&](std::size_t node) {
+    return groups * kNode * static_cast<std::size_t>(patch.blocks[node]);
   };
   for (std::size_t group = 0; group < groups; ++group) {
-    for (std::size_t i = 0; i < own.size(); ++i) own[i] = forces[row_of(i) + group];
-    patch.factor.solve(workspace.factor, own.data());
     for (std::size_t i = 0; i < own.size(); ++i) {
-      RowOf<float, lanes>& sum = sums[row_of(i) + group];
-      for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += own[i].value[c];
+      own[i] = forces[first_row(i / kNode) + i % kNode * groups + group];
     }
+    patch.factor.solve(workspace.factor, own.data());
+    run_with(
+        widest_registers(), [&]<std::size_t /*bytes*/>() __attribute__((always_inline)) {
+          for (std::size_t node = 0; node < node_count; ++node) {
+            add_rows(&own[kNode * node], kNode, groups, &sums[first_row(node) + group]);
+          }
+        });
   }
 }
 
