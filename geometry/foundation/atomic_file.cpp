@@ -50,6 +50,7 @@ void AtomicFile::create() {
       [&] { return ::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kPermissions); }));
   const bool has_unnamed_files = file_ || (errno != EOPNOTSUPP && errno != EISDIR);
   if (has_unnamed_files) return;
+  const SignalHold hold;
   temporary_ = take_fresh_name(folder_, [&](const fs::path& name) {
     constexpr int kFlags = O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC;
     file_ =
@@ -61,6 +62,7 @@ void AtomicFile::create() {
 
 void AtomicFile::name() {
   if (!temporary_.empty()) return;
+  const SignalHold hold;
   const std::string unnamed = "/proc/self/fd/" + std::to_string(file_.get());
   temporary_ = take_fresh_name(folder_, [&](const fs::path& name) {
     return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;

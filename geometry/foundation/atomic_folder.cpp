@@ -26,6 +26,7 @@ fs::path parent_of(const fs::path& path) {
 }  // namespace
 
 AtomicFolder::AtomicFolder(fs::path path) : path_(std::move(path)) {
+  const SignalHold hold;
   temporary_ = take_fresh_name(parent_of(path_), [](const fs::path& name) {
     return ::mkdir(name.c_str(), kPermissions) == 0;
   });

@@ -34,6 +34,9 @@ struct Entry {
 };
 std::array<Entry, 16> entries;
 
+std::atomic<int> holds = 0;           ///< of SignalHold
+std::atomic<int> waiting_signal = 0;  ///< none
+
 /// @param fill  sets what is to be done. @return the number of the entry, -1 if none is free
 template <typename Fill>
 int add(const Fill& fill) {
@@ -102,6 +105,11 @@ void carry_out(const Entry& entry) {
 }
 
 extern "C" void end_by(int signal) {
+  if (holds > 0 && (signal == SIGINT || signal == SIGTERM || signal == SIGHUP)) {
+    waiting_signal = signal;
+    // Another thread may have let go meanwhile: then it is for whoever takes the signal back.
+    if (holds > 0 || waiting_signal.exchange(0) == 0) return;
+  }
   clean_up_now();
   std::signal(signal, SIG_DFL);
   std::raise(signal);  // taken when the handler returns
@@ -131,6 +139,13 @@ void clean_up_on_signals() {
     if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)
       ::sigaction(signal, &action, nullptr);
   }
+}
+
+SignalHold::SignalHold() noexcept { ++holds; }
+
+SignalHold::~SignalHold() {
+  if (--holds > 0) return;
+  if (const int signal = waiting_signal.exchange(0); signal != 0) end_by(signal);
 }
 
 SignalCleanup::SignalCleanup(Action action, const std::filesystem::path& path) {

@@ -15,6 +15,16 @@ void clean_up_now() noexcept;
 /// A folder with all in it, as far as that can be done; takes no memory.
 void remove_folder(const std::filesystem::path& folder) noexcept;
 
+/// While there is one, signals that ask for an end wait: between making a file or folder and noting
+/// it as a SignalCleanup. The last one that goes lets them through.
+class SignalHold {
+ public:
+  SignalHold() noexcept;
+  ~SignalHold();
+  SignalHold(const SignalHold&) = delete;
+  SignalHold& operator=(const SignalHold&) = delete;
+};
+
 /// What would be left behind if a signal ended the process now. It is up to its owner otherwise.
 class SignalCleanup {
  public:

@@ -26,6 +26,7 @@ fs::path folder_for_temporary_files() {
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (folder_for_temporary_files() / "flexneck-XXXXXX").string();
+  const SignalHold hold;
   if (mkdtemp(name.data()) == nullptr) {
     throw ComputationError(name + ": a temporary folder cannot be made");
   }

@@ -79,6 +79,7 @@ void FolderLock::open() {
 }
 
 void FolderLock::take() {
+  const SignalHold hold;
   // A lock on a file that its last holder has removed meanwhile is worth nothing.
   do {
     file_.close();

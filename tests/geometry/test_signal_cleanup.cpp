@@ -72,6 +72,22 @@ TEST_CASE("a signal takes with it what is temporary, and nothing else") {
   }
 }
 
+TEST_CASE("a signal that comes between a file and the note of it takes the file along") {
+  const TemporaryFolder folder;
+  const int status = status_after(SIGTERM, [&] {
+    {
+      const SignalHold outer;
+      const SignalHold hold;
+      std::raise(SIGINT);
+      write_text(folder / "file", "x");
+      static const SignalCleanup file(Action::remove_file, folder / "file");
+    }
+    write_text(folder / "later", "x");
+  });
+  CHECK(is_killed_by(SIGINT, status));
+  CHECK(fs::is_empty(folder.path()));
+}
+
 TEST_CASE("a temporary folder and a file under way do not outlive a signal") {
   const TemporaryFolder folder;
   const std::string before = fs::temp_directory_path();
