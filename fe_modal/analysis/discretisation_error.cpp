@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/analysis/discretisation_error.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,6 +36,15 @@ constexpr double kUnknown = 1;
 
 double hertz(double eigenvalue) {
   return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi);
+}
+
+/// Matrices of stars, which are summed up and factorised, leave gaps in the heap. SuperLU_DIST,
+/// which PETSc is linked with, has the allocator keep all that is freed, and large blocks in the
+/// heap too.
+void give_free_memory_back() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 /// What is farther from each coarse eigenvalue: the finer mode's upper bound, or that less what it
@@ -92,6 +105,7 @@ std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions&
   fine_options.node_order.clear();
   fine_options = with_prestress(fine.mesh, std::move(fine_options), progress);
   const RefinedSystem system(solved.system, solved.inverse, fine, dof_map, fine_options);
+  give_free_memory_back();
   const RefinedModes refined = refined_modes(system, solved.pairs, solved.rigid_count);
 
   const Eigen::MatrixXd similarity = similarities(solved, system.fields(), refined.vectors);

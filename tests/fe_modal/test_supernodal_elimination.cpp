@@ -281,7 +281,8 @@ TEST_CASE("a factor in panels solves as one whose columns are rounded to 16 bits
     }
     const Eigen::MatrixXd expected =
         testing::symmetric_solution(rounded * rounded.transpose(), forces);
-    const PanelFactor factor(matrix);
+    PanelFactor factor(static_cast<std::size_t>(size));
+    factor.factorise(matrix);
     std::vector<RowOf<float>> x(static_cast<std::size_t>(size));
     using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, 8, Eigen::RowMajor>;
     Eigen::Map<RowMajor> columns(x.front().value, size, 8);
@@ -296,13 +297,14 @@ TEST_CASE("a factor in panels solves as one whose columns are rounded to 16 bits
   // The first column has 1 on its diagonal and a million below it.
   Eigen::MatrixXd steep(2, 2);
   steep << 1, 1e6, 1e6, 1.01e12;
-  const PanelFactor factor(steep);
+  PanelFactor factor(2);
+  factor.factorise(steep);
   std::vector<float> entries;
   factor.unpack(entries);
   CHECK(entries[0] == 1);
   CHECK(entries[1] == Approx(1e6));
   Eigen::MatrixXd negative = -Eigen::MatrixXd::Identity(3, 3);
-  CHECK_THROWS_AS(PanelFactor(negative), ComputationError);
+  CHECK_THROWS_AS(PanelFactor(3).factorise(negative), ComputationError);
 }
 
 }  // namespace flexneck::fe_modal

@@ -31,8 +31,17 @@ struct NodeRows {
 
 }  // namespace
 
-InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place,
-                       Eigen::MatrixXd& element) {
+InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place) {
+  numbers_.reserve(numbers.size());
+  numbers_.push_back(numbers[place]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i != place && numbers[i] >= 0) numbers_.push_back(numbers[i]);
+  }
+  entries_.resize(kNode * kNode * numbers_.size());
+}
+
+void InnerBlock::take_from(std::span<const std::int32_t> numbers, std::size_t place,
+                           Eigen::MatrixXd& element) {
   const auto width = static_cast<Eigen::Index>(numbers.size());
   const auto rows_of = [&](Eigen::Index i) { return Eigen::seqN(i, 3, width); };
   const auto inner = static_cast<Eigen::Index>(place);
@@ -45,19 +54,15 @@ InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place,
   if (factor.info() != Eigen::Success) throw ComputationError(kNotDefinite);
   Eigen::MatrixX3d columns = element(Eigen::all, rows_of(inner));
   factor.matrixU().solveInPlace<Eigen::OnTheRight>(columns);
-  std::vector<Eigen::Index> places = {inner};
-  for (Eigen::Index i = 0; i < width; ++i) {
-    if (i != inner && numbers[static_cast<std::size_t>(i)] >= 0) places.push_back(i);
-  }
-  numbers_.reserve(places.size());
-  entries_.reserve(kNode * kNode * places.size());
-  for (const Eigen::Index i : places) {
-    numbers_.push_back(numbers[static_cast<std::size_t>(i)]);
+  float* entry = entries_.data();
+  const auto take_rows = [&](Eigen::Index i) {
     for (Eigen::Index a = 0; a < 3; ++a) {
-      for (Eigen::Index c = 0; c < 3; ++c) {
-        entries_.push_back(static_cast<float>(columns(a * width + i, c)));
-      }
+      for (Eigen::Index c = 0; c < 3; ++c) *entry++ = static_cast<float>(columns(a * width + i, c));
     }
+  };
+  take_rows(inner);
+  for (Eigen::Index i = 0; i < width; ++i) {
+    if (i != inner && numbers[static_cast<std::size_t>(i)] >= 0) take_rows(i);
   }
   element.noalias() -= columns * columns.transpose();
 }

@@ -17,12 +17,17 @@ namespace flexneck::fe_modal {
 /// element's corners, which all have the block, need not have it each.
 class InnerBlock {
  public:
+  /// Allocates what the columns take.
   /// @param numbers of the element's places, -1 where there is none
   /// @param place of the block among them
+  InnerBlock(std::span<const std::int32_t> numbers, std::size_t place);
+
+  /// @param numbers, place as before
   /// @param element stiffness, (3m, 3m) with degree of freedom a m + i; becomes the Schur
   ///     complement, in the rows of the other blocks
   /// @throws ComputationError if the block's own stiffness is not positive definite.
-  InnerBlock(std::span<const std::int32_t> numbers, std::size_t place, Eigen::MatrixXd& element);
+  void take_from(std::span<const std::int32_t> numbers, std::size_t place,
+                 Eigen::MatrixXd& element);
 
   std::int32_t number() const { return numbers_.front(); }
 

@@ -39,22 +39,24 @@ std::size_t size_of(const FactorBlock<float>& block) {
 
 }  // namespace
 
-PanelFactor::PanelFactor(Eigen::MatrixXd& matrix) : size_(static_cast<int>(matrix.rows())) {
+PanelFactor::PanelFactor(std::size_t size)
+    : size_(static_cast<int>(size)),
+      diagonal_(size),
+      steps_(size),
+      values_(size < 2 ? 0 : (size * size - size) / 2) {}
+
+void PanelFactor::factorise(Eigen::MatrixXd& matrix) {
   if (!factorise_in_place(DenseBlock<double>{matrix.data(), size_, size_, size_})) {
     throw ComputationError(kNotDefinite);
   }
-  const auto n = static_cast<std::size_t>(size_);
-  values_.resize((n * n - n) / 2);
-  diagonal_.reserve(n);
-  steps_.reserve(n);
-  std::int16_t* values = values_.data();
   run_with(
       widest_registers(), [&]<std::size_t /*bytes*/>() __attribute__((always_inline)) {
+        std::int16_t* values = values_.data();
         for (int j = 0; j < size_; ++j) {
           const double* const column = matrix.data() + j * matrix.rows();
           const int below = size_ - j - 1;
-          diagonal_.push_back(static_cast<float>(column[j]));
-          steps_.push_back(packed(column + j + 1, below, values));
+          diagonal_[static_cast<std::size_t>(j)] = static_cast<float>(column[j]);
+          steps_[static_cast<std::size_t>(j)] = packed(column + j + 1, below, values);
           values += below;
         }
       });

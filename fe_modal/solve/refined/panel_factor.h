@@ -18,10 +18,12 @@ namespace flexneck::fe_modal {
 /// product of the factor with its transpose stays positive definite.
 class PanelFactor {
  public:
-  PanelFactor() = default;
+  /// Allocates what the factor takes, of as many rows.
+  explicit PanelFactor(std::size_t size);
+
   /// @param matrix lower half; is overwritten
   /// @throws ComputationError if it is not positive definite.
-  explicit PanelFactor(Eigen::MatrixXd& matrix);
+  void factorise(Eigen::MatrixXd& matrix);
 
   /// The panels, for solve(); of zeros above the diagonal.
   void unpack(std::vector<float>& entries) const;
@@ -33,7 +35,7 @@ class PanelFactor {
   /// @param first column
   FactorBlock<float> panel_at(const float* values, int first) const;
 
-  int size_ = 0;
+  int size_;
   std::vector<float> diagonal_;
   std::vector<float> steps_;          ///< what 1 stands for in each column
   std::vector<std::int16_t> values_;  ///< below the diagonal, column by column

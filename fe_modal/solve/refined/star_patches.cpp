@@ -131,13 +131,11 @@ void add(std::span<const LocalPlace> places, const Eigen::MatrixXd& element,
   }
 }
 
-/// @param matrix lower half; is overwritten
-PanelFactor factorised(Eigen::MatrixXd& matrix) {
-  // Dependent degrees of freedom have no stiffness.
+/// Dependent degrees of freedom have no stiffness.
+void fix_dependent(Eigen::MatrixXd& matrix) {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     if (matrix(i, i) == 0) matrix(i, i) = 1;
   }
-  return PanelFactor(matrix);
 }
 
 }  // namespace
@@ -157,25 +155,34 @@ StarPatches::StarPatches(const StarMesh& body, const ElementOperator& stiffness)
     for_each_patch(places, numbers, workspace,
                    [&](std::size_t patch, auto /*places*/) { ++awaited[patch]; });
   });
-  std::vector<Eigen::MatrixXd> open(stars.size());
-  patches_.resize(stars.size());
+  // Factors are allocated before these matrices, which come and go: between small blocks that stay
+  // they would leave gaps, a tenth of a certificate's memory.
+  patches_.reserve(stars.size());
+  for (auto& blocks : stars) {
+    const std::size_t size = 3 * blocks.size();
+    patches_.push_back({std::move(blocks), PanelFactor(size)});
+  }
+  std::vector<Eigen::MatrixXd> open(patches_.size());
+  auto next_inner = inner_.begin();
   std::size_t number = 0;
   stiffness.for_each_stiffness(
       [&](std::span<const std::int32_t> numbers, Eigen::MatrixXd& element) {
         const std::int32_t place = inner[number++];
-        if (place >= 0) inner_.emplace_back(numbers, static_cast<std::size_t>(place), element);
-        for_each_patch(places, numbers, workspace,
-                       [&](std::size_t patch, std::span<const LocalPlace> own) {
-                         Eigen::MatrixXd& matrix = open[patch];
-                         const auto size = 3 * static_cast<Eigen::Index>(stars[patch].size());
-                         if (matrix.size() == 0) matrix = Eigen::MatrixXd::Zero(size, size);
-                         add(own, element, matrix);
-                         if (--awaited[patch] > 0) return;
-                         patches_[patch].factor = factorised(matrix);
-                         matrix.resize(0, 0);
-                       });
+        if (place >= 0) {
+          (next_inner++)->take_from(numbers, static_cast<std::size_t>(place), element);
+        }
+        for_each_patch(
+            places, numbers, workspace, [&](std::size_t patch, std::span<const LocalPlace> own) {
+              Eigen::MatrixXd& matrix = open[patch];
+              const auto size = 3 * static_cast<Eigen::Index>(patches_[patch].blocks.size());
+              if (matrix.size() == 0) matrix = Eigen::MatrixXd::Zero(size, size);
+              add(own, element, matrix);
+              if (--awaited[patch] > 0) return;
+              fix_dependent(matrix);
+              patches_[patch].factor.factorise(matrix);
+              matrix.resize(0, 0);
+            });
       });
-  for (std::size_t p = 0; p < stars.size(); ++p) patches_[p].blocks = std::move(stars[p]);
 }
 
 std::vector<std::int32_t> StarPatches::take_inner(const ElementOperator& elements,
@@ -191,6 +198,7 @@ std::vector<std::int32_t> StarPatches::take_inner(const ElementOperator& element
     if (place < 0) return;
     const std::int32_t number = numbers[static_cast<std::size_t>(place)];
     is_inner[static_cast<std::size_t>(number)] = true;
+    inner_.emplace_back(numbers, static_cast<std::size_t>(place));
     const std::span<const Place> own = places.of(number);
     all_.stars_of_inner.push_back(own.size());
     cells_.stars_of_inner.push_back(

@@ -46,6 +46,8 @@ class StarPatches {
   };
 
   /// Takes inner blocks out of the stars, and counts for both selections those that had them.
+  /// These blocks and their columns are allocated, so that what comes and goes while elements are
+  /// summed up leaves no gaps between them.
   /// @return the place in each element, -1: none
   std::vector<std::int32_t> take_inner(const ElementOperator& elements, std::size_t block_count,
                                        PatchLists& stars);
