@@ -55,13 +55,14 @@ struct RegisterRow {
   }
 };
 
-/// Adds rows to others; inline in loops of run_with(), whose registers it takes.
-template <typename Scalar, typename Sum, std::size_t lanes>
+/// Adds rows to others, a stride from one to the next; inline in loops of run_with(), whose
+/// registers it takes.
+template <typename Scalar, std::size_t lanes>
 [[gnu::always_inline]] inline void add_rows(const RowOf<Scalar, lanes>* from, std::size_t count,
-                                            std::size_t stride, RowOf<Sum, lanes>* to) {
+                                            std::size_t stride, RowOf<Scalar, lanes>* to) {
   for (std::size_t k = 0; k < count; ++k) {
-    RowOf<Sum, lanes>& sum = to[stride * k];
-    for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += static_cast<Sum>(from[k].value[c]);
+    RowOf<Scalar, lanes>& sum = to[stride * k];
+    for (std::size_t c = 0; c < lanes; ++c) sum.value[c] += from[k].value[c];
   }
 }
 

@@ -269,6 +269,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
     times.start("refine and solve again");
     // A factor does without K, unlike an iteration.
     if (options.solver == Solver::direct) system.keep_mass_alone();
+    // Nothing else needs the basis any more: its other columns go, and no copy is made.
     pairs.values.conservativeResize(eigenvectors);
     pairs.vectors.conservativeResize(Eigen::NoChange, eigenvectors);
     const auto errors =

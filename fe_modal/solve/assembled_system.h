@@ -40,8 +40,9 @@ class AssembledSystem : public ModalSystem {
   std::optional<Eigen::Index> eigenvalues_below(double sigma,
                                                 const Eigen::MatrixXd& known) const override;
 
-  /// Frees K and nodal_mass(), an eighth of the memory of a certificate. Afterwards mass() is all
-  /// that may be asked for, and inverses that multiply by K, as iterations do, are of no use.
+  /// Frees K, its graph and nodal_mass(), an eighth of the memory of a certificate. Afterwards
+  /// mass() is all that may be asked for, and inverses that multiply by K, as iterations do, are of
+  /// no use.
   void keep_mass_alone();
 
   /// Between the nodes of this rank's elements; alone between all, kg.

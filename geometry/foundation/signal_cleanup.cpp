@@ -107,7 +107,8 @@ void carry_out(const Entry& entry) {
 extern "C" void end_by(int signal) {
   if (holds > 0 && (signal == SIGINT || signal == SIGTERM || signal == SIGHUP)) {
     waiting_signal = signal;
-    // Another thread may have let go meanwhile: then it is for whoever takes the signal back.
+    // Another thread may have let go meanwhile: whichever of both takes the signal back ends it
+    // all.
     if (holds > 0 || waiting_signal.exchange(0) == 0) return;
   }
   clean_up_now();

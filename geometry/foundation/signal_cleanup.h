@@ -15,8 +15,8 @@ void clean_up_now() noexcept;
 /// A folder with all in it, as far as that can be done; takes no memory.
 void remove_folder(const std::filesystem::path& folder) noexcept;
 
-/// While there is one, signals that ask for an end wait: between making a file or folder and noting
-/// it as a SignalCleanup. The last one that goes lets them through.
+/// While there is one, signals that ask for an end wait: between making a file, a folder or a child
+/// process and noting it as a SignalCleanup. The last one that goes lets them through.
 class SignalHold {
  public:
   SignalHold() noexcept;

@@ -10,7 +10,7 @@
 
 namespace flexneck::mesher {
 
-/// Pieces of one kind: row-major (pieces, nodes per element) local positions, or nodes of a mesh.
+/// Pieces by their kind: row-major (pieces, nodes per element) places of nodes, local or of a mesh.
 template <typename Index>
 using ByKind = std::map<ElementKind, std::vector<Index>>;
 
@@ -20,9 +20,10 @@ struct Subdivision {
   explicit Subdivision(ElementKind whole);
 
   ElementKind kind;
-  /// That the pieces have nodes at: shape functions, not zero there, of the local nodes.
+  /// Of the pieces' nodes, each by those local nodes of the whole whose shape functions are not
+  /// zero there.
   std::vector<std::vector<NodeWeight>> positions;
-  ByKind<std::size_t> pieces;  ///< by positions
+  ByKind<std::size_t> pieces;  ///< their nodes as places in `positions`
 };
 
 }  // namespace flexneck::mesher

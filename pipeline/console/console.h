@@ -15,11 +15,9 @@ enum class Verbosity { none, quiet, normal, verbose };
 enum class Message { result, step, warning, error, detail };
 
 /// What every program of ours does first, before any file is opened.
-///  - A standard stream that is closed would give its number to a file, and what is printed would
-///  go
-///    into a result. What is printed to it fails then.
-///  - What is temporary goes if a signal ends the process (signal_cleanup.h).
-///  - A file that may not grow is a failure to write, no end.
+/// A standard stream that is closed would give its number to a file, and what is printed would go
+/// into a result: what is printed to it fails from here on. What is temporary goes if a signal ends
+/// the process (signal_cleanup.h), and a file that may not grow is a failure to write, no end.
 void prepare_process();
 
 /// @throws ComputationError if what was printed to standard output has not all been written.

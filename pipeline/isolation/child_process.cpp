@@ -88,6 +88,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environment_with(temporary);
   const FileActions actions(pipe_ends[1]);
+  const SignalHold hold;
   const int error = posix_spawn(&id_, program.c_str(), actions.get(), nullptr,
                                 exec_pointers(words).data(), exec_pointers(variables).data());
   close(pipe_ends[1]);

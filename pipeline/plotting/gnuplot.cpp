@@ -58,16 +58,20 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   std::vector<std::string> arguments = {"gnuplot", "-d", script_name};
   std::vector<std::string> variables = environment();
   pid_t process = 0;
-  const int failure =
-      posix_spawnp(&process, arguments.front().c_str(), actions.get(), nullptr,
-                   exec_pointers(arguments).data(), exec_pointers(variables).data());
+  int failure = 0;
+  SignalCleanup cleanup;
+  {
+    const SignalHold hold;
+    failure = posix_spawnp(&process, arguments.front().c_str(), actions.get(), nullptr,
+                           exec_pointers(arguments).data(), exec_pointers(variables).data());
+    if (failure == 0) cleanup = SignalCleanup(process);
+  }
   if (failure == ENOENT) {
     throw InputError(
         "report: gnuplot draws the figures and is missing; install the package "
         "gnuplot-nox");
   }
   int status = 0;
-  const SignalCleanup cleanup = failure == 0 ? SignalCleanup(process) : SignalCleanup();
   if (failure != 0 || waitpid(process, &status, 0) != process || status != 0) {
     throw ComputationError("report: gnuplot failed: " + text_of_file(folder / kComplaints));
   }

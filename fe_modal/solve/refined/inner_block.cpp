@@ -9,23 +9,16 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr std::size_t kNode = 3;
-
-/// Of a block's rows those of all its directions, one after the other.
-std::size_t first_row(std::size_t groups, std::int32_t number) {
-  return groups * kNode * static_cast<std::size_t>(number);
-}
-
 /// The rows of a node in one group of columns.
 template <typename Row>
 struct NodeRows {
-  Row of[kNode];
+  Row of[kBlock];
 
   [[gnu::always_inline]] void load(const RowOf<float, Row::kLanes>* rows, std::size_t groups) {
-    for (std::size_t a = 0; a < kNode; ++a) of[a].load(rows[a * groups]);
+    for (std::size_t a = 0; a < kBlock; ++a) of[a].load(rows[a * groups]);
   }
   [[gnu::always_inline]] void store(RowOf<float, Row::kLanes>* rows, std::size_t groups) const {
-    for (std::size_t a = 0; a < kNode; ++a) of[a].store(rows[a * groups]);
+    for (std::size_t a = 0; a < kBlock; ++a) of[a].store(rows[a * groups]);
   }
 };
 
@@ -37,7 +30,7 @@ InnerBlock::InnerBlock(std::span<const std::int32_t> numbers, std::size_t place)
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (i != place && numbers[i] >= 0) numbers_.push_back(numbers[i]);
   }
-  entries_.resize(kNode * kNode * numbers_.size());
+  entries_.resize(kBlock * kBlock * numbers_.size());
 }
 
 void InnerBlock::take_from(std::span<const std::int32_t> numbers, std::size_t place,
@@ -76,7 +69,7 @@ void InnerBlock::eliminate(std::size_t groups, std::span<RowOf<float, lanes>> ro
           NodeRows<RegisterRow<float, bytes, lanes>> own;
           own.load(first + first_row(groups, number()), groups);
           const float* entries = entries_.data();
-          for (std::size_t a = 0; a < kNode; ++a, entries += kNode) {
+          for (std::size_t a = 0; a < kBlock; ++a, entries += kBlock) {
             for (std::size_t c = 0; c < a; ++c) own.of[a].subtract(entries[c], own.of[c]);
             own.of[a].divide(entries[a]);
           }
@@ -84,8 +77,8 @@ void InnerBlock::eliminate(std::size_t groups, std::span<RowOf<float, lanes>> ro
           for (const std::int32_t other : std::span(numbers_).subspan(1)) {
             NodeRows<RegisterRow<float, bytes, lanes>> next;
             next.load(first + first_row(groups, other), groups);
-            for (std::size_t a = 0; a < kNode; ++a, entries += kNode) {
-              for (std::size_t c = 0; c < kNode; ++c) next.of[a].subtract(entries[c], own.of[c]);
+            for (std::size_t a = 0; a < kBlock; ++a, entries += kBlock) {
+              for (std::size_t c = 0; c < kBlock; ++c) next.of[a].subtract(entries[c], own.of[c]);
             }
             next.store(first + first_row(groups, other), groups);
           }
@@ -103,19 +96,19 @@ void InnerBlock::substitute(std::size_t groups, std::span<const RowOf<float, lan
           NodeRows<RegisterRow<float, bytes, lanes>> own;
           own.load(eliminated.data() + group + first_row(groups, number()), groups);
           for (auto& row : own.of) row.multiply(static_cast<float>(count));
-          const float* entries = entries_.data() + kNode * kNode;
+          const float* entries = entries_.data() + kBlock * kBlock;
           for (const std::int32_t other : std::span(numbers_).subspan(1)) {
             NodeRows<RegisterRow<float, bytes, lanes>> next;
             next.load(first + first_row(groups, other), groups);
-            for (std::size_t a = 0; a < kNode; ++a, entries += kNode) {
-              for (std::size_t c = 0; c < kNode; ++c) own.of[c].subtract(entries[c], next.of[a]);
+            for (std::size_t a = 0; a < kBlock; ++a, entries += kBlock) {
+              for (std::size_t c = 0; c < kBlock; ++c) own.of[c].subtract(entries[c], next.of[a]);
             }
           }
-          for (std::size_t a = kNode; a-- > 0;) {
-            for (std::size_t c = a + 1; c < kNode; ++c) {
-              own.of[a].subtract(entries_[kNode * c + a], own.of[c]);
+          for (std::size_t a = kBlock; a-- > 0;) {
+            for (std::size_t c = a + 1; c < kBlock; ++c) {
+              own.of[a].subtract(entries_[kBlock * c + a], own.of[c]);
             }
-            own.of[a].divide(entries_[kNode * a + a]);
+            own.of[a].divide(entries_[kBlock * a + a]);
           }
           own.store(first + first_row(groups, number()), groups);
         }

@@ -12,6 +12,13 @@
 
 namespace flexneck::fe_modal {
 
+/// Degrees of freedom of a node, a block.
+inline constexpr std::size_t kBlock = 3;
+/// Where rows of groups of columns, one after the other for each degree of freedom, have a block's.
+inline std::size_t first_row(std::size_t groups, std::int32_t block) {
+  return groups * kBlock * static_cast<std::size_t>(block);
+}
+
 /// A block that one element alone has, as that of the middle node of a 27-node hexahedron has,
 /// eliminated from it: three columns of a Cholesky factor, in single precision. The stars of the
 /// element's corners, which all have the block, need not have it each.

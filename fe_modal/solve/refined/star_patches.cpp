@@ -131,7 +131,7 @@ void add(std::span<const LocalPlace> places, const Eigen::MatrixXd& element,
   }
 }
 
-/// Dependent degrees of freedom have no stiffness.
+/// Dependent degrees of freedom have no stiffness: they get 1.
 void fix_dependent(Eigen::MatrixXd& matrix) {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     if (matrix(i, i) == 0) matrix(i, i) = 1;
@@ -159,7 +159,7 @@ StarPatches::StarPatches(const StarMesh& body, const ElementOperator& stiffness)
   // they would leave gaps, a tenth of a certificate's memory.
   patches_.reserve(stars.size());
   for (auto& blocks : stars) {
-    const std::size_t size = 3 * blocks.size();
+    const std::size_t size = kBlock * blocks.size();
     patches_.push_back({std::move(blocks), PanelFactor(size)});
   }
   std::vector<Eigen::MatrixXd> open(patches_.size());
@@ -263,23 +263,20 @@ template <std::size_t lanes>
 void StarPatches::add_solution(const Patch& patch, std::size_t groups,
                                std::span<const RowOf<float, lanes>> forces,
                                std::span<RowOf<float, lanes>> sums, Workspace<lanes>& workspace) {
-  constexpr std::size_t kNode = 3;
   std::vector<RowOf<float, lanes>>& own = workspace.rows;
-  own.resize(kNode * patch.blocks.size());
+  own.resize(kBlock * patch.blocks.size());
   patch.factor.unpack(workspace.factor);
-  const std::size_t node_count = patch.blocks.size();
-  const auto first_row = [&](std::size_t node) {
-    return groups * kNode * static_cast<std::size_t>(patch.blocks[node]);
-  };
+  const std::size_t count = patch.blocks.size();
   for (std::size_t group = 0; group < groups; ++group) {
     for (std::size_t i = 0; i < own.size(); ++i) {
-      own[i] = forces[first_row(i / kNode) + i % kNode * groups + group];
+      own[i] = forces[first_row(groups, patch.blocks[i / kBlock]) + i % kBlock * groups + group];
     }
     patch.factor.solve(workspace.factor, own.data());
     run_with(
         widest_registers(), [&]<std::size_t /*bytes*/>() __attribute__((always_inline)) {
-          for (std::size_t node = 0; node < node_count; ++node) {
-            add_rows(&own[kNode * node], kNode, groups, &sums[first_row(node) + group]);
+          for (std::size_t k = 0; k < count; ++k) {
+            add_rows(&own[kBlock * k], kBlock, groups,
+                     &sums[first_row(groups, patch.blocks[k]) + group]);
           }
         });
   }
