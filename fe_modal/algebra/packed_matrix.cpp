@@ -87,20 +87,4 @@ void PackedMatrix::multiply(const RowOf<double>* x, std::size_t groups, RowOf<do
       });
 }
 
-void PackedMatrix::take_sum(std::span<const PackedMatrix> terms, const Eigen::VectorXd& factors,
-                            VectorRegisters registers) {
-  run_with(
-      registers, [&]<std::size_t bytes>() __attribute__((always_inline)) {
-        for (std::size_t r = 0; r < values_.size(); ++r) {
-          RegisterRow<double, bytes> sum{};
-          for (std::size_t k = 0; k < terms.size(); ++k) {
-            RegisterRow<double, bytes> term;
-            term.load(terms[k].values_[r]);
-            sum.add(factors.data()[k], term);
-          }
-          sum.store(values_[r]);
-        }
-      });
-}
-
 }  // namespace flexneck::fe_modal

@@ -26,10 +26,8 @@ class PackedMatrix {
   /// @param y (rows, groups) likewise; may not overlap x
   void multiply(const RowOf<double>* x, std::size_t groups, RowOf<double>* y,
                 VectorRegisters registers = widest_registers()) const;
-  /// Becomes the sum of factors[k] terms[k].
-  /// @param terms as many, of the shape of this
-  void take_sum(std::span<const PackedMatrix> terms, const Eigen::VectorXd& factors,
-                VectorRegisters registers = widest_registers());
+  /// All entries in the order that they are laid out in.
+  std::span<double> entries() { return {values_.front().value, rows_ * columns_}; }
 
  private:
   std::size_t rows_;

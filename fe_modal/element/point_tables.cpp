@@ -51,6 +51,15 @@ Eigen::MatrixXd gradient_table(const mesher::ShapeTable& table) {
   return result;
 }
 
+/// N N^T of each point.
+std::vector<Eigen::MatrixXd> unit_masses(const mesher::ShapeTable& table) {
+  std::vector<Eigen::MatrixXd> result;
+  for (const auto& at_point : table.values.colwise()) {
+    result.emplace_back(at_point * at_point.transpose());
+  }
+  return result;
+}
+
 std::array<double, 9> transposed(const std::array<double, 9>& table) {
   std::array<double, 9> result{};
   for (std::size_t q = 0; q < kLine; ++q) {
@@ -192,16 +201,11 @@ FullTables::FullTables(const mesher::ShapeTable& table, VectorRegisters register
       gradients_(gradient_table(table)),
       gradients_transposed_(gradient_table(table).transpose()),
       values_(table.values.transpose()),
-      mass_(Eigen::MatrixXd::Zero(table.values.rows(), table.values.rows())) {
-  for (const auto& at_point : table.values.colwise()) {
-    unit_masses_.emplace_back(at_point * at_point.transpose());
-  }
-}
+      mass_(unit_masses(table)) {}
 
 void FullTables::multiply_by_mass(const Eigen::VectorXd& masses_kg, const RowOf<double>* x,
                                   std::size_t groups, RowOf<double>* y) {
-  mass_.take_sum(unit_masses_, masses_kg, registers_);
-  mass_.multiply(x, groups, y, registers_);
+  mass_.with(masses_kg, registers_).multiply(x, groups, y, registers_);
 }
 
 PointTables::PointTables(mesher::ElementKind kind, const mesher::Quadrature& rule,

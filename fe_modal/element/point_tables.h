@@ -10,6 +10,7 @@
 
 #include "fe_modal/algebra/packed_matrix.h"
 #include "fe_modal/algebra/register_row.h"
+#include "fe_modal/algebra/symmetric_sum.h"
 #include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::fe_modal {
@@ -63,8 +64,7 @@ class FullTables {
   PackedMatrix gradients_;
   PackedMatrix gradients_transposed_;
   PackedMatrix values_;
-  std::vector<PackedMatrix> unit_masses_;  ///< of each point, N N^T
-  PackedMatrix mass_;                      ///< workspace
+  SymmetricSum mass_;  ///< of N N^T of each point
 };
 
 /// Shape functions of an element with n nodes at the q points of a rule, times fields: rows of

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/algebra/packed_matrix.h"
+#include "fe_modal/algebra/symmetric_sum.h"
 #include "fe_modal/element/element_kernel.h"
 #include "fe_modal/element/element_product.h"
 #include "geometry/foundation/error.h"
@@ -125,6 +126,30 @@ TEST_CASE("a packed matrix multiplies like a plain one, of any shape and in ever
         std::vector<RowOf<double>> result(static_cast<std::size_t>(rows) * groups);
         PackedMatrix(matrix).multiply(given.data(), groups, result.data(), registers);
         CHECK(relative(columns_of(result, rows, columns), matrix * x) < 1e-14);
+      }
+    }
+  }
+}
+
+TEST_CASE("a sum of symmetric matrices is that of plain ones, in every width") {
+  for (const VectorRegisters registers : widths()) {
+    for (const Eigen::Index size : {1, 3, 8, 20}) {
+      CAPTURE(static_cast<int>(registers), size);
+      std::vector<Eigen::MatrixXd> terms;
+      for (int k = 0; k < 5; ++k) {
+        const Eigen::MatrixXd any = Eigen::MatrixXd::Random(size, size);
+        terms.emplace_back(any + any.transpose());
+      }
+      SymmetricSum sum(terms);
+      for (int time = 0; time < 2; ++time) {
+        const Eigen::VectorXd factors = Eigen::VectorXd::Random(5);
+        Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(size, size);
+        for (int k = 0; k < 5; ++k) expected += factors(k) * terms[static_cast<std::size_t>(k)];
+        const std::vector<RowOf<double>> given = rows_of(Eigen::MatrixXd::Identity(size, size));
+        std::vector<RowOf<double>> result(given.size());
+        sum.with(factors, registers)
+            .multiply(given.data(), given.size() / static_cast<std::size_t>(size), result.data());
+        CHECK(relative(columns_of(result, size, size), expected) < 1e-14);
       }
     }
   }

@@ -69,19 +69,26 @@ void RefinedBasis::combine_field(const Field& field, const Combination& combinat
   field(new_).resize(0, 0);
 }
 
-/// Adds the columns and rows of the last columns.
-/// @param products of K or M with them
-void RefinedBasis::project_new(const Eigen::MatrixXd& products, Eigen::MatrixXd& projected) const {
-  const Eigen::Index more = products.cols();
+/// Adds the columns and rows of the last columns to K and M.
+/// @param products with the last columns
+void RefinedBasis::project_new(const ElementOperator::Products& products) {
+  const Eigen::Index more = products.forces.cols();
   const Eigen::Index before = count_ - more;
-  Eigen::MatrixXd added = Eigen::MatrixXd::Zero(count_, more);
-  for_each_panel(products.rows(), [&](Eigen::Index first, Eigen::Index rows) {
-    multiply_transpose(1, rows_of(kVectors, first, rows), products.middleRows(first, rows), 1,
-                       added);
+  Eigen::MatrixXd added = Eigen::MatrixXd::Zero(count_, 2 * more);
+  for_each_panel(products.forces.rows(), [&](Eigen::Index first, Eigen::Index rows) {
+    const Eigen::MatrixXd vectors = rows_of(kVectors, first, rows);
+    multiply_transpose(1, vectors, products.forces.middleRows(first, rows), 1,
+                       added.leftCols(more));
+    multiply_transpose(1, vectors, products.momenta.middleRows(first, rows), 1,
+                       added.rightCols(more));
   });
   ranks_.sum(added);
-  projected.block(0, before, count_, more) = added;
-  projected.block(before, 0, more, before) = added.topRows(before).transpose();
+  const auto add = [&](const auto& columns, Eigen::MatrixXd& projected) {
+    projected.block(0, before, count_, more) = columns;
+    projected.block(before, 0, more, before) = columns.topRows(before).transpose();
+  };
+  add(added.leftCols(more), stiffness_);
+  add(added.rightCols(more), mass_);
 }
 
 RefinedBasis::RefinedBasis(const Ranks& ranks, Eigen::Index size, Eigen::Index modes,
@@ -95,9 +102,10 @@ RefinedBasis::RefinedBasis(const Ranks& ranks, Eigen::Index size, Eigen::Index m
 void RefinedBasis::append(Eigen::MatrixXd vectors, ElementOperator::Products products) {
   Modes& block = count_ == 0 ? modes_ : new_;
   count_ += vectors.cols();
-  block = {std::move(vectors), std::move(products.forces), products.momenta.cast<float>()};
-  project_new(block.forces, stiffness_);
-  project_new(products.momenta, mass_);
+  block.vectors = std::move(vectors);
+  project_new(products);
+  block.forces = std::move(products.forces);
+  block.momenta = products.momenta.cast<float>();
 }
 
 Eigen::MatrixXd RefinedBasis::combined(const Eigen::MatrixXd& combinations) const {

@@ -51,7 +51,7 @@ class RefinedBasis {
   Eigen::MatrixXd rows_of(const Field& field, Eigen::Index first, Eigen::Index rows) const;
   template <typename Field>
   void combine_field(const Field& field, const Combination& combination);
-  void project_new(const Eigen::MatrixXd& products, Eigen::MatrixXd& projected) const;
+  void project_new(const ElementOperator::Products& products);
 
   Ranks ranks_;
   Eigen::Index count_ = 0;  ///< of the columns of all blocks, which follow in this order
