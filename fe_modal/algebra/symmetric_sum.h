@@ -14,14 +14,15 @@
 
 namespace flexneck::fe_modal {
 
-/// Sums of the same small symmetric matrices with other factors each time, such as the mass of an
-/// element from its points: half of each is read.
+/// Sums of small symmetric matrices, which stay the same, with factors that change: the mass matrix
+/// of an element from the masses at its integration points. Only the lower half of each is read.
 class SymmetricSum {
  public:
-  /// @param terms some of one size, of at most 2^16 entries in one half
+  /// @param terms at least one; all of the same size, with at most 2^16 entries in the lower half
   explicit SymmetricSum(std::span<const Eigen::MatrixXd> terms);
 
-  /// The sum of factors[k] terms[k], until the next one.
+  /// The sum of factors[k] terms[k]. The next call overwrites what is returned.
+  /// @param factors as many as there are terms
   const PackedMatrix& with(const Eigen::VectorXd& factors, VectorRegisters registers);
 
  private:
@@ -29,8 +30,7 @@ class SymmetricSum {
   static constexpr std::size_t kRowsTogether = 4;
   using Entries = std::array<RowOf<double>, kRowsTogether>;
 
-  std::size_t terms_count_;
-  std::vector<Entries> halves_;  ///< so many entries of all terms, the next ones, and so on
+  std::vector<Entries> halves_;  ///< of all terms, a few entries after the other: (entries, terms)
   std::vector<Entries> half_sum_;
   std::vector<std::uint16_t> places_;  ///< of each entry of the sum in its half
   PackedMatrix sum_;
