@@ -30,7 +30,7 @@ class SymmetricSum {
   static constexpr std::size_t kRowsTogether = 4;
   using Entries = std::array<RowOf<double>, kRowsTogether>;
 
-  std::vector<Entries> halves_;  ///< of all terms, a few entries after the other: (entries, terms)
+  std::vector<Entries> halves_;  ///< lower halves of the terms: (group of entries, term)
   std::vector<Entries> half_sum_;
   std::vector<std::uint16_t> places_;  ///< of each entry of the sum in its half
   PackedMatrix sum_;
