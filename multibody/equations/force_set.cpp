@@ -156,6 +156,9 @@ void ForceSet::evaluate(double time_s) {
 
 void ForceSet::add_breakpoints(std::vector<double>& times_s) const {
   model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
+    if constexpr (std::is_same_v<Kind, FunctionForce>)
+      for (const Kind& element : elements)
+        times_s.insert(times_s.end(), element.breakpoints_s.begin(), element.breakpoints_s.end());
     if constexpr (TimedForce<Kind>)
       for (const Kind& element : elements) {
         const std::vector<double>& rows = element.load_over_time().times_s();

@@ -61,13 +61,23 @@ class ForceSet {
   /// Energy that elements store and that loads would give if they stayed as they are.
   double potential_J() const { return sums_.stored_J + sums_.potential_J; }
 
+  /// Calls visit(element, marker i, marker j) for each function force, as they moved in the last
+  /// evaluate().
+  template <class Visit>
+  void each_function(const Visit& visit) const {
+    const auto& forces = model_.forces.of<FunctionForce>();
+    const auto& slots = std::get<Slots<FunctionForce>>(slots_of_kind_).of_element;
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      visit(forces[k], slots_[slots[k].front()], slots_[slots[k].back()]);
+  }
+
   /// Which smooth pieces of their laws elements were on in the last evaluate(): two numbers for
   /// each PiecewiseForce (LawPiece). A motion along which one changes meets a kink of a load.
   const std::vector<int>& pieces() const { return pieces_; }
   /// What happens where the number of this index changes.
   std::string name_of_piece(std::size_t index) const;
 
-  /// Adds the times at which a table has a kink or a jump.
+  /// Adds the times at which a table has a kink or a jump, and the breakpoints of functions.
   void add_breakpoints(std::vector<double>& times_s) const;
 
  private:

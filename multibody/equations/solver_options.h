@@ -29,6 +29,8 @@ struct SolverOptions {
   /// Of the generalised-alpha method, in [0, 1]: by what a step multiplies vibrations that it does
   /// not resolve.
   double spectral_radius = 0.8;
+  /// No feature of a load given by a function that is longer than this is stepped over.
+  double resolution_s = 1e-4;
   /// Called after each step, and after each output of a quasi-static ramp: what it throws ends the
   /// run, without a history unless it is a ComputationError. So a run is stopped from outside.
   std::function<void()> checkpoint = {};

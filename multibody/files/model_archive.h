@@ -223,8 +223,9 @@ void archive(A& all, Model& x) {
 template <class A>
 void archive(A& all, SolverOptions& x) {
   auto& [relative, absolute, max_step, min_step, formulation, max_steps, integrator, radius,
-         checkpoint] = x;
-  all(relative, absolute, max_step, min_step, formulation, max_steps, integrator, radius);
+         resolution, checkpoint] = x;
+  all(relative, absolute, max_step, min_step, formulation, max_steps, integrator, radius,
+      resolution);
   static_cast<void>(checkpoint);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "multibody/forces/force_element.h"
 
@@ -15,16 +16,18 @@ struct RelativeMotion {
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();
 };
 
+RelativeMotion relative_motion(const MarkerKinematics& i, const MarkerKinematics& j);
+
 /// What acts on j's body at j's origin, in i's axes; the opposite acts on i's body at that point.
 struct FunctionLoad {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
 };
 
-/// A load that is any smooth function of time and of the motion between two markers, such as a
-/// formula or a prototype's own code. Nothing is known of the function but its values: what it
-/// gives to the bodies counts as work from outside, it has no potential, and no step ends at a kink
-/// that it may have.
+/// A load that is any function of time and of the motion between two markers, such as a formula or
+/// a prototype's own code. Nothing is known of the function but its values: what it gives to the
+/// bodies counts as work from outside, and it has no potential. Steps are shortened where it has
+/// features that they would miss (time/load_watch.h).
 struct FunctionForce {
   static constexpr std::string_view kName = "function_force";
   using Function = std::function<FunctionLoad(double time_s, const RelativeMotion& motion)>;
@@ -36,11 +39,10 @@ struct FunctionForce {
   Function load;
   /// Whether it takes the rotation for a rotation vector, which jumps at half a turn.
   bool takes_rotation_vector = false;
+  /// Increasing; steps end there.
+  std::vector<double> breakpoints_s = {};
 
-  void check(const std::string& who, const ForceSites& sites) const {
-    check_pair(who, marker_i, marker_j, sites);
-    if (!load) refuse_force(who, "expected a function, found none");
-  }
+  void check(const std::string& who, const ForceSites& sites) const;
   std::array<std::size_t, 2> markers(const std::vector<Joint>&) const {
     return {marker_i, marker_j};
   }

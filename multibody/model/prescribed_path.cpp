@@ -42,9 +42,4 @@ void PrescribedPath::turn(double time_s, double table_time_s, PrescribedMotion& 
   motion.angular_acceleration_rad_s2 = w_rate;
 }
 
-void PrescribedPath::add_breakpoints(std::vector<double>& times_s) const {
-  travel_.add_breakpoints(times_s);
-  angle_.add_breakpoints(times_s);
-}
-
 }  // namespace flexneck::multibody

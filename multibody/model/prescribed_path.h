@@ -32,9 +32,6 @@ class PrescribedPath {
   PrescribedMotion at(double time_s, double table_time_s) const;
   PrescribedMotion at(double time_s) const { return at(time_s, time_s); }
 
-  /// Times at which an acceleration or its slope may jump.
-  void add_breakpoints(std::vector<double>& times_s) const;
-
  private:
   void turn(double time_s, double table_time_s, PrescribedMotion& motion) const;
 

@@ -34,6 +34,7 @@ class PrescribedCoordinate {
                        const SmoothMotion& function, const HeldInput& input = {});
 
   bool moves() const { return moves_ || !input_.is_none(); }
+  const SmoothMotion& function() const { return function_; }
   const HeldInput& input() const { return input_; }
   void set_input(const HeldInput& input) { input_ = input; }
   double value(double time_s) const;

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
+
+#include "multibody/numerics/piecewise_fit.h"
 
 namespace flexneck::multibody {
 
 /// A motion along a line given by a function of time, with its exact derivatives or integrals:
-/// pieces in Chebyshev polynomials that follow the function to 1e-13 of its largest value. Where
-/// the function has a kink or a jump, pieces end. By default no motion.
+/// pieces in Chebyshev polynomials (PiecewiseFit). Where the function has a kink or a jump, pieces
+/// end. By default no motion.
 class SmoothMotion {
  public:
   using Function = std::function<double(double)>;
 
   SmoothMotion() = default;
-  /// @param displacement_m  of time in s, smooth over [0, end_s]
-  /// @throws InputError if it is not smooth or not finite.
-  static SmoothMotion of_displacement(const Function& displacement_m, double end_s);
+  /// @param displacement_m  of time in s over [0, end_s], without a jump or a kink
+  /// @throws InputError if it has one, or is not finite.
+  static SmoothMotion of_displacement(const Function& displacement_m, double end_s,
+                                      const Sampling& sampling = {});
   /// From displacement and velocity zero at time zero.
   /// @param acceleration_m_s2  of time in s, piecewise smooth over [0, end_s]
   /// @throws InputError if it is not, or not finite.
-  static SmoothMotion of_acceleration(const Function& acceleration_m_s2, double end_s);
+  static SmoothMotion of_acceleration(const Function& acceleration_m_s2, double end_s,
+                                      const Sampling& sampling = {});
 
   /// Through the rows of a table: the cubic spline with two continuous derivatives whose third does
   /// not jump at the second row and the last but one (de Boor, A Practical Guide to Splines, IV),
@@ -34,17 +37,21 @@ class SmoothMotion {
   /// That of the default: none.
   bool is_none() const { return pieces_.empty(); }
 
-  // Beyond [0, end_s] the outermost pieces go on.
+  // Beyond [0, end_s()] the outermost pieces go on.
   double displacement_m(double time_s) const;
   double velocity_m_s(double time_s) const;
   double acceleration_m_s2(double time_s) const;
 
-  /// Kinks and jumps, ascending.
+  /// Kinks and jumps, of the second derivative too; ascending.
   const std::vector<double>& breakpoints_s() const { return breakpoints_s_; }
+  /// Adds the ends of equal parts of the pieces that reach into an interval, of parts shorter than
+  /// a step may be: steps inside of them meet every feature of the motion.
+  void add_piece_ends(double begin_s, double end_s, int parts, double max_step_s,
+                      std::vector<double>& times_s) const;
+  /// Up to where the motion is given; zero of the default.
+  double end_s() const { return pieces_.empty() ? 0 : pieces_.back().end_s; }
 
-  static constexpr std::size_t kTerms = 18;
-  /// Coefficients of T_0, T_1, … and room for two integrations.
-  using Series = std::array<double, kTerms + 2>;
+  using Series = ChebyshevSeries;
   struct Piece {
     double begin_s, end_s;
     Series displacement, velocity, acceleration;

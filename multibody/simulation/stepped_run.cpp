@@ -143,13 +143,12 @@ void SteppedRun::advance(double end_s) {
 }
 
 void SteppedRun::integrate(double end_s) {
-  std::vector<double> ends = breakpoints(*model_, state_.time_s, end_s);
-  ends.push_back(end_s);
+  const StepEnds ends(*model_, solver_, state_.time_s, end_s);
   const std::unique_ptr<TimeIntegrator> integrator =
       time_integrator(*equations_, state_.time_s, state_.y, solver_);
   integrator->set_pace({state_.proposed_s, state_.error});
   double begin = state_.time_s;
-  for (const double end : ends) {
+  for (const double end : ends.kinks_s()) {
     equations_->set_interval(begin, end);
     integrator->restart();
     while (integrator->time_s() < end) {
@@ -157,7 +156,7 @@ void SteppedRun::integrate(double end_s) {
         throw ComputationError("the run was given up after " + std::to_string(solver_.max_steps) +
                                " steps; what limits them is the " +
                                integrator->name_of(integrator->limiting_component()));
-      integrator->step(end);
+      integrator->step(ends.limit_s(integrator->time_s(), end));
     }
     begin = end;
   }
@@ -169,6 +168,7 @@ void SteppedRun::integrate(double end_s) {
 }
 
 void SteppedRun::settle(double time_s) {
+  check_motions_reach(*model_, time_s);
   Eigen::VectorXd y = state_.y;
   equations_->settle(time_s, y);
   state_.y = y;

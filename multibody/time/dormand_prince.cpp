@@ -165,28 +165,39 @@ void DormandPrince::step(double limit_s) {
   if (!fresh_) {
     problem_.derivative(time_s_, y_, rates_[0]);
     start_on_pieces();
+    watch_from_here();
   }
   fresh_ = true;
   if (!(rates_[0].allFinite() && y_.allFinite())) collapse(problem_.measure(y_, y_, rates_[0]));
   if (proposed_s_ == 0) proposed_s_ = choose_first_step();
   const double left = limit_s - time_s_;
   bool rejected_before = false;
+  bool blind_before = false;
   while (true) {
     if (proposed_s_ < limits_.smallest_s) collapse(last_estimate_);
     double length = std::min(proposed_s_, limits_.largest_s);
     reason_ = length < proposed_s_ ? StepReason::largest_step : StepReason::error;
+    if (blind_before) reason_ = StepReason::load;
     bool truncated = length >= left * (1 - 1e-9);
     if (truncated) {
       length = left;
       reason_ = StepReason::end;
     }
     ErrorEstimate error = tried(length);
+    const double seen = error.value <= 1 ? share_seen(length, LoadWatch::Method::six_stages) : 1;
+    if (seen < 1) {
+      ++rejected_;
+      rejected_before = blind_before = true;
+      proposed_s_ = seen * length;
+      continue;
+    }
     const double share = error.value <= 1 ? share_to_event(length) : 1;
     if (share < 1) {
       length *= share;
       reason_ = StepReason::event;
       truncated = false;
       error = tried(length);
+      share_seen(length, LoadWatch::Method::six_stages);  // for the motion at its end
     }
     if (error.value <= 1) {
       double next = adapted(length, error.value);
@@ -195,11 +206,13 @@ void DormandPrince::step(double limit_s) {
       proposed_s_ = truncated || share < 1 ? std::max(next, proposed_s_) : next;
       last_error_ = std::max(error.value, 1e-4);
       accept(length);
+      watch_from_end();
       if (truncated) time_s_ = limit_s;
       return;
     }
     ++rejected_;
     rejected_before = true;
+    blind_before = false;
     const double cut = std::pow(error.value, -kAlpha) * kSafety;
     proposed_s_ = length * (std::isfinite(error.value) ? std::max(cut, kLargestCut) : kLargestCut);
   }

@@ -73,6 +73,7 @@ GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius,
 void GeneralisedAlpha::begin(double length_s) {
   equations_.derivative(time_s_, y_, rate_);
   equations_.finish_step(time_s_, y_, rate_);
+  watch_from_here();
   now_.V_rate = rate_.segment(nq_, nv_);
   now_.lambda = equations_.multipliers();
   if (!(rate_.allFinite() && y_.allFinite())) collapse(equations_.measure(y_, y_, rate_));
@@ -221,11 +222,13 @@ void GeneralisedAlpha::step(double limit_s) {
   const double left = limit_s - time_s_;
   bool rejected_before = false;
   bool failed_before = false;
+  bool blind_before = false;
   while (true) {
     if (proposed_s_ < limits_.smallest_s && failed_before) give_up(limits_.smallest_s);
     if (proposed_s_ < limits_.smallest_s) collapse(last_estimate_);
     double length = std::min(proposed_s_, limits_.largest_s);
     reason_ = length < proposed_s_ ? StepReason::largest_step : StepReason::error;
+    if (blind_before) reason_ = StepReason::load;
     if (failed_before) reason_ = StepReason::iteration;
     const bool truncated = length >= left * (1 - 1e-9);
     if (truncated) {
@@ -241,6 +244,14 @@ void GeneralisedAlpha::step(double limit_s) {
     last_estimate_ = local_error(length);
     const double error = last_estimate_.value;
     const double factor = kSafety * std::pow(std::max(error, 1e-9), -1. / 3);
+    const double seen = error <= 1 ? share_seen(length, LoadWatch::Method::ends) : 1;
+    if (seen < 1) {
+      ++rejected_;
+      rejected_before = blind_before = true;
+      failed_before = false;
+      proposed_s_ = seen * length;
+      continue;
+    }
     if (error <= 1) {
       double next = length * std::min(factor, kLargestGrowth);
       if (rejected_before) next = std::min(next, length);
@@ -248,12 +259,13 @@ void GeneralisedAlpha::step(double limit_s) {
       // A step cut short by the limit says nothing against the longer one.
       proposed_s_ = truncated ? std::max(next, proposed_s_) : next;
       accept(length);
+      watch_from_end();
       if (truncated) time_s_ = limit_s;
       return;
     }
     ++rejected_;
     rejected_before = true;
-    failed_before = false;
+    failed_before = blind_before = false;
     proposed_s_ = length * (std::isfinite(error) ? std::max(factor, kLargestCut) : kLargestCut);
   }
 }

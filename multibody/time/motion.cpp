@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "multibody/equations/force_set.h"
 #include "multibody/history/incomplete_run.h"
 #include "multibody/history/recorder.h"
-#include "multibody/model/prescribed_path.h"
 #include "multibody/time/dormand_prince.h"
 #include "multibody/time/generalised_alpha.h"
 
@@ -21,6 +21,11 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+/// Of a piece of a motion, which is less than a period of it: steps that meet it, by the stages of
+/// a method or by its ends alone.
+constexpr int kPartsOfStages = 2;
+constexpr int kPartsOfEnds = 8;
 
 /// Counts what set the lengths of steps.
 class LimitCounter {
@@ -51,9 +56,11 @@ class LimitCounter {
       case StepReason::largest_step:
         return "the largest step allowed";
       case StepReason::end:
-        return "a kink of a table or the end of the run";
+        return "a kink of a table, a piece of a motion or the end of the run";
       case StepReason::event:
         return "event: " + integrator.name_of_event(index);
+      case StepReason::load:
+        return "a load given by a function, which changes fast";
       case StepReason::iteration:
         break;
     }
@@ -72,19 +79,14 @@ class Run {
         max_steps_(solver.max_steps),
         checkpoint_(solver.checkpoint),
         recorder_(model, output),
+        ends_(model, solver, output.begin_time_s, output.end_time_s),
         integrator_(time_integrator(equations, output.begin_time_s, state, solver)),
         output_state_(state) {}
 
-  /// Steps over an interval in which no table has a kink.
-  void advance(double begin_s, double end_s) {
-    equations_.set_interval(begin_s, end_s);
-    integrator_->restart();
-    while (integrator_->time_s() < end_s) {
-      if (integrator_->accepted() + integrator_->rejected() >= max_steps_) give_up();
-      integrator_->step(end_s);
-      limits_.count(*integrator_);
-      record_until(integrator_->time_s());
-      if (checkpoint_) checkpoint_();
+  void run(double begin_s) {
+    for (const double end_s : ends_.kinks_s()) {
+      advance(begin_s, end_s);
+      begin_s = end_s;
     }
   }
 
@@ -98,6 +100,19 @@ class Run {
   }
 
  private:
+  /// Steps over an interval in which no table has a kink.
+  void advance(double begin_s, double end_s) {
+    equations_.set_interval(begin_s, end_s);
+    integrator_->restart();
+    while (integrator_->time_s() < end_s) {
+      if (integrator_->accepted() + integrator_->rejected() >= max_steps_) give_up();
+      integrator_->step(ends_.limit_s(integrator_->time_s(), end_s));
+      limits_.count(*integrator_);
+      record_until(integrator_->time_s());
+      if (checkpoint_) checkpoint_();
+    }
+  }
+
   void count_steps() {
     StepStatistics& statistics = recorder_.statistics();
     statistics.accepted = integrator_->accepted();
@@ -128,6 +143,7 @@ class Run {
   int max_steps_;
   std::function<void()> checkpoint_;
   Recorder recorder_;
+  StepEnds ends_;
   std::unique_ptr<TimeIntegrator> integrator_;
   LimitCounter limits_;
   VectorXd output_state_;
@@ -136,25 +152,74 @@ class Run {
 
 }  // namespace
 
-std::vector<double> breakpoints(const Model& model, double begin_s, double end_s) {
-  std::vector<double> times;
+namespace {
+
+/// Calls visit(motion) for each motion by a function of time.
+template <class Visit>
+void each_function_of_time(const Model& model, const Visit& visit) {
+  for (const Body& body : model.bodies)
+    if (const auto* prescribed = std::get_if<PrescribedBody>(&body.kind)) {
+      visit(prescribed->motion);
+      visit(prescribed->turn.motion);
+    }
+  for (const Joint& joint : model.joints)
+    for (const JointMotor& motor : joint.motors) visit(motor.path.function());
+}
+
+void add(const std::vector<double>& rows, std::vector<double>& times_s) {
+  times_s.insert(times_s.end(), rows.begin(), rows.end());
+}
+
+/// Those inside (begin, end), ascending and distinct.
+void sort_inside(double begin_s, double end_s, std::vector<double>& times_s) {
+  std::erase_if(times_s, [&](double time) { return !(time > begin_s && time < end_s); });
+  std::sort(times_s.begin(), times_s.end());
+  times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
+}
+
+}  // namespace
+
+void check_motions_reach(const Model& model, double end_s) {
+  constexpr double kRounding = 1e-9;
+  each_function_of_time(model, [&](const SmoothMotion& motion) {
+    if (!motion.is_none() && end_s > motion.end_s() * (1 + kRounding))
+      throw InputError("the motions that are given over time end at " + exact_text(motion.end_s()) +
+                       " s, before " + exact_text(end_s) +
+                       " s; make the model with a longer end_time");
+  });
+}
+
+StepEnds::StepEnds(const Model& model, const SolverOptions& solver, double begin_s, double end_s) {
+  const int parts = solver.integrator == Integrator::dormand_prince ? kPartsOfStages : kPartsOfEnds;
+  check_motions_reach(model, end_s);
   for (const Body& body : model.bodies) {
     const auto* prescribed = std::get_if<PrescribedBody>(&body.kind);
     if (prescribed == nullptr) continue;
-    PrescribedPath(body.initial_pose, *prescribed).add_breakpoints(times);
+    add(prescribed->acceleration_m_s2.times_s(), kinks_s_);
+    add(prescribed->motion.breakpoints_s(), kinks_s_);
+    add(prescribed->turn.acceleration_rad_s2.times_s(), kinks_s_);
+    add(prescribed->turn.motion.breakpoints_s(), kinks_s_);
   }
   for (const Joint& joint : model.joints)
-    for (const JointMotor& motor : joint.motors) motor.path.add_breakpoints(times);
-  ForceSet(model).add_breakpoints(times);
-  std::erase_if(times, [&](double time) { return !(time > begin_s && time < end_s); });
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
+    for (const JointMotor& motor : joint.motors) motor.path.add_breakpoints(kinks_s_);
+  ForceSet(model).add_breakpoints(kinks_s_);
+  sort_inside(begin_s, end_s, kinks_s_);
+  kinks_s_.push_back(end_s);
+  each_function_of_time(model, [&](const SmoothMotion& motion) {
+    motion.add_piece_ends(begin_s, end_s, parts, solver.max_step_s, piece_ends_s_);
+  });
+  sort_inside(begin_s, end_s, piece_ends_s_);
 }
 
-std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double time_s,
-                                                const VectorXd& state,
-                                                const SolverOptions& solver) {
+double StepEnds::limit_s(double time_s, double interval_end_s) const {
+  const auto next = std::upper_bound(piece_ends_s_.begin(), piece_ends_s_.end(), time_s);
+  return next == piece_ends_s_.end() ? interval_end_s : std::min(*next, interval_end_s);
+}
+
+namespace {
+
+std::unique_ptr<TimeIntegrator> integrator_of(Equations& equations, double time_s,
+                                              const VectorXd& state, const SolverOptions& solver) {
   const StepLimits limits{solver.max_step_s, solver.min_step_s};
   if (solver.integrator == Integrator::generalised_alpha)
     return std::make_unique<GeneralisedAlpha>(equations, solver.spectral_radius, limits, time_s,
@@ -175,17 +240,24 @@ std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double tim
   return std::make_unique<DormandPrince>(std::move(problem), limits, time_s, state);
 }
 
+}  // namespace
+
+std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double time_s,
+                                                const VectorXd& state,
+                                                const SolverOptions& solver) {
+  auto integrator = integrator_of(equations, time_s, state, solver);
+  bool has_functions = false;
+  equations.forces().each_function(
+      [&](const auto&, const auto&, const auto&) { has_functions = true; });
+  if (has_functions) integrator->watch(equations.forces(), solver.resolution_s);
+  return integrator;
+}
+
 History integrate(const Model& model, Equations& equations, const VectorXd& state,
                   const SolverOptions& solver, const OutputOptions& output) {
   Run run(model, equations, state, solver, output);
-  std::vector<double> ends = breakpoints(model, output.begin_time_s, output.end_time_s);
-  ends.push_back(output.end_time_s);
   try {
-    double begin = output.begin_time_s;
-    for (const double end : ends) {
-      run.advance(begin, end);
-      begin = end;
-    }
+    run.run(output.begin_time_s);
   } catch (const ComputationError& error) {
     throw IncompleteRun(error.what(), run.finish_early(error.what()));
   }

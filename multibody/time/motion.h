@@ -21,8 +21,23 @@ std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double tim
                                                 const Eigen::VectorXd& state,
                                                 const SolverOptions& solver);
 
-/// Times inside (begin, end) at which a table has a kink or a jump, ascending and distinct.
-std::vector<double> breakpoints(const Model& model, double begin_s, double end_s);
+/// @throws InputError if a motion given over time ends before `end_s`.
+void check_motions_reach(const Model& model, double end_s);
+
+/// Where steps end on the way from one time to another.
+class StepEnds {
+ public:
+  /// @throws InputError as check_motions_reach()
+  StepEnds(const Model& model, const SolverOptions& solver, double begin_s, double end_s);
+
+  /// Times at which a table or a motion has a kink or a jump, ascending and distinct, and the end.
+  const std::vector<double>& kinks_s() const { return kinks_s_; }
+  /// What a step from a time must not pass, inside of an interval: a part of a piece of a motion.
+  double limit_s(double time_s, double interval_end_s) const;
+
+ private:
+  std::vector<double> kinks_s_, piece_ends_s_;
+};
 
 /// Static equilibria at the output times, each sought from the one before.
 /// @param equations  with prescribed bodies held

@@ -10,6 +10,7 @@ namespace flexneck::multibody {
 
 History settle_along(const Model& model, Equations& equations,
                      const std::function<void()>& checkpoint, const OutputOptions& output) {
+  check_motions_reach(model, output.end_time_s);
   Recorder recorder(model, output);
   const auto count = [&] { recorder.statistics().evaluations = equations.evaluations(); };
   Eigen::Index column = 0;

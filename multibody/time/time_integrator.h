@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "multibody/numerics/error_estimate.h"
+#include "multibody/time/load_watch.h"
 
 namespace flexneck::multibody {
 
@@ -20,6 +22,7 @@ enum class StepReason {
   largest_step,  ///< the largest allowed
   end,           ///< of an interval: a kink of a table or the end of the run
   event,         ///< a load has a kink: a stop is met, friction turns over
+  load,          ///< a load given by a function has features that a longer one would miss
   iteration      ///< an implicit method's equations could not be solved over a longer one
 };
 
@@ -38,6 +41,9 @@ class TimeIntegrator {
   TimeIntegrator(const TimeIntegrator&) = delete;
   TimeIntegrator& operator=(const TimeIntegrator&) = delete;
   virtual ~TimeIntegrator() = default;
+
+  /// From now on steps miss no feature of loads that are functions.
+  void watch(const ForceSet& loads, double resolution_s) { watch_.emplace(loads, resolution_s); }
 
   /// Forgets the rate at the present time: after a jump of the right-hand side.
   virtual void restart() = 0;
@@ -68,7 +74,21 @@ class TimeIntegrator {
       : limits_(limits), time_s_(time_s), y_(y) {}
   [[noreturn]] void collapse(const ErrorEstimate& error) const;
 
+  /// Takes the motion of the last evaluation for that at the present time.
+  void watch_from_here() {
+    if (watch_) watch_->begin();
+  }
+  /// @param method  at the end of a step, whose last evaluation was there
+  /// @return the share of its length that may do, or 1 if the step misses no feature of a load
+  double share_seen(double length_s, LoadWatch::Method method) {
+    return watch_ ? watch_->share_seen(time_s_, length_s, method) : 1;
+  }
+  void watch_from_end() {
+    if (watch_) watch_->accept();
+  }
+
   StepLimits limits_;
+  std::optional<LoadWatch> watch_;
   double time_s_;
   Vector y_;
   ErrorEstimate last_estimate_;

@@ -94,10 +94,17 @@ void warn_of_kink(const FileInput& input, const std::string& name,
         name + ": modes are of the mean stiffness of both sides of a kink: " + mode.kink);
 }
 
+std::string about_expressions(const ModelFile& file) {
+  return file.has_expressions
+             ? fmt::format("\n  expressions of time are resolved to {:.6g} ms (solver.resolution)",
+                           1e3 * file.solver.resolution_s)
+             : "";
+}
+
 void tell(const FileInput& input, const ModelFile& file, const ResultPaths& paths,
           const multibody::HistoryFile& result, const PeakTable& peaks) {
   input.console.result(paths.name + ": " + paths.history.string() + ", " + paths.table.string() +
-                       "\n" + run_summary(result.history) + "\n\n" +
+                       "\n" + run_summary(result.history) + about_expressions(file) + "\n\n" +
                        (result.linearisation ? mode_summary(*result.linearisation) + "\n\n" : "") +
                        peaks.text());
   const ResultTable relaxation = relaxation_table(file.model, file.relaxations);

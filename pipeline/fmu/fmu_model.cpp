@@ -21,8 +21,8 @@ void archive(A& all, ChannelSpec& x) {
 }
 template <class A>
 void archive(A& all, FormulaForce& x) {
-  auto& [name, marker_i, marker_j, texts] = x;
-  all(name, marker_i, marker_j, texts);
+  auto& [name, marker_i, marker_j, texts, breakpoints] = x;
+  all(name, marker_i, marker_j, texts, breakpoints);
 }
 template <class A>
 void archive(A& all, FmuModel& x) {
@@ -35,7 +35,7 @@ void archive(A& all, FmuModel& x) {
 namespace {
 
 /// Raised when what is archived changes.
-constexpr std::string_view kHead = "flexneck FMU model 2\n";
+constexpr std::string_view kHead = "flexneck FMU model 3\n";
 
 /// Calls visit(name, unit, what, member) for each parameter.
 template <class Visit>

@@ -102,11 +102,13 @@ std::string c_identifier(const std::string& name) {
 
 std::string model_description(const FmuDescription& description, FmuModel& fmu) {
   const std::vector<FmuVariable> variables = variables_of(fmu);
-  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription" +
-                     attribute("fmiVersion", "3.0") + attribute("modelName", description.name) +
-                     attribute("instantiationToken", description.token) +
-                     attribute("generationTool", description.tool) +
-                     attribute("variableNamingConvention", "flat") + ">\n";
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription" +
+      attribute("fmiVersion", "3.0") + attribute("modelName", description.name) +
+      (description.about.empty() ? "" : attribute("description", description.about)) +
+      attribute("instantiationToken", description.token) +
+      attribute("generationTool", description.tool) +
+      attribute("variableNamingConvention", "flat") + ">\n";
   text += "  <CoSimulation" + attribute("modelIdentifier", description.identifier) +
           R"( canGetAndSetFMUState="true" canSerializeFMUState="true")"
           R"( canHandleVariableCommunicationStepSize="true"/>)"

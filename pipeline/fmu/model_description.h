@@ -14,6 +14,7 @@ struct FmuDescription {
   std::string identifier;  ///< of the shared object, a name in C
   std::string token;       ///< which the shared object gets to see again
   std::string tool;        ///< that made the FMU
+  std::string about = {};  ///< may be empty
 };
 
 /// The file modelDescription.xml of FMI 3.0, for co-simulation.

@@ -28,6 +28,8 @@ struct Assembly {
   std::vector<bool> posed, moving;  ///< of each body: whether the file says where, how fast
   std::vector<JointStart> starts;   ///< of each joint
   double end_time_s = 1;
+  double resolution_s = 1e-4;    ///< of expressions of time
+  bool has_expressions = false;  ///< motions or loads by them
   std::vector<InputFile> files;  ///< modes and tables read
 
   Motion motion = Motion::given;

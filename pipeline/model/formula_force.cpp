@@ -7,7 +7,8 @@ namespace flexneck::pipeline {
 
 multibody::FunctionForce function_force_of(const FormulaForce& force) {
   const StateExpression load(force.texts);
-  return {force.name, force.marker_i, force.marker_j, load, load.takes_rotation_vector()};
+  return {force.name,         force.marker_i, force.marker_j, load, load.takes_rotation_vector(),
+          force.breakpoints_s};
 }
 
 std::vector<FormulaForce> formula_forces_of(const multibody::Model& model) {
@@ -17,7 +18,7 @@ std::vector<FormulaForce> formula_forces_of(const multibody::Model& model) {
     if (load == nullptr)
       throw InputError(title(each) +
                        ": its load is a function of a program, which has no formula to go by");
-    forces.push_back({each.name, each.marker_i, each.marker_j, load->texts()});
+    forces.push_back({each.name, each.marker_i, each.marker_j, load->texts(), each.breakpoints_s});
   }
   return forces;
 }

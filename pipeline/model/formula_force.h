@@ -16,6 +16,7 @@ struct FormulaForce {
   std::size_t marker_i = 0;  ///< the lower one
   std::size_t marker_j = 0;  ///< the upper one
   StateExpression::Texts texts;
+  std::vector<double> breakpoints_s;
 };
 
 /// @throws InputError for a formula that cannot be read.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/model/model_file.h"
 
+#include <algorithm>
+
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "pipeline/document/assemblies.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/channel_section.h"
@@ -131,6 +134,7 @@ void assemble(Assembly& assembly, ModelFile& file) {
   } catch (const InputError& error) {
     throw InputError(file.file.string() + ": " + error.what());
   }
+  file.has_expressions = assembly.has_expressions;
   file.model = std::move(assembly.model);
   file.relaxations = std::move(assembly.relaxations);
 }
@@ -173,6 +177,7 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
   read_linearisation(root, file);
   Assembly assembly;
   assembly.end_time_s = file.end_time_s;
+  assembly.resolution_s = file.solver.resolution_s;
   assembly.model.gravity_m_s2 = file.model.gravity_m_s2;
   for (const ModelSection& section : model_sections())
     for (const StudyTable& table : root.tables(std::string(section.key.name)))
@@ -186,6 +191,11 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
   file.files.insert(file.files.begin(), document.files().begin(), document.files().end());
   file.files.insert(file.files.end(), assembly.files.begin(), assembly.files.end());
   file.parameters = document.parameters();
+  const auto is_resolution = [](const Parameter& each) { return each.key == "solver.resolution"; };
+  if (file.has_expressions && std::ranges::none_of(file.parameters, is_resolution))
+    file.parameters.push_back({"solver.resolution", exact_text(file.solver.resolution_s) + " s",
+                               Origin::synthetic,
+                               "of its expressions, as the file does not say it"});
   file.warnings = document.warnings();
   return file;
 }

@@ -50,6 +50,7 @@ struct ModelFile {
   std::map<std::size_t, Relaxation> relaxations;  ///< of sections that relax
   std::vector<double> rates_rad_s;                ///< of a Campbell diagram; empty for none
   double end_time_s = 1;
+  bool has_expressions = false;  ///< motions or loads by them, seen at solver.resolution_s
   OutputSection output;
 
   std::vector<InputFile> files;  ///< everything that was read

@@ -53,6 +53,7 @@ constexpr Key kFunctionForceKeys[] = {
     Key::text("Mx", kNone, "Moment in N m about x at the upper marker, likewise"),
     Key::text("My", kNone, "About y"),
     Key::text("Mz", kNone, "About z"),
+    kBreakpointsKey,
 };
 
 constexpr auto kLineForceKeys = joined(
@@ -202,7 +203,8 @@ void read_function_force(const StudyTable& table, Assembly& assembly) {
   FormulaForce force{table.text("name"),
                      marker_named(table, "lower", assembly),
                      marker_named(table, "upper", assembly),
-                     {}};
+                     {},
+                     breakpoints(table)};
   bool is_any = false;
   for (std::size_t k = 0; k < force.texts.size(); ++k) {
     force.texts[k] = table.text(StateExpression::kNames[k]);
@@ -216,6 +218,7 @@ void read_function_force(const StudyTable& table, Assembly& assembly) {
   }
   if (!is_any) table.refuse("Fx", "expected a formula of at least one of Fx to Mz, found none");
   assembly.model.forces.add(function_force_of(force));
+  assembly.has_expressions = true;
   table.finish();
 }
 

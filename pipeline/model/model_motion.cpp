@@ -38,6 +38,7 @@ constexpr auto kMotionKeys = std::to_array<Key>({
                     "Times of a pulse that is scaled so that it brings the motion to rest"),
     Key::quantities("pulse_deceleration", "m/s^2 | rad/s^2", kNone,
                     "Deceleration at each of these times, of any size"),
+    kBreakpointsKey,
 });
 
 constexpr auto kAngleKeys = std::to_array<Key>({
@@ -122,11 +123,14 @@ TimeTable pulse(const StudyTable& table, const MotionKeys& keys, double rate) {
   return at_key(table, "pulse_deceleration", [&] { return braking_pulse(times, values, rate); });
 }
 
-SmoothMotion expressed_motion(const StudyTable& table, const std::string& key, double end_s) {
+SmoothMotion expressed_motion(const StudyTable& table, const std::string& key, Assembly& assembly) {
+  assembly.has_expressions = true;
+  const multibody::Sampling sampling{assembly.resolution_s, breakpoints(table)};
   return at_key(table, key, [&] {
     const Expression expression(table.text(key));
-    return key == "acceleration" ? SmoothMotion::of_acceleration(expression, end_s)
-                                 : SmoothMotion::of_displacement(expression, end_s);
+    return key == "acceleration"
+               ? SmoothMotion::of_acceleration(expression, assembly.end_time_s, sampling)
+               : SmoothMotion::of_displacement(expression, assembly.end_time_s, sampling);
   });
 }
 
@@ -150,11 +154,15 @@ Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& as
   Motion motion;
   motion.initial_rate = table.quantity(keys.rate);
   const std::string key = motion_key(table, keys);
+  const bool is_expression =
+      !key.empty() && table.is_text(key) && (key == keys.value || key == "acceleration");
+  if (!is_expression && table.has("breakpoints"))
+    table.refuse("breakpoints", "only a motion by an expression of t has them");
   if (key.empty()) return motion;
   if (key == "pulse_times") {
     motion.acceleration = pulse(table, keys, motion.initial_rate);
-  } else if (table.is_text(key) && (key == keys.value || key == "acceleration")) {
-    motion.function = expressed_motion(table, key, assembly.end_time_s);
+  } else if (is_expression) {
+    motion.function = expressed_motion(table, key, assembly);
   } else if (key == keys.value || key == keys.value_table) {
     motion.function = tabulated_motion(table, keys, key, assembly);
   } else {

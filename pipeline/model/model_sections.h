@@ -50,6 +50,13 @@ auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
   }
 }
 
+/// Of what an expression of time gives.
+inline constexpr Key kBreakpointsKey =
+    Key::quantities("breakpoints", "s", kNone,
+                    "Of an expression: times, increasing, at which steps end and between which "
+                    "features may be shorter than solver.resolution");
+std::vector<double> breakpoints(const StudyTable& table);
+
 /// Names and units of the two columns of a table, and the key of its file.
 struct ColumnKeys {
   std::string x, x_unit, y, y_unit;

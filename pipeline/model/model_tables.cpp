@@ -29,6 +29,10 @@ Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& 
   return Eigen::Quaterniond(multibody::rotation_exp(quantity_vector(table, key)));
 }
 
+std::vector<double> breakpoints(const StudyTable& table) {
+  return table.has("breakpoints") ? table.quantities("breakpoints") : std::vector<double>{};
+}
+
 TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
                           std::vector<InputFile>& files) {
   if (!table.has(keys.file)) {

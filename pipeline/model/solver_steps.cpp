@@ -11,6 +11,7 @@ void read_steps(const StudyTable& table, multibody::SolverOptions& options) {
   options.max_steps = table.count("max_steps");
   options.formulation = static_cast<multibody::Formulation>(table.choice("formulation"));
   options.integrator = static_cast<multibody::Integrator>(table.choice("integrator"));
+  options.resolution_s = table.quantity("resolution");
   options.spectral_radius = table.number("spectral_radius");
   if (!(options.max_step_s > options.min_step_s)) {
     table.refuse("max_step", "expected 0 < min_step < max_step");

@@ -29,6 +29,9 @@ inline constexpr auto kStepKeys = std::to_array<Key>({
     Key::number(
         "spectral_radius", "0.8",
         "Of generalised_alpha: by what a step multiplies vibrations that it does not resolve"),
+    Key::quantity("resolution", "s", "0.0001",
+                  "No feature of a motion or a load by an expression that is longer is missed",
+                  {.range = kPositive}),
     Key::count("max_steps", "10000000", "Steps after which a run is given up",
                {.range = at_least(1), .formerly = "most_steps"}),
 });

@@ -92,9 +92,10 @@ StudyModels::StudyModels(const StudyTable& root, std::vector<std::string> interf
   }
 }
 
-Assembly StudyModels::whole(double end_time_s) const {
+Assembly StudyModels::whole(double end_time_s, double resolution_s) const {
   Assembly assembly;
   assembly.end_time_s = end_time_s;
+  assembly.resolution_s = resolution_s;
   assembly.structure = interfaces_;
   assembly.motion = Assembly::Motion::optional;
   for (const ModelSection& section : model_sections())

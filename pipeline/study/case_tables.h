@@ -27,7 +27,8 @@ class StudyModels {
   /// All that stands in the study itself, which need not make a model: joints of several cases may
   /// hold the same body.
   /// @param end_time_s  that motions over time have to cover
-  Assembly whole(double end_time_s) const;
+  /// @param resolution_s  of expressions of time
+  Assembly whole(double end_time_s, double resolution_s) const;
 
   /// The study's tables that a case takes, with those of its layers: one of the same name has the
   /// keys that it gives in place of the study's, another one is added. Joints and markers are taken

@@ -114,7 +114,7 @@ void read_experiments(const StudyTable& root, const std::vector<TestSection>& kn
     longest_s = std::max(longest_s, experiment.duration_s);
     for (const InputFile& file : experiment.model.files) add_file(study.tables, file);
   }
-  study.model = models.whole(longest_s > 0 ? longest_s : 1);
+  study.model = models.whole(longest_s > 0 ? longest_s : 1, study.solver.resolution_s);
   for (const InputFile& file : study.model.files) add_file(study.tables, file);
   read_tests(root, known, which, study);
   select_cases(root, study);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -138,6 +139,51 @@ TEST_CASE("a function is asked at the time of the run, and implicit steps take i
   const History history = simulate(build.model, solver, {.end_time_s = 1, .interval_s = 1});
   // x'' = 3 t.
   CHECK(history.marker("block").position_m(0, 1) == Approx(0.5).epsilon(tolerance));
+}
+
+TEST_CASE("a load's short pulse in time or along the way is not stepped over") {
+  constexpr double kMass_kg = 2;
+  constexpr double kSpeed_m_s = 3;
+  ModelBuilder build;
+  const auto rail = build.marker("rail", build.ground());
+  const auto body = build.body("block", RigidBody{kMass_kg, Vector3d::Zero(), Matrix3d::Identity()},
+                               {}, {kSpeed_m_s, 0, 0});
+  const auto block = build.marker("block", body);
+  build.joint("slide", &kPrismaticJoint, rail, block, Vector3d::UnitX());
+  SolverOptions solver;
+  solver.formulation = either_formulation();
+  solver.integrator = GENERATE(Integrator::dormand_prince, Integrator::generalised_alpha);
+  const double tolerance = solver.integrator == Integrator::dormand_prince ? 1e-4 : 1e-2;
+  const auto push = [&](const FunctionForce::Function& along_x) {
+    build.model.forces.add(FunctionForce{"hit", rail, block, along_x});
+    const History history = simulate(build.model, solver, {.end_time_s = 3, .interval_s = 3});
+    return history.marker("block").velocity_m_s(0, 1);
+  };
+  const auto of_x = [](double x) { return FunctionLoad{{x, 0, 0}, Vector3d::Zero()}; };
+  SECTION("a bell over 2 ms") {
+    const double v = push([&](double t, const RelativeMotion&) {
+      return of_x(1000 * std::exp(-std::pow((t - 1.5) / 0.002, 2)));
+    });
+    CHECK(kMass_kg * (v - kSpeed_m_s) ==
+          Approx(2 * std::sqrt(std::numbers::pi)).epsilon(tolerance));
+  }
+  SECTION("a box of 2 ms, with drag before and behind") {
+    const double v = push([&](double t, const RelativeMotion& motion) {
+      return of_x((t > 1.5 && t < 1.502 ? 1000 : 0) - 0.4 * motion.velocity_m_s.x());
+    });
+    const auto decay = [&](double time_s) { return std::exp(-0.2 * time_s); };
+    CHECK(v == Approx(kSpeed_m_s * decay(3) + 2500 * (1 - decay(0.002)) * decay(1.498))
+                   .epsilon(tolerance));
+  }
+  SECTION("a bump 5 mm wide that the block runs through: its work") {
+    const double v = push([&](double, const RelativeMotion& motion) {
+      const double x = motion.position_m.x() - 4;
+      return of_x(std::abs(x) < 0.0025 ? 1000 * std::cos(std::numbers::pi * x / 0.005) : 0);
+    });
+    const double work_J = 1000 * 2 * 0.005 / std::numbers::pi;
+    CHECK(v ==
+          Approx(std::sqrt(kSpeed_m_s * kSpeed_m_s + 2 * work_J / kMass_kg)).epsilon(tolerance));
+  }
 }
 
 TEST_CASE("what a function must not do is refused") {

@@ -46,7 +46,7 @@ TEST_CASE("an acceleration given by a function has its exact integrals, past kin
   REQUIRE(motion.breakpoints_s().size() == 2);
   CHECK(motion.breakpoints_s()[0] == Approx(kEnd).margin(1e-8));
   CHECK(motion.breakpoints_s()[1] == Approx(kJump).epsilon(1e-15));
-  CHECK(motion.velocity_m_s(0) == 0);
+  CHECK(motion.velocity_m_s(0) == Approx(0).margin(1e-14));
   const double lost = -200 * 2 * kEnd / std::numbers::pi;
   CHECK(motion.velocity_m_s(0.1) == Approx(lost).epsilon(1e-13));
   CHECK(motion.velocity_m_s(0.3) == Approx(lost + 30 * (0.3 - kJump)).epsilon(1e-13));
@@ -54,6 +54,55 @@ TEST_CASE("an acceleration given by a function has its exact integrals, past kin
   CHECK(motion.displacement_m(0.3) ==
         Approx(lost * (0.3 - kEnd / 2) + 15 * std::pow(0.3 - kJump, 2)).epsilon(1e-13));
   CHECK(motion.acceleration_m_s2(0.04) == Approx(-200).epsilon(1e-13));
+}
+
+TEST_CASE("no feature longer than the resolution vanishes, wherever it is in a long run") {
+  constexpr double kPi = std::numbers::pi;
+  for (const double end : {0.3, 60.0, 600.0})
+    for (const double start : {0.0, 0.1, 0.46, 0.77777, 0.999})
+      for (const double length : {1e-4, 3e-3, 0.05, 0.08}) {
+        const double begin = start * (end - length);
+        INFO(length << " s at " << begin << " s of " << end << " s");
+        const auto inside = [=](double t) { return t > begin && t < begin + length; };
+        const auto sine = [=](double t) {
+          return inside(t) ? -100 * std::sin(kPi * (t - begin) / length) : 0;
+        };
+        // Rounding of the times of 600 s leaves 1e-9 of 0.1 ms.
+        CHECK(SmoothMotion::of_acceleration(sine, end).velocity_m_s(end) ==
+              Approx(-200 * length / kPi).epsilon(3e-9));
+        const auto box = [=](double t) { return inside(t) ? 7.0 : 0.0; };
+        CHECK(SmoothMotion::of_acceleration(box, end).velocity_m_s(end) ==
+              Approx(7 * length).epsilon(3e-9));
+        // Its acceleration jumps at both ends.
+        const auto bump = [=](double t) {
+          return inside(t) ? 0.01 * (1 - std::cos(2 * kPi * (t - begin) / length)) / 2 : 0;
+        };
+        const auto motion = SmoothMotion::of_displacement(bump, end);
+        const double rate = 2 * kPi / length;
+        CHECK(motion.velocity_m_s(begin + length / 4) == Approx(0.005 * rate).epsilon(1e-7));
+        CHECK(motion.acceleration_m_s2(begin + length / 2) ==
+              Approx(-0.005 * rate * rate).epsilon(1e-5));
+        const auto& breaks = motion.breakpoints_s();
+        for (const double time : breaks)
+          CHECK(std::abs(motion.acceleration_m_s2(time)) < 0.00501 * rate * rate);
+      }
+}
+
+TEST_CASE("shorter features are found between breakpoints, or at a finer resolution") {
+  constexpr double kBegin = 0.3;
+  constexpr double kEnd = 0.300001;
+  const auto blow = [](double t) { return t > kBegin && t < kEnd ? 1e6 : 0; };
+  const double gained = 1e6 * (kEnd - kBegin);
+  const auto declared = SmoothMotion::of_acceleration(
+      blow, 1, {.resolution_s = 1e-4, .breakpoints_s = {kBegin, kEnd}});
+  CHECK(declared.velocity_m_s(1) == Approx(gained).epsilon(1e-13));
+  CHECK(SmoothMotion::of_acceleration(blow, 1, {.resolution_s = 1e-6}).velocity_m_s(1) ==
+        Approx(gained).epsilon(1e-9));
+  CHECK_THROWS_WITH(
+      SmoothMotion::of_acceleration(blow, 1, {.resolution_s = 1e-4, .breakpoints_s = {0.3, 0.2}}),
+      Catch::Matchers::Contains("breakpoints must increase"));
+  CHECK_THROWS_WITH(SmoothMotion::of_acceleration(blow, 1e5),
+                    Catch::Matchers::Contains("make solver.resolution longer"));
 }
 
 TEST_CASE("a motion that is not smooth enough or not a number is refused") {
@@ -65,7 +114,7 @@ TEST_CASE("a motion that is not smooth enough or not a number is refused") {
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / t; }, 1.0),
                     Contains("is not a finite number at 0 s"));
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / (t - 0.5); }, 1.0),
-                    Contains("is not a finite number at 0.5 s"));
+                    Contains("is not piecewise smooth, e.g. at 0.5 s"));
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / (t - 0.25); }, 1.0),
                     Contains("is not piecewise smooth, e.g. at 0.2"));
   // Halving meets this one exactly.

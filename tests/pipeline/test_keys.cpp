@@ -130,6 +130,7 @@ TEST_CASE("what a file does not say is what the structures of the program begin 
   CHECK(model.solver.absolute_tolerance == options.absolute_tolerance);
   CHECK(model.solver.max_step_s == options.max_step_s);
   CHECK(model.solver.min_step_s == options.min_step_s);
+  CHECK(model.solver.resolution_s == options.resolution_s);
   CHECK(model.solver.max_steps == options.max_steps);
   CHECK(model.solver.spectral_radius == options.spectral_radius);
   CHECK(model.solver.formulation == options.formulation);

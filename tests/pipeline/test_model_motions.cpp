@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -22,6 +23,7 @@ using testing::fixed_joint_text;
 using testing::origin_marker_text;
 using testing::read_model;
 using testing::refusal_of_model;
+using testing::run;
 using testing::with;
 using testing::write_test_file;
 
@@ -58,6 +60,92 @@ TEST_CASE("a prescribed body follows a table, a pulse or an expression, and one 
   CHECK_THAT(refusal_of_model(folder, sled("displacement = \"abs(t - 0.1)\"")),
              Contains("must be smooth"));
   CHECK_THAT(refusal_of_model(folder, sled("")), Contains("a prescribed body needs a motion"));
+}
+
+TEST_CASE("a sled pulse over a minute, a turn and a motor gain what their expressions make") {
+  const TemporaryFolder folder;
+  const std::string blocks = R"toml([[body]]
+name = "block"
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
+[[marker]]
+body = "sled"
+name = "o"
+position = ["0 m", "0 m", "0 m"]
+[[marker]]
+body = "block"
+name = "o"
+position = ["0 m", "0 m", "0 m"]
+[[joint]]
+name = "j"
+lower = "sled.o"
+upper = "block.o"
+axis = [0, 0, 1]
+)toml";
+  const std::string pulse =
+      "acceleration = \"-100 * sin(pi*(t-27.6)/0.08) * (t>27.6 && t<27.68)\"\n";
+  const auto at_end = [&](const std::string& sled, const std::string& more) {
+    return run(read_model(folder,
+                          "[solver]\nend_time = \"60 s\"\n[output]\ninterval = \"60 s\"\n"
+                          "[[body]]\nname = \"sled\"\n" +
+                              sled + blocks + more));
+  };
+  const double gained = -200 * 0.08 / std::numbers::pi;
+  const std::string prescribed = "kind = \"prescribed\"\n";
+  // The pulse of the README over a minute.
+  CHECK(at_end(prescribed + "acceleration = \"-100 * sin(pi * t / 0.08) * (t < 0.08)\"\n",
+               "kind = \"fixed\"\n")
+            .marker("block.o")
+            .velocity_m_s(0, 1) == Approx(gained).epsilon(1e-9));
+  CHECK(at_end(prescribed + "[body.turn]\naxis = [0, 0, 1]\n" + pulse, "kind = \"fixed\"\n")
+            .marker("block.o")
+            .angular_velocity_rad_s(2, 1) == Approx(gained).epsilon(1e-9));
+  const std::string ground = "kind = \"ground\"\n";
+  const std::string motor = "[[motor]]\nname = \"m\"\njoint = \"j\"\n";
+  CHECK(at_end(ground, "kind = \"prismatic\"\n" + motor + "coordinate = \"distance\"\n" + pulse)
+            .marker("block.o")
+            .velocity_m_s(2, 1) == Approx(gained).epsilon(1e-6));
+  // A bell has no kink where steps would end: the block slides on its sled and stays.
+  for (const std::string integrator : {"dormand_prince", "generalised_alpha"}) {
+    const auto history =
+        run(read_model(folder, "[solver]\nend_time = \"3 s\"\nintegrator = \"" + integrator +
+                                   "\"\n[output]\ninterval = \"3 s\"\n[[body]]\nname = \"sled\"\n" +
+                                   prescribed + "direction = [0, 0, 1]\n" +
+                                   "acceleration = \"1000 * exp(-((t - 1.5) / 0.002)^2)\"\n" +
+                                   blocks + "kind = \"prismatic\"\n"));
+    CHECK(history.marker("sled.o").velocity_m_s(2, 1) ==
+          Approx(2 * std::sqrt(std::numbers::pi)).epsilon(1e-9));
+    CHECK(history.marker("block.o").velocity_m_s(2, 1) == Approx(0).margin(0.02));
+  }
+}
+
+TEST_CASE("the resolution of expressions is a key, and breakpoints go with expressions") {
+  const TemporaryFolder folder;
+  const auto sled = [&](const std::string& motion, const std::string& key = "") {
+    return with(
+        with(double_pendulum_text(), "kind = \"ground\"", "kind = \"prescribed\"\n" + motion),
+        "[solver]\n", "[solver]\n" + key);
+  };
+  const auto gained = [&](const std::string& text) {
+    return std::get<multibody::PrescribedBody>(read_model(folder, text).model.bodies[0].kind)
+        .motion.velocity_m_s(0.2);
+  };
+  const std::string blow = "acceleration = \"1e6 * (t > 0.1 && t < 0.100001)\"\n";
+  CHECK(gained(sled(blow, "resolution = \"1 us\"\n")) == Approx(1).epsilon(1e-6));
+  CHECK(gained(sled(blow + "breakpoints = [\"0.1 s\", \"0.100001 s\"]\n")) ==
+        Approx(1).epsilon(1e-6));
+  CHECK_THAT(
+      refusal_of_model(folder, sled("initial_velocity = \"1 m/s\"\nbreakpoints = [\"1 ms\"]\n")),
+      Contains("body.ground.breakpoints: only a motion by an expression"));
+  const auto has_resolution = [&](const std::string& text) {
+    const auto parameters = read_model(folder, text).parameters;
+    return std::ranges::any_of(
+        parameters, [](const Parameter& each) { return each.key == "solver.resolution"; });
+  };
+  CHECK(has_resolution(sled(blow)));
+  CHECK_FALSE(has_resolution(double_pendulum_text()));
 }
 
 TEST_CASE("an expression is one value: no sequence, no assignment, no chain of comparisons") {

@@ -138,7 +138,11 @@ void write_fmu(const ModelFile& file, const fs::path& target, const Console& con
   const std::string name = file.file.stem().string();
   const std::string identifier = c_identifier(name);
   const std::string description = model_description(
-      {name, identifier, token_of(bytes), fmt::format("flexneck {} ({})", kVersion, kGitHash)},
+      {name, identifier, token_of(bytes), fmt::format("flexneck {} ({})", kVersion, kGitHash),
+       file.has_expressions
+           ? fmt::format("Expressions of time are resolved to {} s up to {} s",
+                         exact_text(file.solver.resolution_s), exact_text(file.end_time_s))
+           : ""},
       fmu);
   // Names in the FMU with what is there.
   std::vector<std::pair<std::string, std::string>> contents = {

@@ -63,14 +63,16 @@ class Model(HasSettings):
 
     def add_function(self, name: str, lower: str, upper: str, function: Function) -> Model:
         """Adds a load between two markers that a function of Python gives, for prototypes: it is
-        called at every evaluation of the equations of motion, about ten microseconds each. A table
-        [[function_force]] does the same by formulas, and fast.
+        called at every evaluation of the equations of motion and as often as solver.resolution
+        says, about ten microseconds each. A table [[function_force]] does the same by formulas, and
+        fast.
 
         function: takes the time (s) and the motion of the marker `upper` seen from the moving frame
             of the marker `lower`, in its axes: position (3,) m, velocity (3,) m/s, rotation (3, 3)
             upper's axes to lower's, and angular velocity (3,) rad/s. Returns the force (3,) N and
             the moment (3,) N m that act on upper's body at upper's origin, in lower's axes; the
-            opposite acts on lower's body at that point. It should be smooth. What it raises ends
+            opposite acts on lower's body at that point. It is called along each step, too, as
+            closely as solver.resolution, so that no longer feature is missed. What it raises ends
             the run.
         Returns this model, which has changed.
         """

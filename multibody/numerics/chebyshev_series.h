@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+
+namespace flexneck::multibody {
+
+/// Coefficients of T_0, T_1, … over an interval, and room for two integrations.
+inline constexpr std::size_t kChebyshevTerms = 18;
+using ChebyshevSeries = std::array<double, kChebyshevTerms + 2>;
+
+/// @param f  called at the Chebyshev nodes, which lie inside of the interval
+ChebyshevSeries interpolated(const std::function<double(double)>& f, double begin, double end);
+/// Over an interval of this length.
+ChebyshevSeries derivative(const ChebyshevSeries& of, double length);
+/// From the interval's beginning, where it is `start`.
+ChebyshevSeries integral(const ChebyshevSeries& of, double length, double start);
+/// @param x  in [-1, 1]
+double sum_of(const ChebyshevSeries& series, double x);
+
+}  // namespace flexneck::multibody
