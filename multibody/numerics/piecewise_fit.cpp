@@ -174,8 +174,11 @@ std::optional<double> PiecewiseFit::cover(const Grid& grid, double stretch_s, do
 /// interval: to rounding, also where only a higher derivative jumps.
 std::optional<double> PiecewiseFit::isolated_break(const Grid& grid, double stretch_s,
                                                    double begin_s, double end_s) const {
+  double next_break = grid.end_s;
+  for (const double time_s : breaks_)
+    if (time_s >= end_s) next_break = std::min(next_break, time_s);
   const double around_s = kIsolation * (end_s - begin_s);
-  if (begin_s - around_s < stretch_s || end_s + around_s > grid.end_s) return {};
+  if (begin_s - around_s < stretch_s || end_s + around_s > next_break) return {};
   const Piece left = piece(begin_s - around_s, begin_s);
   if (!is_resolved(left) || !is_resolved(piece(end_s, end_s + around_s))) return {};
   const double margin = kSampleMargin * tolerance(left);
@@ -253,7 +256,7 @@ bool PiecewiseFit::jumps(std::size_t k, int order) const {
     return jump > 1e-6 * curvature_ + kSecondGrowth * rounding / (shortest_s * shortest_s);
   // A break of the second derivative is found where it has changed the value beyond rounding.
   return jump > 1e-6 * steepest_ + kFirstGrowth * rounding / shortest_s +
-                    2 * std::sqrt(2 * kSampleMargin * rounding * curvature_);
+                    20 * std::sqrt(2 * kSampleMargin * rounding * curvature_);
 }
 
 bool PiecewiseFit::loses(std::size_t k, int order) const {
