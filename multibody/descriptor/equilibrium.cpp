@@ -35,7 +35,7 @@ class DescriptorRest final : public RestProblem {
  public:
   DescriptorRest(EquationsOfMotion& equations, VectorXd positions, double time_s)
       : equations_(equations), positions_(std::move(positions)), time_s_(time_s) {
-    reduced_.emplace(equations_, positions_, time_s_);
+    begin();
   }
 
   Index count() const override { return reduced_->count(); }
@@ -45,11 +45,16 @@ class DescriptorRest final : public RestProblem {
   MatrixXd stiffness() override { return reduced_->stiffness(); }
   void move_to(const VectorXd& xi) override {
     positions_ = reduced_->positions_at(xi);
-    reduced_.emplace(equations_, positions_, time_s_);
+    begin();
   }
   const VectorXd& positions() const { return positions_; }
 
  private:
+  void begin() {
+    reduced_.emplace(equations_, positions_, time_s_);
+    equations_.count_turns();
+  }
+
   EquationsOfMotion& equations_;
   VectorXd positions_;
   double time_s_;

@@ -71,6 +71,15 @@ class Equations {
   /// Indices of constraints that others hold already, as of the last derivative().
   virtual void redundant_rows(std::vector<Eigen::Index>& rows) const { rows.clear(); }
 
+  /// Behind an accepted step, and at the start of a run: whether joints hold and bodies deform
+  /// within reason. Counts the turns of joints on. @throws ComputationError of a guard that ends
+  /// the run.
+  virtual void accept(double time_s, const Vector& state, RunWatch& watch) = 0;
+  /// The angle of a joint that has one, as accept() or settle() counted it last.
+  virtual double joint_angle_rad(std::size_t joint) const = 0;
+  /// Shows a watch the markers that it follows, of a state inside or at the end of a step.
+  virtual void show(double time_s, const Vector& state, RunWatch& watch) = 0;
+
   /// Records an interpolated state, put onto the joints first.
   virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;
   virtual int evaluations() const = 0;

@@ -212,6 +212,12 @@ HistoryFile read_history(const std::filesystem::path& path) {
     history.state.bodies.push_back(read_state(reader, name, times));
   if (!history.state.bodies.empty())
     history.state.internal = read_rows(reader, kInternal, times, "m, rad");
+  // Files of earlier versions have none.
+  if (reader.has(kAngleNames)) {
+    history.state.angle_names = reader.read_strings(kAngleNames);
+    history.state.angles = read_columns<Eigen::MatrixXd>(reader, kAngles, times,
+                                                         history.state.angle_names.size(), "rad");
+  }
   for (const std::string& name : ordered_members(reader, kChannels)) {
     file.channels.push_back(read_channel(reader, name, times));
   }

@@ -32,6 +32,9 @@ class PrescribedPath {
   PrescribedMotion at(double time_s, double table_time_s) const;
   PrescribedMotion at(double time_s) const { return at(time_s, time_s); }
 
+  /// By which it has turned, over full turns.
+  double angle_rad(double time_s) const { return angle_.value(time_s); }
+
   /// Times at which an acceleration or its slope may jump.
   void add_breakpoints(std::vector<double>& times_s) const;
 

@@ -15,6 +15,7 @@
 #include "multibody/model/prescribed_path.h"
 #include "multibody/time/dormand_prince.h"
 #include "multibody/time/generalised_alpha.h"
+#include "multibody/time/step_follower.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -73,8 +74,10 @@ class Run {
         checkpoint_(solver.checkpoint),
         recorder_(model, output),
         integrator_(time_integrator(equations, output.begin_time_s, state, solver)),
+        follower_(equations, recorder_.watch()),
         output_state_(state) {}
 
+  void begin() { follower_.begin(integrator_->time_s(), integrator_->state()); }
   /// Steps over an interval in which no table has a kink.
   void advance(double begin_s, double end_s) {
     equations_.set_interval(begin_s, end_s);
@@ -83,7 +86,7 @@ class Run {
       if (integrator_->accepted() + integrator_->rejected() >= max_steps_) give_up();
       integrator_->step(end_s);
       limits_.count(*integrator_);
-      record_until(integrator_->time_s());
+      follower_.follow(*integrator_, [&](double time_s) { record_until(time_s); });
       if (checkpoint_) checkpoint_();
     }
   }
@@ -118,7 +121,7 @@ class Run {
       integrator_->interpolate(at, output_state_);
       recorder_.begin(next_);
       equations_.record(at, output_state_, recorder_, next_);
-      recorder_.check_turns(next_);
+      recorder_.look(next_);
       if (next_ == 0) recorder_.redundant(equations_.redundant_constraints());
       ++next_;
     }
@@ -129,6 +132,7 @@ class Run {
   std::function<void()> checkpoint_;
   Recorder recorder_;
   std::unique_ptr<TimeIntegrator> integrator_;
+  StepFollower follower_;
   LimitCounter limits_;
   VectorXd output_state_;
   Index next_ = 0;
@@ -181,6 +185,7 @@ History integrate(const Model& model, Equations& equations, const VectorXd& stat
   std::vector<double> ends = breakpoints(model, output.begin_time_s, output.end_time_s);
   ends.push_back(output.end_time_s);
   try {
+    run.begin();
     double begin = output.begin_time_s;
     for (const double end : ends) {
       run.advance(begin, end);

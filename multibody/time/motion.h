@@ -11,6 +11,7 @@
 #include "multibody/equations/solver_options.h"
 #include "multibody/history/history.h"
 #include "multibody/history/output_options.h"
+#include "multibody/history/run_watch.h"
 #include "multibody/model/model.h"
 #include "multibody/time/time_integrator.h"
 
@@ -23,6 +24,13 @@ std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double tim
 
 /// Times inside (begin, end) at which a table has a kink or a jump, ascending and distinct.
 std::vector<double> breakpoints(const Model& model, double begin_s, double end_s);
+
+/// The static equilibrium at a time, sought from a state at rest at an earlier one, over times
+/// between which what is prescribed turns by a radian at most.
+/// @param equations  with prescribed bodies held
+/// @throws ComputationError if one is not found.
+void settle_until(const Model& model, Equations& equations, RunWatch& watch, double begin_s,
+                  double end_s, Eigen::VectorXd& state);
 
 /// Static equilibria at the output times, each sought from the one before.
 /// @param equations  with prescribed bodies held

@@ -14,8 +14,8 @@ namespace flexneck::multibody {
 
 template <class A>
 void archive(A& all, SteppedRun::State& x) {
-  auto& [time, y, proposed, error, inputs, motions, is_settled, first_energy] = x;
-  all(time, y, proposed, error, inputs, motions, is_settled, first_energy);
+  auto& [time, y, proposed, error, inputs, motions, angles, is_settled, first_energy] = x;
+  all(time, y, proposed, error, inputs, motions, angles, is_settled, first_energy);
 }
 
 }  // namespace flexneck::multibody
@@ -103,7 +103,7 @@ void FmuInstance::advance(double time_s, double length_s) {
                      std::to_string(run.time_s()) + " s");
   if (!(length_s > 0 && std::isfinite(length_s)))
     throw InputError("a step must be longer than zero, not " + std::to_string(length_s) + " s");
-  outputs();  // angles count on from step to step
+  outputs();  // quaternions go on from step to step
   run.advance(time_s + length_s);
   outputs_are_new_ = false;
   outputs();

@@ -27,7 +27,7 @@ class FmuInstance {
     double relative_tolerance = 0;
     std::vector<double> values, inputs;  ///< of parameters, of inputs
     std::optional<multibody::SteppedRun::State> run;
-    std::vector<Eigen::VectorXd> last;  ///< of the channels, which angles count on from
+    std::vector<Eigen::VectorXd> last;  ///< of the channels, which quaternions go on from
   };
 
   explicit FmuInstance(FmuModel model);

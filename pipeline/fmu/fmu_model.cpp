@@ -16,8 +16,8 @@ using multibody::SteppedRun;
 
 template <class A>
 void archive(A& all, ChannelSpec& x) {
-  auto& [name, quantity, source, relative_to, axes, axis, filter] = x;
-  all(name, quantity, source, relative_to, axes, axis, filter);
+  auto& [name, quantity, source, relative_to, axes, filter] = x;
+  all(name, quantity, source, relative_to, axes, filter);
 }
 template <class A>
 void archive(A& all, FormulaForce& x) {
@@ -35,7 +35,7 @@ void archive(A& all, FmuModel& x) {
 namespace {
 
 /// Raised when what is archived changes.
-constexpr std::string_view kHead = "flexneck FMU model 2\n";
+constexpr std::string_view kHead = "flexneck FMU model 3\n";
 
 /// Calls visit(name, unit, what, member) for each parameter.
 template <class Visit>

@@ -180,8 +180,8 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
   if (assembly.model.bodies.empty())
     throw InputError(path.string() + ": expected bodies as tables [[body]], found none");
   assemble(assembly, file);
-  restart(root, file);
   read_output(root, file);
+  restart(root, file);
   root.finish();
   file.files.insert(file.files.begin(), document.files().begin(), document.files().end());
   file.files.insert(file.files.end(), assembly.files.begin(), assembly.files.end());
