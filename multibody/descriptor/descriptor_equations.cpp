@@ -83,12 +83,18 @@ class DescriptorEquations final : public Equations {
     return state;
   }
 
-  void settle(double time_s, Vector& state) override {
+  void settle(double time_s, Vector& state, RunWatch& watch) override {
     equations_.relax();
     Vector positions = state.head(system_.position_count);
     // The prescribed bodies may have moved on.
     projection_.converge_positions(time_s, positions);
-    state.head(system_.position_count) = settled_positions(equations_, positions, time_s);
+    state.head(system_.position_count) =
+        settled_positions(equations_, positions, time_s, [&](const Vector& there) {
+          if (watch.markers().empty()) return;
+          state.head(system_.position_count) = there;
+          show(time_s, state, watch);
+          watch.look(time_s);
+        });
     if (system_.internal_count == 0) return;
     equations_.relax();
     equations_.set_positions(time_s, state.head(system_.position_count));
@@ -111,7 +117,9 @@ class DescriptorEquations final : public Equations {
                         const Vector& error) const override {
     return error_(begin, end, error);
   }
-  std::string name_of(std::size_t component) const override { return error_.name_of(component); }
+  std::string name_of(std::size_t component) const override {
+    return error_.name_of(component) + lost_mass();
+  }
   const ForceSet& forces() const override { return equations_.forces(); }
   int evaluations() const override { return equations_.evaluations(); }
   std::vector<std::string> redundant_constraints() const override {
@@ -200,6 +208,24 @@ class DescriptorEquations final : public Equations {
   }
 
  private:
+  /// Why a rate that is not a number is none: of a body whose mass matrix is not positive definite
+  /// at the last configuration tried (equations.md section 3a), else empty.
+  std::string lost_mass() const {
+    for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
+      const FreeBody& body = system_.bodies[b];
+      const Eigen::MatrixXd& mass = equations_.body(b).mass;
+      if (!body.constants.stiffens() || !mass.allFinite() ||
+          mass.selfadjointView<Eigen::Lower>().llt().info() == Eigen::Success)
+        continue;
+      return " (body '" + body.name +
+             "' has bent so far that what stress_stiffening adds to its inertia exceeds its own "
+             "inertia about its axis; the descriptor formulation needs a positive mass matrix of "
+             "each body, the recursive one only where the body's base is free to move: take the "
+             "recursive one, several bodies in its place, or no stress_stiffening)";
+    }
+    return {};
+  }
+
   void record_state(const Vector& state, Recorder& recorder, Index column) const {
     for (const FreeBody& body : system_.bodies) {
       const Index m = body.constants.mode_count();

@@ -72,9 +72,12 @@ VectorXd carried_velocities(const Model& model, const System& system) {
   return velocities;
 }
 
-VectorXd settled_positions(EquationsOfMotion& equations, const VectorXd& positions, double time_s) {
+VectorXd settled_positions(EquationsOfMotion& equations, const VectorXd& positions, double time_s,
+                           const std::function<void(const VectorXd&)>& moved) {
   DescriptorRest rest(equations, positions, time_s);
-  find_equilibrium(rest);
+  find_equilibrium(rest, [&] {
+    if (moved) moved(rest.positions());
+  });
   return rest.positions();
 }
 

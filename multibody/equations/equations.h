@@ -32,7 +32,8 @@ class Equations {
 
   /// Brings a state at rest to the static equilibrium at a time. Of equations whose prescribed
   /// bodies are held. @throws ComputationError if there is none within reach.
-  virtual void settle(double time_s, Vector& state) = 0;
+  /// @param watch  looks at each place on the way
+  virtual void settle(double time_s, Vector& state, RunWatch& watch) = 0;
 
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
   virtual void set_interval(double begin_s, double end_s) = 0;

@@ -98,6 +98,8 @@ BodyHistory read_state(const Hdf5Reader& file, const std::string& name, std::siz
     else
       values = read_columns<Matrix>(file, path, times, Matrix::RowsAtCompileTime, unit);
   });
+  if (const std::string inertia = path_of(path_of(kStates, name), kInertia); file.has(inertia))
+    body.inertia = read_vector(file, inertia, 10, kInertiaUnit);
   if (body.modal_rate.rows() != body.modal.rows())
     file.refuse(path_of(kStates, name), "it has not as many modal rates as modal coordinates");
   return body;

@@ -100,8 +100,13 @@ void write_groups(Hdf5Writer& file, const History& history, const std::vector<Ch
     write_index(file, group, k);
     file.write(path_of(group, "modes"), history.modal[k].modes);
   }
-  for (std::size_t k = 0; k < history.state.bodies.size(); ++k)
-    write_index(file, path_of(kStates, history.state.bodies[k].name), k);
+  for (std::size_t k = 0; k < history.state.bodies.size(); ++k) {
+    const BodyHistory& body = history.state.bodies[k];
+    const std::string group = path_of(kStates, body.name);
+    write_index(file, group, k);
+    if (body.inertia.size() > 0)
+      write_vector(file, path_of(group, kInertia), body.inertia, kInertiaUnit);
+  }
   if (!history.state.angle_names.empty()) file.write(kAngleNames, history.state.angle_names);
   for (std::size_t k = 0; k < channels.size(); ++k) {
     const std::string group = path_of(kChannels, channels[k].name);

@@ -82,6 +82,7 @@ void Recorder::prepare_states(const Model& model) {
     state_of_body_[b] = states.bodies.size();
     BodyHistory& body = states.bodies.emplace_back();
     body.name = model.bodies[b].name;
+    body.inertia = inertia_of(model.bodies[b]);
     body.modal.resize(m, 0);
     body.modal_rate.resize(m, 0);
   }

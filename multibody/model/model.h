@@ -125,6 +125,10 @@ struct Model {
 Eigen::VectorXd initial_modal(const DeformableBody& body);
 Eigen::VectorXd initial_modal_rate(const DeformableBody& body);
 
+/// Of an undeformed body that is not prescribed: mass, its first moments and its moments of inertia
+/// (xx, yy, zz, xy, xz, yz) about the origin, kg, kg m, kg m^2.
+Eigen::VectorXd inertia_of(const Body& body);
+
 /// Checks names, indices, masses and inertias (symmetric, positive, triangle inequality), damping,
 /// unit vectors. @throws InputError naming the body, marker, joint or force.
 void check(const Model& model);

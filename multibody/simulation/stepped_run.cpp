@@ -175,7 +175,7 @@ void SteppedRun::integrate(double end_s) {
   ends.push_back(end_s);
   const std::unique_ptr<TimeIntegrator> integrator =
       time_integrator(*equations_, state_.time_s, state_.y, solver_);
-  integrator->set_pace({state_.proposed_s, state_.error});
+  integrator->set_pace(state_.pace);
   RunWatch watch = watch_;
   StepFollower follower(*equations_, watch);
   follower.begin(state_.time_s, state_.y);
@@ -193,11 +193,9 @@ void SteppedRun::integrate(double end_s) {
     }
     begin = end;
   }
-  const Pace pace = integrator->pace();
   state_.time_s = end_s;
   state_.y = integrator->state();
-  state_.proposed_s = pace.proposed_s;
-  state_.error = pace.error;
+  state_.pace = integrator->pace();
   state_.angles = counted_angles(watch);
   watch_ = std::move(watch);
 }

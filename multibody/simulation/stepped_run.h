@@ -11,6 +11,7 @@
 #include "multibody/history/history.h"
 #include "multibody/history/run_watch.h"
 #include "multibody/model/model.h"
+#include "multibody/time/time_integrator.h"
 
 namespace flexneck::multibody {
 
@@ -35,9 +36,8 @@ class SteppedRun {
   /// All that a run goes on from.
   struct State {
     double time_s = 0;
-    Eigen::VectorXd y;      ///< of the equations
-    double proposed_s = 0;  ///< see Pace
-    double error = 0;
+    Eigen::VectorXd y;  ///< of the equations
+    Pace pace = {};
     std::vector<double> inputs;      ///< their values
     std::vector<HeldInput> motions;  ///< what those of them that are second rates have come to
     std::vector<double> angles;      ///< that count turns, rad: of the joints, then those measured

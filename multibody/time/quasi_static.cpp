@@ -35,10 +35,7 @@ void settle_until(const Model& model, Equations& equations, RunWatch& watch, dou
   const int parts = 1 + static_cast<int>(prescribed_turn_rad(model, begin_s, end_s) / kApart_rad);
   for (int k = 1; k <= parts; ++k) {
     const double time_s = k < parts ? begin_s + (end_s - begin_s) * k / parts : end_s;
-    equations.settle(time_s, state);
-    if (watch.markers().empty()) continue;
-    equations.show(time_s, state, watch);
-    watch.look(time_s);
+    equations.settle(time_s, state, watch);
   }
 }
 

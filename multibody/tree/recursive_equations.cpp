@@ -55,10 +55,15 @@ class RecursiveEquations final : public Equations {
     return relaxed(any_floats ? carried(held, rest.state(), carriers) : rest.state());
   }
 
-  void settle(double time_s, Vector& state) override {
+  void settle(double time_s, Vector& state, RunWatch& watch) override {
     dynamics_.relax();
     tree::TreeRest rest(dynamics_, state, time_s);
-    find_equilibrium(rest);
+    find_equilibrium(rest, [&] {
+      if (watch.markers().empty()) return;
+      show(time_s, rest.state(), watch);
+      watch.look(time_s);
+      dynamics_.relax();
+    });
     state = relaxed(rest.state(), time_s);
     count_turns(state);
   }

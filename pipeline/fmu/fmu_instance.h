@@ -43,6 +43,9 @@ class FmuInstance {
   void set(std::span<const Reference> references, std::span<const double> values);
   void get(std::span<const Reference> references, std::span<double> values);
 
+  /// Sentences on what of the results is not to be trusted, of what was not told before.
+  std::vector<std::string> new_warnings();
+
   State save() const;
   void restore(const State& state);
   static std::string bytes_of(State& state);
@@ -66,6 +69,8 @@ class FmuInstance {
   std::vector<Eigen::VectorXd> last_;
   std::vector<double> outputs_;
   bool outputs_are_new_ = false;
+  std::vector<std::string> warnings_;  ///< of the run until now
+  std::size_t told_ = 0;               ///< how many of them
 };
 
 }  // namespace flexneck::pipeline

@@ -115,7 +115,7 @@ void restart(const StudyTable& root, ModelFile& file) {
     root.refuse("restart", rest_of(file) + ", but a restart begins in motion; leave one out");
   if (file.linearised_at)
     root.refuse("restart", "a linearisation is at time zero; leave one of them out");
-  read_restart(root.table("restart"), file.model, file.files);
+  read_restart(root.table("restart"), file.model, file.files, file.warnings);
   if (!(file.model.start.time_s < file.end_time_s))
     root.refuse("restart", "expected a time before the end_time of [solver]");
 }
@@ -186,7 +186,8 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
   file.files.insert(file.files.begin(), document.files().begin(), document.files().end());
   file.files.insert(file.files.end(), assembly.files.begin(), assembly.files.end());
   file.parameters = document.parameters();
-  file.warnings = document.warnings();
+  file.warnings.insert(file.warnings.begin(), document.warnings().begin(),
+                       document.warnings().end());
   return file;
 }
 
