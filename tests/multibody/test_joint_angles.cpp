@@ -111,7 +111,9 @@ TEST_CASE("a quasi-static ramp winds a coil spring by more than half a turn an o
   Model model = wheel(kRevoluteJoint, start, 0);
   model.forces.add(coil());
   constexpr double kLargest = 5 * kTurn;
-  model.forces.add(Torque{"wind", 1, kAxis, TimeTable({0, 1}, {0, kStiffness * kLargest})});
+  model.forces.add(
+      Torque{"wind", 1, kAxis,
+             TimeTable({0, 1}, {0, kStiffness * kLargest}, TimeTable::Outside::constant)});
   const History history = settle(model, solver, {.end_time_s = 1, .interval_s = 0.25});
   for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
     const double angle = kLargest * history.time_s[k];

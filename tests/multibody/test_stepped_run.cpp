@@ -117,7 +117,7 @@ TEST_CASE("a thin stiffened beam that bends far ends a descriptor run with the r
   build.joint("root", &kFixedJoint, build.marker("ground.at", 0),
               build.interface_marker("beam.base", body, "base"));
   build.force("push", build.interface_marker("beam.top", body, "top"), {1, 0.5, 0},
-              TimeTable({0, 1}, {0, 4000}));
+              TimeTable({0, 1}, {0, 4000}, TimeTable::Outside::constant));
   build.model.gravity_m_s2.setZero();
   const OutputOptions output{.end_time_s = 0.2, .interval_s = 1e-3};
   SolverOptions solver{.formulation = Formulation::descriptor};
