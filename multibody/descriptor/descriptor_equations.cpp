@@ -117,9 +117,7 @@ class DescriptorEquations final : public Equations {
                         const Vector& error) const override {
     return error_(begin, end, error);
   }
-  std::string name_of(std::size_t component) const override {
-    return error_.name_of(component) + lost_mass();
-  }
+  std::string name_of(std::size_t component) const override { return error_.name_of(component); }
   const ForceSet& forces() const override { return equations_.forces(); }
   int evaluations() const override { return equations_.evaluations(); }
   std::vector<std::string> redundant_constraints() const override {
@@ -208,24 +206,6 @@ class DescriptorEquations final : public Equations {
   }
 
  private:
-  /// Why a rate that is not a number is none: of a body whose mass matrix is not positive definite
-  /// at the last configuration tried (equations.md section 3a), else empty.
-  std::string lost_mass() const {
-    for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
-      const FreeBody& body = system_.bodies[b];
-      const Eigen::MatrixXd& mass = equations_.body(b).mass;
-      if (!body.constants.stiffens() || !mass.allFinite() ||
-          mass.selfadjointView<Eigen::Lower>().llt().info() == Eigen::Success)
-        continue;
-      return " (body '" + body.name +
-             "' has bent so far that what stress_stiffening adds to its inertia exceeds its own "
-             "inertia about its axis; the descriptor formulation needs a positive mass matrix of "
-             "each body, the recursive one only where the body's base is free to move: take the "
-             "recursive one, several bodies in its place, or no stress_stiffening)";
-    }
-    return {};
-  }
-
   void record_state(const Vector& state, Recorder& recorder, Index column) const {
     for (const FreeBody& body : system_.bodies) {
       const Index m = body.constants.mode_count();

@@ -6,9 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
-#include "multibody/history/incomplete_run.h"
 #include "multibody/joints/joint_kinds.h"
-#include "multibody/simulation/simulation.h"
 #include "multibody/simulation/stepped_run.h"
 #include "tests/support/formulations.h"
 #include "tests/support/test_models.h"
@@ -106,35 +104,4 @@ TEST_CASE("a stepped run ends where a bushing turns too far between two of its s
                                           Catch::Matchers::Contains("3 rad at 0.07"));
   CHECK(run.state().y == before);
   CHECK_NOTHROW(run.advance(0.07));
-}
-
-TEST_CASE("a thin stiffened beam that bends far ends a descriptor run with the reason") {
-  ModelBuilder build;
-  DeformableBody beam = deformable(make_beam_body({.gyration_m = 2e-4}), 0.05);
-  beam.stress_stiffening = true;
-  build.ground();
-  const std::size_t body = build.body("beam", beam);
-  build.joint("root", &kFixedJoint, build.marker("ground.at", 0),
-              build.interface_marker("beam.base", body, "base"));
-  build.force("push", build.interface_marker("beam.top", body, "top"), {1, 0.5, 0},
-              TimeTable({0, 1}, {0, 4000}, TimeTable::Outside::constant));
-  build.model.gravity_m_s2.setZero();
-  const OutputOptions output{.end_time_s = 0.2, .interval_s = 1e-3};
-  SolverOptions solver{.formulation = Formulation::descriptor};
-  try {
-    simulate(build.model, solver, output);
-    FAIL("expected the run to end");
-  } catch (const IncompleteRun& run) {
-    CHECK_THAT(run.what(), Catch::Matchers::Contains("body 'beam' has bent so far that what "
-                                                     "stress_stiffening adds to its inertia"));
-    // The recursive form needs nothing of the base's motions.
-    solver.formulation = Formulation::recursive;
-    const Eigen::Index outputs = run.history.time_s.size();
-    const double end_s = run.history.time_s[outputs - 1] + 5e-3;
-    const History history =
-        simulate(build.model, solver, {.end_time_s = end_s, .interval_s = 1e-3});
-    CHECK((history.modal[0].coordinates.leftCols(outputs) - run.history.modal[0].coordinates)
-              .cwiseAbs()
-              .maxCoeff() < 1e-4 * run.history.modal[0].coordinates.cwiseAbs().maxCoeff());
-  }
 }
