@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -9,6 +11,7 @@
 #include "geometry/foundation/hdf5_file.h"
 #include "geometry/foundation/hdf5_handle.h"
 #include "geometry/foundation/hdf5_output_driver.h"
+#include "geometry/foundation/normal_number.h"
 
 namespace flexneck {
 
@@ -247,7 +250,7 @@ void Hdf5Writer::append(const std::string& dataset, std::span<const double> rows
   const std::size_t block = known.block_rows() * known.row_size();
   while (!rows.empty()) {
     const auto part = rows.first(std::min(rows.size(), block - known.waiting.size()));
-    known.waiting.insert(known.waiting.end(), part.begin(), part.end());
+    std::ranges::transform(part, std::back_inserter(known.waiting), normal_number);
     rows = rows.subspan(part.size());
     if (known.waiting.size() == block) impl_->write_block(dataset, known);
   }

@@ -77,17 +77,24 @@ class DescriptorEquations final : public Equations {
     state.head(system_.position_count) = equilibrium_positions(model_, held);
     state.segment(system_.position_count, system_.velocity_count) =
         carried_velocities(model_, system_);
+    equations_.take_turns(held);
     projection_.apply(0, state);
     system_.internal(state) = equations_.forces().internal();
     return state;
   }
 
-  void settle(double time_s, Vector& state) override {
+  void settle(double time_s, Vector& state, RunWatch& watch) override {
     equations_.relax();
     Vector positions = state.head(system_.position_count);
     // The prescribed bodies may have moved on.
     projection_.converge_positions(time_s, positions);
-    state.head(system_.position_count) = settled_positions(equations_, positions, time_s);
+    state.head(system_.position_count) =
+        settled_positions(equations_, positions, time_s, [&](const Vector& there) {
+          if (watch.markers().empty()) return;
+          state.head(system_.position_count) = there;
+          show(time_s, state, watch);
+          watch.look(time_s);
+        });
     if (system_.internal_count == 0) return;
     equations_.relax();
     equations_.set_positions(time_s, state.head(system_.position_count));
@@ -154,6 +161,27 @@ class DescriptorEquations final : public Equations {
         if (solver.is_left_out(k, row)) rows.push_back(solver.joint_offset(k) + row);
   }
 
+  /// The velocities are those of the step: only an explicit one has put them onto the joints.
+  void accept(double time_s, const Vector& state, RunWatch& watch) override {
+    update(time_s, state);
+    equations_.count_turns();
+    check_joints(time_s, [](const Violation&, Violation& velocity) { velocity = {}; });
+    for (const FreeBody& body : system_.bodies)
+      watch.check_deformation(time_s, body.index,
+                              state.segment(body.position + 7, body.constants.mode_count()));
+  }
+  double joint_angle_rad(std::size_t joint) const override {
+    return equations_.forces().angle(joint).angle_rad;
+  }
+  void show(double time_s, const Vector& state, RunWatch& watch) override {
+    update(time_s, state);
+    equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
+    for (std::size_t k = 0; k < watch.markers().size(); ++k) {
+      const NodeKinematics& motion = equations_.marker(watch.markers()[k]);
+      watch.show(k, motion.R, motion.Om);
+    }
+  }
+
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     // The correction is of the size of the interpolation's error: with the factors from before it,
     // velocities and accelerations are as exact as the interpolated state.
@@ -161,7 +189,9 @@ class DescriptorEquations final : public Equations {
     projection_.apply(time_s, state, false);
     equations_.solve();
     equations_.update_idle_markers(state.segment(system_.position_count, system_.velocity_count));
-    record_residuals(time_s, recorder, column);
+    check_joints(time_s, [&](const Violation& position, const Violation& velocity) {
+      recorder.residuals(column, position, velocity);
+    });
     for (std::size_t k = 0; k < system_.markers.size(); ++k)
       recorder.marker(column, k, marker_state(equations_, k));
     for (std::size_t k = 0; k < system_.joints.size(); ++k)
@@ -188,9 +218,21 @@ class DescriptorEquations final : public Equations {
       recorder.state(column, body.index, motion);
     }
     recorder.internal(column, system_.internal(state));
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      if (system_.joints[k].kind->has_angle)
+        recorder.joint_angle(column, k, equations_.joint_angle(k).angle_rad);
   }
 
-  void record_residuals(double time_s, Recorder& recorder, Index column) {
+  /// Motion of bodies and of the markers that joints and forces touch. Nothing is factorised.
+  void update(double time_s, const Vector& state) {
+    equations_.update_positions(time_s, state.head(system_.position_count));
+    equations_.update_velocity_residual(
+        state.segment(system_.position_count, system_.velocity_count));
+  }
+
+  /// Of the present configuration. @param visit  called with the residuals of each joint first
+  template <class Visit>
+  void check_joints(double time_s, const Visit& visit) {
     for (const Joint& joint : system_.joints)
       for (const std::size_t marker : {joint.marker_i, joint.marker_j}) {
         const NodeKinematics& motion = equations_.marker(marker);
@@ -200,8 +242,8 @@ class DescriptorEquations final : public Equations {
     for (std::size_t k = 0; k < system_.joints.size(); ++k) {
       const JointRows& joint = equations_.joint(k);
       const Violation position = violation(joint, joint.position_residual);
-      const Violation velocity = violation(joint, joint.velocity_residual);
-      recorder.residuals(column, position, velocity);
+      Violation velocity = violation(joint, joint.velocity_residual);
+      visit(position, velocity);
       guard_.check(time_s, k, position, velocity, left_out);
     }
   }

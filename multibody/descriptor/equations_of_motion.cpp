@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "multibody/numerics/rotation.h"
 
@@ -286,6 +287,26 @@ Reaction EquationsOfMotion::joint_reaction(std::size_t joint) const {
   const Index rows = joints_[joint].rows;
   padded.head(rows) = multipliers_.segment(solver_.joint_offset(joint), rows);
   return reaction(joints_[joint], padded);
+}
+
+CountedAngle EquationsOfMotion::joint_angle(std::size_t index) const {
+  const Joint& joint = system_.joints[index];
+  const NodeKinematics& i = markers_[joint.marker_i];
+  const NodeKinematics& j = markers_[joint.marker_j];
+  const Vector3d h = i.R * joint.axis;
+  CountedAngle seen = forces_.angle(index);
+  if (!seen.is_seen && joint.kind->advances)
+    seen.angle_rad = h.dot(j.p - i.p) * 2 * std::numbers::pi / joint.lead_m;
+  return seen.at(time_s_, angle_about(joint.axis, i.R.transpose() * j.R), h.dot(j.Om - i.Om));
+}
+
+void EquationsOfMotion::count_turns() {
+  for (std::size_t k = 0; k < system_.joints.size(); ++k)
+    if (system_.joints[k].kind->has_angle) forces_.angle(k) = joint_angle(k);
+}
+
+void EquationsOfMotion::take_turns(const EquationsOfMotion& other) {
+  for (std::size_t k = 0; k < system_.joints.size(); ++k) forces_.angle(k) = other.forces_.angle(k);
 }
 
 double EquationsOfMotion::dissipation_W(const ConstVector& velocities) const {

@@ -76,6 +76,13 @@ class EquationsOfMotion {
   const KktSolver& solver() const { return solver_; }
   Reaction joint_reaction(std::size_t joint) const;
   const ForceSet& forces() const { return forces_; }
+  /// The angle of a joint that has one, counted on to the present motion from where turns were
+  /// counted last.
+  CountedAngle joint_angle(std::size_t joint) const;
+  /// Counts turns on to the present motion. Until then a joint's angle starts where the model says.
+  void count_turns();
+  /// Takes over what another one of the same system has counted.
+  void take_turns(const EquationsOfMotion& other);
   /// The multipliers are known only after solve().
   double dissipation_W(const ConstVector& velocities) const;
   double work_W() const;

@@ -35,7 +35,7 @@ class DescriptorRest final : public RestProblem {
  public:
   DescriptorRest(EquationsOfMotion& equations, VectorXd positions, double time_s)
       : equations_(equations), positions_(std::move(positions)), time_s_(time_s) {
-    reduced_.emplace(equations_, positions_, time_s_);
+    begin();
   }
 
   Index count() const override { return reduced_->count(); }
@@ -45,11 +45,16 @@ class DescriptorRest final : public RestProblem {
   MatrixXd stiffness() override { return reduced_->stiffness(); }
   void move_to(const VectorXd& xi) override {
     positions_ = reduced_->positions_at(xi);
-    reduced_.emplace(equations_, positions_, time_s_);
+    begin();
   }
   const VectorXd& positions() const { return positions_; }
 
  private:
+  void begin() {
+    reduced_.emplace(equations_, positions_, time_s_);
+    equations_.count_turns();
+  }
+
   EquationsOfMotion& equations_;
   VectorXd positions_;
   double time_s_;
@@ -67,9 +72,12 @@ VectorXd carried_velocities(const Model& model, const System& system) {
   return velocities;
 }
 
-VectorXd settled_positions(EquationsOfMotion& equations, const VectorXd& positions, double time_s) {
+VectorXd settled_positions(EquationsOfMotion& equations, const VectorXd& positions, double time_s,
+                           const std::function<void(const VectorXd&)>& moved) {
   DescriptorRest rest(equations, positions, time_s);
-  find_equilibrium(rest);
+  find_equilibrium(rest, [&] {
+    if (moved) moved(rest.positions());
+  });
   return rest.positions();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include <Eigen/Core>
 
 #include "multibody/descriptor/equations_of_motion.h"
@@ -17,8 +19,10 @@ namespace flexneck::multibody {
 Eigen::VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equations);
 
 /// The same at another time, sought from positions on the joints there.
+/// @param moved  called with the positions behind each move; may be empty
 Eigen::VectorXd settled_positions(EquationsOfMotion& equations, const Eigen::VectorXd& positions,
-                                  double time_s);
+                                  double time_s,
+                                  const std::function<void(const Eigen::VectorXd&)>& moved = {});
 
 /// Velocities of the free bodies that move with the prescribed ones at their initial velocity, as
 /// System lays them out.

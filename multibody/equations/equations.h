@@ -32,7 +32,8 @@ class Equations {
 
   /// Brings a state at rest to the static equilibrium at a time. Of equations whose prescribed
   /// bodies are held. @throws ComputationError if there is none within reach.
-  virtual void settle(double time_s, Vector& state) = 0;
+  /// @param watch  looks at each place on the way
+  virtual void settle(double time_s, Vector& state, RunWatch& watch) = 0;
 
   /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
   virtual void set_interval(double begin_s, double end_s) = 0;
@@ -70,6 +71,15 @@ class Equations {
   virtual void rate(const Vector& state, const Vector& accelerations, Vector& rate) const = 0;
   /// Indices of constraints that others hold already, as of the last derivative().
   virtual void redundant_rows(std::vector<Eigen::Index>& rows) const { rows.clear(); }
+
+  /// Behind an accepted step, and at the start of a run: whether joints hold and bodies deform
+  /// within reason. Counts the turns of joints on. @throws ComputationError of a guard that ends
+  /// the run.
+  virtual void accept(double time_s, const Vector& state, RunWatch& watch) = 0;
+  /// The angle of a joint that has one, as accept() or settle() counted it last.
+  virtual double joint_angle_rad(std::size_t joint) const = 0;
+  /// Shows a watch the markers that it follows, of a state inside or at the end of a step.
+  virtual void show(double time_s, const Vector& state, RunWatch& watch) = 0;
 
   /// Records an interpolated state, put onto the joints first.
   virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;

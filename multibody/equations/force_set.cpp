@@ -48,6 +48,9 @@ ForceSet::ForceSet(const Model& model)
       begin_(internal_),
       begin_rate_(internal_),
       steps_(internal_blocks(model.forces).size()) {
+  for (const Joint& joint : model.joints) angles_.push_back({.angle_rad = joint.start_angle_rad});
+  for (const JointResistance& each : model.forces.of<JointResistance>())
+    if (each.coordinate == JointCoordinate::angle) turned_joints_.push_back(each.joint);
   model.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     for (const Kind& element : elements) {
       auto slots = element.markers(model.joints);
@@ -129,7 +132,7 @@ void ForceSet::evaluate(double time_s) {
       ForceMarker& j = slots_[slots[k].back()];
       ForceLoad load;
       if constexpr (PiecewiseForce<Kind>) load.piece = {piece[0], piece[1]};
-      ForceInput input{i, j, model_.joints, time_s};
+      ForceInput input{i, j, model_.joints, angles_, time_s};
       if constexpr (RelaxingForce<Kind>) {
         input.internal = internal;
         internal = internal.behind(elements[k].branch_size(),

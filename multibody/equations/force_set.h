@@ -50,6 +50,12 @@ class ForceSet {
   const Eigen::VectorXd& internal() const { return internal_; }
   const Eigen::VectorXd& internal_rate() const { return internal_rate_; }
 
+  /// Joints whose angles elements act on.
+  const std::vector<std::size_t>& turned_joints() const { return turned_joints_; }
+  /// The angle of a joint, of the model's, as it was seen last: evaluate() counts on from there.
+  CountedAngle& angle(std::size_t joint) { return angles_[joint]; }
+  const CountedAngle& angle(std::size_t joint) const { return angles_[joint]; }
+
   /// Loads and powers of the motions in the slots. Allocates nothing.
   void evaluate(double time_s);
 
@@ -97,6 +103,8 @@ class ForceSet {
   std::vector<bool> prescribed_;  ///< of the slots
   Forces::OfEachKind<Slots> slots_of_kind_;
   std::vector<int> pieces_;
+  std::vector<std::size_t> turned_joints_;
+  std::vector<CountedAngle> angles_;  ///< of the joints
   InternalVariables::Known known_ = InternalVariables::Known::relaxed;
   Eigen::VectorXd internal_, internal_rate_;
   Eigen::VectorXd given_, begin_, begin_rate_;

@@ -98,6 +98,8 @@ BodyHistory read_state(const Hdf5Reader& file, const std::string& name, std::siz
     else
       values = read_columns<Matrix>(file, path, times, Matrix::RowsAtCompileTime, unit);
   });
+  if (const std::string inertia = path_of(path_of(kStates, name), kInertia); file.has(inertia))
+    body.inertia = read_vector(file, inertia, 10, kInertiaUnit);
   if (body.modal_rate.rows() != body.modal.rows())
     file.refuse(path_of(kStates, name), "it has not as many modal rates as modal coordinates");
   return body;
@@ -212,6 +214,12 @@ HistoryFile read_history(const std::filesystem::path& path) {
     history.state.bodies.push_back(read_state(reader, name, times));
   if (!history.state.bodies.empty())
     history.state.internal = read_rows(reader, kInternal, times, "m, rad");
+  // Files of earlier versions have none.
+  if (reader.has(kAngleNames)) {
+    history.state.angle_names = reader.read_strings(kAngleNames);
+    history.state.angles = read_columns<Eigen::MatrixXd>(reader, kAngles, times,
+                                                         history.state.angle_names.size(), "rad");
+  }
   for (const std::string& name : ordered_members(reader, kChannels)) {
     file.channels.push_back(read_channel(reader, name, times));
   }

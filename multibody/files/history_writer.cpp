@@ -42,7 +42,10 @@ void put_arrays(const History& history, const std::vector<Channel>& channels, co
     put(path_of(path_of(kModal, modal.body), "coordinates"), modal.coordinates, kModalUnit);
   for (const BodyHistory& body : history.state.bodies)
     visit_state(body, into(path_of(kStates, body.name)));
-  if (!history.state.bodies.empty()) put(kInternal, history.state.internal, "m, rad");
+  if (!history.state.bodies.empty()) {
+    put(kInternal, history.state.internal, "m, rad");
+    put(kAngles, history.state.angles, "rad");
+  }
   for (const Channel& channel : channels)
     put(path_of(path_of(kChannels, channel.name), "values"), channel.values, channel.unit);
   visit_energies(history.energy, [&](const char* name, const Eigen::VectorXd& values) {
@@ -97,8 +100,14 @@ void write_groups(Hdf5Writer& file, const History& history, const std::vector<Ch
     write_index(file, group, k);
     file.write(path_of(group, "modes"), history.modal[k].modes);
   }
-  for (std::size_t k = 0; k < history.state.bodies.size(); ++k)
-    write_index(file, path_of(kStates, history.state.bodies[k].name), k);
+  for (std::size_t k = 0; k < history.state.bodies.size(); ++k) {
+    const BodyHistory& body = history.state.bodies[k];
+    const std::string group = path_of(kStates, body.name);
+    write_index(file, group, k);
+    if (body.inertia.size() > 0)
+      write_vector(file, path_of(group, kInertia), body.inertia, kInertiaUnit);
+  }
+  if (!history.state.angle_names.empty()) file.write(kAngleNames, history.state.angle_names);
   for (std::size_t k = 0; k < channels.size(); ++k) {
     const std::string group = path_of(kChannels, channels[k].name);
     write_index(file, group, k);

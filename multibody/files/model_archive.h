@@ -122,9 +122,9 @@ void archive(A& all, JointMotor& x) {
 }
 template <class A>
 void archive(A& all, Joint& x) {
-  auto& [name, kind, marker_i, marker_j, axis, second_axis, lead, length, motors] = x;
+  auto& [name, kind, marker_i, marker_j, axis, second_axis, lead, length, start_angle, motors] = x;
   std::string of_kind(kind->name);
-  all(name, of_kind, marker_i, marker_j, axis, second_axis, lead, length, motors);
+  all(name, of_kind, marker_i, marker_j, axis, second_axis, lead, length, start_angle, motors);
   if constexpr (A::kReads) {
     const auto found = std::find_if(kJointKinds.begin(), kJointKinds.end(),
                                     [&](const JointKind* each) { return each->name == of_kind; });
@@ -210,14 +210,19 @@ void archive(A& all, ForceLists<Kinds...>& forces) {
   (each(forces.template of<Kinds>()), ...);
 }
 template <class A>
+void archive(A& all, MeasuredAngle& x) {
+  auto& [name, marker, relative_to, axis, start] = x;
+  all(name, marker, relative_to, axis, start);
+}
+template <class A>
 void archive(A& all, RunStart& x) {
   auto& [time, internal, dissipated, work] = x;
   all(time, internal, dissipated, work);
 }
 template <class A>
 void archive(A& all, Model& x) {
-  auto& [bodies, markers, joints, forces, gravity, start] = x;
-  all(bodies, markers, joints, forces, gravity, start);
+  auto& [bodies, markers, joints, angles, forces, gravity, start] = x;
+  all(bodies, markers, joints, angles, forces, gravity, start);
 }
 /// The checkpoint is left out, a function of the program that runs the model.
 template <class A>

@@ -14,6 +14,7 @@
 #include "multibody/forces/internal_variables.h"
 #include "multibody/forces/resistance.h"
 #include "multibody/joints/joint.h"
+#include "multibody/numerics/counted_angle.h"
 #include "multibody/numerics/time_table.h"
 
 namespace flexneck::multibody {
@@ -34,6 +35,8 @@ struct ForceInput {
   const MarkerKinematics& i;
   const MarkerKinematics& j;
   const std::vector<Joint>& joints;  ///< of the model
+  /// Of the joints, of those that have an angle: as it was seen last.
+  const std::vector<CountedAngle>& angles;
   double time_s;
   InternalVariables internal = {};  ///< of a RelaxingForce
 };

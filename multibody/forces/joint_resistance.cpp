@@ -3,14 +3,11 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "multibody/joints/joint_kinds.h"
 
 namespace flexneck::multibody {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// A coordinate must be one that the joint leaves free.
@@ -92,10 +89,10 @@ void JointResistance::act(const ForceInput& input, ForceLoad& load, ForceEnergie
       return;
     }
     case JointCoordinate::angle: {
-      const Eigen::Quaterniond q(Matrix3d(i.R.transpose() * j.R));
-      const double sign = q.w() < 0 ? -1 : 1;
-      const double angle = 2 * std::atan2(sign * q.vec().dot(axis), sign * q.w());
-      load.moment_Nm = -load_at(angle, h.dot(j.w - i.w)) * h;
+      const double rate = h.dot(j.w - i.w);
+      const double within_turn = angle_about(axis, i.R.transpose() * j.R);
+      const CountedAngle angle = input.angles[joint].at(input.time_s, within_turn, rate);
+      load.moment_Nm = -load_at(angle.angle_rad, rate) * h;
       return;
     }
     case JointCoordinate::flexion:

@@ -71,7 +71,7 @@ std::string DeformationGuard::text_of(const Watched& watched, const Deformation&
   return text.str();
 }
 
-void DeformationGuard::check_large(double time_s, std::size_t body, const Eigen::VectorXd& a) {
+void DeformationGuard::check_large(double time_s, std::size_t body, const ConstVector& a) {
   Watched& watched = bodies_[body].value();
   Deformation worst;
   bool is_beyond = false;

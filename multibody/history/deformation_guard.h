@@ -24,11 +24,13 @@ namespace flexneck::multibody {
 /// mean nothing.
 class DeformationGuard {
  public:
+  using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
+
   explicit DeformationGuard(const Model& model);
 
   /// @param body  among the model's; nothing is checked of one that has no modes
   /// @throws ComputationError naming the body, what deforms and when, beyond the last column.
-  void check(double time_s, std::size_t body, const Eigen::VectorXd& a) {
+  void check(double time_s, std::size_t body, const ConstVector& a) {
     if (!(a.squaredNorm() <= safe_[body])) check_large(time_s, body, a);
   }
 
@@ -51,7 +53,7 @@ class DeformationGuard {
     Deformation largest = {};
   };
 
-  void check_large(double time_s, std::size_t body, const Eigen::VectorXd& a);
+  void check_large(double time_s, std::size_t body, const ConstVector& a);
   static std::string text_of(const Watched& watched, const Deformation& found);
 
   std::vector<std::optional<Watched>> bodies_;  ///< of the model

@@ -31,6 +31,12 @@ struct JointHistory {
   std::string undetermined = {};
 };
 
+/// One of the model's measured angles, counted over turns.
+struct AngleHistory {
+  std::string name;
+  Eigen::VectorXd angle_rad;
+};
+
 /// Modal coordinates of a deformable body, one row per mode.
 struct ModalHistory {
   std::string body;
@@ -47,12 +53,18 @@ struct BodyHistory {
   Eigen::Matrix3Xd angular_velocity_rad_s;  ///< body axes
   Eigen::MatrixXd modal;                    ///< kg^(1/2) m, (m, n); no rows for a rigid body
   Eigen::MatrixXd modal_rate;               ///< kg^(1/2) m/s
+  /// See inertia_of(). Empty in files of earlier versions.
+  Eigen::VectorXd inertia = {};
 };
 
 /// Where the output asks for it.
 struct StateHistory {
   std::vector<BodyHistory> bodies;
   Eigen::MatrixXd internal;  ///< variables of the branches of sections, m and rad, a column a time
+  /// Angles that count turns, rad, a column a time: of joints, "joint NAME", and those that are
+  /// measured, "angle NAME".
+  std::vector<std::string> angle_names;
+  Eigen::MatrixXd angles;
 };
 
 struct EnergyHistory {
@@ -91,6 +103,7 @@ struct History {
   Eigen::VectorXd time_s;
   std::vector<MarkerHistory> markers;
   std::vector<JointHistory> joints;
+  std::vector<AngleHistory> angles;
   std::vector<ModalHistory> modal;
   StateHistory state = {};  ///< empty as a rule
   EnergyHistory energy;

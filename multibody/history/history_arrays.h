@@ -28,6 +28,7 @@ void visit_arrays(AnyHistory& history, const Visit& visit) {
     visit(joint.force_N);
     visit(joint.moment_Nm);
   }
+  for (auto& angle : history.angles) visit(angle.angle_rad);
   for (auto& modal : history.modal) visit(modal.coordinates);
   for (auto& body : history.state.bodies) {
     for (auto* each : {&body.position_m, &body.velocity_m_s, &body.angular_velocity_rad_s})
@@ -36,7 +37,10 @@ void visit_arrays(AnyHistory& history, const Visit& visit) {
     visit(body.modal);
     visit(body.modal_rate);
   }
-  if (!history.state.bodies.empty()) visit(history.state.internal);
+  if (!history.state.bodies.empty()) {
+    visit(history.state.internal);
+    visit(history.state.angles);
+  }
   auto& energy = history.energy;
   auto& constraints = history.constraints;
   for (auto* part :

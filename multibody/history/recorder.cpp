@@ -44,18 +44,21 @@ Index numbers_per_output(const Model& model) {
   return numbers_per_output(Recorder(model, one).take());
 }
 
-Recorder::Recorder(const Model& model, const OutputOptions& output)
+Recorder::Recorder(const Model& model, const OutputOptions& output, RunWatch watch)
     : times_(output),
       block_(output.sink ? std::max<Index>(output.block, 1) : times_.count()),
       sink_(output.sink),
-      deformation_(model),
-      turns_(model),
+      watch_(std::move(watch)),
       modal_of_body_(model.bodies.size(), 0),
       state_of_body_(model.bodies.size(), 0),
+      state_of_joint_(model.joints.size(), 0),
+      watched_(model.markers.size()),
       last_rotations_(model.markers.size(), Eigen::Vector4d::Zero()),
       undetermined_(model.joints.size(), Eigen::Array<bool, 6, 1>::Constant(false)) {
   for (const Marker& marker : model.markers) history_.markers.emplace_back().name = marker.name;
   for (const Joint& joint : model.joints) history_.joints.emplace_back().name = joint.name;
+  for (const MeasuredAngle& angle : model.angles) history_.angles.emplace_back().name = angle.name;
+  for (std::size_t k = 0; k < watch_.markers().size(); ++k) watched_[watch_.markers()[k]] = k;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto* deformable = std::get_if<DeformableBody>(&model.bodies[b].kind);
     if (deformable == nullptr) continue;
@@ -79,9 +82,22 @@ void Recorder::prepare_states(const Model& model) {
     state_of_body_[b] = states.bodies.size();
     BodyHistory& body = states.bodies.emplace_back();
     body.name = model.bodies[b].name;
+    body.inertia = inertia_of(model.bodies[b]);
     body.modal.resize(m, 0);
     body.modal_rate.resize(m, 0);
   }
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    if (!model.joints[k].kind->has_angle) continue;
+    state_of_joint_[k] = states.angle_names.size();
+    states.angle_names.push_back("joint " + model.joints[k].name);
+  }
+  for (const MeasuredAngle& angle : model.angles)
+    states.angle_names.push_back("angle " + angle.name);
+  states.angles.resize(static_cast<Index>(states.angle_names.size()), 0);
+}
+
+void Recorder::joint_angle(Index column, std::size_t joint, double angle_rad) {
+  history_.state.angles(static_cast<Index>(state_of_joint_[joint]), place(column)) = angle_rad;
 }
 
 void Recorder::state(Index column, std::size_t body, const BodyState& motion) {
@@ -123,6 +139,8 @@ void Recorder::begin(Index column) {
 }
 
 void Recorder::marker(Index column, std::size_t index, const MarkerState& motion) {
+  if (watched_[index])
+    watch_.show(*watched_[index], motion.rotation, motion.angular_velocity_rad_s);
   MarkerHistory& marker = history_.markers[index];
   column = place(column);
   marker.position_m.col(column) = motion.position_m;
@@ -149,7 +167,7 @@ void Recorder::joint(Index column, std::size_t index, const Reaction& world,
 
 void Recorder::modal(Index column, std::size_t body, const VectorXd& a) {
   if (a.size() == 0) return;
-  deformation_.check(time_s(column), body, a);
+  watch_.check_deformation(time_s(column), body, a);
   history_.modal[modal_of_body_[body]].coordinates.col(place(column)) = a;
 }
 
@@ -171,7 +189,17 @@ void Recorder::conserve_energy(Index column) {
   energy.work_J[k] = stored_J - first_energy_J_;
 }
 
-void Recorder::check_turns(Index column) { turns_.check(times_[column], history_, place(column)); }
+void Recorder::look(Index column) {
+  watch_.look(time_s(column));
+  for (std::size_t k = 0; k < history_.angles.size(); ++k)
+    history_.angles[k].angle_rad[place(column)] = watch_.angles().angle_rad(k);
+  if (!keeps_states()) return;
+  // They are the last rows.
+  const auto measured = static_cast<Index>(history_.angles.size());
+  for (Index k = 0; k < measured; ++k)
+    history_.state.angles.col(place(column)).tail(measured)[k] =
+        watch_.angles().angle_rad(static_cast<std::size_t>(k));
+}
 
 void Recorder::residuals(Index column, const Violation& position, const Violation& velocity) {
   const auto keep = [](double& largest, double value) { largest = std::max(largest, value); };
@@ -203,7 +231,7 @@ History Recorder::take() {
       std::string& text = history_.joints[k].undetermined;
       text += (text.empty() ? "" : ", ") + std::string(kNames[c]);
     }
-  history_.warnings = deformation_.warnings();
+  history_.warnings = watch_.warnings();
   return std::move(history_);
 }
 

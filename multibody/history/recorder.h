@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <Eigen/Core>
 
-#include "multibody/history/deformation_guard.h"
 #include "multibody/history/history.h"
 #include "multibody/history/output_options.h"
-#include "multibody/history/turn_guard.h"
+#include "multibody/history/run_watch.h"
 #include "multibody/model/joint_check.h"
 #include "multibody/model/model.h"
 #include "multibody/model/motion_state.h"
@@ -34,7 +36,13 @@ Eigen::Index numbers_per_output(const Model& model);
 /// it has one block at a time.
 class Recorder {
  public:
-  Recorder(const Model& model, const OutputOptions& output);
+  Recorder(const Model& model, const OutputOptions& output)
+      : Recorder(model, output, RunWatch(model)) {}
+  /// @param watch  of a run that has begun
+  Recorder(const Model& model, const OutputOptions& output, RunWatch watch);
+
+  /// Looks at each output, and between outputs where it is shown more.
+  RunWatch& watch() { return watch_; }
 
   double time_s(Eigen::Index column) const { return times_[column]; }
   Eigen::Index columns() const { return times_.count(); }
@@ -54,12 +62,14 @@ class Recorder {
   /// @param body  among the model's bodies, not prescribed
   void state(Eigen::Index column, std::size_t body, const BodyState& motion);
   void internal(Eigen::Index column, const Eigen::VectorXd& variables);
+  /// @param joint  among the model's joints, of those that have an angle
+  void joint_angle(Eigen::Index column, std::size_t joint, double angle_rad);
   void energy(Eigen::Index column, const Energies& stored, double dissipated_J, double work_J);
   /// Where nothing is lost, behind energy(): the work is what the energies have gained since the
   /// first column.
   void conserve_energy(Eigen::Index column);
-  /// Behind all markers. @throws ComputationError for what has turned too far, see TurnGuard.
-  void check_turns(Eigen::Index column);
+  /// Behind all markers: angles. @throws ComputationError as RunWatch::look().
+  void look(Eigen::Index column);
   /// Of one joint; the largest of all counts.
   void residuals(Eigen::Index column, const Violation& position, const Violation& velocity);
 
@@ -82,10 +92,10 @@ class Recorder {
   Eigen::Index block_;
   std::function<void(const History&)> sink_;
   History history_;
-  DeformationGuard deformation_;
-  TurnGuard turns_;
-  std::vector<std::size_t> modal_of_body_, state_of_body_;
-  std::vector<Eigen::Vector4d> last_rotations_;  ///< of the markers, in the block before
+  RunWatch watch_;
+  std::vector<std::size_t> modal_of_body_, state_of_body_, state_of_joint_;
+  std::vector<std::optional<std::size_t>> watched_;  ///< place of the markers in the watch
+  std::vector<Eigen::Vector4d> last_rotations_;      ///< of the markers, in the block before
   double first_energy_J_ = 0;
   std::vector<Eigen::Array<bool, 6, 1>> undetermined_;
 };

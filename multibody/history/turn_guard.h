@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
-#include "multibody/history/history.h"
+#include "multibody/history/watched_markers.h"
 #include "multibody/model/model.h"
 
 namespace flexneck::multibody {
@@ -15,18 +15,21 @@ namespace flexneck::multibody {
 /// (TurnedForce), which jumps at half a turn: ends the run above 3 rad.
 class TurnGuard {
  public:
-  explicit TurnGuard(const Model& model);
+  /// @param markers  to which it adds those that it needs
+  TurnGuard(const Model& model, WatchedMarkers& markers);
 
-  /// At an output whose markers are recorded; rotations are followed from one to the next.
-  /// @param place  of the output in the history
+  /// Rotations are followed from one time to the next.
   /// @throws ComputationError naming the element and the time.
-  void check(double time_s, const History& history, Eigen::Index place);
+  void check(double time_s, const WatchedMarkers& markers);
+  /// Largest angular velocity of an element's marker j against its marker i.
+  double fastest_rad_s(const WatchedMarkers& markers) const;
 
  private:
   struct Watched {
     std::string title;
-    std::size_t marker_i, marker_j;
-    double sign = 0;  ///< that makes the quaternion from i to j positive at the start
+    std::size_t place_i, place_j;
+    /// From i to j at the last time; at first that of no rotation.
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   };
   std::vector<Watched> elements_;
 };

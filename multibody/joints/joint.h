@@ -16,7 +16,7 @@ namespace flexneck::multibody {
 /// Which of a joint's motions a resistance acts on or a motor gives.
 enum class JointCoordinate {
   distance,  ///< of j along the axis (JointKind::has_distance)
-  angle,     ///< of j about the axis (JointKind::has_angle), as a resistance sees it in (-pi, pi]
+  angle,     ///< of j about the axis (JointKind::has_angle), which counts turns
   flexion    ///< in [0, pi] between the axis on i and on j, of any joint; it has no negative side
 };
 
@@ -42,6 +42,9 @@ struct Joint {
   Eigen::Vector3d second_axis = Eigen::Vector3d::UnitX();  ///< axes of marker j
   double lead_m = 0;    ///< of a screw joint: advance of j along the axis at a right-handed turn
   double length_m = 0;  ///< of a distance joint
+  /// Tells the turn in which its angle starts: within half a turn of this. That of a screw joint is
+  /// told by its distance.
+  double start_angle_rad = 0;
   std::vector<JointMotor> motors = {};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -86,6 +87,16 @@ struct Marker {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< marker axes to body axes
 };
 
+/// The angle by which a marker is turned about an axis, which counts turns from the start of a run
+/// on.
+struct MeasuredAngle {
+  std::string name;
+  std::size_t marker = 0;
+  std::optional<std::size_t> relative_to;           ///< another marker; none: the world
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< unit vector in the axes of the other
+  double start_rad = 0;  ///< tells the turn in which it starts: within half a turn of this
+};
+
 /// When a run begins, and what its force elements and books of energy bring along; by default at
 /// time zero, at rest for long. Bodies start as they are given.
 struct RunStart {
@@ -99,6 +110,7 @@ struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
   std::vector<Joint> joints;
+  std::vector<MeasuredAngle> angles;
   Forces forces;                                           ///< force elements of all kinds
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< world
   RunStart start = {};
@@ -112,6 +124,10 @@ struct Model {
 /// Modal coordinates and rates of a deformable body at the start, (m).
 Eigen::VectorXd initial_modal(const DeformableBody& body);
 Eigen::VectorXd initial_modal_rate(const DeformableBody& body);
+
+/// Of an undeformed body that is not prescribed: mass, its first moments and its moments of inertia
+/// (xx, yy, zz, xy, xz, yz) about the origin, kg, kg m, kg m^2.
+Eigen::VectorXd inertia_of(const Body& body);
 
 /// Checks names, indices, masses and inertias (symmetric, positive, triangle inequality), damping,
 /// unit vectors. @throws InputError naming the body, marker, joint or force.

@@ -300,6 +300,13 @@ void check_joint(const Joint& joint, const Model& model) {
   check_motors(joint);
 }
 
+void check_angle(const MeasuredAngle& angle, const Model& model) {
+  const std::string who = "angle '" + angle.name + "'";
+  check_index(who, "marker", angle.marker, model.markers.size());
+  if (angle.relative_to) check_index(who, "marker", *angle.relative_to, model.markers.size());
+  check_unit_vector(who, "axis", angle.axis);
+}
+
 ForceSites force_sites(const Model& model) {
   ForceSites sites{{}, model.joints};
   for (const Marker& marker : model.markers)
@@ -317,6 +324,7 @@ void check(const Model& model) {
   for (const Body& body : model.bodies) check_body(body);
   for (const Marker& marker : model.markers) check_marker(marker, model);
   for (const Joint& joint : model.joints) check_joint(joint, model);
+  for (const MeasuredAngle& angle : model.angles) check_angle(angle, model);
   model.forces.check(force_sites(model));
 }
 

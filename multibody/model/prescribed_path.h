@@ -32,6 +32,9 @@ class PrescribedPath {
   PrescribedMotion at(double time_s, double table_time_s) const;
   PrescribedMotion at(double time_s) const { return at(time_s, time_s); }
 
+  /// By which it has turned, over full turns.
+  double angle_rad(double time_s) const { return angle_.value(time_s); }
+
  private:
   void turn(double time_s, double table_time_s, PrescribedMotion& motion) const;
 

@@ -42,7 +42,7 @@ VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
 
 }  // namespace
 
-void find_equilibrium(RestProblem& rest) {
+void find_equilibrium(RestProblem& rest, const std::function<void()>& moved) {
   if (rest.count() == 0) return;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const VectorXd force = rest.forces_at(VectorXd::Zero(rest.count()));
@@ -52,6 +52,7 @@ void find_equilibrium(RestProblem& rest) {
     step *= std::min(1.0, kLargestStep / std::max(rest.extent(step), kConverged));
     if (rest.extent(step) <= kConverged) {
       rest.move_to(step);
+      if (moved) moved();
       return;
     }
     // Halve the step until it leads down; close to the end the energy no longer tells, the forces
@@ -61,6 +62,7 @@ void find_equilibrium(RestProblem& rest) {
       if (rest.energy() < energy || remaining < force.norm()) break;
     }
     rest.move_to(step);
+    if (moved) moved();
   }
   throw ComputationError("no static equilibrium was found from the poses given, after " +
                          std::to_string(kMaxIterations) + " steps");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include <Eigen/Core>
 
 namespace flexneck::multibody {
@@ -25,7 +27,8 @@ class RestProblem {
 };
 
 /// Moves to a minimum of the potential energy, sought from the present configuration.
+/// @param moved  called behind each move; may be empty
 /// @throws ComputationError if there is none within reach.
-void find_equilibrium(RestProblem& rest);
+void find_equilibrium(RestProblem& rest, const std::function<void()>& moved = {});
 
 }  // namespace flexneck::multibody

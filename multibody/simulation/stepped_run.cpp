@@ -7,6 +7,7 @@
 #include "multibody/history/recorder.h"
 #include "multibody/simulation/equations_of.h"
 #include "multibody/time/motion.h"
+#include "multibody/time/step_follower.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -80,7 +81,10 @@ std::vector<RunInput> inputs_of(const Model& model) {
 
 SteppedRun::SteppedRun(Model model, const SolverOptions& solver, Kind kind,
                        const std::vector<double>& inputs)
-    : model_(std::make_unique<Model>(std::move(model))), solver_(solver), kind_(kind) {
+    : model_(std::make_unique<Model>(std::move(model))),
+      solver_(solver),
+      kind_(kind),
+      watch_(*model_) {
   check_start(*model_, solver_);
   if (kind_ == Kind::from_equilibrium) check_nothing_turns(*model_);
   state_.time_s = model_->start.time_s;
@@ -102,6 +106,8 @@ SteppedRun::SteppedRun(Model model, const SolverOptions& solver, Kind kind,
       state_.first_energy_J = stored_J(recorded().energy);
       break;
   }
+  StepFollower(*equations_, watch_).begin(state_.time_s, state_.y);
+  state_.angles = counted_angles(watch_);
 }
 
 void SteppedRun::set_input(std::size_t index, double value) {
@@ -126,9 +132,26 @@ void SteppedRun::apply_inputs() {
   });
 }
 
+void SteppedRun::start_in_turns() {
+  auto angle = state_.angles.begin();
+  if (angle == state_.angles.end()) return;
+  for (Joint& joint : model_->joints) joint.start_angle_rad = *angle++;
+  for (MeasuredAngle& measured : model_->angles) measured.start_rad = *angle++;
+}
+
+std::vector<double> SteppedRun::counted_angles(const RunWatch& watch) const {
+  std::vector<double> angles;
+  for (std::size_t k = 0; k < model_->joints.size(); ++k)
+    angles.push_back(equations_->joint_angle_rad(k));
+  for (std::size_t k = 0; k < watch.angles().size(); ++k)
+    angles.push_back(watch.angles().angle_rad(k));
+  return angles;
+}
+
 void SteppedRun::rebuild() {
   if (!is_changed_) return;
   apply_inputs();
+  start_in_turns();
   equations_ =
       equations_of(*model_, solver_, kind_ == Kind::quasi_static ? Drive::held : Drive::prescribed);
   is_changed_ = false;
@@ -136,17 +159,25 @@ void SteppedRun::rebuild() {
 
 void SteppedRun::advance(double end_s) {
   rebuild();
-  if (kind_ == Kind::quasi_static)
-    settle(end_s);
-  else
-    integrate(end_s);
+  try {
+    if (kind_ == Kind::quasi_static)
+      settle(end_s);
+    else
+      integrate(end_s);
+  } catch (...) {
+    is_changed_ = true;  // the equations have counted turns that are not of the state
+    throw;
+  }
 }
 
 void SteppedRun::integrate(double end_s) {
   const StepEnds ends(*model_, solver_, state_.time_s, end_s);
   const std::unique_ptr<TimeIntegrator> integrator =
       time_integrator(*equations_, state_.time_s, state_.y, solver_);
-  integrator->set_pace({state_.proposed_s, state_.error});
+  integrator->set_pace(state_.pace);
+  RunWatch watch = watch_;
+  StepFollower follower(*equations_, watch);
+  follower.begin(state_.time_s, state_.y);
   double begin = state_.time_s;
   for (const double end : ends.kinks_s()) {
     equations_->set_interval(begin, end);
@@ -157,20 +188,24 @@ void SteppedRun::integrate(double end_s) {
                                " steps; what limits them is the " +
                                integrator->name_of(integrator->limiting_component()));
       integrator->step(ends.limit_s(integrator->time_s(), end));
+      follower.follow(*integrator, [](double) {});
     }
     begin = end;
   }
-  const Pace pace = integrator->pace();
   state_.time_s = end_s;
   state_.y = integrator->state();
-  state_.proposed_s = pace.proposed_s;
-  state_.error = pace.error;
+  state_.pace = integrator->pace();
+  state_.angles = counted_angles(watch);
+  watch_ = std::move(watch);
 }
 
 void SteppedRun::settle(double time_s) {
   check_motions_reach(*model_, time_s);
   Eigen::VectorXd y = state_.y;
-  equations_->settle(time_s, y);
+  RunWatch watch = watch_;
+  settle_until(*model_, *equations_, watch, state_.time_s, time_s, y);
+  state_.angles = counted_angles(watch);
+  watch_ = std::move(watch);
   state_.y = y;
   state_.time_s = time_s;
   state_.is_settled = true;
@@ -185,7 +220,7 @@ History SteppedRun::output() {
 History SteppedRun::recorded() {
   OutputOptions one;
   one.begin_time_s = one.end_time_s = state_.time_s;
-  Recorder recorder(*model_, one);
+  Recorder recorder(*model_, one, watch_);
   Eigen::VectorXd y = state_.y;
   if (kind_ != Kind::quasi_static) {
     Eigen::VectorXd rate(y.size());
@@ -193,7 +228,7 @@ History SteppedRun::recorded() {
     equations_->derivative(state_.time_s, y, rate);
   }
   equations_->record(state_.time_s, y, recorder, 0);
-  recorder.check_turns(0);
+  recorder.look(0);
   History history = recorder.take();
   // Nothing is lost: the work is what the energies have gained.
   if (kind_ == Kind::quasi_static)
@@ -203,10 +238,12 @@ History SteppedRun::recorded() {
 
 void SteppedRun::restore(const State& state) {
   if (state.y.size() != state_.y.size() || state.inputs.size() != state_.inputs.size() ||
-      state.motions.size() != state_.motions.size())
+      state.motions.size() != state_.motions.size() || state.angles.size() != state_.angles.size())
     throw InputError("the state is one of another model");
   state_ = state;
   is_changed_ = true;
+  start_in_turns();
+  watch_ = RunWatch(*model_);
 }
 
 }  // namespace flexneck::multibody

@@ -9,7 +9,9 @@
 
 #include "multibody/equations/equations.h"
 #include "multibody/history/history.h"
+#include "multibody/history/run_watch.h"
 #include "multibody/model/model.h"
+#include "multibody/time/time_integrator.h"
 
 namespace flexneck::multibody {
 
@@ -34,11 +36,11 @@ class SteppedRun {
   /// All that a run goes on from.
   struct State {
     double time_s = 0;
-    Eigen::VectorXd y;      ///< of the equations
-    double proposed_s = 0;  ///< see Pace
-    double error = 0;
+    Eigen::VectorXd y;  ///< of the equations
+    Pace pace = {};
     std::vector<double> inputs;      ///< their values
     std::vector<HeldInput> motions;  ///< what those of them that are second rates have come to
+    std::vector<double> angles;      ///< that count turns, rad: of the joints, then those measured
     /// Of a quasi-static run: whether y is the equilibrium under these inputs, and the energy that
     /// was stored in the first one.
     bool is_settled = true;
@@ -71,6 +73,9 @@ class SteppedRun {
  private:
   void apply_inputs();
   void rebuild();
+  /// Takes the turns that the state has counted for those of the model's start.
+  void start_in_turns();
+  std::vector<double> counted_angles(const RunWatch& watch) const;
   void integrate(double end_s);
   /// Looks for the equilibrium at a time. @throws ComputationError, with the state of before.
   void settle(double time_s);
@@ -80,6 +85,7 @@ class SteppedRun {
   SolverOptions solver_;
   Kind kind_;
   std::unique_ptr<Equations> equations_;
+  RunWatch watch_;
   State state_;
   bool is_changed_ = false;  ///< inputs have, since the equations were made
 };

@@ -57,6 +57,8 @@ GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius,
       next_(now_),
       before_(now_),
       offset_rate_(Vector::Zero(nv_)),
+      displacement_(Vector::Zero(nv_)),
+      displacement_before_(Vector::Zero(nv_)),
       residual_(Vector::Zero(nv_ + nc_)),
       change_(Vector::Zero(nv_)),
       error_(Vector::Zero(y.size())),
@@ -133,9 +135,9 @@ void GeneralisedAlpha::update_end(double length_s) {
   next_.a = alpha_.quotient * next_.V_rate +
             (alpha_.alpha_f * now_.V_rate - alpha_.alpha_m * now_.a) / (1 - alpha_.alpha_m);
   const auto V = y_.segment(nq_, nv_);
-  change_ = h * V + h * h * ((0.5 - alpha_.beta) * now_.a + alpha_.beta * next_.a);
+  displacement_ = h * V + h * h * ((0.5 - alpha_.beta) * now_.a + alpha_.beta * next_.a);
   y_next_.head(nq_) = y_.head(nq_);
-  equations_.retract(y_next_.head(nq_), change_);
+  equations_.retract(y_next_.head(nq_), displacement_);
   y_next_.segment(nq_, nv_) = V + h * ((1 - alpha_.gamma) * now_.a + alpha_.gamma * next_.a);
 }
 
@@ -191,6 +193,7 @@ void GeneralisedAlpha::accept(double length_s) {
   equations_.rate(y_next_, next_.V_rate, rate_next_);
   y_next_.tail<2>() = y_.tail<2>() + length_s / 2 * (rate_.tail<2>() + rate_next_.tail<2>());
   offset_rate_ = (next_.a - next_.V_rate) / length_s;
+  displacement_before_.swap(displacement_);
   std::swap(before_, now_);
   std::swap(now_, next_);
   y_before_.swap(y_);
@@ -277,6 +280,12 @@ void GeneralisedAlpha::interpolate(double time_s, Vector& y) const {
   // Hermite's cubic.
   y = r * y_before_ + s * y_ -
       (s * r) * ((1 - 2 * s) * (y_ - y_before_) + (s * h) * rate_ - (r * h) * rate_before_);
+  const Vector displacement =
+      s * displacement_before_ -
+      (s * r) * ((1 - 2 * s) * displacement_before_ + (s * h) * y_.segment(nq_, nv_) -
+                 (r * h) * y_before_.segment(nq_, nv_));
+  y.head(nq_) = y_before_.head(nq_);
+  equations_.retract(y.head(nq_), displacement);
 }
 
 }  // namespace flexneck::multibody

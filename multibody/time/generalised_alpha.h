@@ -32,7 +32,8 @@ struct AlphaParameters {
 /// with equations of motion and constraints satisfied at the end of the step. Stable for stiff
 /// forces at any step; vibrations that a step does not resolve die out. Newton's matrix is kept
 /// while it serves. The local error of the positions, less what stiff modes resist, sets the step;
-/// inside a step the state is Hermite's cubic.
+/// inside a step the state is Hermite's cubic, that of the positions in the displacement from its
+/// beginning: a step may turn far.
 class GeneralisedAlpha final : public TimeIntegrator {
  public:
   /// @param equations  must outlive this
@@ -79,7 +80,8 @@ class GeneralisedAlpha final : public TimeIntegrator {
   Eigen::Index nq_, nv_, ni_, nc_;
   IterationMatrix matrix_;
   Accelerations now_, next_, before_;
-  Vector offset_rate_;  ///< (a_n - V'_n) / h
+  Vector offset_rate_;                         ///< (a_n - V'_n) / h
+  Vector displacement_, displacement_before_;  ///< over the step tried, over the last one
   Vector residual_, change_, error_;
   Vector y_next_, y_before_, y_trial_;
   Vector rate_, rate_next_, rate_before_;

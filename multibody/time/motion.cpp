@@ -15,6 +15,7 @@
 #include "multibody/history/recorder.h"
 #include "multibody/time/dormand_prince.h"
 #include "multibody/time/generalised_alpha.h"
+#include "multibody/time/step_follower.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -81,9 +82,11 @@ class Run {
         recorder_(model, output),
         ends_(model, solver, output.begin_time_s, output.end_time_s),
         integrator_(time_integrator(equations, output.begin_time_s, state, solver)),
+        follower_(equations, recorder_.watch()),
         output_state_(state) {}
 
   void run(double begin_s) {
+    follower_.begin(integrator_->time_s(), integrator_->state());
     for (const double end_s : ends_.kinks_s()) {
       advance(begin_s, end_s);
       begin_s = end_s;
@@ -108,7 +111,7 @@ class Run {
       if (integrator_->accepted() + integrator_->rejected() >= max_steps_) give_up();
       integrator_->step(ends_.limit_s(integrator_->time_s(), end_s));
       limits_.count(*integrator_);
-      record_until(integrator_->time_s());
+      follower_.follow(*integrator_, [&](double time_s) { record_until(time_s); });
       if (checkpoint_) checkpoint_();
     }
   }
@@ -133,7 +136,7 @@ class Run {
       integrator_->interpolate(at, output_state_);
       recorder_.begin(next_);
       equations_.record(at, output_state_, recorder_, next_);
-      recorder_.check_turns(next_);
+      recorder_.look(next_);
       if (next_ == 0) recorder_.redundant(equations_.redundant_constraints());
       ++next_;
     }
@@ -145,6 +148,7 @@ class Run {
   Recorder recorder_;
   StepEnds ends_;
   std::unique_ptr<TimeIntegrator> integrator_;
+  StepFollower follower_;
   LimitCounter limits_;
   VectorXd output_state_;
   Index next_ = 0;

@@ -11,6 +11,7 @@
 #include "multibody/equations/solver_options.h"
 #include "multibody/history/history.h"
 #include "multibody/history/output_options.h"
+#include "multibody/history/run_watch.h"
 #include "multibody/model/model.h"
 #include "multibody/time/time_integrator.h"
 
@@ -38,6 +39,13 @@ class StepEnds {
  private:
   std::vector<double> kinks_s_, piece_ends_s_;
 };
+
+/// The static equilibrium at a time, sought from a state at rest at an earlier one, over times
+/// between which what is prescribed turns by a radian at most.
+/// @param equations  with prescribed bodies held
+/// @throws ComputationError if one is not found.
+void settle_until(const Model& model, Equations& equations, RunWatch& watch, double begin_s,
+                  double end_s, Eigen::VectorXd& state);
 
 /// Static equilibria at the output times, each sought from the one before.
 /// @param equations  with prescribed bodies held

@@ -1,12 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "geometry/foundation/error.h"
 #include "multibody/history/incomplete_run.h"
 #include "multibody/history/recorder.h"
+#include "multibody/model/prescribed_path.h"
 #include "multibody/time/motion.h"
 
 namespace flexneck::multibody {
+namespace {
+
+/// The largest angle by which a prescribed body or a motor turns from one time to another.
+double prescribed_turn_rad(const Model& model, double begin_s, double end_s) {
+  double largest = 0;
+  for (const Body& body : model.bodies)
+    if (const auto* prescribed = std::get_if<PrescribedBody>(&body.kind)) {
+      const PrescribedPath path(body.initial_pose, *prescribed);
+      largest = std::max(largest, std::abs(path.angle_rad(end_s) - path.angle_rad(begin_s)));
+    }
+  for (const Joint& joint : model.joints)
+    for (const JointMotor& motor : joint.motors)
+      if (motor.coordinate == JointCoordinate::angle)
+        largest = std::max(largest, std::abs(motor.path.value(end_s) - motor.path.value(begin_s)));
+  return largest;
+}
+
+}  // namespace
+
+void settle_until(const Model& model, Equations& equations, RunWatch& watch, double begin_s,
+                  double end_s, Eigen::VectorXd& state) {
+  constexpr double kApart_rad = 1;
+  const int parts = 1 + static_cast<int>(prescribed_turn_rad(model, begin_s, end_s) / kApart_rad);
+  for (int k = 1; k <= parts; ++k) {
+    const double time_s = k < parts ? begin_s + (end_s - begin_s) * k / parts : end_s;
+    equations.settle(time_s, state, watch);
+  }
+}
 
 History settle_along(const Model& model, Equations& equations,
                      const std::function<void()>& checkpoint, const OutputOptions& output) {
@@ -18,11 +49,12 @@ History settle_along(const Model& model, Equations& equations,
     Eigen::VectorXd state = equations.given_place();
     for (; column < recorder.columns(); ++column) {
       const double time_s = recorder.time_s(column);
-      equations.settle(time_s, state);
+      settle_until(model, equations, recorder.watch(),
+                   recorder.time_s(std::max<Eigen::Index>(column - 1, 0)), time_s, state);
       Eigen::VectorXd recorded = state;
       recorder.begin(column);
       equations.record(time_s, recorded, recorder, column);
-      recorder.check_turns(column);
+      recorder.look(column);
       recorder.conserve_energy(column);
       if (column == 0) recorder.redundant(equations.redundant_constraints());
       if (checkpoint) checkpoint();

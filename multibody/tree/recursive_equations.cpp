@@ -26,7 +26,8 @@ class RecursiveEquations final : public Equations {
         dynamics_(tree_, drive),
         error_(tree_, solver.relative_tolerance, solver.absolute_tolerance),
         guard_(model, {solver.relative_tolerance, solver.absolute_tolerance}, tree_.size_m),
-        markers_(model.markers.size()) {}
+        markers_(model.markers.size()),
+        angles_rad_(model.joints.size(), 0) {}
 
   Vector given_state() override {
     const RunStart& start = tree_.model.start;
@@ -54,11 +55,17 @@ class RecursiveEquations final : public Equations {
     return relaxed(any_floats ? carried(held, rest.state(), carriers) : rest.state());
   }
 
-  void settle(double time_s, Vector& state) override {
+  void settle(double time_s, Vector& state, RunWatch& watch) override {
     dynamics_.relax();
     tree::TreeRest rest(dynamics_, state, time_s);
-    find_equilibrium(rest);
+    find_equilibrium(rest, [&] {
+      if (watch.markers().empty()) return;
+      show(time_s, rest.state(), watch);
+      watch.look(time_s);
+      dynamics_.relax();
+    });
     state = relaxed(rest.state(), time_s);
+    count_turns(state);
   }
 
   void set_interval(double begin_s, double end_s) override {
@@ -105,6 +112,25 @@ class RecursiveEquations final : public Equations {
     dynamics_.fill_rate(state, accelerations, rate);
   }
 
+  /// Joint coordinates hold the joints, and count turns.
+  void accept(double time_s, const Vector& state, RunWatch& watch) override {
+    count_turns(state);
+    for (const tree::TreeBody& body : tree_.bodies)
+      watch.check_deformation(
+          time_s, body.index,
+          state.segment(body.position + body.joint.position_count(), body.inertia.mode_count()));
+  }
+  double joint_angle_rad(std::size_t joint) const override { return angles_rad_[joint]; }
+  void show(double time_s, const Vector& state, RunWatch& watch) override {
+    dynamics_.give_internal(state);
+    dynamics_.update(time_s, state);
+    for (std::size_t k = 0; k < watch.markers().size(); ++k) {
+      MarkerState& motion = markers_[watch.markers()[k]];
+      dynamics_.marker_state(watch.markers()[k], motion);
+      watch.show(k, motion.rotation, motion.angular_velocity_rad_s);
+    }
+  }
+
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     normalise(state);
     dynamics_.give_internal(state);
@@ -123,6 +149,9 @@ class RecursiveEquations final : public Equations {
       for (std::size_t b = 0; b < tree_.bodies.size(); ++b)
         recorder.state(column, tree_.bodies[b].index, dynamics_.body_state(b));
       recorder.internal(column, tree_.internal(state));
+      for (std::size_t k = 0; k < tree_.body_of_joint.size(); ++k)
+        if (tree_.model.joints[k].kind->has_angle)
+          recorder.joint_angle(column, k, tree::joint_angle_rad(tree_, k, state));
     }
     recorder.energy(column, dynamics_.energies(), state[state.size() - 2], state[state.size() - 1]);
   }
@@ -139,7 +168,15 @@ class RecursiveEquations final : public Equations {
       bodies.back().velocities.setZero();
       if (velocity) bodies.back().velocities.head<3>() = *velocity;
     }
-    return tree::state_of(tree_, bodies);
+    Vector result = tree::state_of(tree_, bodies);
+    result.head(tree_.position_count) = state.head(tree_.position_count);
+    return result;
+  }
+
+  void count_turns(const Vector& state) {
+    for (std::size_t k = 0; k < angles_rad_.size(); ++k)
+      if (tree_.model.joints[k].kind->has_angle)
+        angles_rad_[k] = tree::joint_angle_rad(tree_, k, state);
   }
 
   /// The state with the internal variables that force elements have at rest for long.
@@ -176,6 +213,7 @@ class RecursiveEquations final : public Equations {
   tree::TreeError error_;
   JointGuard guard_;
   std::vector<MarkerState> markers_;  ///< of the model, at the last output
+  std::vector<double> angles_rad_;    ///< of the joints that have one, as they were counted last
   Vector no_multipliers_;
 };
 

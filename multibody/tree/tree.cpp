@@ -92,6 +92,14 @@ double trace(const Vector6d& packed) { return packed[0] + packed[1] + packed[2];
 
 }  // namespace
 
+double joint_angle_rad(const Tree& tree, std::size_t joint,
+                       const Eigen::Ref<const Eigen::VectorXd>& state) {
+  // The angle is the last coordinate of all kinds that have one.
+  const TreeBody& body = tree.bodies[tree.body_of_joint[joint]];
+  const double angle = state[body.position + body.joint.position_count() - 1];
+  return body.inner_is_i ? angle : -angle;
+}
+
 void retract(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& change,
              Eigen::Ref<Eigen::VectorXd> positions) {
   for (const TreeBody& body : tree.bodies) {

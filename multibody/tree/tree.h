@@ -86,6 +86,11 @@ struct Tree {
   }
 };
 
+/// The angle of a joint that has one, of marker j against i, which a state's coordinate counts over
+/// turns.
+double joint_angle_rad(const Tree& tree, std::size_t joint,
+                       const Eigen::Ref<const Eigen::VectorXd>& state);
+
 /// Positions moved by a displacement of the kind of velocities, (velocity_count), finite.
 void retract(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& change,
              Eigen::Ref<Eigen::VectorXd> positions);

@@ -171,6 +171,8 @@ void TreeDynamics::update(double time_s, const ConstVector& state, Purpose purpo
     else
       update_body(body, work_[b], state, purpose);
   }
+  for (const std::size_t joint : forces_.turned_joints())
+    forces_.angle(joint).angle_rad = joint_angle_rad(tree_, joint, state);
   apply_forces();
 }
 

@@ -41,6 +41,15 @@ FrameState prescribed_state(const PrescribedPath& path, double time_s, const Tre
           body.velocity_m_s + body.angular_velocity_rad_s.cross(arm), body.angular_velocity_rad_s};
 }
 
+/// Puts the angle of a joint that has one into the turn in which it is to start.
+void start_in_turn(const Tree& tree, const TreeBody& body, VectorXd& q) {
+  if (body.joint_index == kNone) return;
+  const Joint& joint = tree.model.joints[body.joint_index];
+  if (!joint.kind->has_angle || joint.kind->advances) return;
+  const double start = body.inner_is_i ? joint.start_angle_rad : -joint.start_angle_rad;
+  q.tail<1>()[0] = CountedAngle{.angle_rad = start}.at(0, q.tail<1>()[0], 0).angle_rad;
+}
+
 /// A joint's coordinates and rates, and what is left of the markers' relative motion.
 struct Fit {
   VectorXd q, u;
@@ -87,7 +96,8 @@ Fits fit_all(const Tree& tree, const std::vector<BodyState>& bodies) {
       inner = prescribed_state(tree.prescribed[body.carrier.prescribed], tree.model.start.time_s,
                                body.inner);
     const FrameState outer = node_state(body.outer, bodies[b]);
-    const Fit found = fit(body.joint, inner, outer);
+    Fit found = fit(body.joint, inner, outer);
+    start_in_turn(tree, body, found.q);
     for (const FrameState& each : {inner, outer})
       result.speed_m_s = std::max({result.speed_m_s, each.v.norm(), tree.size_m * each.w.norm()});
     const Index m = body.inertia.mode_count();

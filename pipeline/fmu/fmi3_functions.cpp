@@ -108,6 +108,11 @@ FLEXNECK_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3
     if (flag != nullptr) *flag = false;
   if (last_time != nullptr && instance != nullptr)
     *last_time = static_cast<Instance*>(instance)->run->time_s();
+  if (status == fmi3OK)
+    guarded(instance, [](Instance& at) {
+      for (const std::string& warning : at.run->new_warnings())
+        at.tell(fmi3Warning, warning.c_str());
+    });
   return status;
 }
 

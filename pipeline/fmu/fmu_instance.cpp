@@ -14,8 +14,8 @@ namespace flexneck::multibody {
 
 template <class A>
 void archive(A& all, SteppedRun::State& x) {
-  auto& [time, y, proposed, error, inputs, motions, is_settled, first_energy] = x;
-  all(time, y, proposed, error, inputs, motions, is_settled, first_energy);
+  auto& [time, y, pace, inputs, motions, angles, is_settled, first_energy] = x;
+  all(time, y, pace.proposed_s, pace.error, inputs, motions, angles, is_settled, first_energy);
 }
 
 }  // namespace flexneck::multibody
@@ -103,7 +103,7 @@ void FmuInstance::advance(double time_s, double length_s) {
                      std::to_string(run.time_s()) + " s");
   if (!(length_s > 0 && std::isfinite(length_s)))
     throw InputError("a step must be longer than zero, not " + std::to_string(length_s) + " s");
-  outputs();  // angles count on from step to step
+  outputs();  // quaternions go on from step to step
   run.advance(time_s + length_s);
   outputs_are_new_ = false;
   outputs();
@@ -138,6 +138,7 @@ void FmuInstance::set(std::span<const Reference> references, std::span<const dou
 const std::vector<double>& FmuInstance::outputs() {
   if (outputs_are_new_) return outputs_;
   const multibody::History history = run().output();
+  warnings_ = history.warnings;
   outputs_.clear();
   for (std::size_t k = 0; k < model_.channels.size(); ++k) {
     const ChannelSpec& spec = model_.channels[k];
@@ -170,6 +171,11 @@ void FmuInstance::get(std::span<const Reference> references, std::span<double> v
         break;
     }
   }
+}
+
+std::vector<std::string> FmuInstance::new_warnings() {
+  const std::size_t told = std::min(std::exchange(told_, warnings_.size()), warnings_.size());
+  return {warnings_.begin() + static_cast<std::ptrdiff_t>(told), warnings_.end()};
 }
 
 FmuInstance::State FmuInstance::save() const {

@@ -27,7 +27,7 @@ class FmuInstance {
     double relative_tolerance = 0;
     std::vector<double> values, inputs;  ///< of parameters, of inputs
     std::optional<multibody::SteppedRun::State> run;
-    std::vector<Eigen::VectorXd> last;  ///< of the channels, which angles count on from
+    std::vector<Eigen::VectorXd> last;  ///< of the channels, which quaternions go on from
   };
 
   explicit FmuInstance(FmuModel model);
@@ -42,6 +42,9 @@ class FmuInstance {
 
   void set(std::span<const Reference> references, std::span<const double> values);
   void get(std::span<const Reference> references, std::span<double> values);
+
+  /// Sentences on what of the results is not to be trusted, of what was not told before.
+  std::vector<std::string> new_warnings();
 
   State save() const;
   void restore(const State& state);
@@ -66,6 +69,8 @@ class FmuInstance {
   std::vector<Eigen::VectorXd> last_;
   std::vector<double> outputs_;
   bool outputs_are_new_ = false;
+  std::vector<std::string> warnings_;  ///< of the run until now
+  std::size_t told_ = 0;               ///< how many of them
 };
 
 }  // namespace flexneck::pipeline

@@ -16,8 +16,8 @@ using multibody::SteppedRun;
 
 template <class A>
 void archive(A& all, ChannelSpec& x) {
-  auto& [name, quantity, source, relative_to, axes, axis, filter] = x;
-  all(name, quantity, source, relative_to, axes, axis, filter);
+  auto& [name, quantity, source, relative_to, axes, filter] = x;
+  all(name, quantity, source, relative_to, axes, filter);
 }
 template <class A>
 void archive(A& all, FormulaForce& x) {

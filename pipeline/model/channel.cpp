@@ -143,9 +143,6 @@ Eigen::VectorXd components_at(const History& history, const ChannelSpec& spec,
       return rotation_vector(motion.R);
     case Quantity::quaternion:
       return Eigen::Vector4d(motion.R.w(), motion.R.x(), motion.R.y(), motion.R.z());
-    case Quantity::angle:
-      return Eigen::VectorXd::Constant(1,
-                                       2 * std::atan2(motion.R.vec().dot(spec.axis), motion.R.w()));
     default:
       return to_axes(history, spec, k) * vector_of(spec.quantity, motion);
   }
@@ -156,11 +153,7 @@ MatrixXd marker_values(const History& history, const ChannelSpec& spec,
   MatrixXd values(rows, history.time_s.size());
   for (Index k = 0; k < values.cols(); ++k)
     values.col(k) = components_at(history, spec, gravity_m_s2, k);
-  if (spec.quantity == Quantity::angle) {
-    for (Index k = 1; k < values.cols(); ++k)
-      values(0, k) =
-          values(0, k - 1) + std::remainder(values(0, k) - values(0, k - 1), 2 * std::numbers::pi);
-  } else if (spec.quantity == Quantity::quaternion) {
+  if (spec.quantity == Quantity::quaternion) {
     for (Index k = 1; k < values.cols(); ++k)
       if (values.col(k).dot(values.col(k - 1)) < 0) values.col(k) *= -1;
   }
@@ -196,12 +189,7 @@ MatrixXd energy_values(const multibody::EnergyHistory& energy) {
 
 void continue_channel(Quantity quantity, const Eigen::VectorXd& last, MatrixXd& values) {
   if (values.cols() == 0) return;
-  if (quantity == Quantity::angle) {
-    const double step = values(0, 0) - last[0];
-    values.array() += std::remainder(step, 2 * std::numbers::pi) - step;
-  } else if (quantity == Quantity::quaternion && values.col(0).dot(last) < 0) {
-    values *= -1;
-  }
+  if (quantity == Quantity::quaternion && values.col(0).dot(last) < 0) values *= -1;
 }
 
 void filter(const Eigen::VectorXd& time_s, ChannelClass cfc, MatrixXd& values) {
@@ -230,6 +218,9 @@ Channel channel_of(const History& history, const ChannelSpec& spec, const Vector
     case Quantity::load_cell_force:
     case Quantity::load_cell_moment:
       channel.values = joint_values(history, spec);
+      break;
+    case Quantity::angle:
+      channel.values = history.angles[spec.source].angle_rad.transpose();
       break;
     case Quantity::modal:
       channel.values = history.modal[spec.source].coordinates;

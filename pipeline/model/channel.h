@@ -21,7 +21,7 @@ enum class Quantity {
   acceleration,     ///< kinematic
   rotation_vector,  ///< axis times angle, the angle at most pi
   quaternion,       ///< w, x, y, z
-  angle,            ///< of rotation about a given axis, counted on over full turns
+  angle,            ///< of rotation about a given axis, which counts turns
   angular_velocity,
   angular_acceleration,
   accelerometer,  ///< acceleration less gravity, in the marker's own axes
@@ -39,11 +39,10 @@ enum class Quantity {
 struct ChannelSpec {
   std::string name;
   Quantity quantity = Quantity::position;
-  std::size_t source = 0;  ///< marker, joint or deformable body, as the history lists them
+  /// Marker, measured angle, joint or deformable body, as the history lists them.
+  std::size_t source = 0;
   std::optional<std::size_t> relative_to;  ///< marker from whose moving frame it is seen
   std::optional<std::size_t> axes;         ///< marker along whose axes its components are
-  Eigen::Vector3d axis =
-      Eigen::Vector3d::UnitY();  ///< of an angle, axes of the frame it is seen from
   std::optional<multibody::ChannelClass> filter;
 };
 
@@ -53,8 +52,8 @@ struct ChannelSpec {
 multibody::Channel channel_of(const multibody::History& history, const ChannelSpec& spec,
                               const Eigen::Vector3d& gravity_m_s2);
 
-/// Makes values that follow others go on from the last of them where they count on: angles over
-/// full turns, quaternions without a change of sign.
+/// Makes values that follow others go on from the last of them: quaternions without a change of
+/// sign.
 void continue_channel(Quantity quantity, const Eigen::VectorXd& last, Eigen::MatrixXd& values);
 
 /// Filters rows of samples in place. An end that is no multiple of the interval makes the last one

@@ -2,12 +2,16 @@
 #include "pipeline/model/channel_section.h"
 
 #include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/document/channel_class.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/model_sections.h"
+#include "pipeline/model/placement.h"
 
 namespace flexneck::pipeline {
 
@@ -45,14 +49,53 @@ std::optional<std::size_t> marker_or_none(const StudyTable& table, const std::st
   return reference(table, key, names_of(model.markers), "marker");
 }
 
+/// The axis of a joint or an angle, of one of a marker's axes, in the world at the start.
+Eigen::Vector3d in_world(const Model& model, std::optional<std::size_t> marker,
+                         const Eigen::Vector3d& axis) {
+  if (!marker) return axis;
+  const multibody::Marker& of = model.markers[*marker];
+  return (pose_of(model.bodies[of.body]) * marker_pose(model, of)).rotation * axis;
+}
+
+/// The turn of the joint, if there is one that turns the one body against the other about the axis.
+double start_of(const multibody::MeasuredAngle& angle, const Model& model) {
+  const auto body = [&](std::size_t marker) { return model.markers[marker].body; };
+  const auto measures_from = [&](std::size_t marker) {
+    if (angle.relative_to) return body(marker) == body(*angle.relative_to);
+    return std::holds_alternative<multibody::PrescribedBody>(model.bodies[body(marker)].kind);
+  };
+  const Eigen::Vector3d axis = in_world(model, angle.relative_to, angle.axis);
+  for (const multibody::Joint& joint : model.joints) {
+    const bool outwards =
+        body(joint.marker_j) == body(angle.marker) && measures_from(joint.marker_i);
+    const bool inwards =
+        body(joint.marker_i) == body(angle.marker) && measures_from(joint.marker_j);
+    if (!joint.kind->has_angle || !(outwards || inwards)) continue;
+    const double along = axis.dot(in_world(model, joint.marker_i, joint.axis));
+    constexpr double kParallel = 1 - 1e-9;
+    if (std::abs(along) < kParallel) continue;
+    return outwards == (along > 0) ? joint.start_angle_rad : -joint.start_angle_rad;
+  }
+  return 0;
+}
+
+void read_angle_channel(const StudyTable& table, Model& model, ChannelSpec& spec) {
+  multibody::MeasuredAngle angle{
+      .name = spec.name,
+      .marker = reference(table, "marker", names_of(model.markers), "marker"),
+      .relative_to = marker_or_none(table, "relative_to", model),
+      .axis = unit_vector(table, "axis")};
+  angle.start_rad = start_of(angle, model);
+  spec.source = model.angles.size();
+  model.angles.push_back(std::move(angle));
+}
+
 void read_marker_channel(const StudyTable& table, const Model& model, ChannelSpec& spec) {
   spec.source = reference(table, "marker", names_of(model.markers), "marker");
   if (spec.quantity == Quantity::accelerometer) return;
   spec.relative_to = marker_or_none(table, "relative_to", model);
-  if (spec.quantity == Quantity::angle) spec.axis = unit_vector(table, "axis");
-  const bool is_rotation = spec.quantity == Quantity::angle ||
-                           spec.quantity == Quantity::quaternion ||
-                           spec.quantity == Quantity::rotation_vector;
+  const bool is_rotation =
+      spec.quantity == Quantity::quaternion || spec.quantity == Quantity::rotation_vector;
   if (!is_rotation) spec.axes = marker_or_none(table, "axes", model);
 }
 
@@ -78,7 +121,7 @@ std::optional<ChannelClass> read_filter(const StudyTable& table, double interval
 
 std::span<const Key> channel_keys() { return kKeys; }
 
-ChannelSpec read_channel(const StudyTable& table, const Model& model, double interval_s) {
+ChannelSpec read_channel(const StudyTable& table, Model& model, double interval_s) {
   ChannelSpec spec;
   spec.name = table.text("name");
   spec.quantity = static_cast<Quantity>(table.choice("quantity"));
@@ -94,6 +137,9 @@ ChannelSpec read_channel(const StudyTable& table, const Model& model, double int
       break;
     case Quantity::modal:
       spec.source = deformable_body(table, model);
+      break;
+    case Quantity::angle:
+      read_angle_channel(table, model, spec);
       break;
     case Quantity::energy:
       break;

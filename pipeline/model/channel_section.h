@@ -11,6 +11,6 @@ namespace flexneck::pipeline {
 /// @param interval_s  of the output: a filter needs it short enough
 /// @throws InputError with file, line, column and key.
 std::span<const Key> channel_keys();
-ChannelSpec read_channel(const StudyTable& table, const multibody::Model& model, double interval_s);
+ChannelSpec read_channel(const StudyTable& table, multibody::Model& model, double interval_s);
 
 }  // namespace flexneck::pipeline

@@ -118,7 +118,7 @@ void restart(const StudyTable& root, ModelFile& file) {
     root.refuse("restart", rest_of(file) + ", but a restart begins in motion; leave one out");
   if (file.linearised_at)
     root.refuse("restart", "a linearisation is at time zero; leave one of them out");
-  read_restart(root.table("restart"), file.model, file.files);
+  read_restart(root.table("restart"), file.model, file.files, file.warnings);
   if (!(file.model.start.time_s < file.end_time_s))
     root.refuse("restart", "expected a time before the end_time of [solver]");
 }
@@ -185,8 +185,8 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
   if (assembly.model.bodies.empty())
     throw InputError(path.string() + ": expected bodies as tables [[body]], found none");
   assemble(assembly, file);
-  restart(root, file);
   read_output(root, file);
+  restart(root, file);
   root.finish();
   file.files.insert(file.files.begin(), document.files().begin(), document.files().end());
   file.files.insert(file.files.end(), assembly.files.begin(), assembly.files.end());
@@ -196,7 +196,8 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
     file.parameters.push_back({"solver.resolution", exact_text(file.solver.resolution_s) + " s",
                                Origin::synthetic,
                                "of its expressions, as the file does not say it"});
-  file.warnings = document.warnings();
+  file.warnings.insert(file.warnings.begin(), document.warnings().begin(),
+                       document.warnings().end());
   return file;
 }
 

@@ -55,7 +55,8 @@ struct ModelFile {
 
   std::vector<InputFile> files;  ///< everything that was read
   std::vector<Parameter> parameters;
-  std::vector<std::string> warnings;  ///< of names of earlier versions
+  std::vector<std::string>
+      warnings;  ///< of names of earlier versions, masses that a restart finds changed
 };
 
 /// The table of keys of model files, by section.

@@ -57,7 +57,10 @@ constexpr auto kJointKeys = std::to_array<Key>({
                  {.size = 3}),
     Key::quantity("length", "m", kNone, "Of a distance joint: distance of the markers"),
     Key::quantity("lead", "m", kNone, "Of a screw joint: motion along the axis at every turn"),
-    Key::quantity("angle", "rad", "0", "Angle at the start"),
+    Key::quantity(
+        "angle", "rad", "0",
+        "Angle at the start, of any turn; without it, what bodies' places say within half "
+        "a turn"),
     Key::quantity("rate", "rad/s", "0", "Its rate at the start"),
     Key::quantity("distance", "m", "0", "Distance along the axis at the start"),
     Key::quantity("speed", "m/s", "0", "Its rate at the start"),
@@ -80,6 +83,7 @@ void read_joint(const StudyTable& table, Assembly& assembly) {
   };
   if (joint.kind->has_angle) {
     read("angle", start.angle_rad);
+    joint.start_angle_rad = start.angle_rad.value_or(0);
     read("rate", start.rate_rad_s);
   }
   if (joint.kind->has_distance) {

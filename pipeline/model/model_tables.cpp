@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <numbers>
+
+#include <fmt/core.h>
+
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "multibody/numerics/rotation.h"
@@ -26,7 +30,14 @@ std::size_t reference(const StudyTable& table, const std::string& key,
 
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key) {
   if (!table.has(key)) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(multibody::rotation_exp(quantity_vector(table, key)));
+  const Eigen::Vector3d turn = quantity_vector(table, key);
+  constexpr double kTurn = 2 * std::numbers::pi * (1 + 1e-9);
+  if (turn.norm() > kTurn)
+    table.refuse(key, fmt::format("a place does not count turns, but the rotation vector is {:.6g} "
+                                  "rad long, more than a full one; take full turns off, or give a "
+                                  "joint its angle",
+                                  turn.norm()));
+  return Eigen::Quaterniond(multibody::rotation_exp(turn));
 }
 
 std::vector<double> breakpoints(const StudyTable& table) {

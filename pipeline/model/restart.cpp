@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/core.h>
 
@@ -13,6 +14,7 @@
 namespace flexneck::pipeline {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 using multibody::Body;
 using multibody::BodyHistory;
 using multibody::DeformableBody;
@@ -55,9 +57,41 @@ void take_state(const BodyHistory& state, Index at, Body& body) {
   deformable->initial_modal_rate = state.modal_rate.col(at);
 }
 
+/// Whether inertias differ by more than rounding of numbers in a file.
+bool differ(const VectorXd& there, const VectorXd& here) {
+  if (there.size() == 0) return false;
+  constexpr double kRounding = 1e-9;
+  const VectorXd change = there - here;
+  const double moments = here.segment<3>(4).sum();
+  return std::abs(change[0]) > kRounding * here[0] ||
+         change.segment<3>(1).norm() > kRounding * std::sqrt(here[0] * moments) ||
+         change.tail<6>().norm() > kRounding * moments;
+}
+
+/// The turns that angles have counted by then.
+void take_angles(const StudyTable& table, const multibody::StateHistory& state, Index at,
+                 multibody::Model& model) {
+  const auto angle = [&](const std::string& name) -> std::optional<double> {
+    const auto found = std::ranges::find(state.angle_names, name);
+    if (found == state.angle_names.end()) return std::nullopt;
+    return state.angles(found - state.angle_names.begin(), at);
+  };
+  for (multibody::Joint& joint : model.joints) {
+    if (!joint.kind->has_angle) continue;
+    const std::optional<double> found = angle("joint " + joint.name);
+    if (!found)
+      table.refuse("file", "the history does not say in which turn joint '" + joint.name +
+                               "' is; make it again with a joint of that name");
+    joint.start_angle_rad = *found;
+  }
+  for (multibody::MeasuredAngle& each : model.angles)
+    each.start_rad = angle("angle " + each.name).value_or(0);
+}
+
 }  // namespace
 
-void read_restart(const StudyTable& table, multibody::Model& model, std::vector<InputFile>& files) {
+void read_restart(const StudyTable& table, multibody::Model& model, std::vector<InputFile>& files,
+                  std::vector<std::string>& warnings) {
   const std::filesystem::path path = table.file("file");
   const double time_s = table.quantity("time");
   table.finish();
@@ -82,6 +116,12 @@ void read_restart(const StudyTable& table, multibody::Model& model, std::vector<
     if (!deforms && state->modal.rows() > 0)
       table.refuse("file", "body '" + body.name + "' is deformable there and rigid here");
     take_state(*state, at, body);
+    if (const VectorXd here = multibody::inertia_of(body); differ(state->inertia, here))
+      warnings.push_back(
+          fmt::format("restart: body '{}' has other masses here ({:.6g} kg) than in the history "
+                      "({:.6g} kg); it "
+                      "goes on with the velocities there, so that momenta and energies jump",
+                      body.name, here[0], state->inertia[0]));
     ++taken;
   }
   if (taken != states.size())
@@ -89,6 +129,7 @@ void read_restart(const StudyTable& table, multibody::Model& model, std::vector<
                                      states.size(), taken));
   if (history.state.internal.rows() != multibody::internal_count(model.forces))
     table.refuse("file", "the branches of the sections are not those of this model");
+  take_angles(table, history.state, at, model);
   model.start = {history.time_s[at], history.state.internal.col(at),
                  history.energy.dissipated_J[at], history.energy.work_J[at]};
 }

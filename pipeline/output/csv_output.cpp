@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "geometry/foundation/normal_number.h"
+
 namespace flexneck::pipeline {
 
 namespace {
@@ -38,7 +40,8 @@ void CsvWriter::append(const Eigen::VectorXd& time_s,
   for (Eigen::Index k = 0; k < time_s.size(); ++k) {
     std::string line = fmt::format("{}", time_s[k]);
     for (const multibody::Channel& channel : channels)
-      for (const double value : channel.values.col(k)) line += fmt::format(",{}", value);
+      for (const double value : channel.values.col(k))
+        line += fmt::format(",{}", normal_number(value));
     file_.write(line + "\n");
   }
 }

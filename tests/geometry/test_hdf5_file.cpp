@@ -118,6 +118,16 @@ TEST_CASE("rows that are appended one by one are those of one write, compressed"
   CHECK(std::filesystem::file_size(folder / "a.h5") < values.size() * sizeof(double) / 2);
 }
 
+TEST_CASE("rows have zeros in the place of numbers below the smallest normal one") {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "rows.h5";
+  Hdf5Writer writer(path, kFormat);
+  writer.append("/curve", std::vector<double>{2e-320, -5e-324, 1e-300, 0.25}, {}, "m/s^2");
+  writer.commit();
+  CHECK(Hdf5Reader(path, kFormat).read_doubles("/curve", {4}, "m/s^2") ==
+        std::vector<double>{0, 0, 1e-300, 0.25});
+}
+
 TEST_CASE("a file that is not committed leaves nothing behind") {
   const TemporaryFolder folder;
   {

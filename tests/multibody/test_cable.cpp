@@ -33,7 +33,7 @@ TEST_CASE("a cable's load is the gradient of its energy, taut, in its play, yiel
     const auto acted = [&](const MarkerKinematics& at) {
       ForceLoad load;
       ForceEnergies sums;
-      cable.act({i, at, {}, 0}, load, sums);
+      cable.act({i, at, {}, {}, 0}, load, sums);
       return std::pair(sums.stored_J, load);
     };
     const ForceLoad load = acted(j).second;

@@ -51,7 +51,7 @@ std::pair<double, ForceLoad> acted(const Section& section, const MarkerKinematic
                                    const MarkerKinematics& j) {
   ForceLoad load;
   ForceEnergies sums;
-  section.act({i, j, {}, 0}, load, sums);
+  section.act({i, j, {}, {}, 0}, load, sums);
   return {sums.stored_J, load};
 }
 

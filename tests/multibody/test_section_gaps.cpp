@@ -92,7 +92,7 @@ TEST_CASE("with gaps and dashpots, too, a section's load is the gradient of its 
     const auto act = [&](const MarkerKinematics& at) {
       ForceLoad load;
       ForceEnergies sums;
-      section.act({i, at, {}, 0, given(dashpots)}, load, sums);
+      section.act({i, at, {}, {}, 0, given(dashpots)}, load, sums);
       return std::pair(sums.stored_J, load);
     };
     const ForceLoad load = act(j).second;

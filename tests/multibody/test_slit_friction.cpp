@@ -61,7 +61,7 @@ class Acting {
     known.found_rates = found_rates.data();
     load = {};
     sums = {};
-    section_.act({MarkerKinematics{}, top, {}, 0, known}, load, sums);
+    section_.act({MarkerKinematics{}, top, {}, {}, 0, known}, load, sums);
     internal = found;
     rates = found_rates;
   }

@@ -106,7 +106,7 @@ TEST_CASE("reactions come in the axes of either side and as a load cell has them
   CHECK(swing.channel(2).values.row(1) == -swing.history.joint("shoulder").moment_Nm.row(1));
 }
 
-TEST_CASE("an angle counts on over full turns, and a filter keeps slow signals and its name") {
+TEST_CASE("an angle starts with that of its joint, and a filter keeps slow signals and its name") {
   const Swing swing(channel_text("angle", "marker = \"upper.top\"\naxis = [0, 1, 0]") +
                         channel_text("velocity", "marker = \"lower.tip\"\nfilter = \"CFC 60\"") +
                         channel_text("energy", ""),
@@ -119,27 +119,6 @@ TEST_CASE("an angle counts on over full turns, and a filter keeps slow signals a
   CHECK((slow.values - plain).norm() < 1e-3 * plain.norm());  // 100 Hz against a few
   const Eigen::VectorXd balance = swing.channel(2).values.row(5);
   CHECK((balance.array() - balance[0]).abs().maxCoeff() < 1e-7);
-
-  // Two turns of a marker that spins.
-  multibody::History history;
-  constexpr Eigen::Index kCount = 41;
-  history.time_s = Eigen::VectorXd::LinSpaced(kCount, 0, 1);
-  multibody::MarkerHistory marker;
-  marker.name = "wheel";
-  marker.position_m = marker.velocity_m_s = marker.acceleration_m_s2 =
-      marker.angular_velocity_rad_s = marker.angular_acceleration_rad_s2 =
-          Eigen::Matrix3Xd::Zero(3, kCount);
-  marker.rotation.resize(4, kCount);
-  for (Eigen::Index k = 0; k < kCount; ++k) {
-    const double half = 2 * std::numbers::pi * history.time_s[k];
-    marker.rotation.col(k) << std::cos(half), 0, 0, std::sin(half);
-  }
-  history.markers = {marker};
-  ChannelSpec spec;
-  spec.quantity = Quantity::angle;
-  spec.axis = Eigen::Vector3d::UnitZ();
-  const Channel angle = channel_of(history, spec, Eigen::Vector3d::Zero());
-  CHECK(angle.values(0, kCount - 1) == Approx(4 * std::numbers::pi).epsilon(kRounding));
 }
 
 TEST_CASE("channels come back from the history file") {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
 #include "multibody/files/history_file.h"
+#include "tests/support/flexneck_command.h"
 #include "tests/support/modal_files.h"
 #include "tests/support/model_reading.h"
 #include "tests/support/model_text.h"
@@ -95,6 +99,98 @@ relaxation_shares = [0.5]
     multibody::write_history(folder / "whole.h5", kept);
     CHECK_THAT(refusal_of_model(folder, restarted), Contains("the history has no states"));
   }
+}
+
+namespace {
+
+/// A wheel of 0.5 kg m^2 with a coil spring of 2 N m/rad.
+std::string coil_text(const std::string& formulation, const std::string& joint) {
+  return R"toml([solver]
+end_time = "3 s"
+relative_tolerance = 1e-10
+absolute_tolerance = 1e-13
+gravity = ["0 m/s^2", "0 m/s^2", "0 m/s^2"]
+formulation = ")toml" +
+         formulation + R"toml("
+[output]
+interval = "0.5 s"
+states = true
+[[body]]
+name = "ground"
+kind = "ground"
+[[body]]
+name = "wheel"
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["0.5 kg*m^2", "0.5 kg*m^2", "0.5 kg*m^2"]
+)toml" + testing::origin_marker_text("ground", "hub") +
+         testing::origin_marker_text("wheel", "hub") + R"toml([[joint]]
+name = "hub"
+kind = "revolute"
+lower = "ground.hub"
+upper = "wheel.hub"
+axis = [0, 0, 1]
+)toml" + joint +
+         R"toml(
+[[resistance]]
+name = "coil"
+joint = "hub"
+coordinate = "angle"
+stiffness = "2 N*m/rad"
+[[channel]]
+name = "turn"
+quantity = "angle"
+marker = "wheel.hub"
+axis = [0, 0, 1]
+)toml";
+}
+
+}  // namespace
+
+TEST_CASE("a restart keeps the turns of a wound spring, and tells that masses have changed") {
+  const TemporaryFolder folder;
+  const std::string formulation = GENERATE(as<std::string>(), "recursive", "descriptor");
+  const std::string text = coil_text(formulation, "rate = \"40 rad/s\"");
+  const auto run_into = [&](const std::string& name, const std::string& model) {
+    testing::write_test_file(folder / (name + ".toml"), model);
+    const auto outcome = testing::run_flexneck("simulate -q " + (folder / name).string() +
+                                               ".toml -o " + folder.path().string());
+    INFO(outcome.text);
+    REQUIRE(outcome.exit_code == 0);
+    return std::pair(multibody::read_history(folder / (name + ".h5")), outcome.text);
+  };
+  run_into("whole", text);
+  // At 0.5 s, after 2.7 turns.
+  const std::string restart = "[restart]\nfile = \"whole.h5\"\ntime = \"0.5 s\"\n";
+  const auto [rest, said] = run_into("rest", restart + text);
+  CHECK(said.empty());
+  for (Eigen::Index k = 0; k < rest.history.time_s.size(); ++k) {
+    const double angle = 20 * std::sin(2 * rest.history.time_s[k]);
+    CHECK(rest.channels[0].values(0, k) == Approx(angle).margin(1e-6));
+    CHECK(rest.history.energy.strain_J[k] == Approx(angle * angle).margin(1e-4));
+  }
+  std::string heavier = restart + text;
+  heavier.replace(heavier.find("1 kg"), 4, "3 kg");
+  CHECK_THAT(run_into("heavier", heavier).second,
+             Contains("body 'wheel' has other masses here (3 kg)"));
+}
+
+TEST_CASE("a joint starts at an angle of any turn, a body's rotation has none") {
+  const TemporaryFolder folder;
+  const std::string formulation = GENERATE(as<std::string>(), "recursive", "descriptor");
+  const double start = GENERATE(-1100., 400., 75.);  // deg
+  const ModelFile file =
+      read_model(folder, coil_text(formulation, "angle = \"" + std::to_string(start) + " deg\""));
+  const History history = run(file);
+  for (Eigen::Index k = 0; k < history.time_s.size(); ++k) {
+    const double angle = start * std::numbers::pi / 180 * std::cos(2 * history.time_s[k]);
+    CHECK(history.angles[0].angle_rad[k] == Approx(angle).margin(1e-6));
+    CHECK(history.energy.strain_J[k] == Approx(angle * angle).margin(1e-4));
+  }
+  std::string turned = coil_text(formulation, "");
+  turned.insert(turned.find("mass ="), "rotation = [\"0 deg\", \"0 deg\", \"400 deg\"]\n");
+  CHECK_THAT(refusal_of_model(folder, turned), Contains("6.98132 rad long, more than a full one"));
 }
 
 }  // namespace flexneck::pipeline

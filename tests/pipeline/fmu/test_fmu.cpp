@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // FMUs as an importer drives them: beside simulate, saved and restored, two at once, unloaded.
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "tests/pipeline/fmu/fmu_importer.h"
 #include "tests/support/flexneck_command.h"
@@ -351,6 +353,71 @@ TEST_CASE(
   file.put(static_cast<char>(byte ^ 1));
   file.close();
   CHECK_THROWS_WITH(FmuRun(LoadedFmu(folder / "fmu")), Contains("model.bin: expected the bytes"));
+}
+
+TEST_CASE("eight instances on eight threads have the outputs of one") {
+  const std::string formulas = GENERATE(as<std::string>(), "", kFormulas);
+  const TemporaryFolder folder;
+  LoadedFmu fmu(unpacked(folder, sled_text(kPulse) + formulas));
+  constexpr int kSteps = 200;
+  const auto outputs = [&] {
+    FmuRun run(fmu);
+    run.initialize();
+    std::vector<std::vector<double>> found = {run.get(kOutputs)};
+    for (int k = 0; k < kSteps; ++k) {
+      if (run.step(k * 5e-4, (k + 1) * 5e-4 - k * 5e-4) != fmi3OK) break;
+      found.push_back(run.get(kOutputs));
+    }
+    return found;
+  };
+  const auto alone = outputs();
+  REQUIRE(alone.size() == kSteps + 1);
+  std::array<std::vector<std::vector<double>>, 8> together;
+  {
+    std::vector<std::jthread> threads;
+    for (auto& each : together) threads.emplace_back([&] { each = outputs(); });
+  }
+  for (const auto& each : together) CHECK(each == alone);
+}
+
+TEST_CASE("an FMU counts turns within its steps") {
+  const TemporaryFolder folder;
+  const std::string spin = R"([[body]]
+name = "wheel"
+kind = "rigid"
+mass = "1 kg"
+center = ["0 m", "0 m", "0 m"]
+inertia = ["1 kg*m^2", "1 kg*m^2", "1 kg*m^2"]
+[[marker]]
+body = "wheel"
+name = "hub"
+position = ["0 m", "0 m", "0 m"]
+[[joint]]
+name = "hub"
+kind = "revolute"
+lower = "ground.rail"
+upper = "wheel.hub"
+axis = [0, 0, 1]
+rate = "330 rad/s"
+[[channel]]
+name = "turn"
+quantity = "angle"
+marker = "wheel.hub"
+axis = [0, 0, 1]
+)";
+  LoadedFmu fmu(unpacked(folder, block_text("motion", spin)));
+  FmuRun run(fmu);
+  run.initialize();
+  REQUIRE(run.step(0, 0.5) == fmi3OK);
+  CHECK(run.get("turn") == Approx(165).margin(1e-6));
+  fmi3FMUState state = run.save();
+  REQUIRE(run.step(0.5, 0.3) == fmi3OK);
+  const double end = run.get("turn");
+  CHECK(end == Approx(264).margin(1e-6));
+  run.restore(state);
+  run.free(state);
+  REQUIRE(run.step(0.5, 0.3) == fmi3OK);
+  CHECK(run.get("turn") == end);
 }
 
 }  // namespace flexneck::pipeline
