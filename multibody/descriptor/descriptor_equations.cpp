@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/descriptor/coupled_bodies.h"
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/equilibrium.h"
 #include "multibody/descriptor/initial_state.h"
@@ -127,6 +128,9 @@ class DescriptorEquations final : public Equations {
     return {system_.position_count, system_.velocity_count, system_.internal_count,
             system_.constraint_count};
   }
+  std::vector<VelocityBlock> blocks() const override {
+    return coupled_bodies(system_, equations_.forces());
+  }
   void retract(Eigen::Ref<Vector> positions,
                const Eigen::Ref<const Vector>& change) const override {
     system_.retract(positions, change);
@@ -139,7 +143,8 @@ class DescriptorEquations final : public Equations {
                 const Vector& multipliers, Vector& residual) override {
     equations_.residual(time_s, state, accelerations, multipliers, residual);
   }
-  void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const override {
+  void inertia(Eigen::SparseMatrix<double>& mass,
+               Eigen::SparseMatrix<double>& rows_transposed) const override {
     assemble_mass(equations_, mass);
     assemble_rows_transposed(equations_, rows_transposed);
   }
@@ -153,6 +158,15 @@ class DescriptorEquations final : public Equations {
       for (Index row = 0; row < equations_.joint(k).rows; ++row)
         if (solver.is_left_out(k, row)) rows.push_back(solver.joint_offset(k) + row);
   }
+  std::vector<Index> motor_rows() const override {
+    std::vector<Index> rows;
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      for (Index row = 0; row < equations_.joint(k).rows; ++row)
+        if (is_motor(equations_.joint(k), row))
+          rows.push_back(equations_.solver().joint_offset(k) + row);
+    return rows;
+  }
+  void given_velocities(std::vector<bool>& given) override { equations_.given_velocities(given); }
 
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     // The correction is of the size of the interpolation's error: with the factors from before it,

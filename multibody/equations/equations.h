@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "multibody/equations/force_set.h"
 #include "multibody/equations/solver_options.h"
@@ -51,6 +51,13 @@ class Equations {
     Eigen::Index positions, velocities, internal, constraints;
   };
   virtual Layout layout() const = 0;
+  /// Velocities that follow each other, of a body as a rule, and the blocks whose equations their
+  /// motion enters, itself among them, ascending. In layout()'s order.
+  struct VelocityBlock {
+    Eigen::Index begin, size;
+    std::vector<std::size_t> coupled;
+  };
+  virtual std::vector<VelocityBlock> blocks() const { return {{0, layout().velocities, {0}}}; }
   /// Positions moved by a displacement of the kind of velocities.
   virtual void retract(Eigen::Ref<Vector> positions,
                        const Eigen::Ref<const Vector>& change) const = 0;
@@ -64,12 +71,18 @@ class Equations {
   virtual void residual(double time_s, const Vector& state, const Vector& accelerations,
                         const Vector& multipliers, Vector& residual) = 0;
   /// Where residual() was last: its derivatives by the accelerations and by the multipliers,
-  /// (velocities, constraints).
-  virtual void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const = 0;
+  /// (velocities, constraints). Always sets the same entries.
+  virtual void inertia(Eigen::SparseMatrix<double>& mass,
+                       Eigen::SparseMatrix<double>& rows_transposed) const = 0;
   /// The rate of a state like the one whose residual() was last.
   virtual void rate(const Vector& state, const Vector& accelerations, Vector& rate) const = 0;
   /// Indices of constraints that others hold already, as of the last derivative().
   virtual void redundant_rows(std::vector<Eigen::Index>& rows) const { rows.clear(); }
+  /// Indices of constraints that are motors'.
+  virtual std::vector<Eigen::Index> motor_rows() const { return {}; }
+  /// Sets which velocities constraints alone decide, as of the last derivative(): those of bodies
+  /// that motors, prescribed bodies and joints leave no freedom.
+  virtual void given_velocities(std::vector<bool>& /*given*/) {}
 
   /// Records an interpolated state, put onto the joints first.
   virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;
