@@ -3,12 +3,12 @@
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/equilibrium.h"
 #include "multibody/descriptor/initial_state.h"
+#include "multibody/descriptor/mobility.h"
 #include "multibody/descriptor/projection.h"
 #include "multibody/descriptor/reduced_dynamics.h"
 #include "multibody/descriptor/state_error.h"
 #include "multibody/descriptor/system.h"
 #include "multibody/equations/equations.h"
-#include "multibody/numerics/independent_rows.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -124,6 +124,12 @@ class DescriptorEquations final : public Equations {
     return names;
   }
 
+  int freedoms() const override {
+    return static_cast<int>(system_.velocity_count - system_.constraint_count) +
+           static_cast<int>(equations_.solver().redundant_rows().size());
+  }
+  std::vector<std::string> doubts() const override { return doubts_of_mobility(equations_); }
+
   Layout layout() const override {
     return {system_.position_count, system_.velocity_count, system_.internal_count,
             system_.constraint_count};
@@ -216,7 +222,8 @@ class DescriptorEquations final : public Equations {
       const Violation position = violation(joint, joint.position_residual);
       const Violation velocity = violation(joint, joint.velocity_residual);
       recorder.residuals(column, position, velocity);
-      guard_.check(time_s, k, position, velocity, left_out);
+      guard_.check(time_s, k, position, velocity, left_out,
+                   [&] { return contradictory_motors(equations_); });
     }
   }
 
@@ -224,10 +231,7 @@ class DescriptorEquations final : public Equations {
   /// have it.
   void record_undetermined(Recorder& recorder) const {
     const KktSolver& solver = equations_.solver();
-    std::vector<bool> left_out(static_cast<std::size_t>(system_.constraint_count), false);
-    for (const KktSolver::RedundantRow& each : solver.redundant_rows())
-      left_out[static_cast<std::size_t>(solver.joint_offset(each.joint) + each.row)] = true;
-    const Eigen::MatrixXd free = free_multipliers(solver.rows_in_metres(), left_out);
+    const Eigen::MatrixXd free = free_multipliers(equations_);
     for (std::size_t k = 0; k < system_.joints.size(); ++k) {
       const JointRows& joint = equations_.joint(k);
       const Eigen::Matrix3d& R_i = equations_.marker(system_.joints[k].marker_i).R;

@@ -89,6 +89,11 @@ class Equations {
   virtual int evaluations() const = 0;
   /// Constraints that others hold already, as of the last evaluation.
   virtual std::vector<std::string> redundant_constraints() const { return {}; }
+  /// Independent motions that joints and motors leave, as of the last evaluation.
+  virtual int freedoms() const { return static_cast<int>(layout().velocities); }
+  /// Sentences: what the joints hold only by little, so that the model's numbers decide how it
+  /// moves.
+  virtual std::vector<std::string> doubts() const { return {}; }
 };
 
 /// The paper's form with multipliers: positions of all bodies, joints as constraints.
