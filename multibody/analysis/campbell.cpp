@@ -20,6 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// The model with the rates of its turning bodies multiplied.
 Model at_rate(Model model, double factor) {
@@ -37,7 +38,7 @@ struct ModesAtRate {
   std::vector<VectorXcd> shapes;
   /// Of the eigenvalue of each pair that has the shape: a whirl followed through zero turns over.
   std::vector<double> signed_Hz;
-  MatrixXd mass;
+  SparseMatrix mass;
   VectorXd positions;
 };
 
@@ -49,6 +50,7 @@ ModesAtRate modes_at(const Model& model, const TurningFrame& frame, const ModesA
   found.rate_Hz = frame.rate_rad_s.norm() / (2 * std::numbers::pi);
   found.positions = rotating_positions(equations, frame, start);
   ReducedDynamics reduced(equations, found.positions, 0, frame);
+  found.mass.resize(system.velocity_count, system.velocity_count);
   assemble_mass(equations, found.mass);
   const std::vector<Eigenmode> modes =
       eigenmodes_of(second_order(reduced.stiffness(), reduced.damping()), reduced.count());
@@ -64,7 +66,7 @@ ModesAtRate modes_at(const Model& model, const TurningFrame& frame, const ModesA
 }
 
 /// Modal assurance of two shapes of unit length, from 0 to 1.
-double assurance(const VectorXcd& a, const VectorXcd& b, const MatrixXd& mass) {
+double assurance(const VectorXcd& a, const VectorXcd& b, const SparseMatrix& mass) {
   return a.size() == 0 || b.size() == 0 ? 0 : std::norm(a.dot(mass * b));
 }
 

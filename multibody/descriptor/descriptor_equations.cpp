@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/descriptor/coupled_bodies.h"
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/equilibrium.h"
 #include "multibody/descriptor/initial_state.h"
+#include "multibody/descriptor/mobility.h"
 #include "multibody/descriptor/projection.h"
 #include "multibody/descriptor/reduced_dynamics.h"
 #include "multibody/descriptor/state_error.h"
 #include "multibody/descriptor/system.h"
 #include "multibody/equations/equations.h"
-#include "multibody/numerics/independent_rows.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -130,9 +131,18 @@ class DescriptorEquations final : public Equations {
     return names;
   }
 
+  int freedoms() const override {
+    return static_cast<int>(system_.velocity_count - system_.constraint_count) +
+           static_cast<int>(equations_.solver().redundant_rows().size());
+  }
+  std::vector<std::string> doubts() const override { return doubts_of_mobility(equations_); }
+
   Layout layout() const override {
     return {system_.position_count, system_.velocity_count, system_.internal_count,
             system_.constraint_count};
+  }
+  std::vector<VelocityBlock> blocks() const override {
+    return coupled_bodies(system_, equations_.forces());
   }
   void retract(Eigen::Ref<Vector> positions,
                const Eigen::Ref<const Vector>& change) const override {
@@ -146,7 +156,8 @@ class DescriptorEquations final : public Equations {
                 const Vector& multipliers, Vector& residual) override {
     equations_.residual(time_s, state, accelerations, multipliers, residual);
   }
-  void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const override {
+  void inertia(Eigen::SparseMatrix<double>& mass,
+               Eigen::SparseMatrix<double>& rows_transposed) const override {
     assemble_mass(equations_, mass);
     assemble_rows_transposed(equations_, rows_transposed);
   }
@@ -160,6 +171,15 @@ class DescriptorEquations final : public Equations {
       for (Index row = 0; row < equations_.joint(k).rows; ++row)
         if (solver.is_left_out(k, row)) rows.push_back(solver.joint_offset(k) + row);
   }
+  std::vector<Index> motor_rows() const override {
+    std::vector<Index> rows;
+    for (std::size_t k = 0; k < system_.joints.size(); ++k)
+      for (Index row = 0; row < equations_.joint(k).rows; ++row)
+        if (is_motor(equations_.joint(k), row))
+          rows.push_back(equations_.solver().joint_offset(k) + row);
+    return rows;
+  }
+  void given_velocities(std::vector<bool>& given) override { equations_.given_velocities(given); }
 
   /// The velocities are those of the step: only an explicit one has put them onto the joints.
   void accept(double time_s, const Vector& state, RunWatch& watch) override {
@@ -244,7 +264,8 @@ class DescriptorEquations final : public Equations {
       const Violation position = violation(joint, joint.position_residual);
       Violation velocity = violation(joint, joint.velocity_residual);
       visit(position, velocity);
-      guard_.check(time_s, k, position, velocity, left_out);
+      guard_.check(time_s, k, position, velocity, left_out,
+                   [&] { return contradictory_motors(equations_); });
     }
   }
 
@@ -252,10 +273,7 @@ class DescriptorEquations final : public Equations {
   /// have it.
   void record_undetermined(Recorder& recorder) const {
     const KktSolver& solver = equations_.solver();
-    std::vector<bool> left_out(static_cast<std::size_t>(system_.constraint_count), false);
-    for (const KktSolver::RedundantRow& each : solver.redundant_rows())
-      left_out[static_cast<std::size_t>(solver.joint_offset(each.joint) + each.row)] = true;
-    const Eigen::MatrixXd free = free_multipliers(solver.rows_in_metres(), left_out);
+    const Eigen::MatrixXd free = free_multipliers(equations_);
     for (std::size_t k = 0; k < system_.joints.size(); ++k) {
       const JointRows& joint = equations_.joint(k);
       const Eigen::Matrix3d& R_i = equations_.marker(system_.joints[k].marker_i).R;

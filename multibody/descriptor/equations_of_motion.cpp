@@ -39,7 +39,9 @@ EquationsOfMotion::EquationsOfMotion(const System& system, Drive drive)
       velocity_residual_(VectorXd::Zero(system.constraint_count)),
       accelerations_(VectorXd::Zero(system.velocity_count)),
       multipliers_(VectorXd::Zero(system.constraint_count)),
-      scratch_(VectorXd::Zero(system.constraint_count)) {
+      scratch_(VectorXd::Zero(system.constraint_count)),
+      probe_(VectorXd::Zero(system.velocity_count)),
+      lengths_m_(system.velocity_lengths_m()) {
   for (const FreeBody& body : system.bodies) bodies_.emplace_back(body.constants);
   std::vector<bool> active(system.markers.size(), false);
   for (const Joint& joint : system.joints) {
@@ -273,6 +275,29 @@ void EquationsOfMotion::remove_residual(const VectorXd& residual, VectorXd& chan
   change.setZero();
   scratch_ = -residual;
   solver_.solve(change, scratch_);
+}
+
+/// [M B^T; B 0] [V; .] = [M Z; 0] takes from velocities Z all that the constraints hold: of numbers
+/// Z without a pattern nothing is left where there is no freedom.
+void EquationsOfMotion::given_velocities(std::vector<bool>& given) {
+  constexpr double kNothing = 1e-6;
+  const auto number = [](Index k) { return 1.5 + std::sin(1e3 * static_cast<double>(k + 1)); };
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const FreeBody& body = system_.bodies[b];
+    auto load = probe_.segment(body.velocity, body.constants.velocity_count());
+    load.setZero();
+    for (Index k = 0; k < load.size(); ++k)
+      load += number(body.velocity + k) / lengths_m_[body.velocity + k] * bodies_[b].mass.col(k);
+  }
+  scratch_.setZero();
+  solver_.solve(probe_, scratch_);
+  for (const FreeBody& body : system_.bodies) {
+    const Index size = body.constants.velocity_count();
+    const auto left = probe_.segment(body.velocity, size).array();
+    const bool is_given =
+        (left * lengths_m_.segment(body.velocity, size).array()).abs().maxCoeff() < kNothing;
+    for (Index k = 0; k < size; ++k) given[static_cast<std::size_t>(body.velocity + k)] = is_given;
+  }
 }
 
 void EquationsOfMotion::update_idle_markers(const ConstVector& velocities) {

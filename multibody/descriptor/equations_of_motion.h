@@ -61,6 +61,9 @@ class EquationsOfMotion {
 
   /// Solves [M B^T; B 0] [change; .] = [0; -residual]: the smallest change in the mass metric.
   void remove_residual(const Eigen::VectorXd& residual, Eigen::VectorXd& change);
+  /// Sets which velocities the constraints of the last factorisation leave no freedom, body by
+  /// body.
+  void given_velocities(std::vector<bool>& given);
   /// Markers that neither joint nor force touches, after set_velocities().
   void update_idle_markers(const ConstVector& velocities);
 
@@ -113,6 +116,7 @@ class EquationsOfMotion {
   Eigen::VectorXd position_residual_, velocity_residual_;
   Eigen::VectorXd accelerations_, multipliers_;
   Eigen::VectorXd scratch_;
+  Eigen::VectorXd probe_, lengths_m_;  ///< of given_velocities()
   int evaluations_ = 0;
 };
 

@@ -227,13 +227,19 @@ bool is_length(const JointRows& joint, Index row) {
   return joint.coordinates[k].per_distance != 0;
 }
 
+bool is_motor(const JointRows& joint, Index row) {
+  if (row < joint.first_coordinate()) return false;
+  return joint.coordinates[static_cast<std::size_t>(row - joint.first_coordinate())].motor !=
+         nullptr;
+}
+
 std::string name_of_row(const JointRows& joint, Index row) {
   if (row < joint.translation_rows) return "position row " + std::to_string(row + 1);
   if (row < joint.first_coordinate())
     return "orientation row " + std::to_string(row - joint.translation_rows + 1);
-  const JointMotor* const motor =
-      joint.coordinates[static_cast<std::size_t>(row - joint.first_coordinate())].motor;
-  return motor != nullptr ? "motor '" + motor->name + "'" : "row of the screw";
+  if (!is_motor(joint, row)) return "row of the screw";
+  const auto k = static_cast<std::size_t>(row - joint.first_coordinate());
+  return "motor '" + joint.coordinates[k].motor->name + "'";
 }
 
 Violation violation(const JointRows& joint, const RowVector& residual) {

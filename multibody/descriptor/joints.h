@@ -74,6 +74,8 @@ void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRo
 /// Whether a row's residual is in metres, else in radians.
 bool is_length(const JointRows& joint, Eigen::Index row);
 
+bool is_motor(const JointRows& joint, Eigen::Index row);
+
 /// "position row 1", for messages.
 std::string name_of_row(const JointRows& joint, Eigen::Index row);
 

@@ -15,9 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Shares of their diagonals to which pivots of S fall: a row that is left out has become
-/// independent above the first (the square of what dependent_rows() allows); below the second a
-/// kept row has lost half of its digits.
+/// Shares of their diagonals to which pivots of S fall: a row that is left out may have become
+/// independent above the first (the square of kDependent); below the second a kept row has lost
+/// half of its digits.
 constexpr double kIndependent = 1e-11;
 constexpr double kLost = 1e-8;
 
@@ -57,6 +57,8 @@ KktSolver::KktSolver(const std::vector<Index>& body_sizes, const std::vector<Joi
     blocks += k - joints_[k].first + 1;
   }
   schur_.resize(blocks);
+  row_ = VectorXd::Zero(velocity_count_);
+  no_rates_ = VectorXd::Zero(constraint_count_);
 }
 
 KktSolver::Block& KktSolver::block(std::size_t row_joint, std::size_t column_joint) {
@@ -96,7 +98,8 @@ void KktSolver::factorise() {
       solve_lower(bodies_[joint.place.body_j].factor, joint.Y_j);
   }
   Pivots pivots = factorise_schur_complement();
-  if ((pivots.lost || pivots.appeared) && choose_rows()) pivots = factorise_schur_complement();
+  if ((pivots.lost || (pivots.appeared && !left_out_depend())) && choose_rows())
+    pivots = factorise_schur_complement();
   weighted_ = pivots.lost;
   if (weighted_) factorise_weighted();
 }
@@ -163,13 +166,49 @@ void KktSolver::factorise_diagonal(const JointBlock& joint, const RowVector& bef
   }
 }
 
+void KktSolver::copy_row(const JointBlock& joint, Index row, VectorXd& to) const {
+  to.setZero();
+  const auto add = [&](std::size_t body, const TransposedRows& Y) {
+    if (body != JointPlace::kNoBody) to.segment(bodies_[body].offset, Y.rows()) += Y.col(row);
+  };
+  add(joint.place.body_i, joint.Y_i);
+  add(joint.place.body_j, joint.Y_j);
+}
+
+double KktSolver::length_m(const VectorXd& z) const {
+  double squares = 0;
+  for (const BodyBlock& body : bodies_)
+    for (Index r = 0; r < body.factor.rows(); ++r) {
+      const auto L_r = body.factor.row(r).head(r);
+      const double of_velocity =
+          z[body.offset + r] / body.factor(r, r) + L_r.dot(z.segment(body.offset, r));
+      squares += std::pow(of_velocity / lengths_m_[body.offset + r], 2);
+    }
+  return std::sqrt(squares);
+}
+
+/// A row less the combination of kept ones that is nearest in the mass metric: no combination
+/// leaves more than the nearest one in metres would have to.
+bool KktSolver::left_out_depend() {
+  for (const JointBlock& joint : joints_)
+    for (Index r = 0; r < joint.place.rows; ++r) {
+      if (!joint.left_out[static_cast<std::size_t>(r)]) continue;
+      copy_row(joint, r, row_);
+      const double length = length_m(row_);
+      no_rates_.setZero();
+      solve_by_schur_complement(row_, no_rates_);
+      if (!(length_m(row_) <= kDependent * length)) return false;
+    }
+  return true;
+}
+
 bool KktSolver::choose_rows() {
-  const std::vector<bool> dependent = dependent_rows(rows_in_metres());
+  const VectorXd shares = independent_shares(rows_in_metres());
   bool changed = false;
   for (JointBlock& joint : joints_)
     for (Index r = 0; r < joint.place.rows; ++r) {
       bool& left_out = joint.left_out[static_cast<std::size_t>(r)];
-      const bool now = dependent[static_cast<std::size_t>(joint.offset + r)];
+      const bool now = shares[joint.offset + r] == 0;
       changed |= left_out != now;
       left_out = now;
     }
@@ -194,8 +233,8 @@ void KktSolver::factorise_weighted() {
 }
 
 /// B^T = L Y.
-MatrixXd KktSolver::rows_in_metres() const {
-  MatrixXd rows = MatrixXd::Zero(velocity_count_, constraint_count_);
+Eigen::SparseMatrix<double> KktSolver::rows_in_metres() const {
+  std::vector<Eigen::Triplet<double>> entries;
   for (const JointBlock& joint : joints_) {
     const auto add = [&](std::size_t body, const TransposedRows& Y) {
       if (body == JointPlace::kNoBody) return;
@@ -203,13 +242,16 @@ MatrixXd KktSolver::rows_in_metres() const {
       for (Index r = 0; r < Y.rows(); ++r) {
         RowVector row = Y.row(r).transpose() / of.factor(r, r);
         for (Index k = 0; k < r; ++k) row += of.factor(r, k) * Y.row(k).transpose();
-        rows.row(of.offset + r).segment(joint.offset, joint.place.rows) =
-            row.head(joint.place.rows).transpose() / lengths_m_[of.offset + r];
+        for (Index c = 0; c < joint.place.rows; ++c)
+          entries.emplace_back(static_cast<int>(of.offset + r), static_cast<int>(joint.offset + c),
+                               row[c] / lengths_m_[of.offset + r]);
       }
     };
     add(joint.place.body_i, joint.Y_i);
     add(joint.place.body_j, joint.Y_j);
   }
+  Eigen::SparseMatrix<double> rows(velocity_count_, constraint_count_);
+  rows.setFromTriplets(entries.begin(), entries.end());
   return rows;
 }
 

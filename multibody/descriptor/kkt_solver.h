@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "multibody/descriptor/joints.h"
 #include "multibody/numerics/weighted_elimination.h"
@@ -24,9 +24,10 @@ struct JointPlace {
 /// M = L L^T the joints are left with S = Y^T Y, Y = L^-1 B^T, which is factorised inside its
 /// envelope in blocks of a joint by a joint, padded to full size. This is LDL^T without pivoting,
 /// safe because the matrix is quasi-definite. A row that depends on those before it
-/// (independent_rows.h) is left out: its multiplier is zero. Pivots of S only tell when that has to
-/// be looked at again, and when masses differ so much that S has too few digits left: then
-/// WeightedElimination solves.
+/// (independent_rows.h) is left out: its multiplier is zero. Which these are is found once. Pivots
+/// of S tell when a kept row may have come to depend, and when masses differ so much that S has too
+/// few digits left: then WeightedElimination solves. Where rounding may be what is left of a row
+/// that is left out, as in long loops, the row itself is looked at.
 class KktSolver {
  public:
   /// @param lengths_m  (velocities) by which a unit of each moves its body: measures rows
@@ -57,7 +58,7 @@ class KktSolver {
     return joints_[joint].left_out[static_cast<std::size_t>(row)];
   }
   /// B^T of the last factorisation with velocities in m/s, (velocity_count, constraint_count).
-  Eigen::MatrixXd rows_in_metres() const;
+  Eigen::SparseMatrix<double> rows_in_metres() const;
   /// Whether S of the last factorisation had enough digits.
   bool is_well_scaled() const { return !weighted_; }
 
@@ -86,7 +87,7 @@ class KktSolver {
   /// What the pivots of S say about the rows.
   struct Pivots {
     bool lost = false;      ///< of a row that is kept too small a share is left
-    bool appeared = false;  ///< one that is left out has become independent
+    bool appeared = false;  ///< one that is left out may have become independent
   };
 
   void add_meetings(std::size_t row_joint);
@@ -97,6 +98,12 @@ class KktSolver {
                                  Pivots& pivots);
   /// @return whether other rows are left out than before.
   bool choose_rows();
+  /// Whether those that are left out still depend on the others, as the factors of these tell.
+  bool left_out_depend();
+  /// Y^T of a row into `to`, (velocity_count).
+  void copy_row(const JointBlock& joint, Eigen::Index row, Eigen::VectorXd& to) const;
+  /// ||L z|| in metres.
+  double length_m(const Eigen::VectorXd& z) const;
   void factorise_weighted();
   void solve_weighted(Eigen::Ref<Eigen::VectorXd> z, Eigen::Ref<Eigen::VectorXd> s);
   void solve_by_schur_complement(Eigen::Ref<Eigen::VectorXd> z, Eigen::Ref<Eigen::VectorXd> s);
@@ -112,6 +119,7 @@ class KktSolver {
   WeightedElimination weighted_elimination_;
   bool weighted_ = false;           ///< it has the factors
   std::vector<Eigen::Index> kept_;  ///< its constraints
+  Eigen::VectorXd row_, no_rates_;  ///< room for left_out_depend()
 };
 
 }  // namespace flexneck::multibody

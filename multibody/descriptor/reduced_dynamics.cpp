@@ -19,6 +19,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// Extent of the displacements that differences are taken over: their error, of second order in it,
 /// and rounding are then both about 1e-11 of the result.
@@ -36,26 +37,28 @@ std::vector<Index> independent(const EquationsOfMotion& equations) {
 
 }  // namespace
 
-void assemble_mass(const EquationsOfMotion& equations, MatrixXd& M) {
+void assemble_mass(const EquationsOfMotion& equations, SparseMatrix& M) {
   const System& system = equations.system();
-  M.setZero(system.velocity_count, system.velocity_count);
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    const FreeBody& body = system.bodies[b];
-    const Index size = body.constants.velocity_count();
-    M.block(body.velocity, body.velocity, size, size) = equations.body(b).mass;
+    const MatrixXd& mass = equations.body(b).mass;
+    const Index begin = system.bodies[b].velocity;
+    for (Index c = 0; c < mass.cols(); ++c)
+      for (Index r = 0; r < mass.rows(); ++r) M.coeffRef(begin + r, begin + c) = mass(r, c);
   }
 }
 
-void assemble_rows_transposed(const EquationsOfMotion& equations, MatrixXd& B_transposed) {
+void assemble_rows_transposed(const EquationsOfMotion& equations, SparseMatrix& B_transposed) {
   const System& system = equations.system();
-  B_transposed.setZero(system.velocity_count, system.constraint_count);
+  for (Index c = 0; c < B_transposed.cols(); ++c)
+    for (SparseMatrix::InnerIterator each(B_transposed, c); each; ++each) each.valueRef() = 0;
   for (std::size_t k = 0; k < system.joints.size(); ++k) {
     const JointRows& joint = equations.joint(k);
-    const Index column = equations.solver().joint_offset(k);
+    const Index first = equations.solver().joint_offset(k);
     const auto add = [&](std::size_t body, const TransposedRows& rows) {
       if (body == JointPlace::kNoBody) return;
-      B_transposed.block(system.bodies[body].velocity, column, rows.rows(), joint.rows) +=
-          rows.leftCols(joint.rows);
+      for (Index c = 0; c < joint.rows; ++c)
+        for (Index r = 0; r < rows.rows(); ++r)
+          B_transposed.coeffRef(system.bodies[body].velocity + r, first + c) += rows(r, c);
     };
     add(system.places[k].body_i, joint.B_i);
     add(system.places[k].body_j, joint.B_j);
@@ -73,11 +76,13 @@ ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& p
   equations_.set_positions(time_s_, origin_);
   if (origin_.size() == 0) return;
   // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
-  MatrixXd M;
-  MatrixXd all_rows;
-  assemble_mass(equations_, M);
+  const System& system = equations_.system();
+  SparseMatrix mass(system.velocity_count, system.velocity_count);
+  SparseMatrix all_rows(system.velocity_count, system.constraint_count);
+  assemble_mass(equations_, mass);
   assemble_rows_transposed(equations_, all_rows);
-  MatrixXd rows = all_rows(Eigen::all, independent(equations_));
+  const MatrixXd M = mass;
+  MatrixXd rows = MatrixXd(all_rows)(Eigen::all, independent(equations_));
   const Eigen::LLT<MatrixXd> cholesky(M);
   const Index free = M.rows() - rows.cols();
   N_ = MatrixXd::Zero(M.rows(), free);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/projection.h"
@@ -11,10 +11,11 @@
 
 namespace flexneck::multibody {
 
-/// M, (velocity_count, velocity_count), of equations whose positions are updated.
-void assemble_mass(const EquationsOfMotion& equations, Eigen::MatrixXd& M);
-/// B^T, (velocity_count, constraint_count), of equations whose positions are updated.
-void assemble_rows_transposed(const EquationsOfMotion& equations, Eigen::MatrixXd& B_transposed);
+/// Sets M's blocks, (velocity_count, velocity_count), of equations whose positions are updated.
+void assemble_mass(const EquationsOfMotion& equations, Eigen::SparseMatrix<double>& M);
+/// Sets B^T's, (velocity_count, constraint_count).
+void assemble_rows_transposed(const EquationsOfMotion& equations,
+                              Eigen::SparseMatrix<double>& B_transposed);
 
 /// A frame that turns evenly about an axis fixed in the world, along its rate and through a point.
 /// By default one at rest.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "multibody/equations/force_set.h"
 #include "multibody/equations/solver_options.h"
@@ -52,6 +52,13 @@ class Equations {
     Eigen::Index positions, velocities, internal, constraints;
   };
   virtual Layout layout() const = 0;
+  /// Velocities that follow each other, of a body as a rule, and the blocks whose equations their
+  /// motion enters, itself among them, ascending. In layout()'s order.
+  struct VelocityBlock {
+    Eigen::Index begin, size;
+    std::vector<std::size_t> coupled;
+  };
+  virtual std::vector<VelocityBlock> blocks() const { return {{0, layout().velocities, {0}}}; }
   /// Positions moved by a displacement of the kind of velocities.
   virtual void retract(Eigen::Ref<Vector> positions,
                        const Eigen::Ref<const Vector>& change) const = 0;
@@ -65,12 +72,18 @@ class Equations {
   virtual void residual(double time_s, const Vector& state, const Vector& accelerations,
                         const Vector& multipliers, Vector& residual) = 0;
   /// Where residual() was last: its derivatives by the accelerations and by the multipliers,
-  /// (velocities, constraints).
-  virtual void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& rows_transposed) const = 0;
+  /// (velocities, constraints). Always sets the same entries.
+  virtual void inertia(Eigen::SparseMatrix<double>& mass,
+                       Eigen::SparseMatrix<double>& rows_transposed) const = 0;
   /// The rate of a state like the one whose residual() was last.
   virtual void rate(const Vector& state, const Vector& accelerations, Vector& rate) const = 0;
   /// Indices of constraints that others hold already, as of the last derivative().
   virtual void redundant_rows(std::vector<Eigen::Index>& rows) const { rows.clear(); }
+  /// Indices of constraints that are motors'.
+  virtual std::vector<Eigen::Index> motor_rows() const { return {}; }
+  /// Sets which velocities constraints alone decide, as of the last derivative(): those of bodies
+  /// that motors, prescribed bodies and joints leave no freedom.
+  virtual void given_velocities(std::vector<bool>& /*given*/) {}
 
   /// Behind an accepted step, and at the start of a run: whether joints hold and bodies deform
   /// within reason. Counts the turns of joints on. @throws ComputationError of a guard that ends
@@ -86,6 +99,11 @@ class Equations {
   virtual int evaluations() const = 0;
   /// Constraints that others hold already, as of the last evaluation.
   virtual std::vector<std::string> redundant_constraints() const { return {}; }
+  /// Independent motions that joints and motors leave, as of the last evaluation.
+  virtual int freedoms() const { return static_cast<int>(layout().velocities); }
+  /// Sentences: what the joints hold only by little, so that the model's numbers decide how it
+  /// moves.
+  virtual std::vector<std::string> doubts() const { return {}; }
 };
 
 /// The paper's form with multipliers: positions of all bodies, joints as constraints.

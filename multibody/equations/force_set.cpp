@@ -61,6 +61,17 @@ ForceSet::ForceSet(const Model& model)
   });
 }
 
+std::vector<std::vector<std::size_t>> ForceSet::markers_of_elements() const {
+  std::vector<std::vector<std::size_t>> markers;
+  model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
+    for (const Kind& element : elements) {
+      const auto of_element = element.markers(model_.joints);
+      markers.emplace_back(of_element.begin(), of_element.end());
+    }
+  });
+  return markers;
+}
+
 std::string ForceSet::name_of_piece(std::size_t index) const {
   std::string who;
   std::string_view what =

@@ -34,6 +34,8 @@ class ForceSet {
 
   /// The markers that forces touch, distinct; slot k belongs to markers()[k].
   const std::vector<std::size_t>& markers() const { return markers_; }
+  /// The markers of each force element: on their motion its loads depend.
+  std::vector<std::vector<std::size_t>> markers_of_elements() const;
   ForceMarker& slot(std::size_t k) { return slots_[k]; }
   const ForceMarker& slot(std::size_t k) const { return slots_[k]; }
 

@@ -233,6 +233,9 @@ HistoryFile read_history(const std::filesystem::path& path) {
                         values = read_vector(reader, path_of(kConstraints, name), times, unit);
                       });
   history.statistics = read_statistics(reader);
+  if (has_attribute(reader, kStatistics, kFreedoms))
+    history.freedoms = count_from(reader, path_of(kStatistics, kFreedoms),
+                                  reader.integer_attribute(kStatistics, kFreedoms));
   if (reader.has(kRedundant)) history.redundant_constraints = reader.read_strings(kRedundant);
   if (reader.has(kWarnings)) history.warnings = reader.read_strings(kWarnings);
   if (has_attribute(reader, kStatistics, kIncomplete))

@@ -29,6 +29,7 @@ inline constexpr const char* kLinearisation = "/linearisation";
 inline constexpr const char* kIndex = "index";
 inline constexpr const char* kUndetermined = "undetermined";
 inline constexpr const char* kIncomplete = "incomplete";
+inline constexpr const char* kFreedoms = "freedoms";
 inline constexpr const char* kRedundant = "/statistics/redundant_constraints";
 inline constexpr const char* kWarnings = "/statistics/warnings";
 inline constexpr const char* kLimits = "/statistics/step_limits";

@@ -160,6 +160,8 @@ void write_linearisation(Hdf5Writer& file, const LinearisationRecord& record) {
 void write_run(Hdf5Writer& file, const HistoryFile& run) {
   const History& history = run.history;
   write_statistics(file, history.statistics);
+  if (history.freedoms >= 0)
+    file.write_attribute(kStatistics, kFreedoms, std::int64_t{history.freedoms});
   if (!history.redundant_constraints.empty()) file.write(kRedundant, history.redundant_constraints);
   if (!history.warnings.empty()) file.write(kWarnings, history.warnings);
   if (!history.incomplete.empty())

@@ -107,8 +107,8 @@ void archive(A& all, PrescribedBody& x) {
 }
 template <class A>
 void archive(A& all, Body& x) {
-  auto& [name, kind, pose, velocity, angular_velocity] = x;
-  all(name, kind, pose, velocity, angular_velocity);
+  auto& [name, kind, pose, velocity, angular_velocity, velocities_are_open] = x;
+  all(name, kind, pose, velocity, angular_velocity, velocities_are_open);
 }
 template <class A>
 void archive(A& all, Marker& x) {

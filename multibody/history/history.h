@@ -109,6 +109,9 @@ struct History {
   EnergyHistory energy;
   ConstraintHistory constraints;
   StepStatistics statistics;
+  /// Independent motions that joints and motors leave at the start; negative: not known. Less the
+  /// redundant constraints it is Gruebler's count.
+  int freedoms = -1;
   /// Constraints left out at the start because others hold the same, such as "joint 'a', row 4".
   std::vector<std::string> redundant_constraints;
   std::string incomplete;  ///< why the run ended early; empty as a rule

@@ -218,8 +218,11 @@ void Recorder::undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& c
   undetermined_[joint] = undetermined_[joint] || components;
 }
 
-void Recorder::redundant(std::vector<std::string> constraints) {
-  history_.redundant_constraints = std::move(constraints);
+void Recorder::mobility(int freedoms, std::vector<std::string> redundant,
+                        std::vector<std::string> doubts) {
+  history_.freedoms = freedoms;
+  history_.redundant_constraints = std::move(redundant);
+  history_.warnings = std::move(doubts);
 }
 
 History Recorder::take() {
@@ -231,7 +234,7 @@ History Recorder::take() {
       std::string& text = history_.joints[k].undetermined;
       text += (text.empty() ? "" : ", ") + std::string(kNames[c]);
     }
-  history_.warnings = watch_.warnings();
+  for (const std::string& warning : watch_.warnings()) history_.warnings.push_back(warning);
   return std::move(history_);
 }
 

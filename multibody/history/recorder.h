@@ -77,7 +77,8 @@ class Recorder {
   /// Adds to what is undetermined of a joint's reaction.
   /// @param components  of force and moment in marker i's axes
   void undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& components);
-  void redundant(std::vector<std::string> constraints);
+  /// At the start: freedoms, redundant constraints, and sentences on what is in doubt.
+  void mobility(int freedoms, std::vector<std::string> redundant, std::vector<std::string> doubts);
   History take();
   /// The columns before this one only, for a run that ended early.
   History take_incomplete(Eigen::Index column, const std::string& why);

@@ -13,8 +13,8 @@ constexpr double kTolerance = 1e-6;
 /// A system without extent, such as a point on a ball joint.
 constexpr double kSmallestSize_m = 1e-3;
 
-/// What rounding leaves of a residual whatever the tolerance, of the system's size or speed, and of
-/// a distance from the world's origin.
+/// What rounding leaves of a residual whatever the tolerance, of the system's size or speed, of its
+/// size in a second at rest, and of a distance from the world's origin.
 constexpr double kRounding = 1e-11;
 constexpr double kDigits = 1e-13;
 /// Of a start that just fits, added up over a motion, for rows that are left out.
@@ -37,12 +37,15 @@ void check_positions(const Model& model, std::size_t joint, const Violation& fou
   refuse(model.joints[joint], model, problem.str());
 }
 
+bool velocities_fit(const Violation& found, double size_m, double speed_m_s) {
+  const double size = std::max(size_m, kSmallestSize_m);
+  const double allowed = kTolerance * speed_m_s + kRounding * size;
+  return found.translation <= allowed && size * found.rotation <= allowed;
+}
+
 void check_velocities(const Model& model, std::size_t joint, const Violation& found, double size_m,
                       double speed_m_s) {
-  const double size = std::max(size_m, kSmallestSize_m);
-  if (found.translation <= kTolerance * speed_m_s &&
-      size * found.rotation <= kTolerance * speed_m_s)
-    return;
+  if (velocities_fit(found, size_m, speed_m_s)) return;
   std::ostringstream problem;
   problem << "at the start the markers part with " << found.translation << " m/s and "
           << found.rotation << " rad/s; give the bodies velocities that fit the joint";
@@ -61,7 +64,8 @@ void JointGuard::see(const Eigen::Vector3d& position_m, const Eigen::Vector3d& v
 }
 
 void JointGuard::check(double time_s, std::size_t joint, const Violation& position,
-                       const Violation& velocity, bool left_out) const {
+                       const Violation& velocity, bool left_out,
+                       const std::function<std::string()>& cause) const {
   const double relative = tolerance_.relative + (left_out ? kLeftOut : 0);
   const double length = tolerance_.absolute + relative * size_m_ + kDigits * reach_m_;
   const double angle = tolerance_.absolute + relative;
@@ -75,9 +79,10 @@ void JointGuard::check(double time_s, std::size_t joint, const Violation& positi
           << " s: its markers miss each other by " << position.translation << " m and "
           << position.rotation << " rad and part with " << velocity.translation << " m/s and "
           << velocity.rotation << " rad/s, where the run's tolerances allow " << length << " m, "
-          << angle << " rad and " << speed
-          << " m/s; what follows would be wrong. The joints may be nearly singular there; smaller "
-             "tolerances may help";
+          << angle << " rad and " << speed << " m/s; what follows would be wrong. ";
+  const std::string known = cause ? cause() : "";
+  problem << (known.empty() ? "The joints may be nearly singular there; smaller tolerances may help"
+                            : known);
   throw ComputationError(problem.str());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "multibody/model/model.h"
@@ -19,8 +20,10 @@ struct Violation {
 /// @param size_m  of the system
 /// @throws InputError naming the joint and how far its markers are apart.
 void check_positions(const Model& model, std::size_t joint, const Violation& found, double size_m);
-/// Or by 1e-6 of the largest speed in the system.
-/// @throws InputError naming the joint and how fast its markers part.
+/// Or by 1e-6 of the largest speed in the system, and by what rounding leaves of the rates of
+/// motions at rest.
+bool velocities_fit(const Violation& found, double size_m, double speed_m_s);
+/// @throws InputError naming the joint and how fast its markers part if they do not fit.
 void check_velocities(const Model& model, std::size_t joint, const Violation& found, double size_m,
                       double speed_m_s);
 
@@ -44,9 +47,10 @@ class JointGuard {
   void see(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
            const Eigen::Vector3d& angular_velocity_rad_s);
   /// @param left_out  rows of it, or of a joint that could make up for it
+  /// @param cause     tells why a joint may not hold, if that is known; else empty
   /// @throws ComputationError naming the joint, by how much it misses and when.
   void check(double time_s, std::size_t joint, const Violation& position, const Violation& velocity,
-             bool left_out) const;
+             bool left_out, const std::function<std::string()>& cause = {}) const;
 
  private:
   const Model& model_;

@@ -75,6 +75,9 @@ struct Body {
   Pose initial_pose;
   Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();  ///< of the origin, world
   Eigen::Vector3d initial_angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< body axes
+  /// Nobody gives these velocities: where joints and motors ask for others, they become the nearest
+  /// that fit.
+  bool velocities_are_open = false;
 };
 
 /// A frame on a body: on a rigid or prescribed body anywhere, on a deformable one at an interface,

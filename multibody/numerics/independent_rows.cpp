@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/numerics/independent_rows.h"
 
-#include <algorithm>
+#include <cmath>
+#include <numeric>
 
-#include <Eigen/QR>
+#include <Eigen/SparseQR>
 
 namespace flexneck::multibody {
 namespace {
@@ -11,43 +12,98 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double kDependent = 3e-6;
+/// Columns in the order given; those that depend on the ones before are moved to the end.
+using Factors = Eigen::SparseQR<Matrix, Eigen::NaturalOrdering<int>>;
+
+/// New places of rows.
+struct RowOrder {
+  std::vector<int> place;  ///< -1: the row is left away
+  int count = 0;
+};
+
+/// Each chosen column's pivot is in a row that it touches, so that the factors are as sparse as the
+/// columns are. Rows that none touches, which the factorisation does not know, are left away.
+RowOrder pivot_order(const Matrix& matrix, const std::vector<Index>& chosen) {
+  RowOrder order{std::vector<int>(static_cast<std::size_t>(matrix.rows()), -1)};
+  for (const bool is_pivot : {true, false})
+    for (const Index column : chosen)
+      for (Matrix::InnerIterator each(matrix, column); each; ++each) {
+        int& place = order.place[static_cast<std::size_t>(each.row())];
+        if (place >= 0) continue;
+        place = order.count++;
+        if (is_pivot) break;
+      }
+  return order;
+}
+
+/// Chosen columns, each divided by its length.
+Matrix scaled_columns(const Matrix& from, const std::vector<Index>& chosen, const RowOrder& order,
+                      const VectorXd& lengths) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(from.nonZeros()));
+  for (std::size_t c = 0; c < chosen.size(); ++c)
+    for (Matrix::InnerIterator each(from, chosen[c]); each; ++each) {
+      const int row = order.place[static_cast<std::size_t>(each.row())];
+      if (row >= 0)
+        entries.emplace_back(row, static_cast<int>(c), each.value() / lengths[chosen[c]]);
+    }
+  Matrix to(order.count, static_cast<Index>(chosen.size()));
+  to.setFromTriplets(entries.begin(), entries.end());
+  return to;
+}
+
+/// One of a column of zeros.
+VectorXd column_lengths(const Matrix& matrix) {
+  VectorXd lengths(matrix.cols());
+  for (Index c = 0; c < matrix.cols(); ++c) {
+    const double length = matrix.col(c).norm();
+    lengths[c] = length > 0 ? length : 1;
+  }
+  return lengths;
+}
 
 }  // namespace
 
-std::vector<bool> dependent_rows(const MatrixXd& rows_transposed) {
-  const Index count = rows_transposed.cols();
-  // Gram and Schmidt's method, each row made orthogonal twice against rounding.
-  MatrixXd basis(rows_transposed.rows(), std::min(rows_transposed.rows(), count));
-  Index rank = 0;
-  std::vector<bool> dependent(static_cast<std::size_t>(count), true);
-  for (Index k = 0; k < count && rank < basis.cols(); ++k) {
-    VectorXd left = rows_transposed.col(k);
-    const double length = left.norm();
-    for (int pass = 0; pass < 2; ++pass) {
-      const VectorXd shares = basis.leftCols(rank).transpose() * left;
-      left.noalias() -= basis.leftCols(rank) * shares;
-    }
-    if (left.norm() <= kDependent * length) continue;
-    dependent[static_cast<std::size_t>(k)] = false;
-    basis.col(rank++) = left.normalized();
-  }
-  return dependent;
+VectorXd independent_shares(const Matrix& rows_transposed) {
+  VectorXd shares = VectorXd::Zero(rows_transposed.cols());
+  std::vector<Index> all(static_cast<std::size_t>(rows_transposed.cols()));
+  std::iota(all.begin(), all.end(), Index{0});
+  const Matrix scaled = scaled_columns(rows_transposed, all, pivot_order(rows_transposed, all),
+                                       column_lengths(rows_transposed));
+  if (scaled.rows() == 0) return shares;
+  // The caller sees what is not a number in its result.
+  if (!scaled.coeffs().allFinite()) return VectorXd::Ones(shares.size());
+  Factors factors;
+  factors.setPivotThreshold(kDependent);
+  factors.compute(scaled);
+  for (Index k = 0; k < factors.rank(); ++k)
+    shares[factors.colsPermutation().indices()[k]] = std::abs(factors.matrixR().coeff(k, k));
+  return shares;
 }
 
-MatrixXd free_multipliers(const MatrixXd& rows_transposed, const std::vector<bool>& dependent) {
+MatrixXd free_multipliers(const Matrix& rows_transposed, const std::vector<bool>& dependent) {
   std::vector<Index> kept;
   std::vector<Index> repeated;
   for (Index k = 0; k < rows_transposed.cols(); ++k)
     (dependent[static_cast<std::size_t>(k)] ? repeated : kept).push_back(k);
   MatrixXd multipliers =
       MatrixXd::Zero(rows_transposed.cols(), static_cast<Index>(repeated.size()));
-  if (repeated.empty()) return multipliers;
-  const Eigen::ColPivHouseholderQR<MatrixXd> factors(rows_transposed(Eigen::all, kept));
-  multipliers(kept, Eigen::all) = -factors.solve(rows_transposed(Eigen::all, repeated));
   for (std::size_t c = 0; c < repeated.size(); ++c)
     multipliers(repeated[c], static_cast<Index>(c)) = 1;
+  if (repeated.empty() || kept.empty()) return multipliers;
+  const VectorXd lengths = column_lengths(rows_transposed);
+  Factors factors;
+  factors.setPivotThreshold(0);
+  const RowOrder order = pivot_order(rows_transposed, kept);
+  factors.compute(scaled_columns(rows_transposed, kept, order, lengths));
+  const MatrixXd right =
+      scaled_columns(rows_transposed, repeated, order, VectorXd::Ones(lengths.size()));
+  MatrixXd shares = factors.solve(right);
+  for (Index r = 0; r < shares.rows(); ++r)
+    shares.row(r) /= -lengths[kept[static_cast<std::size_t>(r)]];
+  multipliers(kept, Eigen::all) = shares;
   return multipliers;
 }
 

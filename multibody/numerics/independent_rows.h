@@ -3,20 +3,24 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 namespace flexneck::multibody {
 
-/// Which constraint rows depend on those before them: what is left of a row across the rows kept
-/// before it is below 3e-6 of it, about as much as rounded input may turn it (joint_check.h).
-/// Geometry alone decides; masses play no part.
+/// What is left of a constraint row across others below which it depends on them, as a share of the
+/// row: about as much as rounded input may turn it (joint_check.h).
+inline constexpr double kDependent = 3e-6;
+
+/// Of each constraint row what is left of it across the independent rows before it, as a share of
+/// the row; zero of those that depend on these, of which no more than kDependent is left. Geometry
+/// alone decides; masses play no part. By a sparse QR factorisation: work in proportion to the
+/// number of rows where joints make chains, rings and trees.
 /// @param rows_transposed  B^T with each velocity in metres, one column a row of B
-/// @return of each row whether it depends
-std::vector<bool> dependent_rows(const Eigen::MatrixXd& rows_transposed);
+Eigen::VectorXd independent_shares(const Eigen::SparseMatrix<double>& rows_transposed);
 
 /// The multipliers that move nothing, B^T lambda = 0: a column for each dependent row, where its
 /// multiplier is one.
-Eigen::MatrixXd free_multipliers(const Eigen::MatrixXd& rows_transposed,
+Eigen::MatrixXd free_multipliers(const Eigen::SparseMatrix<double>& rows_transposed,
                                  const std::vector<bool>& dependent);
 
 }  // namespace flexneck::multibody

@@ -137,7 +137,9 @@ class Run {
       recorder_.begin(next_);
       equations_.record(at, output_state_, recorder_, next_);
       recorder_.look(next_);
-      if (next_ == 0) recorder_.redundant(equations_.redundant_constraints());
+      if (next_ == 0)
+        recorder_.mobility(equations_.freedoms(), equations_.redundant_constraints(),
+                           equations_.doubts());
       ++next_;
     }
   }

@@ -56,7 +56,9 @@ History settle_along(const Model& model, Equations& equations,
       equations.record(time_s, recorded, recorder, column);
       recorder.look(column);
       recorder.conserve_energy(column);
-      if (column == 0) recorder.redundant(equations.redundant_constraints());
+      if (column == 0)
+        recorder.mobility(equations.freedoms(), equations.redundant_constraints(),
+                          equations.doubts());
       if (checkpoint) checkpoint();
     }
   } catch (const ComputationError& error) {

@@ -105,8 +105,9 @@ class RecursiveEquations final : public Equations {
     dynamics_.solve();
     residual = accelerations - dynamics_.accelerations();
   }
-  void inertia(Eigen::MatrixXd& mass, Eigen::MatrixXd& /*rows_transposed*/) const override {
-    mass.setIdentity();
+  void inertia(Eigen::SparseMatrix<double>& mass,
+               Eigen::SparseMatrix<double>& /*rows_transposed*/) const override {
+    for (Index k = 0; k < mass.cols(); ++k) mass.coeffRef(k, k) = 1;
   }
   void rate(const Vector& state, const Vector& accelerations, Vector& rate) const override {
     dynamics_.fill_rate(state, accelerations, rate);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "multibody/descriptor/initial_state.h"
 #include "multibody/model/joint_check.h"
 #include "multibody/numerics/rotation.h"
 
@@ -130,6 +131,18 @@ std::vector<BodyState> given_bodies(const Tree& tree) {
   return bodies;
 }
 
+bool any_velocity_is_open(const Tree& tree) {
+  const std::vector<Body>& bodies = tree.model.bodies;
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const Body& body) { return body.velocities_are_open; });
+}
+
+bool velocities_fit(const Tree& tree, const Fits& found) {
+  return std::all_of(found.joints.begin(), found.joints.end(), [&](const Fit& joint) {
+    return multibody::velocities_fit(joint.velocity, tree.size_m, found.speed_m_s);
+  });
+}
+
 void check_joints(const Tree& tree, const Fits& found, bool with_velocities) {
   for (std::size_t k = 0; k < tree.body_of_joint.size(); ++k) {
     const std::size_t b = tree.body_of_joint[k];
@@ -147,7 +160,14 @@ void check_joints(const Tree& tree, const Fits& found, bool with_velocities) {
 }  // namespace
 
 VectorXd given_state(const Tree& tree) {
-  Fits found = fit_all(tree, given_bodies(tree));
+  std::vector<BodyState> bodies = given_bodies(tree);
+  Fits found = fit_all(tree, bodies);
+  if (any_velocity_is_open(tree) && !velocities_fit(tree, found)) {
+    const std::vector<VectorXd> velocities = fitting_velocities(tree.model);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      bodies[b].velocities = velocities[tree.bodies[b].index];
+    found = fit_all(tree, bodies);
+  }
   check_joints(tree, found, true);
   return found.state;
 }

@@ -32,7 +32,8 @@ constexpr auto kOwnKeys = joined(
         Key::quantities(
             "velocity", "m/s", kNone,
             "Velocity of its origin at the start, in the world; that of what it hangs on if "
-            "neither this nor angular_velocity is there",
+            "neither this nor angular_velocity is there, or the nearest that loops and motors "
+            "allow",
             {.size = 3}),
         Key::quantities("angular_velocity", "rad/s", kNone,
                         "Angular velocity at the start, in its own axes", {.size = 3}),

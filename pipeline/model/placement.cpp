@@ -70,6 +70,7 @@ struct Link {
   Vector3d axis = Vector3d::UnitX();
   double speed_m_s = 0;
   double rate_rad_s = 0;
+  bool is_speed_given = false;
 };
 
 Link link_of(const Joint& joint, const JointStart& start) {
@@ -82,7 +83,8 @@ Link link_of(const Joint& joint, const JointStart& start) {
            Quaterniond(Eigen::AngleAxisd(angle, joint.axis))},
           joint.axis,
           start.speed_m_s.value_or(0) + lead * rate,
-          rate};
+          rate,
+          start.speed_m_s.has_value() || start.rate_rad_s.has_value()};
 }
 
 /// Joints, then sections, which begin without load.
@@ -142,8 +144,10 @@ void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
 }
 
 void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vector<bool> moving) {
-  for (std::size_t b = 0; b < moving.size(); ++b)
+  for (std::size_t b = 0; b < moving.size(); ++b) {
     moving[b] = moving[b] || std::holds_alternative<PrescribedBody>(model.bodies[b].kind);
+    model.bodies[b].velocities_are_open = !moving[b];
+  }
   walk(model, links_of(model, starts), moving,
        [&](const Link& link, const Marker& from, const Marker& to) {
          const Pose frame = pose_of(model.bodies[from.body]) * marker_pose(model, from);
@@ -158,6 +162,7 @@ void carry_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
              motion.v + motion.w.cross(at - pose_of(carrier).position_m) + link.speed_m_s * axis;
          body.initial_velocity_m_s = v + w.cross(body.initial_pose.position_m - at);
          body.initial_angular_velocity_rad_s = body.initial_pose.rotation.conjugate() * w;
+         body.velocities_are_open = !link.is_speed_given;
        });
 }
 

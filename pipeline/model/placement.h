@@ -41,6 +41,7 @@ void place_bodies(multibody::Model& model, const std::vector<JointStart>& starts
 
 /// Gives velocities to each body that has none: it moves with the one that it hangs on, and by the
 /// joint's rates. A body that hangs on none stays at rest.
+/// Velocities that neither the bodies' nor the joints' keys give stay open.
 /// @param moving  of each body: has velocities already; prescribed bodies need none
 void carry_bodies(multibody::Model& model, const std::vector<JointStart>& starts,
                   std::vector<bool> moving);

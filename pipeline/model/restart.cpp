@@ -51,6 +51,7 @@ void take_state(const BodyHistory& state, Index at, Body& body) {
   body.initial_pose = {state.position_m.col(at), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
   body.initial_velocity_m_s = state.velocity_m_s.col(at);
   body.initial_angular_velocity_rad_s = state.angular_velocity_rad_s.col(at);
+  body.velocities_are_open = false;
   auto* const deformable = std::get_if<DeformableBody>(&body.kind);
   if (deformable == nullptr) return;
   deformable->initial_modal = state.modal.col(at);

@@ -22,6 +22,10 @@ std::string run_summary(const multibody::History& history) {
     text += fmt::format(
         "\n  constraints hold to {:.1e} in position (m, rad) and {:.1e} in velocity (per s)",
         steps.max_position_residual, steps.max_velocity_residual);
+  if (history.freedoms >= 0)
+    text += fmt::format("\n  {} degrees of freedom at the start; velocities less constraints: {}",
+                        history.freedoms,
+                        history.freedoms - static_cast<int>(history.redundant_constraints.size()));
   if (!history.redundant_constraints.empty()) {
     text += fmt::format("\n  {} constraints say what others hold already and were left out:",
                         history.redundant_constraints.size());

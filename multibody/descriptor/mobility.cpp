@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/descriptor/mobility.h"
+
+#include <sstream>
+
+#include "multibody/numerics/independent_rows.h"
+
+namespace flexneck::multibody {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// What is left of a row across the others, as a share: parts are aligned to about half a degree.
+constexpr double kAlignment = 1e-2;
+
+/// Calls visit(joint, row of the joint, row among all).
+template <class Visit>
+void each_row(const EquationsOfMotion& equations, const Visit& visit) {
+  for (std::size_t k = 0; k < equations.system().joints.size(); ++k)
+    for (Index r = 0; r < equations.joint(k).rows; ++r)
+      visit(k, r, equations.solver().joint_offset(k) + r);
+}
+
+}  // namespace
+
+MatrixXd free_multipliers(const EquationsOfMotion& equations) {
+  const KktSolver& solver = equations.solver();
+  std::vector<bool> left_out(static_cast<std::size_t>(solver.constraint_count()), false);
+  for (const KktSolver::RedundantRow& each : solver.redundant_rows())
+    left_out[static_cast<std::size_t>(solver.joint_offset(each.joint) + each.row)] = true;
+  return free_multipliers(solver.rows_in_metres(), left_out);
+}
+
+std::string contradictory_motors(const EquationsOfMotion& equations) {
+  if (equations.solver().redundant_rows().empty()) return {};
+  const MatrixXd free = free_multipliers(equations);
+  std::string names;
+  int count = 0;
+  each_row(equations, [&](std::size_t k, Index r, Index row) {
+    if (!is_motor(equations.joint(k), r)) return;
+    bool takes_part = false;
+    for (Index c = 0; c < free.cols(); ++c)
+      takes_part = takes_part || std::abs(free(row, c)) > 1e-7 * free.col(c).norm();
+    if (!takes_part) return;
+    names += (count++ > 0 ? " and " : "") + name_of_row(equations.joint(k), r);
+  });
+  if (count == 0) return {};
+  if (count == 1)
+    return names +
+           " asks for a motion that the joints do not leave free; take it out, or joints "
+           "that hold less";
+  return names +
+         " give the same freedom and contradict each other; keep one of them, or make them "
+         "agree";
+}
+
+std::vector<std::string> doubts_of_mobility(const EquationsOfMotion& equations) {
+  const KktSolver& solver = equations.solver();
+  std::vector<std::string> doubts;
+  if (solver.constraint_count() == 0) return doubts;
+  const VectorXd shares = independent_shares(solver.rows_in_metres());
+  bool any_motor = false;
+  each_row(equations, [&](std::size_t k, Index r, Index row) {
+    any_motor = any_motor || is_motor(equations.joint(k), r);
+    if (solver.is_left_out(k, r) || !(shares[row] < kAlignment)) return;
+    std::ostringstream text;
+    text << "joint '" << equations.system().joints[k].name << "', "
+         << name_of_row(equations.joint(k), r) << ": other joints hold the same but for "
+         << shares[row]
+         << " of it, as axes that are out of line by so many rad do. It takes a degree of freedom, "
+            "and its reactions may be large; align the joints (to "
+         << kDependent << "), or take one that holds less";
+    doubts.push_back(text.str());
+  });
+  const auto redundant = static_cast<Index>(solver.redundant_rows().size());
+  if (redundant > 0 && !any_motor &&
+      solver.velocity_count() == solver.constraint_count() - redundant)
+    doubts.push_back(
+        "no degree of freedom is left, and joints hold the same more than once: if the model is "
+        "meant to move, see whether their axes agree");
+  return doubts;
+}
+
+}  // namespace flexneck::multibody
