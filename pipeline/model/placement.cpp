@@ -84,7 +84,8 @@ Link link_of(const Joint& joint, const JointStart& start) {
           joint.axis,
           start.speed_m_s.value_or(0) + lead * rate,
           rate,
-          start.speed_m_s.has_value() || start.rate_rad_s.has_value()};
+          // A motor's is held by the motor, wherever the bodies go.
+          joint.motors.empty() && (start.speed_m_s.has_value() || start.rate_rad_s.has_value())};
 }
 
 /// Joints, then sections, which begin without load.

@@ -58,8 +58,8 @@ void add_motor(Model& model, std::size_t joint, double start, double rate, doubl
        PrescribedCoordinate(rate, constant_table(acceleration), {})});
 }
 
-constexpr SolverOptions kTight{.relative_tolerance = 1e-9, .absolute_tolerance = 1e-12};
-constexpr OutputOptions kOutput{.end_time_s = 0.5, .interval_s = 0.05};
+const SolverOptions kTight{.relative_tolerance = 1e-9, .absolute_tolerance = 1e-12};
+const OutputOptions kOutput{.end_time_s = 0.5, .interval_s = 0.05};
 
 }  // namespace
 
