@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/text_file.h"
 #include "mesher/exchange/text_lines.h"
 
 namespace flexneck::mesher {
@@ -61,7 +62,7 @@ std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
-  return text.str();
+  return without_mark(text.str());
 }
 
 class Reader {
