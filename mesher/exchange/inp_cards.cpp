@@ -99,6 +99,9 @@ class Reader {
   void add_card(InpCard card) {
     if (card.keyword == "INCLUDE") {
       include(card);
+    } else if (card.has("INPUT")) {
+      card.refuse("INPUT= is not supported; put the file's lines here, or write *INCLUDE, INPUT=" +
+                  card.parameters.at("INPUT") + " behind the keyword line");
     } else {
       cards.push_back(std::move(card));
     }
