@@ -28,11 +28,6 @@ std::string contents_of(const std::filesystem::path& path, std::size_t max_bytes
   }
 }
 
-std::string without_mark(std::string text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return text;
-}
-
 constexpr std::string_view kKept = "\t\n\r";
 
 void require_printable(const std::filesystem::path& path, const std::string& text) {
@@ -69,6 +64,11 @@ std::string from_windows_1252(const std::string& bytes) {
 }
 
 }  // namespace
+
+std::string without_mark(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
 
 std::string read_text(const std::filesystem::path& path, std::size_t max_bytes) {
   std::string text = without_mark(contents_of(path, max_bytes));

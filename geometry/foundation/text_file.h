@@ -13,6 +13,9 @@ namespace flexneck {
 /// `max_bytes`, and with the line of the first character that does not belong there.
 std::string read_text(const std::filesystem::path& path, std::size_t max_bytes);
 
+/// Without UTF-8's mark at the beginning.
+std::string without_mark(std::string text);
+
 /// A file of programs that may not know UTF-8. What is not UTF-8 is taken for Windows-1252, of
 /// whose printable characters those of ISO-8859-1 are a part, and comes back as UTF-8.
 /// @throws InputError as read_text() does.

@@ -47,6 +47,7 @@ Mesh checked_import(const ImportOptions& options, MeshReader read, const Progres
   try {
     LeftOut left_out;
     Mesh mesh = read(options, progress, left_out);
+    left_out.require_named(options.leave_out);
     add_box_sets(options.box_sets, mesh);
     check(mesh);
     check_import(mesh, options.keeps_doubles);

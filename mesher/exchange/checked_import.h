@@ -17,7 +17,8 @@ using MeshReader = Mesh (*)(const ImportOptions& options, const Progress& progre
 /// the reader says is wrong.
 /// @param warn gets one line if the file has more than a mesh can hold, such as masses, springs,
 /// supports and loads: all of it by kind and number
-/// @throws InputError as the reader, check() and check_import(); if no face lies in a box.
+/// @throws InputError as the reader, LeftOut::require_named(), check() and check_import(); if no
+/// face lies in a box.
 Mesh checked_import(const ImportOptions& options, MeshReader read, const Progress& progress,
                     const Progress& warn);
 

@@ -1,13 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/exchange/deck_sites.h"
 
+#include <array>
+#include <vector>
+
 #include "geometry/foundation/error.h"
 
 namespace flexneck::mesher {
 
+namespace {
+
+/// Whether one of a node's directions x and y is held alone, translations and rotations apart.
+bool holds_one(const std::array<bool, 6>& components) {
+  return components[0] != components[1] || components[3] != components[4];
+}
+
+/// Nodes at which radial and tangential directions differ: supports hold one of them alone, an
+/// equation or a spring has one.
+std::set<std::int64_t> nodes_with_radial_directions(const DeckConnections& deck) {
+  std::map<std::int64_t, std::array<bool, 6>> held;
+  for (const DeckSupport& support : deck.supports) {
+    std::array<bool, 6>& all = held[support.node];
+    for (std::size_t c = 0; c < all.size(); ++c) all[c] = all[c] || support.components[c];
+  }
+  std::set<std::int64_t> nodes;
+  for (const auto& [node, components] : held) {
+    if (holds_one(components)) nodes.insert(node);
+  }
+  const auto add = [&](const std::vector<DeckTerm>& terms) {
+    for (const DeckTerm& term : terms) {
+      if (term.component % 3 != 0) nodes.insert(term.node);
+    }
+  };
+  for (const DeckEquation& equation : deck.equations) add(equation.terms);
+  for (const DeckSpring& spring : deck.springs) add(spring.terms);
+  return nodes;
+}
+
+}  // namespace
+
 DeckSites::DeckSites(const DeckConnections& deck, const DeckNodes& nodes, Mesh& mesh)
     : nodes_(nodes), mesh_(mesh), axes_(deck.axes) {
-  for (auto& [node, axes] : axes_) axes.origin_m *= nodes.length_unit_m;
+  const std::set<std::int64_t> radial = nodes_with_radial_directions(deck);
+  for (auto& [node, axes] : axes_) {
+    axes.origin_m *= nodes.length_unit_m;
+    if (!axes.is_cylindrical || nodes.positions.count(node) == 0) continue;
+    try {
+      static_cast<void>(axes.at(position_m("", node)));
+    } catch (const InputError&) {
+      if (radial.count(node) > 0) {
+        throw InputError("node " + std::to_string(node) +
+                         " lies on the axis of its cylindrical axes, where radial and tangential "
+                         "directions are none; give it other axes, or hold it in both");
+      }
+      axes.is_cylindrical = false;  // both or neither of the two: any pair will do
+    }
+  }
 }
 
 Eigen::Vector3d DeckSites::position_m(const std::string& who, std::int64_t node) const {

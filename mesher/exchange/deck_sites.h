@@ -17,6 +17,8 @@ namespace flexneck::mesher {
 /// points when they are asked for.
 class DeckSites {
  public:
+  /// @throws InputError for a node on the axis of its cylindrical axes that is held or moved along
+  /// one of the two directions across; held in both or neither, it has fixed axes.
   DeckSites(const DeckConnections& deck, const DeckNodes& nodes, Mesh& mesh);
 
   // `who` asks, for messages. @throws InputError for nodes that the deck does not give.

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/text_lines.h"
 
 namespace flexneck::mesher {
@@ -103,16 +104,17 @@ std::string unv_problem(std::string_view contents) {
   return {};
 }
 
-/// Free or fixed fields; comments and case control may come first. A card's name is upper case.
+/// Free or fixed fields; comments and case control may come first.
 std::string bdf_problem(std::string_view contents) {
   if (!is_text(contents)) return "it is no text";
   bool has_grid = false;
   bool has_element = false;
   TextLines lines(contents);
   while (const auto line = lines.next()) {
-    has_grid = has_grid || line->starts_with("GRID");
+    const std::string name = upper_case(line->substr(0, 8));
+    has_grid = has_grid || name.starts_with("GRID");
     for (const std::string_view card : {"CTETRA", "CHEXA", "CPENTA", "CPYRAM"}) {
-      has_element = has_element || line->starts_with(card);
+      has_element = has_element || name.starts_with(card);
     }
   }
   if (!has_grid) return "it has no GRID card, begins " + shown(contents);

@@ -10,6 +10,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/regular_file.h"
+#include "geometry/foundation/text_file.h"
 #include "mesher/exchange/file_signature.h"
 
 namespace flexneck::mesher {
@@ -58,7 +59,7 @@ std::string contents_of(const fs::path& file) {
   if (!stream) throw InputError(file.string() + ": the file cannot be read");
   std::ostringstream contents;
   contents << stream.rdbuf();
-  return contents.str();
+  return without_mark(contents.str());
 }
 
 }  // namespace

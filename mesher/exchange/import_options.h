@@ -31,6 +31,8 @@ struct ImportOptions {
   double element_size_m = 0;   ///< of STEP and BREP shapes; 0: gmsh's choice
   bool is_reduced = false;     ///< modes will be of reduced integration, as C3D20R of an .inp are
   bool keeps_doubles = false;  ///< nodes in the same place are meant, as at a crack
+  /// Kinds of cards or elements that change the structure and are not supported: to go without.
+  std::vector<std::string> leave_out;
   std::vector<BoxSet> box_sets;
   /// Called once a shape is read, before it is meshed, with about the number of nodes that its mesh
   /// will have; may be empty.

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/text_file.h"
 #include "mesher/exchange/text_lines.h"
 
 namespace flexneck::mesher {
@@ -61,7 +62,7 @@ std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
-  return text.str();
+  return without_mark(text.str());
 }
 
 class Reader {
@@ -98,6 +99,9 @@ class Reader {
   void add_card(InpCard card) {
     if (card.keyword == "INCLUDE") {
       include(card);
+    } else if (card.has("INPUT")) {
+      card.refuse("INPUT= is not supported; put the file's lines here, or write *INCLUDE, INPUT=" +
+                  card.parameters.at("INPUT") + " behind the keyword line");
     } else {
       cards.push_back(std::move(card));
     }

@@ -193,7 +193,7 @@ void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int3
     FaceSet faces = faces_among(boundary, set.name, [&](std::int32_t node) {
       return is_in[static_cast<std::size_t>(node)];
     });
-    if (!faces.blocks.empty()) mesh.face_sets.push_back(std::move(faces));
+    if (nodes_of(faces).nodes == set.nodes) mesh.face_sets.push_back(std::move(faces));
     mesh.node_sets.push_back(std::move(set));
   };
   for (const auto& [key, set] : model.nsets) add(node_set_of(set.name, set.members, index_of));
@@ -257,8 +257,11 @@ void add_surfaces(const InpModel& model, const std::map<std::int64_t, std::int32
       return upper_case(other.name) == upper_case(surface.name);
     };
     std::erase_if(mesh.face_sets, is_same);
-    if (std::none_of(mesh.node_sets.begin(), mesh.node_sets.end(), is_same)) {
+    const auto known = std::find_if(mesh.node_sets.begin(), mesh.node_sets.end(), is_same);
+    if (known == mesh.node_sets.end()) {
       mesh.node_sets.push_back(nodes_of(set));
+    } else {
+      set.name = known->name;
     }
     mesh.face_sets.push_back(std::move(set));
   }

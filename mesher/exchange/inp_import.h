@@ -14,9 +14,9 @@ namespace flexneck::mesher {
 ///  - Units: the file's numbers are consistent. With the length unit L and the force unit F of the
 ///    options and seconds, E counts in F / L^2 and the density in F s^2 / L^4: with mm and N that
 ///    is MPa and t/mm^3.
-///  - Sets: each NSET is a node set, and a face set of those faces of the mesh's surface whose
-///    nodes all belong to it, if there are any; each SURFACE is a face set, and a node set if no
-///    NSET has its name. Nodes that *BOUNDARY fixes are the node set "boundary".
+///  - Sets: each NSET is a node set, and a face set where its nodes are those of whole faces of the
+///    mesh's surface; each SURFACE is a face set, and a node set if no NSET has its name. Nodes
+///    that *BOUNDARY fixes are the node set "boundary".
 ///  - Names keep the case in which they are first written; to the file both cases are one.
 /// Nodes without elements are left out, and so are loads and the like: `left_out` gets their
 /// number, that of elements whose integration is none of ours (C3D8I, C3D8R; C3D20R unless the

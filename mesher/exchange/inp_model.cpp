@@ -19,6 +19,12 @@ namespace {
 class ModelReader {
  public:
   void read(const InpCard& card) {
+    if (card.keyword == "FREQUENCY") frequencies_ = "line " + std::to_string(card.place.line);
+    if (card.keyword == "STEP" && !frequencies_.empty()) is_behind_frequencies_ = true;
+    if (is_behind_frequencies_ && card.keyword == "BOUNDARY") {
+      card.refuse("it belongs to a step behind *FREQUENCY in " + frequencies_ +
+                  ", whose modes are without it; take that step away");
+    }
     const auto found = handlers().find(card.keyword);
     if (found != handlers().end()) {
       (this->*found->second)(card);
@@ -89,6 +95,8 @@ class ModelReader {
 
   InpModel model_;
   std::set<std::string> ignored_;
+  std::string frequencies_;  ///< place of the last *FREQUENCY
+  bool is_behind_frequencies_ = false;
   std::string preload_;  ///< place of the last *STATIC
   std::set<std::int64_t> element_numbers_;
   std::map<std::string, OtherType> other_types_;

@@ -46,7 +46,8 @@ std::vector<std::int64_t> InpPointElements::add(const InpCard& card, const std::
 
 bool InpPointElements::read(const InpCard& card) {
   if (card.keyword != "MASS" && card.keyword != "SPRING") return false;
-  for (const char* const parameter : {"NONLINEAR", "ORIENTATION", "RTOL"}) {
+  for (const char* const parameter : {"NONLINEAR", "ORIENTATION", "RTOL", "TYPE", "ALPHA",
+                                      "COMPOSITE", "DEPENDENCIES", "COMPLEX STIFFNESS"}) {
     if (card.has(parameter)) card.refuse(std::string(parameter) + " is not supported");
   }
   static_cast<void>(card.parameter("ELSET"));

@@ -1,10 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/exchange/left_out.h"
 
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+
 namespace flexneck::mesher {
 
 void LeftOut::add(const std::string& kind, std::size_t count) {
   if (count > 0) counts_[kind] += count;
+}
+
+void LeftOut::add_to_structure(const std::string& kind, const std::string& place) {
+  Kind& all = of_structure_[kind];
+  if (all.count++ == 0) all.first = place;
+}
+
+void LeftOut::require_named(const std::vector<std::string>& named) {
+  for (const std::string& name : named) {
+    const auto found = of_structure_.find(name);
+    if (found == of_structure_.end()) {
+      std::vector<std::string> known;
+      for (const auto& [kind, all] : of_structure_) known.push_back(kind);
+      throw InputError("geometry.leave_out names '" + name +
+                       "', but nothing of that kind is left out" + did_you_mean(known, name));
+    }
+    add(name, found->second.count);
+    of_structure_.erase(found);
+  }
+  if (of_structure_.empty()) return;
+  std::string text;
+  for (const auto& [kind, all] : of_structure_) {
+    text += (text.empty() ? "" : ", ") + std::to_string(all.count) + " " + kind + " (first in " +
+            all.first + ")";
+  }
+  throw InputError("not supported, and the structure would be another one without them: " + text +
+                   "; take them out, or name their kinds in geometry.leave_out");
 }
 
 std::string LeftOut::text() const {

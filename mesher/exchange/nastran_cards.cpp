@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/exchange/nastran_cards.h"
 
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <optional>
+
+#include "geometry/foundation/error.h"
 #include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/text_lines.h"
 
@@ -8,81 +14,181 @@ namespace flexneck::mesher {
 namespace {
 
 constexpr std::size_t kNameWidth = 8;
+constexpr std::size_t kMarkColumn = 72;  ///< of the last field, counted from 0
 
-bool is_free(std::string_view line) { return line.find(',') != std::string_view::npos; }
-
-/// The first field of a line: a name, or a mark that the line continues a card.
-std::string_view head_of(std::string_view line) {
-  return trimmed(is_free(line) ? line.substr(0, line.find(',')) : line.substr(0, kNameWidth));
+[[noreturn]] void refuse_line(std::size_t number, const std::string& problem) {
+  throw InputError("line " + std::to_string(number) + ": " + problem);
 }
 
-bool is_continuation(std::string_view line) {
-  const std::string_view head = head_of(line);
-  return head.empty() || head.front() == '+' || head.front() == '*';
+/// A line of bulk data.
+struct BulkLine {
+  std::size_t number = 0;
+  std::string head;                 ///< its first field in capitals
+  std::vector<std::string> fields;  ///< eight, or four wide ones
+  std::string mark;                 ///< of the line that continues it, without the first character
+  bool needs_more = false;          ///< the mark has a +
+  bool is_wide = false;
+  bool has_tabs = false;
+  std::optional<std::size_t> next;  ///< the line that continues it
+
+  bool is_continuation() const {
+    return head.empty() || head.front() == '+' || head.front() == '*';
+  }
+};
+
+/// Free fields have a comma in the first ten columns.
+bool is_free(std::string_view line) {
+  return line.substr(0, 10).find(',') != std::string_view::npos;
 }
 
-/// Appends the fields of a line, up to the mark of the next line: eight, or four wide ones.
-void add_fields(std::string_view line, std::vector<std::string>& fields) {
-  const bool is_wide = head_of(line).find('*') != std::string_view::npos;
-  const std::size_t count = is_wide ? 4 : 8;
-  if (is_free(line)) {
-    for (std::size_t f = 0; f < count; ++f) {
-      const std::size_t comma = line.find(',');
-      line = comma == std::string_view::npos ? std::string_view() : line.substr(comma + 1);
-      fields.emplace_back(trimmed(line.substr(0, line.find(','))));
+std::vector<std::string> free_fields(std::string_view line) {
+  std::vector<std::string> fields;
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = line.find(',');
+    fields.emplace_back(trimmed(line.substr(0, comma)));
+    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
+  }
+  while (fields.size() > 1 && fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+/// The first character of a mark does not count.
+std::string mark_of(std::string_view text) {
+  const std::string_view whole = trimmed(text);
+  if (whole.empty()) return {};
+  if (whole.front() == '+' || whole.front() == '*') text = whole;
+  return upper_case(trimmed(text.substr(1)));
+}
+
+void set_mark(std::string_view text, BulkLine& line) {
+  line.mark = mark_of(text);
+  line.needs_more = !line.mark.empty() && trimmed(text).front() == '+';
+}
+
+void read_free(std::string_view text, BulkLine& line) {
+  std::vector<std::string> all = free_fields(text);
+  line.head = upper_case(all.front());
+  line.is_wide = line.head.find('*') != std::string::npos;
+  const std::size_t count = line.is_wide ? 4 : 8;
+  if (all.size() > count + 1) {
+    const std::string& last = all[count + 1];
+    const auto first = static_cast<unsigned char>(last.empty() ? '0' : last.front());
+    const bool is_mark = first == '+' || first == '*' || std::isalpha(first) != 0;
+    if (all.size() > count + 2 || !is_mark) {
+      refuse_line(line.number, line.head + ": expected at most " + std::to_string(count) +
+                                   " free fields in a line and the mark of the next, found " +
+                                   std::to_string(all.size() - 1) +
+                                   "; continue the card in a line of its own");
     }
-    return;
+    set_mark(last, line);
   }
-  const std::size_t width = is_wide ? 16 : 8;
-  for (std::size_t f = 0; f < count; ++f) {
-    const std::size_t begin = kNameWidth + f * width;
-    fields.emplace_back(begin < line.size() ? trimmed(line.substr(begin, width)) : "");
+  all.resize(count + 1);
+  line.fields.assign(all.begin() + 1, all.end());
+}
+
+void read_fixed(std::string_view text, BulkLine& line) {
+  line.head = upper_case(trimmed(text.substr(0, kNameWidth)));
+  line.is_wide = line.head.find('*') != std::string::npos;
+  line.has_tabs = text.find('\t') != std::string_view::npos;
+  const std::size_t width = line.is_wide ? 16 : 8;
+  for (std::size_t begin = kNameWidth; begin < kMarkColumn; begin += width) {
+    line.fields.emplace_back(begin < text.size() ? trimmed(text.substr(begin, width)) : "");
   }
+  if (text.size() > kMarkColumn) set_mark(text.substr(kMarkColumn, kNameWidth), line);
 }
 
-NastranCard card_of(std::string_view line, std::size_t number) {
-  const std::string_view head = head_of(line);
-  return {
-      .name = upper_case(head.substr(0, head.find_first_of("* \t"))), .fields = {}, .line = number};
-}
-
-void add_line(std::string_view line, NastranCard& card) {
-  add_fields(line, card.fields);
-  card.has_tabs = card.has_tabs || (!is_free(line) && line.find('\t') != std::string_view::npos);
-}
-
-bool begins_bulk(std::string_view line) {
-  const std::string words = upper_case(trimmed(line));
-  return words.starts_with("BEGIN") && words.ends_with("BULK");
-}
-
-/// Lines up to BEGIN BULK are no cards; a file without it is bulk data from the first line on.
-std::size_t last_line_before_bulk(std::string_view text) {
+std::vector<BulkLine> lines_of(std::string_view text) {
+  const std::size_t before = nastran_bulk_line(text);
   TextLines lines(text);
-  while (const auto line = lines.next()) {
-    if (begins_bulk(*line)) return lines.number();
+  std::vector<BulkLine> result;
+  while (const auto raw = lines.next()) {
+    const std::string_view line = without_comment(*raw);
+    if (lines.number() <= before || trimmed(line).empty()) continue;
+    BulkLine read;
+    read.number = lines.number();
+    is_free(line) ? read_free(line, read) : read_fixed(line, read);
+    if (read.head == "ENDDATA") break;
+    result.push_back(std::move(read));
   }
-  return 0;
+  return result;
+}
+
+/// Finds the line that each continuation continues.
+void join(std::vector<BulkLine>& lines) {
+  std::multimap<std::string, std::size_t> by_mark;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (!lines[k].mark.empty()) by_mark.emplace(lines[k].mark, k);
+  }
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (!lines[k].is_continuation()) continue;
+    const std::string mark = mark_of(lines[k].head);
+    std::size_t parent = k - 1;
+    if (k == 0 || !(mark.empty() || mark == lines[parent].mark)) {
+      const auto [first, last] = by_mark.equal_range(mark);
+      const auto count = std::distance(first, last);
+      if (count != 1 || first->second == k) {
+        refuse_line(lines[k].number, "expected one line whose last field is the mark '" +
+                                         lines[k].head + "' of this continuation, found " +
+                                         std::to_string(count));
+      }
+      parent = first->second;
+    }
+    if (lines[parent].next) {
+      refuse_line(lines[k].number, "continues line " + std::to_string(lines[parent].number) +
+                                       ", as line " +
+                                       std::to_string(lines[*lines[parent].next].number) + " does");
+    }
+    lines[parent].next = k;
+  }
+}
+
+/// The line with all that continue it.
+NastranCard card_from(const std::vector<BulkLine>& lines, std::size_t first) {
+  NastranCard card{.name = lines[first].head.substr(0, lines[first].head.find_first_of("* \t")),
+                   .fields = {},
+                   .line = lines[first].number};
+  for (std::optional<std::size_t> k = first; k; k = lines[*k].next) {
+    const BulkLine& line = lines[*k];
+    if (!line.is_wide) card.fields.resize((card.fields.size() + 7) / 8 * 8);
+    card.fields.insert(card.fields.end(), line.fields.begin(), line.fields.end());
+    card.has_tabs = card.has_tabs || line.has_tabs;
+    if (line.needs_more && !line.next) {
+      refuse_line(line.number,
+                  card.name + ": the line that continues it, '+" + line.mark + "', is not there");
+    }
+  }
+  return card;
 }
 
 }  // namespace
 
-void for_each_nastran_card(std::string_view text,
-                           const std::function<void(const NastranCard&)>& visit) {
-  const std::size_t before = last_line_before_bulk(text);
+std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('$')); }
+
+std::size_t nastran_bulk_line(std::string_view text) {
   TextLines lines(text);
-  NastranCard card;
-  while (const auto raw = lines.next()) {
-    const std::string_view line = raw->substr(0, raw->find('$'));  // a comment goes to the end
-    if (lines.number() <= before || trimmed(line).empty()) continue;
-    if (!is_continuation(line)) {
-      if (!card.name.empty()) visit(card);
-      card = card_of(line, lines.number());
-      if (card.name == "ENDDATA") return;
-    }
-    if (!card.name.empty()) add_line(line, card);
+  while (const auto line = lines.next()) {
+    const std::string words = upper_case(trimmed(without_comment(*line)));
+    if (words.starts_with("BEGIN") && words.ends_with("BULK")) return lines.number();
   }
-  if (!card.name.empty()) visit(card);
+  return 0;
+}
+
+std::vector<NastranCard> read_nastran_cards(std::string_view text) {
+  std::vector<BulkLine> lines = lines_of(text);
+  join(lines);
+  std::vector<NastranCard> cards;
+  std::vector<bool> is_read(lines.size(), false);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (lines[k].is_continuation()) continue;
+    cards.push_back(card_from(lines, k));
+    for (std::optional<std::size_t> l = k; l; l = lines[*l].next) is_read[*l] = true;
+  }
+  const auto lost = std::find(is_read.begin(), is_read.end(), false);
+  if (lost != is_read.end()) {
+    refuse_line(lines[static_cast<std::size_t>(lost - is_read.begin())].number,
+                "continues no card: the marks of the continuations go round in a ring");
+  }
+  return cards;
 }
 
 }  // namespace flexneck::mesher

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,9 +22,19 @@ struct NastranCard {
   }
 };
 
-/// Calls `visit` with each card between BEGIN BULK, or else the beginning, and ENDDATA. Fields are
-/// free (commas), fixed of 8 columns, or fixed of 16 (a star behind the name).
-void for_each_nastran_card(std::string_view text,
-                           const std::function<void(const NastranCard&)>& visit);
+/// The cards between BEGIN BULK, or else the beginning, and ENDDATA. Fields are free (commas),
+/// fixed of 8 columns, or fixed of 16 (a star behind the name). A line continues the one whose last
+/// field has the mark of its first, wherever that stands; a line without a mark, or with that of
+/// the line before, continues the line before.
+/// @throws InputError with the line for free fields beyond those of a line, marks that no line or
+/// several lines have, a line that two lines continue, a mark with + whose line is missing.
+std::vector<NastranCard> read_nastran_cards(std::string_view text);
+
+/// Number of the line with BEGIN BULK; 0 for a file without it, which is bulk data from its first
+/// line on.
+std::size_t nastran_bulk_line(std::string_view text);
+
+/// Without the comment behind a $.
+std::string_view without_comment(std::string_view line);
 
 }  // namespace flexneck::mesher

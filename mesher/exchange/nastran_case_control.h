@@ -3,19 +3,24 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "mesher/exchange/left_out.h"
+
 namespace flexneck::mesher {
 
-/// Sets that "SPC = 1" and "MPC = 2" of the case control select.
+/// What the lines before BEGIN BULK select.
 struct NastranCaseControl {
-  bool is_given = false;                               ///< the file has a BEGIN BULK
-  std::map<std::string, std::set<std::int64_t>> sets;  ///< by the word in capitals
+  bool is_given = false;                     ///< the file has a BEGIN BULK
+  std::map<std::string, std::int64_t> sets;  ///< by "SPC" and "MPC": the one that acts
 };
 
 /// @param text of the whole file
-NastranCaseControl read_nastran_case_control(std::string_view text);
+/// @param left_out gets the prestress that a STATSUB asks for
+/// @throws InputError with the line for a set that is no number, subcases that select different
+/// sets, matrices of the structure (K2GG, M2GG) and INCLUDE.
+NastranCaseControl read_nastran_case_control(std::string_view text, LeftOut& left_out);
 
 }  // namespace flexneck::mesher

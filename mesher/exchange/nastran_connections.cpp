@@ -10,8 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/foundation/error.h"
-#include "mesher/exchange/nastran_cards.h"
-#include "mesher/exchange/nastran_case_control.h"
+#include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/nastran_fields.h"
 
 namespace flexneck::mesher {
@@ -19,7 +18,9 @@ namespace {
 
 class ConnectionReader {
  public:
-  explicit ConnectionReader(LeftOut& left_out) : left_out_(left_out) {}
+  ConnectionReader(const std::map<std::int64_t, std::array<double, 3>>& positions,
+                   LeftOut& left_out)
+      : positions_(positions), left_out_(left_out) {}
 
   void read(const NastranCard& card) {
     if (card.name == "GRID") {
@@ -28,15 +29,12 @@ class ConnectionReader {
       grid_set_ = card;
     } else if (card.name.starts_with("CORD")) {
       systems_[nastran_integer(card, 0)] = card;
-    } else if (card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CTETRA" ||
-               card.name == "CPYRAM") {
-      for (const std::int64_t node : nastran_list(card, 2)) solid_nodes_.insert(node);
     } else if (card.name == "PELAS") {
       for (std::size_t first = 0; first + 1 < card.fields.size(); first += 4) {
         if (!card.field(first).empty())
           stiffness_[nastran_integer(card, first)] = nastran_number(card, first + 1);
       }
-    } else if (card.name == "PARAM" && card.field(0) == "WTMASS") {
+    } else if (card.name == "PARAM" && upper_case(card.field(0)) == "WTMASS") {
       mass_factor_ = nastran_number(card, 1, 1);
     } else if (card.name == "SPCADD" || card.name == "MPCADD") {
       const std::vector<std::int64_t> sets = nastran_list(card, 1);
@@ -46,7 +44,7 @@ class ConnectionReader {
     }
   }
 
-  NastranConnections finish(const NastranCaseControl& control) {
+  DeckConnections finish(const NastranCaseControl& control) {
     for (const NastranCard& grid : grids_) add_grid(grid);
     const std::set<std::int64_t> spc = selected("SPC", control);
     const std::set<std::int64_t> mpc = selected("MPC", control);
@@ -61,8 +59,7 @@ class ConnectionReader {
       add(card);
     }
     add_axes();
-    result_.solid_nodes.assign(solid_nodes_.begin(), solid_nodes_.end());
-    return std::move(result_);
+    return std::move(deck_);
   }
 
  private:
@@ -75,15 +72,16 @@ class ConnectionReader {
     std::set<std::int64_t> chosen;
     if (control.is_given) {
       const auto found = control.sets.find(kind);
-      if (found != control.sets.end()) chosen = found->second;
+      if (found != control.sets.end()) chosen = {found->second};
     } else if (unions_[kind].size() == 1) {
       chosen = {unions_[kind].begin()->first};
     } else {
       chosen = there;
     }
     if (chosen.size() > 1) {
-      left_out_.remark("there are several sets of " + kind + " and none is the one to take");
-      return {};
+      throw InputError("it has several sets of " + kind +
+                       " and no case control; select one, as in " + kind + " = " +
+                       std::to_string(*chosen.begin()) + " before BEGIN BULK");
     }
     if (chosen.empty()) return chosen;
     const auto parts = unions_[kind].find(*chosen.begin());
@@ -97,43 +95,38 @@ class ConnectionReader {
 
   void add_grid(const NastranCard& card) {
     const std::int64_t number = nastran_integer(card, 0);
-    result_.positions[number] = {nastran_number(card, 2), nastran_number(card, 3),
-                                 nastran_number(card, 4)};
     NastranCard with_defaults = card;
     with_defaults.fields.resize(std::max<std::size_t>(card.fields.size(), 8));
     for (const std::size_t field : {5U, 6U}) with_defaults.fields[field] = grid_field(card, field);
     const std::int64_t system = nastran_integer_or(with_defaults, 5, 0);
     const std::array<bool, 6> fixed = nastran_components(with_defaults, 6);
-    if (fixed != std::array<bool, 6>{}) result_.deck.supports.push_back({"GRID", number, fixed});
+    if (fixed != std::array<bool, 6>{}) deck_.supports.push_back({"GRID", number, fixed});
     if (system != 0) systems_of_grids_[number] = {card, system};
   }
 
   /// Of nodes that something holds or joins; on others no axes act.
   void add_axes() {
     std::set<std::int64_t> used;
-    for (const DeckSupport& support : result_.deck.supports) used.insert(support.node);
-    for (const DeckCoupling& coupling : result_.deck.couplings) {
+    for (const DeckSupport& support : deck_.supports) used.insert(support.node);
+    for (const DeckCoupling& coupling : deck_.couplings) {
       used.insert(coupling.reference);
       used.insert(coupling.nodes.begin(), coupling.nodes.end());
     }
-    for (const DeckEquation& equation : result_.deck.equations) {
+    for (const DeckEquation& equation : deck_.equations) {
       for (const DeckTerm& term : equation.terms) used.insert(term.node);
     }
-    for (const DeckSpring& spring : result_.deck.springs) {
+    for (const DeckSpring& spring : deck_.springs) {
       for (const DeckTerm& term : spring.terms) used.insert(term.node);
     }
     for (const auto& [number, grid] : systems_of_grids_) {
-      if (used.count(number) > 0) result_.deck.axes[number] = axes_of(grid.first, grid.second);
+      if (used.count(number) > 0) deck_.axes[number] = axes_of(grid.first, grid.second);
     }
   }
 
   Eigen::Vector3d grid_position(const NastranCard& card, std::size_t field) const {
-    for (const NastranCard& grid : grids_) {
-      if (nastran_integer(grid, 0) == nastran_integer(card, field)) {
-        return {nastran_number(grid, 2), nastran_number(grid, 3), nastran_number(grid, 4)};
-      }
-    }
-    refuse_card(card, "there is no GRID " + card.field(field));
+    const auto found = positions_.find(nastran_integer(card, field));
+    if (found == positions_.end()) refuse_card(card, "there is no GRID " + card.field(field));
+    return Eigen::Vector3d(found->second.data());
   }
 
   AxisSystem axes_of(const NastranCard& user, std::int64_t number) const {
@@ -183,15 +176,15 @@ class ConnectionReader {
   void add_spc(const NastranCard& card) {
     for (std::size_t first = 1; first < 7 && !card.field(first).empty(); first += 3) {
       if (nastran_number(card, first + 2) != 0) refuse_card(card, "expected displacements of zero");
-      result_.deck.supports.push_back({"SPC " + card.field(0), nastran_integer(card, first),
-                                       nastran_components(card, first + 1)});
+      deck_.supports.push_back({"SPC " + card.field(0), nastran_integer(card, first),
+                                nastran_components(card, first + 1)});
     }
   }
 
   void add_spc1(const NastranCard& card) {
-    for (const std::int64_t node : nastran_list(card, 2)) {
-      if (result_.positions.count(node) == 0) continue;  // of a range
-      result_.deck.supports.push_back({"SPC1 " + card.field(0), node, nastran_components(card, 1)});
+    const auto is_there = [&](std::int64_t node) { return positions_.count(node) > 0; };
+    for (const std::int64_t node : nastran_list(card, 2, is_there)) {
+      deck_.supports.push_back({"SPC1 " + card.field(0), node, nastran_components(card, 1)});
     }
   }
 
@@ -205,7 +198,7 @@ class ConnectionReader {
       }
     }
     if (equation.terms.empty()) refuse_card(card, "it has no terms");
-    result_.deck.equations.push_back(std::move(equation));
+    deck_.equations.push_back(std::move(equation));
   }
 
   void add_rbe2(const NastranCard& card) {
@@ -213,7 +206,7 @@ class ConnectionReader {
         "RBE2 " + card.field(0), nastran_integer(card, 1), 0, nastran_list(card, 3), {}};
     const std::array<bool, 6> given = nastran_components(card, 2);
     std::copy_n(given.begin(), 3, coupling.directions.begin());
-    result_.deck.couplings.push_back(std::move(coupling));
+    deck_.couplings.push_back(std::move(coupling));
   }
 
   void add_conm2(const NastranCard& card) {
@@ -230,9 +223,7 @@ class ConnectionReader {
         -nastran_number(card, 9), nastran_number(card, 10), -nastran_number(card, 12),
         -nastran_number(card, 11), -nastran_number(card, 12), nastran_number(card, 13);
     if (system == -1) {
-      const auto found = result_.positions.find(mass.node);
-      if (found == result_.positions.end()) refuse_card(card, "there is no GRID " + card.field(1));
-      offset -= Eigen::Vector3d(found->second.data());
+      offset -= grid_position(card, 1);
     } else if (system != 0) {
       const AxisSystem axes = axes_of(card, system);
       if (axes.is_cylindrical) refuse_card(card, "cylindrical axes are not supported");
@@ -243,7 +234,7 @@ class ConnectionReader {
     mass.center = {offset[0], offset[1], offset[2]};
     mass.inertia = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
                     inertia(0, 1), inertia(0, 2), inertia(1, 2)};
-    result_.deck.masses.push_back(std::move(mass));
+    deck_.masses.push_back(std::move(mass));
   }
 
   /// CELAS2: number, K, G1, C1, G2, C2; CELAS1 has its property in place of K.
@@ -262,11 +253,12 @@ class ConnectionReader {
                               spring.terms.empty() ? 1.0 : -1.0});
     }
     if (spring.terms.empty()) refuse_card(card, "it joins no nodes");
-    result_.deck.springs.push_back(std::move(spring));
+    deck_.springs.push_back(std::move(spring));
   }
 
+  const std::map<std::int64_t, std::array<double, 3>>& positions_;
   LeftOut& left_out_;
-  NastranConnections result_;
+  DeckConnections deck_;
   std::vector<NastranCard> grids_;
   std::optional<NastranCard> grid_set_;
   std::vector<NastranCard> cards_;
@@ -274,7 +266,6 @@ class ConnectionReader {
   std::map<std::int64_t, NastranCard> systems_;
   std::map<std::int64_t, double> stiffness_;
   std::map<std::string, std::map<std::int64_t, std::set<std::int64_t>>> unions_;
-  std::set<std::int64_t> solid_nodes_;
   double mass_factor_ = 1;
 };
 
@@ -286,10 +277,12 @@ bool is_nastran_connection(std::string_view name) {
   return std::find(kCards.begin(), kCards.end(), name) != kCards.end();
 }
 
-NastranConnections read_nastran_connections(std::string_view text, LeftOut& left_out) {
-  ConnectionReader reader(left_out);
-  for_each_nastran_card(text, [&](const NastranCard& card) { reader.read(card); });
-  return reader.finish(read_nastran_case_control(text));
+DeckConnections read_nastran_connections(
+    const std::vector<NastranCard>& cards, const NastranCaseControl& control,
+    const std::map<std::int64_t, std::array<double, 3>>& positions, LeftOut& left_out) {
+  ConnectionReader reader(positions, left_out);
+  for (const NastranCard& card : cards) reader.read(card);
+  return reader.finish(control);
 }
 
 }  // namespace flexneck::mesher

@@ -9,15 +9,10 @@
 
 #include "mesher/exchange/deck_connections.h"
 #include "mesher/exchange/left_out.h"
+#include "mesher/exchange/nastran_cards.h"
+#include "mesher/exchange/nastran_case_control.h"
 
 namespace flexneck::mesher {
-
-/// What Nastran's bulk data say beside nodes and solids, and the nodes that this needs.
-struct NastranConnections {
-  DeckConnections deck;
-  std::map<std::int64_t, std::array<double, 3>> positions;  ///< of all GRIDs
-  std::vector<std::int64_t> solid_nodes;                    ///< ascending
-};
 
 /// Whether a card is one that read_nastran_connections() reads, other than GRID and coordinate
 /// systems.
@@ -26,9 +21,13 @@ bool is_nastran_connection(std::string_view name);
 /// Reads RBE2, MPC, SPC, SPC1, the supports of GRIDs, CONM2, CELAS1 with PELAS, and CELAS2, in the
 /// axes of CORD1R, CORD1C, CORD2R and CORD2C. Sets of SPC and MPC are those that the case control
 /// selects; without a case control, the only ones.
-/// @param left_out gets the cards of sets that are not selected, and what a card has besides
-/// @throws InputError with the line for numbers that are none, coordinate systems that are not
-/// there or not of these kinds, displacements that are not zero.
-NastranConnections read_nastran_connections(std::string_view text, LeftOut& left_out);
+/// @param positions of all GRIDs
+/// @param left_out gets the cards of sets that are not selected
+/// @throws InputError with the line for numbers that are none, nodes that are not there, coordinate
+/// systems that are not there or not of these kinds, displacements that are not zero; for several
+/// sets of which none is selected.
+DeckConnections read_nastran_connections(
+    const std::vector<NastranCard>& cards, const NastranCaseControl& control,
+    const std::map<std::int64_t, std::array<double, 3>>& positions, LeftOut& left_out);
 
 }  // namespace flexneck::mesher

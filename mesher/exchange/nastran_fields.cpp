@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "geometry/foundation/error.h"
@@ -69,22 +70,31 @@ int nastran_component(const NastranCard& card, std::size_t field) {
   return static_cast<int>(value);
 }
 
-std::vector<std::int64_t> nastran_list(const NastranCard& card, std::size_t field) {
+std::vector<std::int64_t> nastran_list(const NastranCard& card, std::size_t field,
+                                       const std::function<bool(std::int64_t)>& is_there) {
   constexpr std::int64_t kMost = 10'000'000;
   std::vector<std::int64_t> numbers;
+  std::optional<std::int64_t> written;  // the last one, where a range may begin
   for (; field < card.fields.size(); ++field) {
     const std::string& text = card.field(field);
     if (text.empty()) continue;
     if (text.find('.') != std::string::npos) break;
-    if (upper_case(text) != "THRU") {
-      numbers.push_back(nastran_integer(card, field));
-      continue;
+    const bool is_range = upper_case(text) == "THRU";
+    const std::int64_t number = nastran_integer(card, is_range ? ++field : field);
+    if (is_range) {
+      if (!written || number < *written || number - *written > kMost) {
+        refuse_card(card, "expected a range with THRU");
+      }
+      for (std::int64_t next = *written + 1; next < number; ++next) {
+        if (!is_there || is_there(next)) numbers.push_back(next);
+      }
     }
-    const std::int64_t last = nastran_integer(card, ++field);
-    if (numbers.empty() || last < numbers.back() || last - numbers.back() > kMost) {
-      refuse_card(card, "expected a range with THRU");
+    if (!is_there || is_there(number)) {
+      numbers.push_back(number);
+    } else if (!is_range && upper_case(card.field(field + 1)) != "THRU") {
+      refuse_card(card, "there is no node " + text);
     }
-    while (numbers.back() < last) numbers.push_back(numbers.back() + 1);
+    written = is_range ? std::nullopt : std::optional(number);
   }
   return numbers;
 }

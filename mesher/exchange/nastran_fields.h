@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ std::array<bool, 6> nastran_components(const NastranCard& card, std::size_t fiel
 /// One of them, from 1 to 6.
 int nastran_component(const NastranCard& card, std::size_t field);
 /// Numbers from a field on, with "first THRU last"; a real behind them ends the list.
-std::vector<std::int64_t> nastran_list(const NastranCard& card, std::size_t field);
+/// @param is_there tells whether there is such a number: of a range those that are not there are
+/// left out, one that is written out is refused; without it all are
+std::vector<std::int64_t> nastran_list(const NastranCard& card, std::size_t field,
+                                       const std::function<bool(std::int64_t)>& is_there = {});
 
 }  // namespace flexneck::mesher

@@ -85,6 +85,21 @@ std::vector<GmshGroup> groups_by_entity(int dimension) {
   return groups;
 }
 
+/// Groups of one name are one.
+void add_group(GmshGroup group, std::vector<GmshGroup>& groups) {
+  auto known = std::find_if(groups.begin(), groups.end(),
+                            [&](const GmshGroup& other) { return other.name == group.name; });
+  if (known == groups.end()) {
+    groups.push_back(std::move(group));
+    known = groups.end() - 1;
+  } else {
+    known->entities.insert(known->entities.end(), group.entities.begin(), group.entities.end());
+  }
+  std::vector<int>& all = known->entities;
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
 [[noreturn]] void refuse_kinds(const GmshGroup& group, const std::map<int, std::size_t>& unknown) {
   std::string found;
   for (const auto& [type, count] : unknown) {
@@ -123,8 +138,7 @@ std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source) {
     }
     if (group.name.empty()) group.name = entity_name(dim) + "_" + std::to_string(tag);
     gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.entities);
-    std::sort(group.entities.begin(), group.entities.end());
-    groups.push_back(std::move(group));
+    add_group(std::move(group), groups);
   }
   return groups;
 }

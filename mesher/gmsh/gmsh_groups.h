@@ -22,9 +22,9 @@ struct GmshGroup {
   std::string label() const;  ///< "physical volume 'part'"
 };
 
-/// Physical groups of a dimension in the order of their tags. From an outside file, a group without
-/// a name is called "volume_<tag>" (surface, curve, point), and if there is no group of volumes or
-/// surfaces at all, each entity with elements counts as one.
+/// Physical groups of a dimension in the order of their tags; those of one name are one. From an
+/// outside file, a group without a name is called "volume_<tag>" (surface, curve, point), and if
+/// there is no group of volumes or surfaces at all, each entity with elements counts as one.
 /// @throws InputError if a script's group has no name.
 std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source);
 

@@ -142,9 +142,7 @@ Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, Lef
     for (double& x : node) x *= scale;
   }
   if (is_shape) return mesh;
-  if (copy.format() != ForeignFormat::bdf) {  // whose cards are counted
-    for (const auto& [kind, count] : gmsh_elements_off_volumes()) left_out.add(kind, count);
-  }
+  for (const auto& [kind, count] : gmsh_elements_off_volumes()) left_out.add(kind, count);
   return mesh;
 }
 

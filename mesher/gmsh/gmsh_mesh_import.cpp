@@ -11,6 +11,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "mesher/exchange/part_materials.h"
 #include "mesher/mesh/face_orientation.h"
 
 namespace flexneck::mesher {
@@ -74,31 +75,6 @@ class NodeNumbering {
   std::vector<std::size_t> tags_;  ///< ascending, unique
 };
 
-std::size_t material_index(const std::string& part, const std::vector<Material>& materials,
-                           const std::map<std::string, std::string>& material_of_part) {
-  const auto entry = material_of_part.find(part);
-  if (entry == material_of_part.end()) {
-    throw InputError("part '" + part + "' has no material; list it under a material's parts");
-  }
-  try {
-    return find_name(names_of(materials), entry->second, "material");
-  } catch (const InputError& error) {
-    throw InputError("part '" + part + "': " + error.what());
-  }
-}
-
-/// A material for a part that does not exist is a slip of the pen.
-void require_known_parts(const std::vector<GmshGroup>& volumes,
-                         const std::map<std::string, std::string>& material_of_part) {
-  for (const auto& [part, material] : material_of_part) {
-    try {
-      find_name(names_of(volumes), part, "part");
-    } catch (const InputError& error) {
-      throw InputError("material '" + material + "': " + error.what());
-    }
-  }
-}
-
 void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source) {
   for (const GmshGroup& surface : gmsh_groups(2, source)) {
     FaceSet set{.name = surface.name, .blocks = {}};
@@ -112,14 +88,21 @@ void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source
   }
 }
 
-/// A set of points with the name of a face set belongs to the same place: the faces' nodes stand.
+/// Surfaces, curves and points of one name are one node set.
 void add_node_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source) {
   for (const int dimension : {1, 0}) {
     for (const GmshGroup& group : gmsh_groups(dimension, source)) {
-      const std::vector<std::string> known = names_of(mesh.node_sets);
-      if (std::find(known.begin(), known.end(), group.name) != known.end()) continue;
-      mesh.node_sets.push_back(
-          {group.name, numbering.indices_of(node_tags_of(group), group.label())});
+      std::vector<std::int32_t> nodes = numbering.indices_of(node_tags_of(group), group.label());
+      const auto known = std::find_if(mesh.node_sets.begin(), mesh.node_sets.end(),
+                                      [&](const NodeSet& set) { return set.name == group.name; });
+      if (known == mesh.node_sets.end()) {
+        mesh.node_sets.push_back({group.name, std::move(nodes)});
+        continue;
+      }
+      std::vector<std::int32_t> all;
+      std::set_union(known->nodes.begin(), known->nodes.end(), nodes.begin(), nodes.end(),
+                     std::back_inserter(all));
+      known->nodes = std::move(all);
     }
   }
 }
@@ -137,7 +120,7 @@ Mesh import_gmsh_mesh(const std::vector<Material>& materials,
                          : "it has no volume elements");
   }
   require_one_part_per_volume(volumes);
-  require_known_parts(volumes, material_of_part);
+  require_known_parts(names_of(volumes), material_of_part);
 
   std::vector<GroupElements> parts;
   NodeNumbering numbering;

@@ -10,8 +10,8 @@
 namespace flexneck::mesher {
 
 /// Imports the mesh of gmsh's current model: blocks per physical volume in the order of their
-/// tags, one for each kind; a face set and a node set per physical surface; a node set per physical
-/// curve or point, unless there is a face set of that name. Nodes are those of the volume elements,
+/// tags, one for each kind; a face set per name of physical surfaces; a node set per name of
+/// physical surfaces, curves and points. Nodes are those of the volume elements,
 /// in the order of gmsh's tags. Faces point out of the part that they bound. A script's positions
 /// are rounded to 1.5e-11 of the largest, a file's stay as they are.
 /// @throws InputError if a script's physical group has no name, a group has no elements or elements

@@ -7,16 +7,14 @@
 namespace flexneck::mesher {
 
 /// Reads the file; a shape is meshed with 10-node tetrahedra. The parts are
-///  - the physical volumes of a .msh, the groups of a .unv; without groups (.bdf: without names)
-///    "volume_<tag>", the tag being that of the entity or property;
-///  - the ELSETs of an .inp, see inp_import.h;
+///  - the physical volumes of a .msh; without groups "volume_<tag>" of the entity;
+///  - those of an .inp, .bdf or .unv: see inp_import.h, nastran_import.h and unv_import.h;
 ///  - the volumes of a shape by their label, or "volume_<tag>"; where they touch they are glued.
-/// Sets come from physical surfaces, curves and points, from NSETs and SURFACEs, and from the faces
-/// of a shape as "surface_<tag>".
+/// Sets come from physical surfaces, curves and points, and from the faces of a shape as
+/// "surface_<tag>".
 /// @throws InputError if the file is not what its ending says, has elements that a mesh cannot hold
 /// (which, how many), inverted, doubled or unconnected ones (import_check.h), parts without
-/// material, or a material or box set without anything to apply to; a .bdf as survey_nastran, and a
-/// .bdf or .unv of which gmsh misses elements.
+/// material, or a material or box set without anything to apply to.
 /// @param warn as of checked_import()
 Mesh import_mesh(const ImportOptions& options, const Progress& progress, const Progress& warn = {});
 

@@ -9,6 +9,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/output_file.h"
+#include "mesher/mesh/boundary.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -140,13 +141,48 @@ void check_slit(const Mesh& mesh, const Slit& slit) {
   }
 }
 
+template <class Set>
+const Set* find_set(const std::vector<Set>& sets, const std::string& name) {
+  const auto found =
+      std::find_if(sets.begin(), sets.end(), [&](const Set& set) { return set.name == name; });
+  return found == sets.end() ? nullptr : &*found;
+}
+
+std::string counted_nodes(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " node" : " nodes");
+}
+
+void require_one_meaning(const NodeSet* nodes, const FaceSet* faces) {
+  if (nodes == nullptr || faces == nullptr) return;
+  const std::vector<std::int32_t> of_faces = nodes_of(*faces).nodes;
+  if (of_faces == nodes->nodes) return;
+  refuse("the node set '" + nodes->name + "' has " + counted_nodes(nodes->nodes.size()) +
+         ", the face set of the same name covers " + counted_nodes(of_faces.size()) +
+         (of_faces.size() == nodes->nodes.size() ? ", others" : "") + "; rename one of them");
+}
+
+/// A node set where faces are needed.
+[[noreturn]] void refuse_faces(const Mesh& mesh, const NodeSet& set) {
+  const FaceSet faces = faces_among(boundary_facets(mesh), set.name, [&](std::int32_t node) {
+    return std::binary_search(set.nodes.begin(), set.nodes.end(), node);
+  });
+  refuse("'" + set.name + "' is a node set of " + counted_nodes(set.nodes.size()) +
+         ", and whole faces of the surface cover " + counted_nodes(nodes_of(faces).nodes.size()) +
+         " of them; expected a face set");
+}
+
 }  // namespace
 
 const NodeSet& Mesh::node_set(const std::string& name) const {
+  require_one_meaning(find_set(node_sets, name), find_set(face_sets, name));
   return node_sets[find_name(names_of(node_sets), name, "node set")];
 }
 
 const FaceSet& Mesh::face_set(const std::string& name) const {
+  const FaceSet* const faces = find_set(face_sets, name);
+  const NodeSet* const same_name = find_set(node_sets, name);
+  require_one_meaning(same_name, faces);
+  if (faces == nullptr && same_name != nullptr) refuse_faces(*this, *same_name);
   return face_sets[find_name(names_of(face_sets), name, "face set")];
 }
 

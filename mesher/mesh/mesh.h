@@ -71,7 +71,9 @@ struct Mesh {
   std::vector<Slit> slits;
   Connections connections;
 
-  /// @throws InputError if there is none of that name; the message lists those there are.
+  /// A name means one set of nodes.
+  /// @throws InputError if there is none of that name, the message lists those there are; if a node
+  /// set and a face set of that name have different nodes, with both counts.
   const NodeSet& node_set(const std::string& name) const;
   const FaceSet& face_set(const std::string& name) const;
 };

@@ -45,9 +45,15 @@ class PieceBuilder {
     return std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t n) { return of(n) >= 0; });
   }
 
+  /// Not where the piece has more nodes of the set: those at the edge of faces of other pieces.
   void add_faces(FaceSet faces) {
     for (FaceBlock& block : faces.blocks) renumber(block.nodes);
-    result_.mesh.face_sets.push_back(std::move(faces));
+    const std::vector<NodeSet>& sets = result_.mesh.node_sets;
+    if (std::none_of(sets.begin(), sets.end(), [&](const NodeSet& set) {
+          return set.name == faces.name && set.nodes != nodes_of(faces).nodes;
+        })) {
+      result_.mesh.face_sets.push_back(std::move(faces));
+    }
   }
 
   /// Only those that belong to the piece.

@@ -66,6 +66,7 @@ class FinerBlocks {
   std::vector<std::vector<std::int32_t>> parents_;
 };
 
+/// The nodes whose weights all lie in the set.
 NodeSet refine_set(const NodeSet& set, const RefinedNodes& refined) {
   NodeSet result{set.name, {}};
   std::vector<NodeWeight> weights;
@@ -78,6 +79,13 @@ NodeSet refine_set(const NodeSet& set, const RefinedNodes& refined) {
     }
   }
   return result;
+}
+
+/// Whether a face set of the same name has the same nodes; it has them in the finer mesh, too.
+bool is_of_faces(const Mesh& mesh, const NodeSet& set) {
+  return std::any_of(mesh.face_sets.begin(), mesh.face_sets.end(), [&](const FaceSet& faces) {
+    return faces.name == set.name && nodes_of(faces).nodes == set.nodes;
+  });
 }
 
 /// New nodes among those of a coupling or support belong to it; masses, springs and equations stay
@@ -178,7 +186,9 @@ RefinedMesh refine(const Mesh& mesh) {
   }
   place_nodes(mesh, refined, result);
   for (const NodeSet& set : mesh.node_sets) {
-    result.mesh.node_sets.push_back(refine_set(set, refined));
+    result.mesh.node_sets.push_back(is_of_faces(mesh, set)
+                                        ? nodes_of(result.mesh.face_set(set.name))
+                                        : refine_set(set, refined));
   }
   for (const Slit& slit : mesh.slits) result.mesh.slits.push_back(refine_slit(slit, refined));
   result.mesh.connections = refine_connections(mesh, refined);

@@ -71,7 +71,8 @@ std::vector<std::string> CsvLines::cells_of(const std::string& line) const {
     at = std::min(text.find_first_not_of(" \t", at), text.size());
     std::string cell;
     std::size_t end = at;
-    if (at < text.size() && text[at] == '"') {
+    const bool is_quoted = at < text.size() && text[at] == '"';
+    if (is_quoted) {
       for (++end;; ++end) {
         if (end >= text.size()) refuse("a quote \" that begins a cell has no other at its end");
         if (text[end] == '"' && text.substr(end + 1, 1) != "\"") break;
@@ -81,7 +82,12 @@ std::vector<std::string> CsvLines::cells_of(const std::string& line) const {
       at = end + 1;
     }
     end = std::min(text.find(',', at), text.size());
-    cell += trimmed(text.substr(at, end - at));
+    const std::string_view rest = trimmed(text.substr(at, end - at));
+    if (is_quoted && !rest.empty()) {
+      refuse("expected a comma behind the quote \" that ends a cell, found \"" +
+             printable(std::string(rest)) + "\"");
+    }
+    cell += rest;
     cells.push_back(cell);
     if (end == text.size()) return cells;
     at = end + 1;

@@ -30,9 +30,13 @@ class Builder {
 
   /// Of a node set, or of a face set.
   std::vector<std::int32_t> nodes_of(const std::string& set) const {
-    const std::vector<std::string> faces = names_of(mesh_.face_sets);
-    const bool is_face_set = std::find(faces.begin(), faces.end(), set) != faces.end();
-    return is_face_set ? mesher::nodes_of(mesh_.face_set(set)).nodes : mesh_.node_set(set).nodes;
+    const auto is_among = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), set) != names.end();
+    };
+    const bool is_of_faces_only =
+        is_among(names_of(mesh_.face_sets)) && !is_among(names_of(mesh_.node_sets));
+    return is_of_faces_only ? mesher::nodes_of(mesh_.face_set(set)).nodes
+                            : mesh_.node_set(set).nodes;
   }
 
   void add(const CouplingSection& coupling) {

@@ -58,6 +58,8 @@ constexpr auto kKeys = std::to_array<Key>({
     Key::text("coincident_nodes", "refuse",
               "Nodes of a file in the same place: a mistake, or meant, as at a crack",
               {.choices = coincident_nodes}),
+    Key::texts("leave_out", kNone,
+               "Of a .bdf: cards that change the structure and are not supported, to do without"),
     Key::tables("set", "A face set and node set of what lies in a box", kSetKeys),
 });
 
@@ -183,6 +185,7 @@ mesher::ImportOptions read_file(const StudyTable& geometry, const StudyTable& me
     options.element_size_m = mesh.quantity("size");
   }
   options.keeps_doubles = geometry.choice("coincident_nodes") == 1;
+  options.leave_out = geometry.texts("leave_out");
   options.box_sets = read_box_sets(geometry);
   return options;
 }

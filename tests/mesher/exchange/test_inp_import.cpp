@@ -288,4 +288,23 @@ TEST_CASE("files that include the next one often are refused before the hours") 
   CHECK_THAT(testing::refusal(options), Contains("more than 1000 files"));
 }
 
+TEST_CASE("other files, supports of later steps and masses by direction are refused by name") {
+  const Files files;
+  const auto refusal_of = [&](const std::string& more) {
+    return testing::refusal(
+        import_options(files.write("deck.inp", std::string(kDeck) + more), {"Both"}));
+  };
+  for (const std::string keyword :
+       {"*NODE", "*ELEMENT, TYPE=C3D8", "*EQUATION", "*BOUNDARY", "*NSET, NSET=more"}) {
+    INFO(keyword);
+    CHECK_THAT(refusal_of(keyword + ", INPUT=more.txt\n"), Contains("INPUT= is not supported"));
+  }
+  CHECK_THAT(refusal_of("*ELEMENT, TYPE=MASS, ELSET=M\n99, 7\n*MASS, ELSET=M, TYPE=ANISOTROPIC\n"
+                        "1., 2., 3.\n"),
+             Contains("*MASS: TYPE is not supported"));
+  CHECK_THAT(refusal_of("*STEP\n*FREQUENCY\n4\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\nRing, 1, 3\n"
+                        "*END STEP\n"),
+             Contains("it belongs to a step behind *FREQUENCY"));
+}
+
 }  // namespace flexneck::mesher

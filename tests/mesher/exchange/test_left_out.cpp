@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include "mesher/exchange/inp_cards.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "tests/mesher/exchange/files.h"
 
@@ -44,6 +45,13 @@ std::string warning_of(const std::string& bdf) {
   return testing::warnings_of(options_of(files, "deck.bdf", bdf));
 }
 
+std::string warning_without(const std::string& bdf, const std::vector<std::string>& kinds) {
+  const Files files;
+  ImportOptions options = options_of(files, "deck.bdf", bdf);
+  options.leave_out = kinds;
+  return testing::warnings_of(options);
+}
+
 std::string nastran_refusal(const std::string& bdf) {
   const Files files;
   return testing::refusal(options_of(files, "deck.bdf", bdf));
@@ -55,7 +63,7 @@ TEST_CASE(
     "cards of a .bdf that a mesh cannot hold are counted in one line, in every field format") {
   CHECK(warning_of(deck("MAT1,1,2.+11,,.3,7850.\nPSOLID,1,1\nEIGRL,1,,,6\n$ CONM2,1\n")).empty());
   CHECK_THAT(
-      warning_of(deck(R"(CONM2         21       9               5.0
+      warning_without(deck(R"(CONM2         21       9               5.0
 CONM2,22,10,,5.
 SPC1,1,123,1,2,3,4
 RBE2          23       9  123456      10      11      12       1       2+
@@ -65,14 +73,15 @@ CELAS2*               24          1000.0               9               3
 cquad4,25,2,1,2,3,4
 PSHELL,2,1,.01
 RBE3,26,,9,123,1.,123,10,11,
-,12
+,12,123
 MPC,1,9,1,1.,10,1,-1.
 FORCE,1,9,,1.,0.,0.,1. $ a comment
 PLOAD4,1,2,1.
 GRID,30,,3.,3.,3.,,3
 PARAM,WTMASS,.00259
 PARAM,POST,-1
-)")),
+)"),
+                      {"CQUAD4", "RBE3"}),
       EndsWith("deck.bdf: not carried over: 1 CQUAD4, 1 FORCE, 1 MPC of sets that are not "
                "selected, 1 PLOAD4, 1 RBE3, 1 nodes of no solid element, 1 supports of nodes "
                "of no solid element; PARAM,WTMASS .00259: the deck's densities are weights, "
@@ -91,9 +100,12 @@ TEST_CASE("a .bdf that gmsh would read as another structure is refused with its 
              Contains("GRID: tabs between fixed"));
   CHECK_THAT(nastran_refusal(deck("CHEXA,3,1,1,2,3,4,5,6\n,7,8,9\n")),
              Contains("CHEXA: expected 8 or 20 nodes, found 9"));
-  const std::string lower = deck("CHEXA,3,1,1,2,3,4,9,10\n,11,12\n");
-  CHECK_THAT(nastran_refusal(std::string(lower).replace(lower.find("CHEXA,3"), 7, "chexa,3")),
-             Contains("3 solid elements of 8 nodes, but gmsh reads 2 of them"));
+  CHECK_THAT(nastran_refusal(deck("SPC1,1,123,1,2,3,4,5,6,7,8\n")),
+             Contains("line 21: SPC1: expected at most 8 free fields"));
+  CHECK_THAT(
+      nastran_refusal("SUBCASE 1\nSPC=1\nSUBCASE 2\nSPC=2\nBEGIN BULK\n" + std::string(kBulk)),
+      Contains("SUBCASE 1 has SPC = 1, SUBCASE 2 has SPC = 2"));
+  CHECK_THAT(nastran_refusal(deck("+A1,1,2\n")), Contains("the mark '+A1'"));
 }
 
 namespace {
@@ -124,6 +136,23 @@ std::string unv_warning_of(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("cards that change the structure are refused unless the study names them") {
+  for (const std::string card :
+       {"RBAR,26,9,10,123456", "RBE3,26,,9,123,1.,123,10,11", "CBUSH,26,1,9,10",
+        "NSM1,26,PSOLID,,1.,1", "CBAR,26,1,9,10", "CMASS2,26,1.,9,1", "rrod,26,9,10"}) {
+    INFO(card);
+    const Files files;
+    ImportOptions options = options_of(files, "deck.bdf", deck(card + "\n"));
+    const std::string name = upper_case(std::string_view(card).substr(0, card.find(',')));
+    CHECK_THAT(testing::refusal(options),
+               Contains("1 " + name + " (first in line 21)") && Contains("geometry.leave_out"));
+    options.leave_out = {name};
+    CHECK_THAT(testing::warnings_of(options), EndsWith("not carried over: 1 " + name + "\n"));
+    options.leave_out.push_back("CGAP");
+    CHECK_THAT(testing::refusal(options), Contains("names 'CGAP', but nothing of that kind"));
+  }
+}
 
 TEST_CASE("restraints, springs and shells of a .unv are counted, and its unit is compared") {
   const std::string spring =

@@ -66,7 +66,6 @@ TEST_CASE("a script under the name of a mesh is refused and does not run") {
       {"plain.brep", script},
       {"empty_line.msh", "\n" + script},
       {"blanks.msh", "  " + mesh},
-      {"bom.msh", "\xef\xbb\xbf" + mesh},
       {"header.msh", header + script},
       {"after.msh", mesh + script},
       {"between.msh", header + script + mesh.substr(header.size())},
