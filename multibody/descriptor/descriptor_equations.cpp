@@ -202,6 +202,8 @@ class DescriptorEquations final : public Equations {
     }
   }
 
+  Energies energies(const Vector& state) const override { return energies_of(equations_, state); }
+
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     // The correction is of the size of the interpolation's error: with the factors from before it,
     // velocities and accelerations are as exact as the interpolated state.

@@ -94,6 +94,9 @@ class Equations {
   /// Shows a watch the markers that it follows, of a state inside or at the end of a step.
   virtual void show(double time_s, const Vector& state, RunWatch& watch) = 0;
 
+  /// Of a state like the one that was evaluated last.
+  virtual Energies energies(const Vector& state) const = 0;
+
   /// Records an interpolated state, put onto the joints first.
   virtual void record(double time_s, Vector& state, Recorder& recorder, Eigen::Index column) = 0;
   virtual int evaluations() const = 0;

@@ -56,7 +56,10 @@ ForceSet::ForceSet(const Model& model)
       auto slots = element.markers(model.joints);
       for (std::size_t& marker : slots) marker = slot_of(marker);
       std::get<Slots<Kind>>(slots_of_kind_).of_element.push_back(slots);
-      if constexpr (PiecewiseForce<Kind>) pieces_.insert(pieces_.end(), 2, 0);
+      if constexpr (PiecewiseForce<Kind>) {
+        pieces_.insert(pieces_.end(), 2, 0);
+        kinks_.insert(kinks_.end(), 2, {});
+      }
     }
   });
 }
@@ -74,8 +77,8 @@ std::vector<std::vector<std::size_t>> ForceSet::markers_of_elements() const {
 
 std::string ForceSet::name_of_piece(std::size_t index) const {
   std::string who;
-  std::string_view what =
-      index % 2 == 0 ? "a stop or a kink of its curve" : "its friction or hysteresis turns over";
+  std::string_view what = is_deflection(index) ? "a stop or a kink of its curve"
+                                               : "its friction or hysteresis turns over";
   std::size_t before = 0;
   model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     if constexpr (PiecewiseForce<Kind>) {
@@ -135,6 +138,7 @@ void ForceSet::evaluate(double time_s) {
     slot.moment_Nm.setZero();
   }
   int* piece = pieces_.data();
+  KinksAround* kinks = kinks_.data();
   InternalVariables internal = internal_variables();
   model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     const auto& slots = std::get<Slots<Kind>>(slots_of_kind_).of_element;
@@ -153,6 +157,8 @@ void ForceSet::evaluate(double time_s) {
       if constexpr (PiecewiseForce<Kind>) {
         *piece++ = load.piece.deflection;
         *piece++ = load.piece.rate;
+        *kinks++ = load.piece.of_deflection;
+        *kinks++ = load.piece.of_rate;
       }
       j.force_N += load.force_N;
       j.moment_Nm += load.moment_Nm;

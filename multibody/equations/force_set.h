@@ -82,6 +82,10 @@ class ForceSet {
   /// Which smooth pieces of their laws elements were on in the last evaluate(): two numbers for
   /// each PiecewiseForce (LawPiece). A motion along which one changes meets a kink of a load.
   const std::vector<int>& pieces() const { return pieces_; }
+  /// Beside each of them the coordinate that it goes by, with the kinks around it.
+  const std::vector<KinksAround>& kinks() const { return kinks_; }
+  /// Whether it goes by a deflection, not by a rate.
+  static bool is_deflection(std::size_t piece) { return piece % 2 == 0; }
   /// What happens where the number of this index changes.
   std::string name_of_piece(std::size_t index) const;
 
@@ -105,6 +109,7 @@ class ForceSet {
   std::vector<bool> prescribed_;  ///< of the slots
   Forces::OfEachKind<Slots> slots_of_kind_;
   std::vector<int> pieces_;
+  std::vector<KinksAround> kinks_;
   std::vector<std::size_t> turned_joints_;
   std::vector<CountedAngle> angles_;  ///< of the joints
   InternalVariables::Known known_ = InternalVariables::Known::relaxed;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "multibody/forces/arc.h"
 
@@ -15,10 +16,12 @@ using Eigen::Vector3d;
 struct Pull {
   Pull(const Cable& cable, double x) {
     const double k = cable.stiffness_N_m;
+    kinks = {x, 0, cable.play_m};
     if (x > cable.play_m) {
       extra_N = k * (x - cable.play_m);
       energy_J = extra_N * (x - cable.play_m) / 2;
       piece = 1;
+      kinks = {x, cable.play_m, kInfinity};
     } else if (x < 0) {
       // What the cable gives up at most is its preload.
       const double given_up_N = std::min(-k * x, cable.preload_N);
@@ -26,12 +29,18 @@ struct Pull {
       extra_N = -given_up_N;
       energy_J = given_up_N * (-x - slack_m) / 2 + given_up_N * slack_m;
       piece = slack_m > 0 ? -2 : -1;
+      const double slack_at_m = -cable.preload_N / k;
+      kinks = slack_m > 0 ? KinksAround{x, -kInfinity, slack_at_m} : KinksAround{x, slack_at_m, 0};
     }
   }
 
   double extra_N = 0;
   double energy_J = 0;
   int piece = 0;
+  KinksAround kinks;
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 };
 
 /// The arc from one marker to the other.
@@ -70,7 +79,7 @@ void Cable::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) c
   if (!(path.chord_m > kNoDirection)) return;
   const Pull pull(*this, path.length_m() - length_m);
   sums.stored_J += pull.energy_J;
-  load.piece = {pull.piece, 0};
+  load.piece = {pull.piece, 0, pull.kinks};
   const double ratio = path.arc.ratio;
   load.force_N = -pull.extra_N / (ratio * path.chord_m) * path.line;
   // The path's gradient over theta is -chord / ratio^2 times that of the ratio.

@@ -2,6 +2,7 @@
 #include "multibody/forces/joint_resistance.h"
 
 #include <cmath>
+#include <limits>
 
 #include "multibody/joints/joint_kinds.h"
 
@@ -54,7 +55,13 @@ void act_on_flexion(const Resistance& resistance, const Vector3d& axis, const Fo
   const double speed = swinging.norm();
   if (speed > kNoDirection) moment -= record(evaluate(resistance, 0, speed), 1) / speed * swinging;
   // Both rates count: bending turns over hysteresis, swinging friction.
-  piece.rate += 3 * piece_of(resistance, 0, speed).rate;
+  const LawPiece swings = piece_of(resistance, 0, speed);
+  piece.rate += 3 * swings.rate;
+  // Neither the angle nor the speed, which are never negative, has a kink at zero; where bending is
+  // at a kink, the speed is.
+  piece.of_rate = swings.of_rate;
+  if (piece.of_deflection.low == 0)
+    piece.of_deflection.low = -std::numeric_limits<double>::infinity();
   load.piece = piece;
   load.moment_Nm = moment;
 }

@@ -30,6 +30,8 @@ class LeastGaps {
 
   Vector openings_m = Vector::Zero();
   int which_open = 0;  ///< a bit each
+  /// How far the first gap is from opening or closing, m: an opening, or what a force presses in.
+  double to_next_m = 0;
 
  private:
   static bool is_open(int open, int gap) { return (open >> gap & 1) != 0; }
@@ -39,11 +41,15 @@ class LeastGaps {
     const Vector g = with_open(A, r, open);
     const Vector force = A * g + r;
     double violation = 0;  // as energy, so that openings and forces compare
+    double to_next = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kGaps; ++k) {
-      const double wrong = std::min(0.0, is_open(open, k) ? g[k] : force[k]);
-      violation = std::max(violation, wrong * wrong * (is_open(open, k) ? A(k, k) : 1 / A(k, k)));
+      const double room_m = is_open(open, k) ? g[k] : force[k] / A(k, k);
+      const double wrong_m = std::min(0.0, room_m);
+      to_next = std::min(to_next, room_m);
+      violation = std::max(violation, wrong_m * wrong_m * A(k, k));
     }
     if (violation >= least) return false;
+    to_next_m = to_next;
     least = violation;
     openings_m = g.cwiseMax(0.0);
     which_open = open;

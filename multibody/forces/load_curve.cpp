@@ -70,9 +70,18 @@ constexpr double kLocked = 0.9;
 
 }  // namespace
 
-int LoadCurve::piece(double x) const {
-  if (locks()) return x < kLocked * L_ ? 0 : 1;
-  return x_.empty() ? 0 : static_cast<int>(row_before(x_, x));
+CurvePiece LoadCurve::piece(double x) const {
+  CurvePiece found;
+  if (locks()) {
+    found.number = x < kLocked * L_ ? 0 : 1;
+    (found.number == 0 ? found.high : found.low) = kLocked * L_;
+  } else if (!x_.empty()) {
+    const std::size_t row = row_before(x_, x);
+    found.number = static_cast<int>(row);
+    found.low = x_[row];
+    if (row + 2 < x_.size()) found.high = x_[row + 1];
+  }
+  return found;
 }
 
 bool LoadCurve::continues(const LoadCurve& other) const {

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace flexneck::multibody {
+
+/// A smooth piece of a curve, by its number, and the deflections where it ends.
+struct CurvePiece {
+  int number = 0;
+  double low = 0;
+  double high = std::numeric_limits<double>::infinity();
+};
 
 /// A load over a deflection x >= 0 from (0, 0) on, N or N m over m or rad: a cubic; a table that is
 /// linear between its rows and goes on beyond the last with the last slope; or one that locks. By
@@ -25,7 +33,7 @@ class LoadCurve {
   double value(double x) const;
   double energy(double x) const;  ///< integral of the load from 0 to x, J
   /// Between which of its rows x lies, or whether it has locked; 0 for a cubic.
-  int piece(double x) const;
+  CurvePiece piece(double x) const;
   bool is_none() const { return c1_ == 0 && c2_ == 0 && c3_ == 0 && x_.empty(); }
   /// Slope at zero.
   double first_slope() const { return x_.empty() ? c1_ : load_[1] / x_[1]; }

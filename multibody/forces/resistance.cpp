@@ -16,9 +16,16 @@ double ResistanceSide::energy(double x) const {
   return curve.energy(x) + (x > stop ? beyond_stop.energy(x - stop) : 0);
 }
 
-int ResistanceSide::piece(double x) const {
+CurvePiece ResistanceSide::piece(double x) const {
   // Rows of both curves are passed one by one as x grows.
-  return curve.piece(x) + (x > stop ? 1 + beyond_stop.piece(x - stop) : 0);
+  CurvePiece found = curve.piece(x);
+  if (x > stop) {
+    const CurvePiece beyond = beyond_stop.piece(x - stop);
+    return {found.number + 1 + beyond.number, std::max(found.low, stop + beyond.low),
+            std::min(found.high, stop + beyond.high)};
+  }
+  found.high = std::min(found.high, stop);
+  return found;
 }
 
 void check_resistance(const std::string& who, const Resistance& resistance) {
@@ -57,16 +64,40 @@ bool is_smooth_at_zero(const Resistance& resistance) {
 
 LawPiece piece_of(const Resistance& resistance, double x, double v) {
   constexpr int kSlack = -1;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   LawPiece piece;
-  if (depends_on_direction(resistance))
-    piece.rate = v <= -resistance.full_rate ? -1 : v >= resistance.full_rate ? 1 : 0;
+  if (depends_on_direction(resistance)) {
+    const double full = resistance.full_rate;
+    piece.rate = v <= -full ? -1 : v >= full ? 1 : 0;
+    piece.of_rate = {v,
+                     piece.rate < 0   ? -kInfinity
+                     : piece.rate > 0 ? full
+                                      : -full,
+                     piece.rate < 0   ? -full
+                     : piece.rate > 0 ? kInfinity
+                                      : full};
+  }
   if (resistance.tension_only) {
-    piece.deflection = evaluate(resistance, x, v).load > 0 ? resistance.positive.piece(x) : kSlack;
+    if (evaluate(resistance, x, v).load > 0) {
+      const CurvePiece taut = resistance.positive.piece(x);
+      piece.deflection = taut.number;
+      piece.of_deflection = {x, taut.low, taut.high};
+    } else {
+      // Beyond zero it is slack while it shortens faster than its damping lets it.
+      piece.deflection = kSlack;
+      piece.of_deflection = {x, -kInfinity, x > 0 ? kInfinity : 0};
+    }
     return piece;
   }
-  const int passed = x < 0 ? resistance.negative.piece(-x) : resistance.positive.piece(x);
-  if (passed == 0 && is_smooth_at_zero(resistance)) return piece;
-  piece.deflection = x < 0 ? -1 - passed : 1 + passed;
+  const CurvePiece passed = x < 0 ? resistance.negative.piece(-x) : resistance.positive.piece(x);
+  if (passed.number == 0 && is_smooth_at_zero(resistance)) {
+    piece.of_deflection = {x, -resistance.negative.piece(0).high,
+                           resistance.positive.piece(0).high};
+    return piece;
+  }
+  piece.deflection = x < 0 ? -1 - passed.number : 1 + passed.number;
+  piece.of_deflection =
+      x < 0 ? KinksAround{x, -passed.high, -passed.low} : KinksAround{x, passed.low, passed.high};
   return piece;
 }
 

@@ -19,8 +19,8 @@ struct ResistanceSide {
 
   double load(double x) const;
   double energy(double x) const;
-  /// Counts what x has passed, rows of tables and the stop; 0 before all of them.
-  int piece(double x) const;
+  /// Its number counts what x has passed, rows of tables and the stop; 0 before all of them.
+  CurvePiece piece(double x) const;
 };
 
 /// Resistance against a deflection x of either sign and its rate: curves different in the two
@@ -48,11 +48,20 @@ struct ResistanceLoad {
 };
 ResistanceLoad evaluate(const Resistance& resistance, double x, double v);
 
+/// A coordinate along which a law has kinks, and the nearest of them on both sides.
+struct KinksAround {
+  double at = 0;  ///< m, rad, or per s
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
 /// Which smooth piece of its law a resistance is on: where one of these numbers changes, the load
-/// has a kink.
+/// has a kink. Coordinates tell how far that is; without kinks where a law does not say.
 struct LawPiece {
   int deflection = 0;  ///< which rows of a table, beyond which stop, slack or not
   int rate = 0;        ///< friction and hysteresis complete one way (-1), the other (1) or not yet
+  KinksAround of_deflection = {};
+  KinksAround of_rate = {};
 };
 LawPiece piece_of(const Resistance& resistance, double x, double v);
 

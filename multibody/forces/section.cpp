@@ -26,13 +26,13 @@ class CurvedBending {
  public:
   CurvedBending(const LoadCurve& curve, const Vector3d& bending) {
     const double first_slope = curve.first_slope();
-    const double angle = bending.norm();
-    piece = curve.piece(angle);
-    if (!(angle > kStraight)) return;
-    const double f = std::sqrt(2 * curve.energy(angle) / first_slope);
-    ratio_ = f / angle;
-    slope_ = curve.value(angle) / (first_slope * f);
-    along_ = bending / angle;
+    angle_ = bending.norm();
+    piece = curve.piece(angle_);
+    if (!(angle_ > kStraight)) return;
+    const double f = std::sqrt(2 * curve.energy(angle_) / first_slope);
+    ratio_ = f / angle_;
+    slope_ = curve.value(angle_) / (first_slope * f);
+    along_ = bending / angle_;
   }
 
   /// What the stiffness sees of the bending, less the bending.
@@ -44,10 +44,18 @@ class CurvedBending {
     return (ratio_ - 1) * (moment - along * along_) + (slope_ - 1) * along * along_;
   }
 
-  int piece = 0;  ///< of the curve
+  CurvePiece piece;
+  /// Along the bending angle, which has no kink at zero.
+  KinksAround kinks() const {
+    KinksAround found{angle_};
+    if (piece.low > 0) found.low = piece.low;
+    found.high = piece.high;
+    return found;
+  }
 
  private:
   static constexpr double kStraight = 1e-9;  // rad: the curve's first row is further
+  double angle_ = 0;
   double ratio_ = 1, slope_ = 1;
   Vector3d along_ = Vector3d::Zero();
 };
@@ -63,7 +71,7 @@ class Sized {
   explicit Sized(const Section& section) : section_(section) {}
 
   Vector with_gaps(const Vector6d& e, [[maybe_unused]] InternalVariables internal,
-                   [[maybe_unused]] int& which_open) const {
+                   [[maybe_unused]] LawPiece& piece) const {
     Vector strain = Vector::Zero();
     strain.template head<6>() = e;
     if constexpr (kGaps > 0) {
@@ -79,17 +87,18 @@ class Sized {
         r += K_branch.template bottomRows<kGaps>().lazyProduct(offset);
         internal = internal.behind(kSize);
       }
-      const Gaps found(A, r, which_open);
+      const Gaps found(A, r, piece.deflection);
       strain.template tail<kGaps>() = found.openings_m;
-      which_open = found.which_open;
+      piece.deflection = found.which_open;
+      piece.of_deflection = {found.to_next_m, 0};
     }
     return strain;
   }
 
   /// Loads that go with the motion e; internal variables and energies besides.
-  Vector6d stress(const Vector6d& e, InternalVariables internal, int& which_open,
+  Vector6d stress(const Vector6d& e, InternalVariables internal, LawPiece& piece,
                   ForceEnergies& sums) const {
-    const Vector strain = with_gaps(e, internal, which_open);
+    const Vector strain = with_gaps(e, internal, piece);
     Vector sum = map(section_.stiffness).lazyProduct(strain);
     sums.stored_J += strain.dot(sum) / 2;
     for (const Section::Branch& branch : section_.branches) {
@@ -155,7 +164,8 @@ Vector6d stress_with_friction(const Section& section, const Vector6d& e, Interna
     slides.head(section.branch_size() - section.friction.slides).setZero();
     Map(internal.found_rates, section.branch_size()) = slit.rate;
   }
-  piece = {slit.which_open, slit.slips ? 1 : 0};
+  piece.deflection = slit.which_open;
+  piece.rate = slit.slips ? 1 : 0;
   return sum.head<6>();
 }
 
@@ -204,8 +214,12 @@ void Section::check(const std::string& who, const ForceSites& sites) const {
 
 Section::Strain Section::with_gaps(const Vector6d& e, const InternalVariables& internal,
                                    int& which_open) const {
-  return sized(*this,
-               [&](const auto& of) { return Strain(of.with_gaps(e, internal, which_open)); });
+  LawPiece piece;
+  piece.deflection = which_open;
+  const Strain strain =
+      sized(*this, [&](const auto& of) { return Strain(of.with_gaps(e, internal, piece)); });
+  which_open = piece.deflection;
+  return strain;
 }
 
 void Section::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const {
@@ -228,9 +242,11 @@ void Section::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums)
   const Vector6d stress = has_friction()
                               ? stress_with_friction(*this, e, input.internal, load.piece, sums)
                               : sized(*this, [&](const auto& of) {
-                                  return of.stress(e, input.internal, load.piece.deflection, sums);
+                                  return of.stress(e, input.internal, load.piece, sums);
                                 });
-  load.piece.rate = 2 * (curved ? curved->piece : 0) + (has_friction() ? load.piece.rate : 0);
+  load.piece.rate =
+      2 * (curved ? curved->piece.number : 0) + (has_friction() ? load.piece.rate : 0);
+  if (curved) load.piece.of_rate = curved->kinks();
 
   // Virtual work (equations.md section 8): of w and theta, then of the motion of j against i.
   const Vector3d f = stress.head<3>();

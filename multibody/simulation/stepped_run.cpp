@@ -178,9 +178,12 @@ void SteppedRun::integrate(double end_s) {
   RunWatch watch = watch_;
   StepFollower follower(*equations_, watch);
   follower.begin(state_.time_s, state_.y);
+  StepGuards guards(*model_, solver_, *equations_);
+  if (state_.books.are_open) guards.take_up(state_.books);
   double begin = state_.time_s;
   for (const double end : ends.kinks_s()) {
     equations_->set_interval(begin, end);
+    if (!guards.books().are_open) guards.begin(begin, state_.y);
     integrator->restart();
     while (integrator->time_s() < end) {
       if (integrator->accepted() + integrator->rejected() >= solver_.max_steps)
@@ -188,6 +191,7 @@ void SteppedRun::integrate(double end_s) {
                                " steps; what limits them is the " +
                                integrator->name_of(integrator->limiting_component()));
       integrator->step(ends.limit_s(integrator->time_s(), end));
+      guards.check(*integrator);
       follower.follow(*integrator, [](double) {});
     }
     begin = end;
@@ -197,6 +201,7 @@ void SteppedRun::integrate(double end_s) {
   state_.pace = integrator->pace();
   state_.angles = counted_angles(watch);
   watch_ = std::move(watch);
+  state_.books = guards.books();
 }
 
 void SteppedRun::settle(double time_s) {
@@ -231,7 +236,11 @@ History SteppedRun::recorded() {
   recorder.look(0);
   History history = recorder.take();
   // Nothing is lost: the work is what the energies have gained.
-  if (kind_ == Kind::quasi_static)
+  if (kind_ != Kind::quasi_static) {
+    EnergyGuard guard(*model_, {solver_.relative_tolerance, solver_.absolute_tolerance});
+    guard.take_up(state_.books);
+    for (const std::string& each : guard.warnings()) history.warnings.push_back(each);
+  } else
     history.energy.work_J[0] = stored_J(history.energy) - state_.first_energy_J;
   return history;
 }

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "multibody/equations/equations.h"
+#include "multibody/history/energy_guard.h"
 #include "multibody/history/history.h"
 #include "multibody/history/run_watch.h"
 #include "multibody/model/model.h"
@@ -45,6 +46,7 @@ class SteppedRun {
     /// was stored in the first one.
     bool is_settled = true;
     double first_energy_J = 0;
+    EnergyBooks books;  ///< of a run in time
   };
 
   /// @param inputs  values from the start on, which an equilibrium is under; empty: zero

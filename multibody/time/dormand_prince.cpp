@@ -35,10 +35,6 @@ constexpr double kAlpha = 0.2 - 0.75 * kBeta;
 constexpr double kLargestGrowth = 10;
 constexpr double kLargestCut = 0.2;
 
-/// Of a step: how closely an event is found, and where it counts as one at the step's beginning.
-constexpr double kEventResolution = 1e-9;
-constexpr double kEventAtBeginning = 1e-6;
-
 }  // namespace
 
 DormandPrince::DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s,
@@ -52,14 +48,21 @@ DormandPrince::DormandPrince(InitialValueProblem problem, StepLimits limits, dou
   for (Vector& rate : rates_) rate.setZero(y.size());
   for (Vector& coefficients : dense_) coefficients.setZero(y.size());
   dense_[0] = y;
-  start_on_pieces();
+  if (problem_.forces != nullptr && !problem_.forces->pieces().empty())
+    events_.emplace(*problem_.forces);
 }
 
 void DormandPrince::restart() { fresh_ = false; }
 
-void DormandPrince::attempt(double length_s) {
-  if (!fresh_) problem_.derivative(time_s_, y_, rates_[0]);
+void DormandPrince::begin_motion() {
+  problem_.derivative(time_s_, y_, rates_[0]);
+  if (events_) events_->start();
+  watch_from_here();
   fresh_ = true;
+}
+
+void DormandPrince::attempt(double length_s) {
+  if (events_) events_->begin_step();
   for (std::size_t stage = 1; stage < kStages; ++stage) {
     Vector& target = stage < kStages - 1 ? y_stage_ : y_next_;
     target = y_;
@@ -67,11 +70,12 @@ void DormandPrince::attempt(double length_s) {
       const double weight = kStageWeights[stage - 1][k];
       if (weight != 0) target += length_s * weight * rates_[k];
     }
-    if (stage < kStages - 1)
-      problem_.derivative(time_s_ + kTimes[stage] * length_s, target, rates_[stage]);
+    if (stage == kStages - 1) continue;
+    problem_.derivative(time_s_ + kTimes[stage] * length_s, target, rates_[stage]);
+    if (events_ && kTimes[stage] < 1) events_->see(kTimes[stage]);
   }
   problem_.finish_step(time_s_ + length_s, y_next_, rates_[kStages - 1]);
-  if (problem_.pieces) pieces_next_ = problem_.pieces();
+  if (events_) events_->see_end();
   error_.setZero();
   for (std::size_t k = 0; k < kStages; ++k)
     if (kErrorWeights[k] != 0) error_ += length_s * kErrorWeights[k] * rates_[k];
@@ -94,7 +98,7 @@ void DormandPrince::accept(double length_s) {
   time_s_ += length_s;
   y_.swap(y_next_);
   rates_.front().swap(rates_.back());
-  pieces_.swap(pieces_next_);
+  if (events_) events_->accept();
   ++accepted_;
 }
 
@@ -108,36 +112,23 @@ void DormandPrince::interpolate_at(double s, Vector& y) const {
   y = dense_[0] + s * (dense_[1] + r * (dense_[2] + s * (dense_[3] + r * dense_[4])));
 }
 
-void DormandPrince::start_on_pieces() {
-  if (problem_.pieces) pieces_ = pieces_next_ = problem_.pieces();
-}
-
 double DormandPrince::share_to_event(double length_s) {
-  if (!problem_.pieces || pieces_next_ == pieces_) return 1;
-  make_dense(length_s);
-  const auto first_change = [&](const std::vector<int>& pieces) {
-    const auto found = std::mismatch(pieces_.begin(), pieces_.end(), pieces.begin());
-    return static_cast<std::size_t>(found.first - pieces_.begin());
+  if (!events_) return 1;
+  const auto evaluate = [&](double share) {
+    if (events_->evaluations() == 0) make_dense(length_s);
+    interpolate_at(share, y_stage_);
+    problem_.derivative(time_s_ + share * length_s, y_stage_, rates_[1]);
   };
-  event_ = first_change(pieces_next_);
-  double before = 0;
-  double behind = 1;
-  while (behind - before > kEventResolution) {
-    const double middle = 0.5 * (before + behind);
-    interpolate_at(middle, y_stage_);
-    problem_.derivative(time_s_ + middle * length_s, y_stage_, rates_[1]);
-    if (problem_.pieces() == pieces_) {
-      before = middle;
-    } else {
-      behind = middle;
-      event_ = first_change(problem_.pieces());
-    }
-  }
-  // Right behind the beginning lies what the last step was to end at.
-  return behind > kEventAtBeginning ? behind : 1;
+  const double share = events_->first_event(std::cref(evaluate));
+  event_ = events_->event();
+  // The loads stay those of the step's end.
+  if (share == 1 && events_->evaluations() > 0)
+    problem_.derivative(time_s_ + length_s, y_next_, rates_[1]);
+  return share;
 }
 
 void DormandPrince::fixed_step(double length_s) {
+  if (!fresh_) begin_motion();
   attempt(length_s);
   accept(length_s);
 }
@@ -162,12 +153,7 @@ ErrorEstimate DormandPrince::tried(double length_s) {
 }
 
 void DormandPrince::step(double limit_s) {
-  if (!fresh_) {
-    problem_.derivative(time_s_, y_, rates_[0]);
-    start_on_pieces();
-    watch_from_here();
-  }
-  fresh_ = true;
+  if (!fresh_) begin_motion();
   if (!(rates_[0].allFinite() && y_.allFinite())) collapse(problem_.measure(y_, y_, rates_[0]));
   if (proposed_s_ == 0) proposed_s_ = choose_first_step();
   const double left = limit_s - time_s_;

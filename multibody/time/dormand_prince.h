@@ -3,12 +3,13 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "multibody/numerics/error_estimate.h"
+#include "multibody/time/event_search.h"
 #include "multibody/time/time_integrator.h"
 
 namespace flexneck::multibody {
@@ -25,10 +26,8 @@ struct InitialValueProblem {
   std::function<ErrorEstimate(const Vector& y_begin, const Vector& y_end, const Vector& error)>
       measure;
   std::function<std::string(std::size_t component)> name_of_component;
-  /// Numbers that tell the smooth pieces of the right-hand side apart, where it was evaluated last.
-  /// Steps end where one of them changes. Without this function it is smooth.
-  std::function<const std::vector<int>&()> pieces = {};
-  std::function<std::string(std::size_t piece)> name_of_piece = {};
+  /// The loads, as derivative() evaluated them last: steps end at their kinks. None: it is smooth.
+  const ForceSet* forces = nullptr;
 };
 
 /// The explicit pair of orders 5(4) by Dormand and Prince (J. Comp. Appl. Math. 6, 1980) with
@@ -53,7 +52,7 @@ class DormandPrince final : public TimeIntegrator {
     return problem_.name_of_component(component);
   }
   std::string name_of_event(std::size_t event) const override {
-    return problem_.name_of_piece(event);
+    return problem_.forces->name_of_piece(event);
   }
 
  private:
@@ -64,9 +63,9 @@ class DormandPrince final : public TimeIntegrator {
   void make_dense(double length_s);
   void accept(double length_s);
   double choose_first_step() const;
-  void start_on_pieces();
-  /// The share of the step tried at whose end the first piece changes, or 1 if none does before the
-  /// step's end.
+  void begin_motion();
+  /// The share of the step tried at whose end the first kink of a load is, or 1 if none is before
+  /// the step's end.
   double share_to_event(double length_s);
   void interpolate_at(double s, Vector& y) const;
   double adapted(double length_s, double error);
@@ -76,8 +75,8 @@ class DormandPrince final : public TimeIntegrator {
   Vector y_next_, y_stage_, error_;
   std::array<Vector, kStages> rates_;
   std::array<Vector, 5> dense_;
-  std::vector<int> pieces_, pieces_next_;  ///< at the beginning and the end of the step tried
-  double proposed_s_ = 0;                  ///< zero: to be chosen
+  std::optional<EventSearch> events_;
+  double proposed_s_ = 0;  ///< zero: to be chosen
   double last_error_ = 1e-4;
   bool fresh_ = false;  ///< rates_[0] belongs to the present state
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "geometry/foundation/error.h"
@@ -22,6 +23,10 @@ constexpr double kConverged = 1e-3;
 constexpr double kSlow = 0.6;
 /// Cut of a step over which it does not converge.
 constexpr double kCut = 0.25;
+/// A kink is approached to this share of the step that was to pass it, and then passed by a short
+/// step: the load has changed by nothing there, and the short step's error by the kink is of
+/// second order in its length.
+constexpr double kClose = 1e-4;
 /// Of a step: the difference that estimates V'' behind a restart.
 constexpr double kDifference = 1e-3;
 
@@ -68,7 +73,9 @@ GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius,
       rate_(Vector::Zero(y.size())),
       rate_next_(rate_),
       rate_before_(rate_),
-      previous_time_s_(time_s) {}
+      rate_trial_(rate_),
+      previous_time_s_(time_s),
+      events_(equations.forces()) {}
 
 /// Consistent V' and multipliers behind a jump, and V'' by a difference along the motion, without
 /// which a_n would be of first order only. Zero as length: the first of a run.
@@ -76,6 +83,7 @@ void GeneralisedAlpha::begin(double length_s) {
   equations_.derivative(time_s_, y_, rate_);
   equations_.finish_step(time_s_, y_, rate_);
   watch_from_here();
+  events_.start();
   now_.V_rate = rate_.segment(nq_, nv_);
   now_.lambda = equations_.multipliers();
   if (!(rate_.allFinite() && y_.allFinite())) collapse(equations_.measure(y_, y_, rate_));
@@ -108,11 +116,15 @@ void GeneralisedAlpha::linearise(double length_s) {
 bool GeneralisedAlpha::attempt(double length_s) {
   now_.a = now_.V_rate + length_s * offset_rate_;
   equations_.begin_step(y_, rate_, length_s);
+  events_.begin_step();
   const bool first = !linearised_;
   if (first) linearise(length_s);
   const auto succeeds = [&] {
-    return iterate(length_s) &&
-           matrix_.leaves_out_only_redundant(equations_, time_s_ + length_s, y_next_);
+    if (!iterate(length_s)) return false;
+    events_.see_end();
+    if (!matrix_.leaves_out_only_redundant(equations_, time_s_ + length_s, y_next_)) return false;
+    equations_.rate(y_next_, next_.V_rate, rate_next_);
+    return true;
   };
   if (succeeds()) return true;
   if (first) return false;
@@ -183,14 +195,78 @@ bool GeneralisedAlpha::iterate(double length_s) {
 
 ErrorEstimate GeneralisedAlpha::local_error(double length_s) {
   residual_.head(nv_) = (alpha_.error * length_s * length_s) * (next_.a - now_.a);
-  change_ = residual_.head(nv_);
-  matrix_.filter(change_);
-  residual_.head(nv_) = change_;
+  if (!met_stop_) {
+    change_ = residual_.head(nv_);
+    matrix_.filter(change_);
+    residual_.head(nv_) = change_;
+  }
   return size_of(residual_, 1);
 }
 
+bool GeneralisedAlpha::tried(double length_s) {
+  if (!attempt(length_s)) return false;
+  last_estimate_ = local_error(length_s);
+  return true;
+}
+
+bool GeneralisedAlpha::try_step(double& length_s) {
+  crosses_ = false;
+  if (!tried(length_s)) return false;
+  if (!(last_estimate_.value <= 1) || events_.is_idle()) return true;
+  const bool is_left = events_.is_left();
+  const double share = is_left ? share_on_prediction(length_s) : share_inside(length_s);
+  if (!is_left && share == 1) {
+    approached_from_s_ = 0;
+    return true;
+  }
+  reason_ = StepReason::event;
+  event_ = events_.event();
+  if (approached_from_s_ == 0) approached_from_s_ = length_s;
+  const double ahead_s = share * length_s;
+  crosses_ = ahead_s <= kClose * approached_from_s_;
+  if (crosses_) {
+    length_s = std::min(length_s, 2 * ahead_s);
+    return tried(length_s);
+  }
+  length_s = ahead_s;
+  for (double back = kClose;; back = std::min(10 * back, 0.5)) {
+    length_s *= 1 - back;
+    if (!tried(length_s)) return false;
+    crosses_ = length_s <= kClose * approached_from_s_;
+    if (!(last_estimate_.value <= 1) || crosses_ || !events_.is_left()) return true;
+  }
+}
+
+double GeneralisedAlpha::share_inside(double length_s) {
+  if (last_length_s_ > 0) events_.see_step_before(-last_length_s_ / length_s);
+  const auto evaluate = [&](double share) {
+    interpolate_between({y_, rate_, y_next_, rate_next_, displacement_, length_s}, share, y_trial_);
+    equations_.derivative(time_s_ + share * length_s, y_trial_, rate_trial_);
+  };
+  const double share = events_.first_event(std::cref(evaluate));
+  // The loads stay those of the step's end.
+  if (share == 1 && events_.evaluations() > 0)
+    equations_.derivative(time_s_ + length_s, y_next_, rate_trial_);
+  return share;
+}
+
+/// As the step would go without the kink: its end, which obeys the law behind, says nothing of when
+/// that began.
+double GeneralisedAlpha::share_on_prediction(double length_s) {
+  const auto evaluate = [&](double share) {
+    const double h = share * length_s;
+    now_.a = now_.V_rate + h * offset_rate_;
+    predict(h);
+    update_end(h);
+    equations_.derivative(time_s_ + h, y_next_, rate_trial_);
+  };
+  evaluate(1);
+  events_.see_end();
+  return events_.first_event(std::cref(evaluate));
+}
+
 void GeneralisedAlpha::accept(double length_s) {
-  equations_.rate(y_next_, next_.V_rate, rate_next_);
+  events_.accept();
   y_next_.tail<2>() = y_.tail<2>() + length_s / 2 * (rate_.tail<2>() + rate_next_.tail<2>());
   offset_rate_ = (next_.a - next_.V_rate) / length_s;
   displacement_before_.swap(displacement_);
@@ -233,18 +309,16 @@ void GeneralisedAlpha::step(double limit_s) {
     reason_ = length < proposed_s_ ? StepReason::largest_step : StepReason::error;
     if (blind_before) reason_ = StepReason::load;
     if (failed_before) reason_ = StepReason::iteration;
-    const bool truncated = length >= left * (1 - 1e-9);
-    if (truncated) {
+    if (length >= left * (1 - 1e-9)) {
       length = left;
       reason_ = StepReason::end;
     }
-    if (!attempt(length)) {
+    if (!try_step(length)) {
       ++rejected_;
       rejected_before = failed_before = true;
       proposed_s_ = kCut * length;
       continue;
     }
-    last_estimate_ = local_error(length);
     const double error = last_estimate_.value;
     const double factor = kSafety * std::pow(std::max(error, 1e-9), -1. / 3);
     const double seen = error <= 1 ? share_seen(length, LoadWatch::Method::ends) : 1;
@@ -259,11 +333,18 @@ void GeneralisedAlpha::step(double limit_s) {
       double next = length * std::min(factor, kLargestGrowth);
       if (rejected_before) next = std::min(next, length);
       if (factor >= 1 && factor < kDeadBand) next = length;
-      // A step cut short by the limit says nothing against the longer one.
-      proposed_s_ = truncated ? std::max(next, proposed_s_) : next;
+      // A step cut short by the limit or an event says nothing against the longer one.
+      const bool at_event = reason_ == StepReason::event;
+      const bool at_end = reason_ == StepReason::end;
+      proposed_s_ = at_event || at_end ? std::max(next, proposed_s_) : next;
       accept(length);
       watch_from_end();
-      if (truncated) time_s_ = limit_s;
+      if (at_end) time_s_ = limit_s;
+      if (crosses_) {
+        fresh_ = false;
+        approached_from_s_ = 0;
+      }
+      met_stop_ = crosses_ && ForceSet::is_deflection(event_);
       return;
     }
     ++rejected_;
@@ -275,17 +356,23 @@ void GeneralisedAlpha::step(double limit_s) {
 
 void GeneralisedAlpha::interpolate(double time_s, Vector& y) const {
   const double h = time_s_ - previous_time_s_;
-  const double s = h > 0 ? (time_s - previous_time_s_) / h : 0;
+  interpolate_between({y_before_, rate_before_, y_, rate_, displacement_before_, h},
+                      h > 0 ? (time_s - previous_time_s_) / h : 0, y);
+}
+
+/// Hermite's cubic.
+void GeneralisedAlpha::interpolate_between(const Step& step, double share, Vector& y) const {
+  const double h = step.length_s;
+  const double s = share;
   const double r = 1 - s;
-  // Hermite's cubic.
-  y = r * y_before_ + s * y_ -
-      (s * r) * ((1 - 2 * s) * (y_ - y_before_) + (s * h) * rate_ - (r * h) * rate_before_);
-  const Vector displacement =
-      s * displacement_before_ -
-      (s * r) * ((1 - 2 * s) * displacement_before_ + (s * h) * y_.segment(nq_, nv_) -
-                 (r * h) * y_before_.segment(nq_, nv_));
-  y.head(nq_) = y_before_.head(nq_);
-  equations_.retract(y.head(nq_), displacement);
+  y = r * step.y_begin + s * step.y_end -
+      (s * r) * ((1 - 2 * s) * (step.y_end - step.y_begin) + (s * h) * step.rate_end -
+                 (r * h) * step.rate_begin);
+  const Vector moved = s * step.displacement - (s * r) * ((1 - 2 * s) * step.displacement +
+                                                          (s * h) * step.y_end.segment(nq_, nv_) -
+                                                          (r * h) * step.y_begin.segment(nq_, nv_));
+  y.head(nq_) = step.y_begin.head(nq_);
+  equations_.retract(y.head(nq_), moved);
 }
 
 }  // namespace flexneck::multibody

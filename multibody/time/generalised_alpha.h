@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "multibody/equations/equations.h"
+#include "multibody/time/event_search.h"
 #include "multibody/time/iteration_matrix.h"
 #include "multibody/time/time_integrator.h"
 
@@ -33,7 +34,8 @@ struct AlphaParameters {
 /// forces at any step; vibrations that a step does not resolve die out. Newton's matrix is kept
 /// while it serves. The local error of the positions, less what stiff modes resist, sets the step;
 /// inside a step the state is Hermite's cubic, that of the positions in the displacement from its
-/// beginning: a step may turn far.
+/// beginning: a step may turn far. Steps end at kinks of loads. What meets a stop there sets a
+/// stiff mode in motion that does matter: nothing is taken off the error of the step behind.
 class GeneralisedAlpha final : public TimeIntegrator {
  public:
   /// @param equations  must outlive this
@@ -47,8 +49,9 @@ class GeneralisedAlpha final : public TimeIntegrator {
   /// @throws ComputationError if Newton's method does not converge.
   void fixed_step(double length_s);
   void interpolate(double time_s, Vector& y) const override;
-  /// Its steps go over kinks of loads as the error allows: there are no events.
-  std::string name_of_event(std::size_t /*event*/) const override { return {}; }
+  std::string name_of_event(std::size_t event) const override {
+    return equations_.forces().name_of_piece(event);
+  }
   std::string name_of(std::size_t component) const override {
     return equations_.name_of(component);
   }
@@ -71,6 +74,20 @@ class GeneralisedAlpha final : public TimeIntegrator {
   /// Of a displacement q d at the end of the step, against the tolerance.
   ErrorEstimate size_of(const Vector& d, double q);
   ErrorEstimate local_error(double length_s);
+  /// A step with its error. @return whether Newton's method converged
+  bool tried(double length_s);
+  /// The same, and if it would pass a kink of a load, up to before it, or past it if that is close.
+  bool try_step(double& length_s);
+  // The share of the step tried behind which a piece is left: on its dense output where its end is
+  // on the same piece, or else.
+  double share_inside(double length_s);
+  double share_on_prediction(double length_s);
+  struct Step {
+    const Vector &y_begin, &rate_begin, &y_end, &rate_end;
+    const Vector& displacement;  ///< of the positions over it
+    double length_s;
+  };
+  void interpolate_between(const Step& step, double share, Vector& y) const;
   void accept(double length_s);
   double first_step() const;
   [[noreturn]] void give_up(double length_s) const;
@@ -84,13 +101,17 @@ class GeneralisedAlpha final : public TimeIntegrator {
   Vector displacement_, displacement_before_;  ///< over the step tried, over the last one
   Vector residual_, change_, error_;
   Vector y_next_, y_before_, y_trial_;
-  Vector rate_, rate_next_, rate_before_;
+  Vector rate_, rate_next_, rate_before_, rate_trial_;
   double previous_time_s_;
   double last_length_s_ = 0;  ///< zero behind a restart: nothing to extrapolate
   double proposed_s_ = 0;     ///< zero: to be chosen
   double factorised_for_s_ = 0;
-  bool fresh_ = false;       ///< `now_` and rate_ belong to the present state
-  bool linearised_ = false;  ///< ever
+  EventSearch events_;
+  bool fresh_ = false;            ///< `now_` and rate_ belong to the present state
+  double approached_from_s_ = 0;  ///< length of the step that was to pass the kink ahead; or zero
+  bool crosses_ = false;          ///< the step tried passes it
+  bool met_stop_ = false;         ///< the last one did, along a deflection
+  bool linearised_ = false;       ///< ever
   int linearisations_ = 0;
 };
 

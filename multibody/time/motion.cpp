@@ -83,6 +83,7 @@ class Run {
         ends_(model, solver, output.begin_time_s, output.end_time_s),
         integrator_(time_integrator(equations, output.begin_time_s, state, solver)),
         follower_(equations, recorder_.watch()),
+        guards_(model, solver, equations),
         output_state_(state) {}
 
   void run(double begin_s) {
@@ -95,27 +96,33 @@ class Run {
 
   History finish() {
     count_steps();
-    return recorder_.take();
+    return warned(recorder_.take());
   }
   History finish_early(const std::string& why) {
     count_steps();
-    return recorder_.take_incomplete(next_, why);
+    return warned(recorder_.take_incomplete(next_, why));
   }
 
  private:
   /// Steps over an interval in which no table has a kink.
   void advance(double begin_s, double end_s) {
     equations_.set_interval(begin_s, end_s);
+    if (integrator_->accepted() == 0) guards_.begin(begin_s, integrator_->state());
     integrator_->restart();
     while (integrator_->time_s() < end_s) {
       if (integrator_->accepted() + integrator_->rejected() >= max_steps_) give_up();
       integrator_->step(ends_.limit_s(integrator_->time_s(), end_s));
       limits_.count(*integrator_);
+      guards_.check(*integrator_);
       follower_.follow(*integrator_, [&](double time_s) { record_until(time_s); });
       if (checkpoint_) checkpoint_();
     }
   }
 
+  History warned(History history) const {
+    for (const std::string& each : guards_.warnings()) history.warnings.push_back(each);
+    return history;
+  }
   void count_steps() {
     StepStatistics& statistics = recorder_.statistics();
     statistics.accepted = integrator_->accepted();
@@ -151,12 +158,29 @@ class Run {
   StepEnds ends_;
   std::unique_ptr<TimeIntegrator> integrator_;
   StepFollower follower_;
+  StepGuards guards_;
   LimitCounter limits_;
   VectorXd output_state_;
   Index next_ = 0;
 };
 
 }  // namespace
+
+void StepGuards::begin(double time_s, const VectorXd& state) {
+  VectorXd rate(state.size());
+  equations_.derivative(time_s, state, rate);
+  check_energy(time_s, state);
+}
+
+void StepGuards::check(const TimeIntegrator& integrator) {
+  check_energy(integrator.time_s(), integrator.state());
+  chatter_.check(integrator);
+}
+
+void StepGuards::check_energy(double time_s, const VectorXd& state) {
+  const Index last = state.size() - 1;
+  energy_.check(time_s, equations_.energies(state), state[last - 1], state[last]);
+}
 
 namespace {
 
@@ -236,13 +260,7 @@ std::unique_ptr<TimeIntegrator> integrator_of(Equations& equations, double time_
       [&](const VectorXd& begin, const VectorXd& end, const VectorXd& error) {
         return equations.measure(begin, end, error);
       },
-      [&](std::size_t component) { return equations.name_of(component); }};
-  if (!equations.forces().pieces().empty()) {
-    problem.pieces = [&]() -> const std::vector<int>& { return equations.forces().pieces(); };
-    problem.name_of_piece = [&](std::size_t piece) {
-      return equations.forces().name_of_piece(piece);
-    };
-  }
+      [&](std::size_t component) { return equations.name_of(component); }, &equations.forces()};
   return std::make_unique<DormandPrince>(std::move(problem), limits, time_s, state);
 }
 

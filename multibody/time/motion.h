@@ -3,16 +3,19 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "multibody/equations/equations.h"
 #include "multibody/equations/solver_options.h"
+#include "multibody/history/energy_guard.h"
 #include "multibody/history/history.h"
 #include "multibody/history/output_options.h"
 #include "multibody/history/run_watch.h"
 #include "multibody/model/model.h"
+#include "multibody/time/chatter_guard.h"
 #include "multibody/time/time_integrator.h"
 
 namespace flexneck::multibody {
@@ -21,6 +24,32 @@ namespace flexneck::multibody {
 std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double time_s,
                                                 const Eigen::VectorXd& state,
                                                 const SolverOptions& solver);
+
+/// What looks at each accepted step of a run, in time.
+class StepGuards {
+ public:
+  /// @param equations  must outlive this
+  StepGuards(const Model& model, const SolverOptions& solver, Equations& equations)
+      : equations_(equations),
+        energy_(model, {solver.relative_tolerance, solver.absolute_tolerance}),
+        chatter_(equations) {}
+
+  /// Before the first step of a run.
+  void begin(double time_s, const Eigen::VectorXd& state);
+  /// Instead of it, where a run is taken up.
+  void take_up(const EnergyBooks& books) { energy_.take_up(books); }
+  const EnergyBooks& books() const { return energy_.books(); }
+  /// Behind each step. @throws ComputationError as EnergyGuard and ChatterGuard do.
+  void check(const TimeIntegrator& integrator);
+  std::vector<std::string> warnings() const { return energy_.warnings(); }
+
+ private:
+  void check_energy(double time_s, const Eigen::VectorXd& state);
+
+  Equations& equations_;
+  EnergyGuard energy_;
+  ChatterGuard chatter_;
+};
 
 /// @throws InputError if a motion given over time ends before `end_s`.
 void check_motions_reach(const Model& model, double end_s);

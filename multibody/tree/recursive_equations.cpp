@@ -131,6 +131,7 @@ class RecursiveEquations final : public Equations {
       watch.show(k, motion.rotation, motion.angular_velocity_rad_s);
     }
   }
+  Energies energies(const Vector& /*state*/) const override { return dynamics_.energies(); }
 
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
     normalise(state);

@@ -13,9 +13,16 @@
 namespace flexneck::multibody {
 
 template <class A>
+void archive(A& all, EnergyBooks& x) {
+  auto& [are_open, balance, gravitational, dissipated, work, largest, departs_at, worst] = x;
+  all(are_open, balance, gravitational, dissipated, work, largest, departs_at, worst);
+}
+
+template <class A>
 void archive(A& all, SteppedRun::State& x) {
-  auto& [time, y, pace, inputs, motions, angles, is_settled, first_energy] = x;
-  all(time, y, pace.proposed_s, pace.error, inputs, motions, angles, is_settled, first_energy);
+  auto& [time, y, pace, inputs, motions, angles, is_settled, first_energy, books] = x;
+  all(time, y, pace.proposed_s, pace.error, inputs, motions, angles, is_settled, first_energy,
+      books);
 }
 
 }  // namespace flexneck::multibody

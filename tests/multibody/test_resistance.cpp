@@ -37,7 +37,7 @@ TEST_CASE("a curve that locks follows its law to nine tenths, then goes on strai
     CHECK(first_derivative([&](double t) { return curve.energy(x + t); }, 1e-4) ==
           Approx(curve.value(x)).epsilon(1e-9));
   }
-  CHECK(curve.piece(0.44) != curve.piece(0.46));
+  CHECK(curve.piece(0.44).number != curve.piece(0.46).number);
   CHECK(curve.continues(LoadCurve::locking(10, 0.5)));
   CHECK_FALSE(curve.continues(LoadCurve::locking(10, 0.6)));
   CHECK_THROWS_WITH(LoadCurve::locking(-1, 1), Contains("not negative"));

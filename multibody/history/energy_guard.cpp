@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/history/energy_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "geometry/foundation/error.h"
+
+namespace flexneck::multibody {
+namespace {
+
+constexpr double kTold = 1e-3;
+constexpr double kStopped = 1e-1;
+/// Speeds below this many times the absolute tolerance, in m/s: some hundred steps, each with an
+/// error of the tolerance, change their energy by more than is told.
+constexpr double kSlow = 1e5;
+/// Rounding of energies that are large beside their changes, as of a high place, is a thousandth of
+/// this share of them.
+constexpr double kDigits = 1e-10;
+
+double mass_kg(const Body& body) {
+  if (const auto* rigid = std::get_if<RigidBody>(&body.kind)) return rigid->mass_kg;
+  const auto* deformable = std::get_if<DeformableBody>(&body.kind);
+  return deformable == nullptr ? 0 : deformable->modes.invariants.mass;
+}
+
+}  // namespace
+
+EnergyGuard::EnergyGuard(const Model& model, Tolerance tolerance) {
+  double mass = 0;
+  for (const Body& body : model.bodies) mass += mass_kg(body);
+  const double slow_m_s = kSlow * tolerance.absolute;
+  floor_J_ = mass / 2 * slow_m_s * slow_m_s;
+}
+
+void EnergyGuard::check(double time_s, const Energies& stored, double dissipated_J, double work_J) {
+  const double balance_J =
+      stored.kinetic_J + stored.gravitational_J + stored.strain_J + dissipated_J - work_J;
+  EnergyBooks& books = books_;
+  if (!books.are_open)
+    books = {true, balance_J, stored.gravitational_J, dissipated_J, work_J, floor_J_};
+  books.largest_J = std::max(
+      {books.largest_J, stored.kinetic_J, std::abs(stored.strain_J),
+       std::abs(stored.gravitational_J - books.first_gravitational_J),
+       std::abs(dissipated_J - books.first_dissipated_J), std::abs(work_J - books.first_work_J),
+       kDigits * std::abs(stored.gravitational_J), kDigits * std::abs(work_J)});
+  const double off_J = balance_J - books.first_balance_J;
+  // What is not a number is off by more than everything.
+  if (std::abs(off_J) <= kTold * books.largest_J) return;
+  if (books.worst == 0) books.departs_at_s = time_s;
+  books.worst = std::max(books.worst, std::abs(off_J) / books.largest_J);
+  if (std::abs(off_J) <= kStopped * books.largest_J) return;
+  std::ostringstream problem;
+  problem.precision(3);
+  problem << "the balance of energy does not hold: " << std::abs(off_J) << " J, "
+          << 100 * std::abs(off_J) / books.largest_J << " % of the largest energy of the run, are "
+          << (off_J < 0 ? "lost" : "gained") << " at ";
+  problem.precision(9);
+  problem
+      << time_s << " s, and it departs at " << books.departs_at_s
+      << " s; what follows would be wrong. Make the tolerances or max_step smaller, or take the "
+         "integrator dormand_prince if it is not";
+  throw ComputationError(problem.str());
+}
+
+std::vector<std::string> EnergyGuard::warnings() const {
+  if (books_.worst == 0) return {};
+  std::ostringstream text;
+  text.precision(9);
+  text << "the balance of energy departs at " << books_.departs_at_s << " s: from there on up to ";
+  text.precision(3);
+  text << 100 * books_.worst
+       << " % of the run's largest energy are lost or gained by its steps; make the tolerances or "
+          "max_step smaller, or take the integrator dormand_prince if it is not";
+  return {text.str()};
+}
+
+}  // namespace flexneck::multibody
