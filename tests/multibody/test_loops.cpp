@@ -95,7 +95,7 @@ TEST_CASE("generalised-alpha steps as finely as motors that drive everything ask
 TEST_CASE("motors that contradict each other are refused with that reason") {
   Model model = four_bar().model;
   add_motor(model, 0, 1, 0, 2);
-  add_motor(model, 3, 1.4380176710407748, 0, 2);
+  add_motor(model, 3, 0, 0, 2);
   CHECK_THROWS_WITH(simulate(model, kTight, kOutput),
                     Contains("motor 'motor of A' and motor 'motor of D' give the same freedom"));
 }
