@@ -156,9 +156,10 @@ void require_one_meaning(const NodeSet* nodes, const FaceSet* faces) {
   if (nodes == nullptr || faces == nullptr) return;
   const std::vector<std::int32_t> of_faces = nodes_of(*faces).nodes;
   if (of_faces == nodes->nodes) return;
-  refuse("the node set '" + nodes->name + "' has " + counted_nodes(nodes->nodes.size()) +
-         ", the face set of the same name covers " + counted_nodes(of_faces.size()) +
-         (of_faces.size() == nodes->nodes.size() ? ", others" : "") + "; rename one of them");
+  throw InputError("the node set '" + nodes->name + "' has " + counted_nodes(nodes->nodes.size()) +
+                   ", the face set of the same name covers " + counted_nodes(of_faces.size()) +
+                   (of_faces.size() == nodes->nodes.size() ? ", others" : "") +
+                   "; rename one of them");
 }
 
 /// A node set where faces are needed.
@@ -166,9 +167,10 @@ void require_one_meaning(const NodeSet* nodes, const FaceSet* faces) {
   const FaceSet faces = faces_among(boundary_facets(mesh), set.name, [&](std::int32_t node) {
     return std::binary_search(set.nodes.begin(), set.nodes.end(), node);
   });
-  refuse("'" + set.name + "' is a node set of " + counted_nodes(set.nodes.size()) +
-         ", and whole faces of the surface cover " + counted_nodes(nodes_of(faces).nodes.size()) +
-         " of them; expected a face set");
+  throw InputError("there is no face set '" + set.name + "': the node set of that name has " +
+                   counted_nodes(set.nodes.size()) +
+                   ", of which whole faces of the surface cover " +
+                   std::to_string(nodes_of(faces).nodes.size()));
 }
 
 }  // namespace

@@ -307,4 +307,36 @@ TEST_CASE("other files, supports of later steps and masses by direction are refu
              Contains("it belongs to a step behind *FREQUENCY"));
 }
 
+TEST_CASE("an NSET means its nodes; faces that cover others under its name are refused") {
+  const Files files;
+  const auto mesh_of = [&](const std::string& more) {
+    return import_mesh(
+        import_options(files.write("deck.inp", with(kDeck, "*Material", more + "*Material")), {}),
+        {});
+  };
+  const std::string both_counts = "the node set 'Mine' has 5 nodes";
+  const Mesh partial = mesh_of("*Nset, nset=Mine\n1, 2, 3, 4, 9\n");
+  CHECK(partial.node_set("Mine").nodes == std::vector<std::int32_t>{0, 1, 2, 3, 8});
+  CHECK_THROWS_WITH(
+      partial.face_set("Mine"),
+      Contains("there is no face set 'Mine': the node set of that name has 5 nodes, of which "
+               "whole faces of the surface cover 4"));
+  for (const std::string name : {"Mine", "MINE"}) {
+    const Mesh two = mesh_of("*Nset, nset=Mine\n1, 2, 3, 4, 9\n*Surface, name=" + name +
+                             ", type=element\n1, s1\n");
+    CHECK_THROWS_WITH(two.node_set("Mine"), Contains(both_counts) && Contains("covers 4 nodes"));
+    CHECK_THROWS_WITH(two.face_set("Mine"), Contains(both_counts) && Contains("covers 4 nodes"));
+  }
+  const Mesh same = mesh_of("*Nset, nset=Mine\n1, 2, 3, 4\n*Surface, name=mine\n1, s1\n");
+  CHECK(same.node_set("Mine").nodes == nodes_of(same.face_set("Mine")).nodes);
+}
+
+TEST_CASE("a mark of UTF-8 at the beginning of a deck is passed over") {
+  const Files files;
+  const std::string mark = "\xef\xbb\xbf";
+  CHECK(testing::refusal(import_options(files.write("deck.inp", mark + kDeck), {})) == "accepted");
+  CHECK(testing::refusal(import_options(files.write("one.msh", mark + testing::kTetrahedronMsh),
+                                        {"corner"})) == "accepted");
+}
+
 }  // namespace flexneck::mesher

@@ -171,6 +171,77 @@ TEST_CASE("restraints, springs and shells of a .unv are counted, and its unit is
                       "study's unit 1\n"));
 }
 
+TEST_CASE("groups of a .unv are parts, face sets and node sets, whichever data set has them") {
+  const std::string shell =
+      "         3        94         2         9         7         4\n"
+      "         1         2         3         4\n";
+  const auto group = [](const std::string& name, const std::string& members, int count) {
+    return "         4 0 0 0 0 0 0 " + std::to_string(count) + "\n" + name + "\n" + members + "\n";
+  };
+  for (const int number : {2435, 2452, 2467, 2477}) {
+    INFO(number);
+    const Files files;
+    const std::string text =
+        unv(shell) +
+        data_set(number, group("BAR", " 8 1 0 0", 1) + group("FOOT", " 8 3 0 0 7 8 0 0", 2) +
+                             group("TIP", " 7 7 0 0 7 6 0 0", 2));
+    const auto file = files.write("cube.unv", text);
+    const Mesh mesh = import_mesh(import_options(file, {"BAR"}), {});
+    CHECK(mesh.blocks.at(0).part == "BAR");
+    CHECK(mesh.node_set("TIP").nodes == std::vector<std::int32_t>{5, 6});
+    CHECK_THROWS_WITH(mesh.face_set("FOOT"), Contains("has 5 nodes") && Contains("covers 4 nodes"));
+    CHECK(import_mesh(import_options(file, {"volume_1"}), {}).blocks.at(0).part == "volume_1");
+    CHECK_THAT(testing::refusal(import_options(file, {"BAAR"})),
+               Contains("there is no part 'BAAR'") && Contains("did you mean 'BAR'"));
+  }
+  const Files files;
+  const std::string twice =
+      unv() + data_set(2467, group("ONE", " 8 1 0 0", 1) + group("TWO", " 8 1 0 0", 1));
+  CHECK_THAT(testing::refusal(import_options(files.write("cube.unv", twice), {"ONE", "TWO"})),
+             Contains("element 1 belongs to both parts 'ONE' and 'TWO'"));
+}
+
+TEST_CASE("20-node hexahedra of a .bdf are one, however their lines continue") {
+  const Files files;
+  std::string grids;
+  const auto nodes = reference_nodes(ElementKind::hex20);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    grids += "GRID," + std::to_string(n + 1);
+    for (const double& x : nodes[n])
+      grids += (&x == nodes[n].data() ? ",," : ",") + std::to_string(x);
+    grids += "\n";
+  }
+  // Ours by number, in the order of Nastran: lower, rising and upper edges.
+  const std::array<int, 20> order = {1,  2,  3,  4,  5,  6,  7,  8,  9,  12,
+                                     14, 10, 11, 13, 15, 16, 17, 19, 20, 18};
+  const auto fixed = [&](std::size_t first, std::size_t count, std::size_t width) {
+    std::string text;
+    for (std::size_t k = first; k < first + count; ++k) {
+      const std::string number = std::to_string(order.at(k));
+      text += std::string(width - number.size(), ' ') + number;
+    }
+    return text;
+  };
+  const std::string small = "CHEXA          1       1" + fixed(0, 6, 8);
+  const std::string blank = small + "\n        " + fixed(6, 8, 8) + "\n        " + fixed(14, 6, 8);
+  const std::string marks = "+B2     " + fixed(14, 6, 8) + "\n" + small + "+B1\n" +
+                            "PSOLID,1,1\n+B1     " + fixed(6, 8, 8) + "+B2";
+  const std::string wide = "chexa*  " + std::string(15, ' ') + "1" + std::string(15, ' ') + "1" +
+                           fixed(0, 2, 16) + "\n*       " + fixed(2, 4, 16) + "\n*       " +
+                           fixed(6, 4, 16) + "\n*       " + fixed(10, 4, 16) + "\n*       " +
+                           fixed(14, 4, 16) + "\n*       " + fixed(18, 2, 16);
+  for (const std::string& card : {blank, marks, wide}) {
+    INFO(card);
+    const auto file = files.write("one.bdf", grids + card + "\nENDDATA\n");
+    const Mesh mesh = import_mesh(import_options(file, {"volume_1"}), {});
+    REQUIRE(mesh.blocks.at(0).kind == ElementKind::hex20);
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      CHECK(mesh.blocks[0].nodes[n] == static_cast<std::int32_t>(n));
+    }
+    CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(8).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("what a .msh has beside its solids is counted: curves and surfaces, nodes of nothing") {
   const Files files;
   std::string mesh = testing::kTetrahedronMsh;

@@ -198,6 +198,7 @@ TEST_CASE("'flexneck rate' refuses bad input in one line that says where") {
   folder.refuses(head + "0,1\n0.1,2,3\n", "expected 2 cells");
   folder.refuses("time [s];head angle [rad]\n0;1\n", "expected the time and at least one column");
   folder.refuses("time [s],\"head angle [rad]\n0,1\n", "a quote");
+  folder.refuses("time [s],head angle [rad]\n0,\"\"22\n", "expected a comma behind the quote");
   folder.refuses("time,head angle [rad]\n0,1\n", "expected the time and its unit first");
   folder.refuses("time [kg],head angle [rad]\n0,1\n1,2\n", "bad.csv:1: column \"time [kg]\"");
   folder.refuses("time [s],a [rad],a [rad]\n0,1,1\n", "several columns 'a'",
