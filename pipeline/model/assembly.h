@@ -28,7 +28,6 @@ struct Assembly {
   std::vector<bool> posed, moving;  ///< of each body: whether the file says where, how fast
   std::vector<JointStart> starts;   ///< of each joint
   double end_time_s = 1;
-  std::vector<InputFile> files;  ///< modes and tables read
 
   Motion motion = Motion::given;
   std::vector<std::size_t> prescribed;  ///< bodies of that kind

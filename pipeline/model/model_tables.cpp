@@ -29,8 +29,7 @@ Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& 
   return Eigen::Quaterniond(multibody::rotation_exp(quantity_vector(table, key)));
 }
 
-TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
-                          std::vector<InputFile>& files) {
+TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys) {
   if (!table.has(keys.file)) {
     TableColumns columns;
     columns.x = table.quantities(keys.x, 0, keys.x_unit);
@@ -42,9 +41,7 @@ TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
       table.refuse(key, "is given twice, here and by the key '" + keys.file +
                             "'; leave one out, over a table of another file by " + key + " = []");
   const std::filesystem::path path = table.file(keys.file);
-  TableColumns columns = read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
-  files.push_back({columns.source.filename().string(), hash_of_file(columns.source.string())});
-  return columns;
+  return read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
 }
 
 }  // namespace flexneck::pipeline

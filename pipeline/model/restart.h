@@ -18,6 +18,6 @@ inline constexpr std::array<Key, 2> kRestartKeys = {{
 /// Gives the bodies of a model the state of an output of a history, and the model its time: keys
 /// kRestartKeys. The file is appended to `files`.
 /// @throws InputError if the history has no states, other bodies or modes, or no such output.
-void read_restart(const StudyTable& table, multibody::Model& model, std::vector<InputFile>& files);
+void read_restart(const StudyTable& table, multibody::Model& model);
 
 }  // namespace flexneck::pipeline
