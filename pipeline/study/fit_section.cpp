@@ -250,7 +250,9 @@ FitSection read_fit(const StudyTable& table) {
 }
 
 FitSection read_fit(const std::filesystem::path& study, const std::vector<std::string>& settings) {
+  FilesRead reads;
   const StudyDocument document(study, settings, study_keys());
+  reads.forget();  // values tell them apart; files of targets count
   if (!document.root().has(kFitSection))
     throw InputError(study.string() +
                      ": expected [fit] with [[fit.parameter]] and [[fit.target]], found none; "

@@ -25,7 +25,7 @@ std::set<std::string> names_for(const TemporaryFolder& folder, const std::string
   note_script_files(folder / "main.geo");
   std::set<std::string> names;
   for (const FileRead& file : reads.files())
-    names.insert(has_content(file) ? fs::path(file.path).filename().string()
+    names.insert(has_content(file)            ? fs::path(file.path).filename().string()
                  : is_unknown_here(file.hash) ? "unknown"
                                               : "missing");
   return names;
@@ -52,9 +52,12 @@ TEST_CASE("files that a script names literally are noted, those that these name,
 
 TEST_CASE("a script that may read anything is noted as such") {
   const TemporaryFolder folder;
-  const char* const all[] = {"SystemCall \"make_geo\";", "Include StrCat(\"a\", \".geo\");",
-                             "Merge name;", "d = GetEnv(\"W\");",
-                             "Field[1] = ExternalProcess;", "Field[1].FileName = \"size.txt\";"};
+  const char* const all[] = {"SystemCall \"make_geo\";",
+                             "Include StrCat(\"a\", \".geo\");",
+                             "Merge name;",
+                             "d = GetEnv(\"W\");",
+                             "Field[1] = ExternalProcess;",
+                             "Field[1].FileName = \"size.txt\";"};
   for (const char* const text : all) {
     INFO(text);
     CHECK(names_for(folder, text).contains("unknown"));

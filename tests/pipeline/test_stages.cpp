@@ -69,7 +69,8 @@ TEST_CASE("a stage runs if what it is made from or what it wrote has changed, el
   CHECK(run(folder.path(), "10 m", "6 kg") == "first second");
 }
 
-TEST_CASE("a stage runs again if a file that it has read has changed, gone or come, and warns again") {
+TEST_CASE(
+    "a stage runs again if a file that it has read has changed, gone or come, and warns again") {
   const TemporaryFolder results;
   const fs::path inputs = results / "inputs";
   fs::create_directories(inputs);
