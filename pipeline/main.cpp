@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -69,9 +70,23 @@ int exit_code_of(const CommandLine& line) {
   }
 }
 
+/// What ranks do together has to be the same.
+void require_same_command(const std::vector<std::string>& words, const Ranks& ranks) {
+  std::string text;
+  for (std::size_t k = 1; k < words.size(); ++k) text += (k > 1 ? " " : "") + words[k];
+  const std::uint64_t hash = std::hash<std::string>()(text);
+  const std::uint64_t of_first = ranks.of_first(hash);
+  ranks.together([&] {
+    if (hash != of_first)
+      throw InputError("rank " + std::to_string(ranks.own()) + " was given '" + text +
+                       "', the first one another command line: all take the same");
+  });
+}
+
 /// Of a rank among many, of which the first one speaks.
 RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks) {
   try {
+    require_same_command(words, ranks);
     const CommandLine line = parse_command_line(words);
     const Console console(ranks.is_first() ? line.verbosity() : Verbosity::none);
     if (line.command == nullptr || !line.answer.empty()) {
@@ -85,22 +100,30 @@ RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks
   }
 }
 
-/// Of a sweep on several processes, which are its shards, each by itself; none of other commands.
+/// None of a command line that is refused.
+std::optional<CommandLine> parsed(const std::vector<std::string>& words) {
+  try {
+    return parse_command_line(words);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// Of a sweep on several processes, which are its shards, each by itself; none of other commands,
+/// nor of what ranks together refuse in one line.
 std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) {
   const std::optional<Shard> shard = shard_of_process();
   if (!shard) return {};
-  try {
-    CommandLine line = parse_command_line(words);
-    if (line.command == nullptr || !line.command->has_shards || !line.answer.empty()) return {};
-    if (!line.shares.shard.empty())
-      throw InputError("--shard: expected none under mpirun, whose processes are the parts");
-    line.shares.shard = fmt::format("{}/{}", shard->index, shard->count);
-    line.shares.threads = std::max(1, line.shares.threads);
-    return line;
-  } catch (const InputError&) {
-    if (shard->index == 1) throw;  // one line is enough
-    std::_Exit(kUnusableInput);
+  std::optional<CommandLine> line = parsed(words);
+  if (!line || line->command == nullptr || !line->command->has_shards || !line->answer.empty())
+    return {};
+  if (!line->shares.shard.empty()) {
+    if (shard->index > 1) std::_Exit(kUnusableInput);  // one line is enough
+    throw InputError("--shard: expected none under mpirun, whose processes are the parts");
   }
+  line->shares.shard = fmt::format("{}/{}", shard->index, shard->count);
+  line->shares.threads = std::max(1, line->shares.threads);
+  return line;
 }
 
 int run(int argc, char** argv) {

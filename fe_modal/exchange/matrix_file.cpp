@@ -8,6 +8,7 @@
 #include "fe_modal/exchange/matrix_market.h"
 #include "fe_modal/exchange/petsc_binary.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/files_read.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -64,6 +65,7 @@ void write_matrix(const std::filesystem::path& path, const UpperMatrix& matrix) 
 }
 
 UpperMatrix read_matrix(const std::filesystem::path& path) {
+  note_read(path);
   return upper_half(path, is_binary(path) ? read_petsc_matrix(path) : read_matrix_market(path));
 }
 
@@ -94,6 +96,7 @@ Eigen::Matrix3Xd positions_in(const std::filesystem::path& path) {
 }  // namespace
 
 Eigen::Matrix3Xd read_positions(const std::filesystem::path& path) {
+  note_read(path);
   Eigen::Matrix3Xd positions_m = positions_in(path);
   for (Eigen::Index n = 0; n < positions_m.cols(); ++n) {
     if (positions_m.col(n).allFinite()) continue;

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/files_read.h"
 #include "geometry/foundation/regular_file.h"
 
 namespace flexneck {
@@ -22,6 +23,7 @@ bool is_users_fault(int reason) {
 }  // namespace
 
 FileDescriptor open_to_read(const std::filesystem::path& path) {
+  note_read(path);
   size_of_file(path);  // refuses what is no file
   // Without O_NONBLOCK a pipe that has taken its place would have to be opened by a writer first.
   FileDescriptor file(

@@ -10,7 +10,8 @@
 
 namespace flexneck {
 
-/// Opens a regular file to read it. A pipe is refused, not waited for.
+/// Opens a regular file to read it, and has it noted (files_read.h). A pipe is refused, not waited
+/// for.
 /// @throws InputError if there is no such file, it is of another kind or may not be read
 /// @throws ComputationError if the system fails
 FileDescriptor open_to_read(const std::filesystem::path& path);

@@ -28,6 +28,16 @@ Origin origin_from(const Hdf5Reader& file, const std::string& name) {
 
 }  // namespace
 
+std::vector<InputFile> input_files(const std::vector<FileRead>& reads) {
+  std::vector<InputFile> files;
+  for (const FileRead& read : reads) {
+    const InputFile file{std::filesystem::path(read.path).filename().string(), read.hash};
+    if (has_content(read) && std::find(files.begin(), files.end(), file) == files.end())
+      files.push_back(file);
+  }
+  return files;
+}
+
 void write_provenance(Hdf5Writer& file, const Provenance& provenance) {
   const std::string group = "/provenance";
   file.write_attribute(group, "program", provenance.program);

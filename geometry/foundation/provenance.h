@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/foundation/content_hash.h"
+#include "geometry/foundation/files_read.h"
 #include "geometry/foundation/origin.h"
 
 namespace flexneck {
@@ -25,7 +26,12 @@ struct Parameter {
 struct InputFile {
   std::string name;  ///< without its folder, so that results do not depend on where they were made
   std::string hash;  ///< 128-bit XXH3 of the contents, 32 hexadecimal digits
+
+  bool operator==(const InputFile&) const = default;
 };
+
+/// Those of which the content is known, each once.
+std::vector<InputFile> input_files(const std::vector<FileRead>& reads);
 
 /// How a result came about; stored in the group /provenance of every file of ours.
 struct Provenance {

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/files_read.h"
 
 namespace flexneck {
 
@@ -34,6 +35,9 @@ TemporaryFolder::TemporaryFolder() {
   cleanup_ = SignalCleanup(SignalCleanup::Action::remove_folder, path_);
 }
 
-TemporaryFolder::~TemporaryFolder() { remove_folder(path_); }
+TemporaryFolder::~TemporaryFolder() {
+  forget_reads_in(path_);
+  remove_folder(path_);
+}
 
 }  // namespace flexneck

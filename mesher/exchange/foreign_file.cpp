@@ -5,11 +5,10 @@
 #include <array>
 #include <cctype>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include "geometry/foundation/error.h"
-#include "geometry/foundation/regular_file.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/text_file.h"
 #include "mesher/exchange/file_signature.h"
 
@@ -53,22 +52,13 @@ const FormatRecord& record_of(const fs::path& file) {
   throw InputError(file.string() + ": expected a file with one of the endings" + known);
 }
 
-std::string contents_of(const fs::path& file) {
-  size_of_file(file);  // a pipe would wait
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string() + ": the file cannot be read");
-  std::ostringstream contents;
-  contents << stream.rdbuf();
-  return without_mark(contents.str());
-}
-
 }  // namespace
 
 ForeignFormat foreign_format_of(const fs::path& file) { return record_of(file).format; }
 
 std::string checked_contents(const fs::path& file) {
   const ForeignFormat format = foreign_format_of(file);
-  std::string contents = contents_of(file);
+  std::string contents = without_mark(text_of_file(file));
   const std::string problem = signature_problem(format, contents);
   if (!problem.empty()) {
     throw InputError(file.string() + ": this is no " + file.extension().string() +

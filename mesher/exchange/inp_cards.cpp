@@ -5,10 +5,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/text_file.h"
 #include "mesher/exchange/text_lines.h"
 
@@ -56,13 +56,6 @@ InpCard card_of(const InpPlace& place, const std::string& line) {
     card.parameters[name] = value;
   }
   return card;
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return without_mark(text.str());
 }
 
 class Reader {
@@ -122,7 +115,7 @@ class Reader {
     if (!fs::is_regular_file(file, ignored)) card.refuse("there is no file " + name);
     if (++depth_ > kDeepest) card.refuse("files include each other more than 8 deep");
     if (++count_ > kMaxFiles) card.refuse("more than 1000 files are included");
-    read(folder_ / relative, text_of(file));
+    read(folder_ / relative, without_mark(text_of_file(file)));
     --depth_;
   }
 

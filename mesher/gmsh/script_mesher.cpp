@@ -14,6 +14,7 @@
 #include "geometry/foundation/names.h"
 #include "mesher/gmsh/gmsh_mesh_import.h"
 #include "mesher/gmsh/gmsh_session.h"
+#include "mesher/gmsh/script_files.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/slits/slits.h"
 
@@ -76,6 +77,7 @@ void run_script(GmshSession& session, const ScriptMeshOptions& options) {
   if (!std::ifstream(options.script).good()) {
     throw InputError(options.script.string() + ": the geometry script cannot be read");
   }
+  note_script_files(options.script);
   open_script(session, options.script);
   refuse_scaling(options.script);
   if (options.constants.empty()) return;

@@ -51,6 +51,29 @@ Study read_named(const StudyChoice& choice) {
   }
 }
 
+/// On every rank. @throws InputError on all if one cannot read it, or reads another one.
+Study read_together(const CommandLine& line, const Console& console, const Ranks& ranks,
+                    StudyChoice& choice) {
+  std::optional<Study> study;
+  ranks.together([&] {
+    choice = choose_study(line, console);
+    study = read_named(choice);
+  });
+  std::string text;
+  for (const std::vector<Parameter>* const list : {&study->parameters, &study->defaults})
+    for (const Parameter& each : *list) text += each.key + '\n' + each.value + '\n';
+  for (const InputFile& each : study->tables) text += each.name + '\n' + each.hash + '\n';
+  const std::uint64_t hash = std::hash<std::string>()(text);
+  const std::uint64_t of_first = ranks.of_first(hash);
+  ranks.together([&] {
+    if (hash != of_first)
+      throw InputError(study->file.string() + ": rank " + std::to_string(ranks.own()) +
+                       " reads other values than the first one: take a folder that all ranks "
+                       "share");
+  });
+  return std::move(*study);
+}
+
 bool works_on_files(const CommandLine& line) {
   if (line.command->run_on_files == nullptr) return false;
   return line.command->run == nullptr || exports_file(line.files, line.target);
@@ -77,8 +100,8 @@ bool do_command(const CommandLine& line, const Console& console, Ranks ranks,
   if (line.files.size() > 1) {
     throw InputError(command.name + ": expected one study, found '" + line.files[1] + "' too");
   }
-  const StudyChoice choice = choose_study(line, console);
-  Study study = read_named(choice);
+  StudyChoice choice;
+  Study study = read_together(line, console, ranks, choice);
   study.solver.checkpoint = console.checkpoint();
   for (const std::string& warning : study.warnings) console.warning(warning);
   if (ranks.are_many() && (line.show || !command.uses_ranks)) {

@@ -18,12 +18,10 @@ namespace flexneck::pipeline {
 
 namespace {
 
-Provenance provenance_of_fit(const Study& study) {
-  Provenance provenance = provenance_of(study);
-  if (study.structure) {
-    const std::filesystem::path file = study.structure->file();
-    provenance.inputs.push_back({file.filename().string(), hash_of_file(file.string())});
-  }
+Provenance provenance_of_fit(const Study& study, const FitJob& job) {
+  Provenance provenance = provenance_of(study.files, study.parameters);
+  const std::vector<InputFile> files = input_files(job.files());
+  provenance.inputs.insert(provenance.inputs.end(), files.begin(), files.end());
   return provenance;
 }
 
@@ -83,7 +81,9 @@ void draw(const CommandInput& input, StudyFit& fit, const FitResult& result) {
 
 bool fit_command(const CommandInput& input) {
   const unsigned threads = threads_of(input);
+  const FilesRead reads;
   FitSection section = read_fit(input.study.file, input.study.settings);
+  const std::vector<FileRead> targets = reads.files();
   const auto starts = static_cast<unsigned>(section.starts);
   Evaluator evaluator({input.study.file, input.study.settings}, input.console);
   const Interrupt interrupt;
@@ -93,7 +93,7 @@ bool fit_command(const CommandInput& input) {
       fmt::format("Fit of {}: parameters: {}, targets: {}, starts: {}; slopes {}; threads: {}",
                   input.study.file.string(), fit.section().parameters.size(), fit.targets().size(),
                   starts, fit.slopes_text(), threads));
-  FitJob job(fit, results, threads, &Interrupt::is_asked());
+  FitJob job(fit, results, targets, threads, &Interrupt::is_asked());
   FitResult result;
   try {
     result = job.run([&](const std::string& line) { input.console.step(line); });
@@ -102,7 +102,7 @@ bool fit_command(const CommandInput& input) {
                            "; the same command goes on with the rest");
   }
   const std::vector<ResultTable> tables = fit_tables(fit, result);
-  write_tables(input.folder.file("fit.json"), tables, provenance_of_fit(input.study));
+  write_tables(input.folder.file("fit.json"), tables, provenance_of_fit(input.study, job));
   const std::filesystem::path fitted = input.folder.file("fitted.toml");
   write_text(fitted, fitted_study(fit, result, results));
   input.console.result(wrapped(verdict_of_fit(fit.objective(), result), ""));

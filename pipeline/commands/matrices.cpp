@@ -23,6 +23,7 @@ bool modes_of_matrices(const CommandInput& input) {
   input.folder.make();
   input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
   const fe_modal::PetscSession session;
+  const FilesRead reads;
   const fe_modal::ImportedBody matrices{fe_modal::read_matrix(files.stiffness),
                                         fe_modal::read_matrix(files.mass),
                                         fe_modal::read_positions(files.nodes)};
@@ -31,9 +32,8 @@ bool modes_of_matrices(const CommandInput& input) {
       fe_modal::analyse_matrices(matrices, input.study.modes.count, input.study.modes.certify,
                                  input.console.detail(), input.console.warnings("modes.h5"));
   file.provenance = provenance_of(input.study, {"matrices.", "modes."});
-  for (const std::filesystem::path& path : {files.stiffness, files.mass, files.nodes}) {
-    file.provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
-  }
+  const std::vector<InputFile> inputs = input_files(reads.files());
+  file.provenance.inputs.insert(file.provenance.inputs.end(), inputs.begin(), inputs.end());
   file.provenance.libraries = fe_modal::library_versions();
   warn_of_replaced(input, input.folder.modes(), fe_modal::kModalBodyFormat, file.provenance);
   fe_modal::write_modal_body(input.folder.modes(), file);

@@ -75,8 +75,11 @@ bool mesh_command(const CommandInput& input) {
   input.folder.make();
   input.console.step("Meshing " + study.structure->file().filename().string() + required);
   mesher::MeshFile file;
+  const FilesRead reads;
   file.mesh = make_mesh(study, input.console);
   file.provenance = mesh_provenance(study);
+  const std::vector<InputFile> inputs = input_files(reads.files());
+  file.provenance.inputs.insert(file.provenance.inputs.end(), inputs.begin(), inputs.end());
   finish_mesh(input, std::move(file), exact_volumes(*study.structure));
   return true;
 }

@@ -83,10 +83,7 @@ class ModesGate {
 
 /// Less the study's own files: they change with every value, which do not all matter to a stage.
 Provenance without_studies(Provenance provenance, const Study& study) {
-  std::erase_if(provenance.inputs, [&](const InputFile& input) {
-    return std::any_of(study.files.begin(), study.files.end(),
-                       [&](const InputFile& file) { return file.name == input.name; });
-  });
+  for (const InputFile& file : study.files) std::erase(provenance.inputs, file);
   return provenance;
 }
 
@@ -115,13 +112,7 @@ std::string stage_of(const CaseSection& experiment) { return "pendulum-" + exper
 /// What follows once every case of the pendulum was run.
 /// @param known results of those that were run just now
 std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults& known) {
-  Provenance everything = provenance_of(study);
-  if (!study.verification.empty()) {
-    everything.inputs.push_back(
-        {study.verification.filename().string(), hash_of_file(study.verification.string())});
-  }
-  const std::vector<InputFile> regulations = regulation_files(study);
-  everything.inputs.insert(everything.inputs.end(), regulations.begin(), regulations.end());
+  const Provenance everything = verdict_provenance(study);
   std::vector<std::string> runs = {"modes"};
   for (const CaseSection* const experiment : pendulum_cases(study))
     runs.push_back(stage_of(*experiment));
@@ -146,10 +137,17 @@ void print_kept(const CommandInput& input, const std::string& stage) {
     const VerificationFile file = read_verification(input.folder.verification());
     show_verification(input, file.table);
   }
+  if (stage == "report")
+    input.console.result("\nReport: " + input.folder.file("report.html").string());
   const std::string name = stage == "verify" ? "verdicts" : stage;
   const fs::path tables = input.folder.file(name + ".json");
   if (!fs::exists(tables)) return;
   show_tables(input, read_tables(tables).tables);
+}
+
+/// What is kept may still not be what it seems.
+void warn_again(const CommandInput& input, const Stages& records, const std::string& stage) {
+  for (const std::string& line : records.warnings(stage)) input.console.warning(line);
 }
 
 void make(const CommandInput& input, Stages& records, const Stage& stage, ModesGate& gate) {
@@ -160,6 +158,7 @@ void make(const CommandInput& input, Stages& records, const Stage& stage, ModesG
       });
   if (made) return;
   input.console.step("Nothing has changed for " + stage.name + ": kept");
+  warn_again(input, records, stage.name);
   print_kept(input, stage.name);
 }
 
@@ -172,12 +171,16 @@ PendulumResults make_cases(const CommandInput& input, Stages& records) {
     return without_studies(case_provenance(input.study, experiment), input.study);
   };
   std::vector<const CaseSection*> due;
+  std::vector<std::string> kept;
   for (const CaseSection* const experiment : all)
-    if (!records.is_made(stage_of(*experiment), from(*experiment), {"modes"}))
+    if (records.is_made(stage_of(*experiment), from(*experiment), {"modes"}))
+      kept.push_back(stage_of(*experiment));
+    else
       due.push_back(experiment);
-  if (due.size() < all.size())
+  if (!kept.empty())
     input.console.step(fmt::format("Nothing has changed for {} of {} pendulum cases: kept",
-                                   all.size() - due.size(), all.size()));
+                                   kept.size(), all.size()));
+  for (const std::string& stage : kept) warn_again(input, records, stage);
   if (due.empty()) return {};
   PendulumCases cases(input, due);
   for (const CaseSection* const experiment : due)
@@ -185,12 +188,11 @@ PendulumResults make_cases(const CommandInput& input, Stages& records) {
   return cases.results();
 }
 
-bool run_stages(const CommandInput& input, StepTimes& times) {
+bool run_stages(const CommandInput& input, Stages& records, StepTimes& times) {
   const Study& study = input.study;
   ModesGate gate(input.ranks);
   input.console.result("Inputs by origin: " + origin_counts(study) + " (flexneck study)");
   if (const std::string table = origin_table(study); !table.empty()) input.console.table(table);
-  Stages records(input.folder.path(), input.redo);
   const auto make_all = [&](const std::vector<Stage>& stages) {
     for (const Stage& stage : stages) {
       times.start(stage.name);
@@ -208,12 +210,24 @@ bool run_stages(const CommandInput& input, StepTimes& times) {
 }  // namespace
 
 bool run_command(const CommandInput& alone) {
-  CommandInput input = alone;
-  input.is_run = true;
-  if (!writes(input)) return !ModesGate::wait(input.ranks) || modes_command(input);
+  if (!writes(alone)) {
+    CommandInput input = alone;
+    input.is_run = true;
+    return !ModesGate::wait(input.ranks) || modes_command(input);
+  }
+  Stages records(alone.folder.path(), alone.redo);
+  const Console console =
+      alone.console.with_listener([&](const std::string& line) { records.add_warning(line); });
+  const CommandInput input{.study = alone.study,
+                           .folder = alone.folder,
+                           .console = console,
+                           .ranks = alone.ranks,
+                           .redo = alone.redo,
+                           .is_run = true,
+                           .shares = alone.shares};
   input.folder.make();
   StepTimes times;
-  const bool passed = run_stages(input, times);
+  const bool passed = run_stages(input, records, times);
   times.stop();
   const FileSeconds files = file_seconds();
   input.console.detail()(fmt::format("seconds: {}; of these hash of files {:.3f}, sync {:.3f}",

@@ -44,12 +44,10 @@ SweepShare share_of(const CommandInput& input) {
   return share;
 }
 
-Provenance provenance_of_sweep(const Study& study) {
-  Provenance provenance = provenance_of(study);
-  if (study.structure) {
-    const std::filesystem::path file = study.structure->file();
-    provenance.inputs.push_back({file.filename().string(), hash_of_file(file.string())});
-  }
+Provenance provenance_of_sweep(const Study& study, const SweepJob& job) {
+  Provenance provenance = provenance_of(study.files, study.parameters);
+  const std::vector<InputFile> files = input_files(job.files());
+  provenance.inputs.insert(provenance.inputs.end(), files.begin(), files.end());
   return provenance;
 }
 
@@ -141,7 +139,7 @@ void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& s
     input.console.step(std::string("The table is not made here: ") + error.what());
     return;
   }
-  const Provenance provenance = provenance_of_sweep(input.study);
+  const Provenance provenance = provenance_of_sweep(input.study, job);
   MergedRows rows = job.rows();
   const std::filesystem::path csv = input.folder.file("sweep.csv");
   const SweepTable table =
@@ -156,6 +154,21 @@ void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& s
   input.console.result(
       fmt::format("\nSweep: {} rows, {} failed  ({})", sweep.count(), table.failed, csv.string()));
   require_outputs(job, table);
+}
+
+/// Rows are missing though this process has done all of its own: those of other parts, or those
+/// whose files have changed, of which no table is made.
+void refuse_or_wait(const CommandInput& input, const SweepJob& job, const Shard& shard,
+                    const SweepRows& sweep) {
+  const std::vector<std::string> outdated = job.outdated();
+  const std::uint64_t own = shard.end(sweep.count()) - shard.first(sweep.count());
+  if (job.rows_done(shard) < own)
+    throw InputError((outdated.empty() ? "rows of this sweep are gone" : outdated.front()) +
+                     ", which changed meanwhile; the same command computes them again");
+  for (const std::string& line : outdated)
+    input.console.warning(line + " than it is now; run that part again, no table is made of both");
+  input.console.result("Part " + shard.name() +
+                       " is done; the table is made once all parts are there");
 }
 
 }  // namespace
@@ -184,10 +197,9 @@ bool sweep_command(const CommandInput& input) {
         job.rows_done(shard), shard.end(sweep.count()) - shard.first(sweep.count())));
   if (job.is_complete()) {
     assemble(input, job, sweep);
-  } else {
-    input.console.result("Part " + shard.name() +
-                         " is done; the table is made once all parts are there");
+    return true;
   }
+  refuse_or_wait(input, job, shard, sweep);
   return true;
 }
 

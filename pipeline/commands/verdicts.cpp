@@ -2,7 +2,6 @@
 #include "pipeline/commands/verdicts.h"
 
 #include <algorithm>
-#include <set>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
@@ -57,16 +56,6 @@ JudgedTest judged_test(const CommandInput& input, const TestSection& test) {
 
 bool has_tests(const Study& study) { return !study.tests.empty() || !study.measured.empty(); }
 
-std::vector<InputFile> regulation_files(const Study& study) {
-  std::set<std::filesystem::path> paths;
-  for (const TestSection& test : study.tests) paths.insert(test.file);
-  std::vector<InputFile> files;
-  files.reserve(paths.size());
-  for (const std::filesystem::path& path : paths)
-    files.push_back({path.filename().string(), hash_of_file(path.string())});
-  return files;
-}
-
 namespace {
 
 /// Tables of the tests with measured data that there are.
@@ -93,9 +82,7 @@ void write_verdicts(const CommandInput& input) {
   std::vector<JudgedTest> tests;
   tests.reserve(input.study.tests.size());
   for (const TestSection& test : input.study.tests) tests.push_back(judged_test(input, test));
-  Provenance provenance = provenance_of(input.study);
-  const std::vector<InputFile> regulations = regulation_files(input.study);
-  provenance.inputs.insert(provenance.inputs.end(), regulations.begin(), regulations.end());
+  Provenance provenance = verdict_provenance(input.study);
   if (const std::filesystem::path modes = input.folder.modes(); std::filesystem::exists(modes))
     provenance.inputs.push_back({modes.filename().string(), hash_of_file(modes.string())});
   std::vector<ResultTable> tables;

@@ -13,7 +13,4 @@ void write_verdicts(const CommandInput& input);
 /// Whether a study has tests of regulations or with measured data.
 bool has_tests(const Study& study);
 
-/// The files that the study's tests stand in, each once, with the hash of their contents.
-std::vector<InputFile> regulation_files(const Study& study);
-
 }  // namespace flexneck::pipeline

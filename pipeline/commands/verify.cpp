@@ -32,7 +32,9 @@ PendulumEvidence evidence_of(const CommandInput& input, const Study& study,
 
 /// @return whether what is judged agrees
 bool compare_with_published(const CommandInput& input) {
+  const FilesRead reads;
   const Reference reference = read_reference(input.study.verification);
+  const std::vector<InputFile> published = input_files(reads.files());
   const fe_modal::ModalBodyFile modes = read_modal_body(input.folder.modes());
   require_same_inputs(input.folder.modes(), modes.provenance, input.study,
                       modes_provenance(input.study).parameters, "flexneck modes");
@@ -50,9 +52,9 @@ bool compare_with_published(const CommandInput& input) {
   }
   const VerificationTable table = verify(input.study, modes.body, pendulum, reference);
 
-  for (const std::filesystem::path& path : {input.study.verification, input.folder.modes()}) {
-    provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
-  }
+  provenance.inputs.insert(provenance.inputs.end(), published.begin(), published.end());
+  provenance.inputs.push_back(
+      {input.folder.modes().filename().string(), hash_of_file(input.folder.modes().string())});
   write_verification(input.folder.verification(), table, provenance);
   input.console.result("\nVerification against " + table.reference_origins + " figures  (" +
                        input.folder.verification().string() + ")");

@@ -92,7 +92,14 @@ void Console::step(const std::string& line) const {
   if (!hand_on(Message::step, line)) spdlog::info(one_line(line));
 }
 
+Console Console::with_listener(Progress on_warning) const {
+  Console console = *this;
+  console.on_warning_ = std::move(on_warning);
+  return console;
+}
+
 void Console::warning(const std::string& line) const {
+  if (on_warning_) on_warning_(line);
   if (!hand_on(Message::warning, line)) spdlog::error("Warning: {}", one_line(line));
 }
 

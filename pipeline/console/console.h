@@ -48,6 +48,8 @@ class Console {
   const std::function<void()>& checkpoint() const { return checkpoint_; }
   /// For the stages: warnings that begin with what they are of.
   Progress warnings(const std::string& of) const;
+  /// The same console, of whose warnings someone else hears, too.
+  Console with_listener(Progress on_warning) const;
 
  private:
   bool hand_on(Message kind, const std::string& text) const;
@@ -55,6 +57,7 @@ class Console {
   Verbosity verbosity_;
   Receiver receiver_;
   std::function<void()> checkpoint_;
+  Progress on_warning_;
 };
 
 }  // namespace flexneck::pipeline

@@ -25,15 +25,16 @@ const Thing* BodyCache::Last<Thing>::find(const std::string& key) {
   const auto place = places_.find(key);
   if (place == places_.end()) return nullptr;
   entries_.splice(entries_.begin(), entries_, place->second);
-  return &entries_.front().second;
+  note_reads(entries_.front().reads);
+  return &entries_.front().thing;
 }
 
 template <class Thing>
-void BodyCache::Last<Thing>::keep(const std::string& key, Thing thing) {
-  entries_.emplace_front(key, std::move(thing));
+void BodyCache::Last<Thing>::keep(const std::string& key, Thing thing, const FilesRead& reads) {
+  entries_.push_front({key, std::move(thing), reads.files()});
   places_[key] = entries_.begin();
   if (entries_.size() <= count_) return;
-  places_.erase(entries_.back().first);
+  places_.erase(entries_.back().key);
   entries_.pop_back();
 }
 
@@ -62,9 +63,10 @@ BodyCache::Body BodyCache::body(const Study& study, BodyUse use) {
   solvers_.run([&] {
     found = known(key);  // another thread may have asked for the same
     if (found) return;
+    const FilesRead reads;
     found = std::make_shared<const fe_modal::ModalBody>(without_shapes(solved(study, use)));
     const std::scoped_lock lock(mutex_);
-    bodies_.keep(key, found);
+    bodies_.keep(key, found, reads);
     ++solved_;
   });
   return found;
@@ -79,8 +81,9 @@ BodyCache::StructurePieces BodyCache::pieces(const Study& study) {
       found = *known;
       return;
     }
+    const FilesRead reads;
     found = std::make_shared<const Pieces>(modes_of_pieces(study, mesh_of(study)));
-    pieces_.keep(key, found);
+    pieces_.keep(key, found, reads);
   });
   return found;
 }
@@ -104,7 +107,8 @@ FigureSlopes BodyCache::slopes(const Study& study, BodyUse use,
 const mesher::Mesh& BodyCache::mesh_of(const Study& study) {
   const std::string key = text_of(mesh_values(study));
   if (const mesher::Mesh* const mesh = meshes_.find(key)) return *mesh;
-  meshes_.keep(key, make_mesh(study, console_));
+  const FilesRead reads;
+  meshes_.keep(key, make_mesh(study, console_), reads);
   return *meshes_.find(key);
 }
 

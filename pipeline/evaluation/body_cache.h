@@ -12,6 +12,7 @@
 
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/body/modal_body.h"
+#include "geometry/foundation/files_read.h"
 #include "mesher/mesh/mesh.h"
 #include "pipeline/console/console.h"
 #include "pipeline/evaluation/modes_slopes.h"
@@ -60,16 +61,22 @@ class BodyCache {
   std::size_t solved_count() const;
 
  private:
-  /// The last few things by their keys.
+  /// The last few things by their keys, with the files that were read for them.
   template <class Thing>
   class Last {
    public:
     explicit Last(std::size_t count) : count_(count) {}
+    /// Whoever finds one depends on these files: they are noted as read.
     const Thing* find(const std::string& key);
-    void keep(const std::string& key, Thing thing);
+    void keep(const std::string& key, Thing thing, const FilesRead& reads);
 
    private:
-    using Entries = std::list<std::pair<std::string, Thing>>;
+    struct Entry {
+      std::string key;
+      Thing thing;
+      std::vector<FileRead> reads;
+    };
+    using Entries = std::list<Entry>;
     std::size_t count_;
     Entries entries_;  ///< the one used last first
     std::map<std::string, typename Entries::iterator> places_;

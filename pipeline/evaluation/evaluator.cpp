@@ -236,8 +236,17 @@ Study Evaluator::study(const std::vector<std::string>& settings) {
   if (!reader) reader = std::make_unique<StudyReader>(choice_.study, choice_.settings);
   Study found = reader->read(settings);  // a reader that throws goes
   const std::scoped_lock lock(mutex_);
+  has_study_changed_ = has_study_changed_ || found.files != base_.files;
   idle_readers_.push_back(std::move(reader));
   return found;
+}
+
+void Evaluator::require_same_study() const {
+  const std::scoped_lock lock(mutex_);
+  if (has_study_changed_)
+    throw InputError(
+        base_.file.string() +
+        ": it or a file that it includes has changed meanwhile; run the command again");
 }
 
 Evaluation Evaluator::evaluate(const std::vector<std::string>& settings,

@@ -72,6 +72,10 @@ class Evaluator {
   /// The study with these settings. @throws as read_study() does.
   Study study(const std::vector<std::string>& settings);
 
+  /// @throws InputError if the study's files have changed while this was in use: some evaluations
+  /// are of one state of them, some of another.
+  void require_same_study() const;
+
   /// Starts what meshes and solves: before other threads begin.
   void start() { bodies_.start(); }
   const Study& base() const { return base_; }
@@ -82,7 +86,8 @@ class Evaluator {
   StudyChoice choice_;
   Study base_;
   BodyCache bodies_;
-  std::mutex mutex_;  ///< of the readers
+  mutable std::mutex mutex_;  ///< of the readers
+  bool has_study_changed_ = false;
   std::vector<std::unique_ptr<StudyReader>> idle_readers_;
 };
 

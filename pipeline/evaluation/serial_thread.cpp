@@ -2,6 +2,9 @@
 #include "pipeline/evaluation/serial_thread.h"
 
 #include <utility>
+#include <vector>
+
+#include "geometry/foundation/files_read.h"
 
 namespace flexneck::pipeline {
 
@@ -16,14 +19,27 @@ SerialThread::~SerialThread() {
   thread_.join();
 }
 
-void SerialThread::run(std::function<void()> work) {
-  std::packaged_task<void()> task(std::move(work));
+void SerialThread::run(const std::function<void()>& work) {
+  std::vector<FileRead> read;
+  std::packaged_task<void()> task([&] {
+    const FilesRead reads;
+    const auto keep = [&] { read = reads.files(); };
+    try {
+      work();
+    } catch (...) {
+      keep();
+      throw;
+    }
+    keep();
+  });
   std::future<void> done = task.get_future();
   {
     const std::scoped_lock lock(mutex_);
     waiting_.push_back(std::move(task));
   }
   changed_.notify_one();
+  done.wait();
+  note_reads(read);
   done.get();
 }
 

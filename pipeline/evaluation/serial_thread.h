@@ -19,8 +19,9 @@ class SerialThread {
   SerialThread(const SerialThread&) = delete;
   SerialThread& operator=(const SerialThread&) = delete;
 
-  /// Waits until the work is done. @throws what the work throws.
-  void run(std::function<void()> work);
+  /// Waits until the work is done. Files that it reads count as read by the thread that waits.
+  /// @throws what the work throws.
+  void run(const std::function<void()>& work);
 
  private:
   void serve();

@@ -90,9 +90,11 @@ Profile profile_from(const RowResult& row, Index parameters) {
 
 }  // namespace
 
-FitJob::FitJob(StudyFit& fit, fs::path results, unsigned threads, const std::atomic<bool>* stopped)
+FitJob::FitJob(StudyFit& fit, fs::path results, std::vector<FileRead> targets, unsigned threads,
+               const std::atomic<bool>* stopped)
     : fit_(fit),
       results_(std::move(results)),
+      targets_(std::move(targets)),
       threads_(threads),
       stopped_(stopped),
       definition_(definition_of(fit.evaluator().base())) {}
@@ -101,14 +103,22 @@ fs::path FitJob::folder(const fs::path& results) { return results / kFolder; }
 
 FitSearch FitJob::search() const { return {fit_.section().iterations, {}, stopped_}; }
 
+void FitJob::require_one_state(const RowResult& row) const {
+  for (const FileRead& file : row.reads)
+    if (!files_now_->is_same(file))
+      throw InputError(file.path + ": has changed meanwhile; the same command begins anew");
+}
+
 std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) const {
   const fs::path path = folder(results_) / (step.name + ".txt");
-  const RowFormat format{definition_ + " " + step.name, step.figures, 0};
+  const RowFormat format{definition_ + " " + step.name, step.figures, 0, files_now_};
   std::vector<RowResult> rows;
   RowReader reader(path, format);
   if (reader.is_of_another())
     tell(path.string() + ": is of another study, other values or another program; begun anew");
   for (RowResult row; rows.size() < step.count && reader.next(row);) rows.push_back(row);
+  if (!reader.changed().empty())
+    tell(path.string() + ": " + reader.changed() + " has changed since; its rows are begun anew");
   RowWriter writer(path, format, reader);
   if (rows.size() == step.count) return rows;
   fit_.start_solvers();
@@ -119,6 +129,8 @@ std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) c
   };
   run.compute = [&](std::uint64_t number) {
     RowResult row;
+    const FilesRead reads;
+    note_reads(targets_);
     try {
       row = step.compute(number);
     } catch (const FitStopped&) {
@@ -129,10 +141,13 @@ std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) c
       row.problem = error.what();
       row.figures = VectorXd::Constant(step.figures, kUnknown);
     }
+    fit_.evaluator().require_same_study();
     row.row = number;
+    row.reads = reads.files();
     return row;
   };
   run.take = [&](const RowResult& row) {
+    require_one_state(row);
     writer.append(row);
     rows.push_back(row);
     countdown.count(row.has_failed());

@@ -49,9 +49,13 @@ struct FitResult {
 class FitJob {
  public:
   /// @param fit      outlives this
+  /// @param targets  files that the fit's targets were read from
   /// @param stopped  by the user
-  FitJob(StudyFit& fit, std::filesystem::path results, unsigned threads,
-         const std::atomic<bool>* stopped);
+  FitJob(StudyFit& fit, std::filesystem::path results, std::vector<FileRead> targets,
+         unsigned threads, const std::atomic<bool>* stopped);
+
+  /// The files that the rows are made from, once all are there.
+  std::vector<FileRead> files() const { return files_now_->files(); }
 
   /// @param tell  takes a line now and then about what is left
   /// @throws FitStopped once what was asked for in between is kept; ComputationError if no start
@@ -78,9 +82,13 @@ class FitJob {
   std::vector<Profile> all_profiles(const FitResult& result, const Progress& tell);
   HistoryMatch history(const Progress& tell);
   FitSearch search() const;
+  /// @throws InputError if a file is not as it was for the rows before.
+  void require_one_state(const RowResult& row) const;
 
   StudyFit& fit_;
   std::filesystem::path results_;
+  std::vector<FileRead> targets_;
+  std::shared_ptr<FilesNow> files_now_ = std::make_shared<FilesNow>();
   unsigned threads_;
   const std::atomic<bool>* stopped_;
   std::string definition_;

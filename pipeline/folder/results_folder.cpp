@@ -125,10 +125,7 @@ std::vector<Parameter> mesh_values(const Study& study) {
 }
 
 Provenance mesh_provenance(const Study& study) {
-  Provenance provenance = provenance_of(study.files, mesh_values(study));
-  const fs::path& source = study.structure->file();
-  provenance.inputs.push_back({source.filename().string(), hash_of_file(source.string())});
-  return provenance;
+  return provenance_of(study.files, mesh_values(study));
 }
 
 std::vector<Parameter> modes_values(const Study& study, bool with_attached) {
@@ -144,6 +141,12 @@ std::vector<Parameter> modes_values(const Study& study, bool with_attached) {
 
 Provenance modes_provenance(const Study& study) {
   return provenance_of(study.files, modes_values(study));
+}
+
+Provenance verdict_provenance(const Study& study) {
+  Provenance provenance = provenance_of(study);
+  provenance.inputs.insert(provenance.inputs.end(), study.rules.begin(), study.rules.end());
+  return provenance;
 }
 
 Provenance experiment_provenance(const Study& study, CaseSection::Kind kind) {

@@ -58,11 +58,12 @@ std::vector<Parameter> mesh_values(const Study& study);
 /// What the study says of the mesh and the modes.
 /// @param with_attached  of the attached body, too, for the frequencies with it
 std::vector<Parameter> modes_values(const Study& study, bool with_attached = true);
-/// What a mesh is made from: these values, and the script or file.
-/// @throws InputError if that file cannot be read.
+/// What a mesh is made from: these values, and the study's files.
 Provenance mesh_provenance(const Study& study);
 /// The same for the modes of a mesh.
 Provenance modes_provenance(const Study& study);
+/// The same for verdicts on all experiments, and for what shows them.
+Provenance verdict_provenance(const Study& study);
 /// The same for the experiments of a kind with the modes, all cases.
 Provenance experiment_provenance(const Study& study, CaseSection::Kind kind);
 /// The same for one case: of sections with a name, only what it uses.

@@ -44,6 +44,19 @@ std::map<std::string, std::string> hashes_of_written(const fs::path& folder,
   return hashes;
 }
 
+nlohmann::ordered_json json_of(const std::vector<FileRead>& reads) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const FileRead& file : reads) json.push_back({file.path, file.hash});
+  return json;
+}
+
+std::vector<FileRead> reads_from(const nlohmann::json& json) {
+  std::vector<FileRead> reads;
+  for (const auto& file : json)
+    reads.push_back({file.at(0).get<std::string>(), file.at(1).get<std::string>()});
+  return reads;
+}
+
 }  // namespace
 
 Stages::Stages(fs::path folder, bool redo) : folder_(std::move(folder)), program_(build_id()) {
@@ -61,11 +74,29 @@ bool Stages::make(const std::string& stage, const Provenance& from,
                   const std::vector<std::string>& after, const std::function<void()>& work) {
   if (is_made(stage, from, after)) return false;
   records_.erase(stage);
+  told_.clear();
   const WriteTimes before = write_times(folder_);
+  const FilesRead reads;
   work();
-  records_[stage] = {hash_of_inputs(from, after), hashes_of_written(folder_, before)};
+  Record record{hash_of_inputs(from, after), hashes_of_written(folder_, before), {}, told_};
+  record.reads = reads_beside_outputs(reads, record);
+  records_[stage] = std::move(record);
   write();
   return true;
+}
+
+const std::vector<std::string>& Stages::warnings(const std::string& stage) const {
+  return records_.at(stage).warnings;
+}
+
+std::vector<FileRead> Stages::reads_beside_outputs(const FilesRead& reads,
+                                                   const Record& record) const {
+  std::vector<FileRead> others = reads.files();
+  for (const auto& [name, hash] : record.outputs) {
+    const std::string path = fs::absolute(folder_ / name).string();
+    std::erase_if(others, [&](const FileRead& file) { return file.path == path; });
+  }
+  return others;
 }
 
 std::string Stages::hash_of_inputs(const Provenance& from,
@@ -86,10 +117,14 @@ std::string Stages::hash_of_inputs(const Provenance& from,
 }
 
 bool Stages::is_there(const Record& record) const {
-  return std::all_of(record.outputs.begin(), record.outputs.end(), [&](const auto& output) {
-    const fs::path path = folder_ / output.first;
-    return fs::is_regular_file(path) && computed_hash_of_file(path) == output.second;
-  });
+  const bool is_same =
+      std::all_of(record.reads.begin(), record.reads.end(),
+                  [](const FileRead& file) { return hash_now(file.path) == file.hash; });
+  return is_same &&
+         std::all_of(record.outputs.begin(), record.outputs.end(), [&](const auto& output) {
+           const fs::path path = folder_ / output.first;
+           return fs::is_regular_file(path) && computed_hash_of_file(path) == output.second;
+         });
 }
 
 void Stages::read() {
@@ -100,7 +135,9 @@ void Stages::read() {
     std::map<std::string, Record> records;
     for (const auto& [stage, record] : json.at("stages").items()) {
       records[stage] = {record.at("inputs").get<std::string>(),
-                        record.at("outputs").get<std::map<std::string, std::string>>()};
+                        record.at("outputs").get<std::map<std::string, std::string>>(),
+                        reads_from(record.at("reads")),
+                        record.at("warnings").get<std::vector<std::string>>()};
     }
     records_ = std::move(records);
   } catch (const nlohmann::json::exception&) {
@@ -112,9 +149,15 @@ void Stages::write() const {
   nlohmann::ordered_json json = {
       {"format", kFormat}, {"program", program_}, {"stages", nlohmann::ordered_json::object()}};
   for (const auto& [stage, record] : records_) {
-    json["stages"][stage] = {{"inputs", record.inputs}, {"outputs", record.outputs}};
+    json["stages"][stage] = {{"inputs", record.inputs},
+                             {"outputs", record.outputs},
+                             {"reads", json_of(record.reads)},
+                             {"warnings", record.warnings}};
   }
-  write_text(folder_ / kFile, json.dump(1) + "\n", Durability::none);
+  // A path that is no UTF-8 is none that can be looked at again: its stage is made again.
+  const std::string text =
+      json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  write_text(folder_ / kFile, text + "\n", Durability::none);
 }
 
 }  // namespace flexneck::pipeline

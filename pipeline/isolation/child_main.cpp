@@ -8,6 +8,7 @@
 #include <new>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/files_read.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/isolation/child_report.h"
 
@@ -80,7 +81,11 @@ bool is_child(std::span<char*> arguments) {
 }
 
 void child_main(std::span<char*> arguments, const std::vector<ChildTask>& tasks) {
+  const FilesRead reads;
   const int code = exit_code_of(arguments, tasks);
+  // Whether the task has succeeded or not: its parent depends on them.
+  for (const FileRead& file : reads.files())
+    report(ChildReport::Kind::file_read, file.hash + " " + file.path);
   std::cout.flush();
   std::fflush(nullptr);
   std::_Exit(code);

@@ -8,7 +8,7 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr char kMark = '\x1e';  // ASCII's record separator: no library prints it
-constexpr std::string_view kKinds = "dwic";
+constexpr std::string_view kKinds = "dwric";
 
 }  // namespace
 

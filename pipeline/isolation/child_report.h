@@ -13,6 +13,7 @@ struct ChildReport {
   enum class Kind : char {
     detail = 'd',             ///< of progress
     warning = 'w',            ///< for the user
+    file_read = 'r',          ///< hash and path of a file that it has read
     input_error = 'i',        ///< why it ends with kChildInputError
     computation_error = 'c',  ///< why it ends with kChildComputationError
   };

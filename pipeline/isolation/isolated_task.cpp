@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/files_read.h"
 #include "pipeline/isolation/child_main.h"
 #include "pipeline/isolation/child_process.h"
 #include "pipeline/isolation/child_report.h"
@@ -66,6 +67,10 @@ struct LastWords {
       if (lines.detail) lines.detail(report->text);
     } else if (report->kind == ChildReport::Kind::warning) {
       if (lines.warning) lines.warning(report->text);
+    } else if (report->kind == ChildReport::Kind::file_read) {
+      const std::size_t blank = report->text.find(' ');
+      if (blank != std::string::npos)
+        note_read(FileRead{report->text.substr(blank + 1), report->text.substr(0, blank)});
     } else {
       error = report;
     }

@@ -9,6 +9,7 @@
 
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/files_read.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/regular_file.h"
 #include "mesher/exchange/import_check.h"
@@ -62,13 +63,21 @@ mesher::Mesh mesh_of(const Study& study, const ChildLines& lines) {
   return script != nullptr ? mesh_of_script(*script, lines) : mesh_of_file(study, lines);
 }
 
+/// Its parent knows the values that the study's files give.
+Study study_of(const StudyChoice& choice) {
+  FilesRead reads;
+  Study study = read_study(choice.study, choice.settings);
+  reads.forget();
+  return study;
+}
+
 }  // namespace
 
 void mesh_task(const std::vector<std::string>& arguments, const ChildLines& lines) {
   const MeshOrder order = order_from(arguments);
   for (std::size_t place = 0; place < order.studies.size(); ++place) {
     const StudyChoice& choice = order.studies[place];
-    const Study study = read_study(choice.study, choice.settings);
+    const Study study = study_of(choice);
     try {
       mesher::write_mesh(mesh_result(order, place),
                          {.mesh = mesh_of(study, lines), .provenance = {}});

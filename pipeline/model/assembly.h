@@ -30,7 +30,6 @@ struct Assembly {
   double end_time_s = 1;
   double resolution_s = 1e-4;    ///< of expressions of time
   bool has_expressions = false;  ///< motions or loads by them
-  std::vector<InputFile> files;  ///< modes and tables read
 
   Motion motion = Motion::given;
   std::vector<std::size_t> prescribed;  ///< bodies of that kind

@@ -37,9 +37,7 @@ TableColumns read_mme_columns(const std::filesystem::path& path, const std::stri
     throw InputError(path.string() + ": expected a CSV file with a column in '" + x_unit +
                      "' first; channels of ISO-MME are over time");
   const Curve curve = in_unit(read_curve(path, code), y_unit);
-  return {{curve.time_s.begin(), curve.time_s.end()},
-          {curve.values.begin(), curve.values.end()},
-          curve.source};
+  return {{curve.time_s.begin(), curve.time_s.end()}, {curve.values.begin(), curve.values.end()}};
 }
 
 }  // namespace
@@ -56,7 +54,6 @@ TableColumns read_csv_columns(const std::filesystem::path& path, const std::stri
   const Header x = header_of(file, cells[0], x_unit);
   const Header y = header_of(file, cells[y_index], y_unit);
   TableColumns table;
-  table.source = path;
   while (file.next(cells)) {
     const double value = file.number(cells[0], x.to_si);
     if (!table.x.empty() && !(value > table.x.back()))

@@ -13,7 +13,6 @@ namespace flexneck::pipeline {
 /// Two columns of a table, in SI units.
 struct TableColumns {
   std::vector<double> x, y;
-  std::filesystem::path source = {};  ///< the file that holds them; empty of lists
 };
 
 /// Of a table that may have two of its lists from a file.

@@ -75,9 +75,7 @@ DeformableBody deformable_body(const StudyTable& table, Assembly& assembly) {
     return body;
   }
   const std::filesystem::path path = modes_path(table, "modes_file");
-  DeformableBody body = use_modes(use, read_modal_body(path).body, path.string());
-  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
-  return body;
+  return use_modes(use, read_modal_body(path).body, path.string());
 }
 
 void add_interfaces(multibody::Model& model, std::size_t index) {

@@ -152,9 +152,8 @@ SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
 }
 
 fe_modal::CondensedSection condensed(const StudyTable& table, const std::string& key,
-                                     fe_modal::Sliding sliding, Assembly& assembly) {
+                                     fe_modal::Sliding sliding) {
   const std::filesystem::path path = modes_path(table, key);
-  assembly.files.push_back({path.filename().string(), hash_of_file(path.string())});
   return at_key(table, key, [&] {
     return fe_modal::condense(read_modal_body(path).body, table.text("base"), table.text("top"),
                               sliding);
@@ -163,10 +162,9 @@ fe_modal::CondensedSection condensed(const StudyTable& table, const std::string&
 
 /// What of the stiffness relaxes, and leaves the rest.
 SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section& quick,
-                               double shares, Assembly& assembly) {
+                               double shares) {
   if (!table.has("slow_modes_file")) return shares * quick.stiffness;
-  const fe_modal::CondensedSection slow =
-      condensed(table, "slow_modes_file", sliding_of(quick), assembly);
+  const fe_modal::CondensedSection slow = condensed(table, "slow_modes_file", sliding_of(quick));
   const Eigen::Index size = slow.stiffness.rows() - 6;
   if ((slow.top_m - slow.base_m - quick.rest_m).norm() > 1e-9 * quick.rest_m.norm() ||
       size != quick.stiffness.rows())
@@ -217,8 +215,8 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
   if (table.has("modes_file")) {
     table.refuse_given(own, "modes_file gives it already");
     const multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];
-    use_condensed(condensed(table, "modes_file", sliding_of(section), assembly), table,
-                  "modes_file", index, assembly);
+    use_condensed(condensed(table, "modes_file", sliding_of(section)), table, "modes_file", index,
+                  assembly);
   } else {
     table.refuse_given({"base", "top", "slow_modes_file", "made_by", "slit_friction"},
                        "it belongs to modes_file, which is not there");
@@ -229,7 +227,7 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
     section.stiffness = with_gaps(table, matrix_of(table, "stiffness", ""));
   }
   multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];
-  relaxation.apply(relaxing_part(table, section, relaxation.sum_of_shares(), assembly), section);
+  relaxation.apply(relaxing_part(table, section, relaxation.sum_of_shares()), section);
 }
 
 void read_section(const StudyTable& table, Assembly& assembly) {

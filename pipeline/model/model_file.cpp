@@ -118,7 +118,7 @@ void restart(const StudyTable& root, ModelFile& file) {
     root.refuse("restart", rest_of(file) + ", but a restart begins in motion; leave one out");
   if (file.linearised_at)
     root.refuse("restart", "a linearisation is at time zero; leave one of them out");
-  read_restart(root.table("restart"), file.model, file.files, file.warnings);
+  read_restart(root.table("restart"), file.model, file.warnings);
   if (!(file.model.start.time_s < file.end_time_s))
     root.refuse("restart", "expected a time before the end_time of [solver]");
 }
@@ -170,6 +170,7 @@ std::span<const Key> model_keys() {
 ModelFile read_model_file(const DocumentSource& source, const std::vector<std::string>& settings) {
   const std::filesystem::path& path = source.path;
   const StudyDocument document(source, settings, model_keys());
+  const FilesRead reads;
   const StudyTable root = document.root();
   ModelFile file;
   file.file = path;
@@ -188,8 +189,9 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
   read_output(root, file);
   restart(root, file);
   root.finish();
-  file.files.insert(file.files.begin(), document.files().begin(), document.files().end());
-  file.files.insert(file.files.end(), assembly.files.begin(), assembly.files.end());
+  file.files = document.files();
+  const std::vector<InputFile> others = input_files(reads.files());
+  file.files.insert(file.files.end(), others.begin(), others.end());
   file.parameters = document.parameters();
   const auto is_resolution = [](const Parameter& each) { return each.key == "solver.resolution"; };
   if (file.has_expressions && std::ranges::none_of(file.parameters, is_resolution))

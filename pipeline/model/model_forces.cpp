@@ -66,14 +66,14 @@ constexpr auto kLineForceKeys = joined(
 
 /// A load that is the same at all times under the key `constant`, or a table.
 TimeTable load_over_time(const StudyTable& table, const std::string& constant,
-                         const ColumnKeys& keys, Assembly& assembly) {
+                         const ColumnKeys& keys) {
   const TimeTable::Outside outside =
       table.choice("outside") == 1 ? TimeTable::Outside::zero : TimeTable::Outside::constant;
   if (table.has(constant)) {
     table.refuse_given({keys.x, "table"}, "the load is given already by '" + constant + "'");
     return {{0.0}, {table.quantity(constant, keys.y_unit)}, TimeTable::Outside::constant};
   }
-  const TableColumns columns = read_columns(table, keys, assembly.files);
+  const TableColumns columns = read_columns(table, keys);
   try {
     return {columns.x, columns.y, outside};
   } catch (const InputError& error) {
@@ -112,8 +112,7 @@ void read_force(const StudyTable& table, Assembly& assembly) {
   force.marker = marker_named(table, "marker", assembly);
   force.direction = unit_vector(table, "direction");
   force.follows = table.flag("follows");
-  force.magnitude_N =
-      load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
+  force.magnitude_N = load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"});
   assembly.model.forces.add(std::move(force));
   table.finish();
 }
@@ -124,8 +123,7 @@ void read_torque(const StudyTable& table, Assembly& assembly) {
   torque.marker = marker_named(table, "marker", assembly);
   torque.direction = unit_vector(table, "direction");
   torque.follows = table.flag("follows");
-  torque.magnitude_Nm =
-      load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N*m"}, assembly);
+  torque.magnitude_Nm = load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N*m"});
   assembly.model.forces.add(std::move(torque));
   table.finish();
 }
@@ -136,7 +134,7 @@ void read_spring(const StudyTable& table, Assembly& assembly) {
   spring.marker_i = marker_named(table, "lower", assembly);
   spring.marker_j = marker_named(table, "upper", assembly);
   spring.free_length_m = table.quantity("free_length");
-  spring.resistance = read_resistance_law(table, kLinearUnits, assembly.files);
+  spring.resistance = read_resistance_law(table, kLinearUnits);
   spring.resistance.tension_only = table.flag("tension_only");
   assembly.model.forces.add(std::move(spring));
   table.finish();
@@ -148,8 +146,7 @@ void read_resistance(const StudyTable& table, Assembly& assembly) {
   resistance.joint = reference(table, "joint", names_of(assembly.model.joints), "joint");
   resistance.coordinate = static_cast<JointCoordinate>(table.choice("coordinate"));
   const bool is_linear = resistance.coordinate == JointCoordinate::distance;
-  resistance.resistance =
-      read_resistance_law(table, is_linear ? kLinearUnits : kAngularUnits, assembly.files);
+  resistance.resistance = read_resistance_law(table, is_linear ? kLinearUnits : kAngularUnits);
   assembly.model.forces.add(std::move(resistance));
   table.finish();
 }
@@ -159,8 +156,7 @@ void read_line_force(const StudyTable& table, Assembly& assembly) {
   force.name = table.text("name");
   force.marker_i = marker_named(table, "lower", assembly);
   force.marker_j = marker_named(table, "upper", assembly);
-  force.magnitude_N =
-      load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"}, assembly);
+  force.magnitude_N = load_over_time(table, "magnitude", {"times", "s", "magnitudes", "N"});
   assembly.model.forces.add(std::move(force));
   table.finish();
 }

@@ -109,9 +109,9 @@ std::string motion_key(const StudyTable& table, const MotionKeys& keys) {
   return found;
 }
 
-TimeTable acceleration_table(const StudyTable& table, const MotionKeys& keys, Assembly& assembly) {
+TimeTable acceleration_table(const StudyTable& table, const MotionKeys& keys) {
   const TableColumns columns =
-      read_columns(table, {"times", "s", "acceleration", keys.acceleration_unit}, assembly.files);
+      read_columns(table, {"times", "s", "acceleration", keys.acceleration_unit});
   return at_key(table, table.has("table") ? "table" : "times",
                 [&] { return TimeTable(columns.x, columns.y, TimeTable::Outside::zero); });
 }
@@ -136,8 +136,8 @@ SmoothMotion expressed_motion(const StudyTable& table, const std::string& key, A
 
 SmoothMotion tabulated_motion(const StudyTable& table, const MotionKeys& keys,
                               const std::string& key, Assembly& assembly) {
-  const TableColumns columns = read_columns(
-      table, {"times", "s", keys.value, keys.value_unit, keys.value_table}, assembly.files);
+  const TableColumns columns =
+      read_columns(table, {"times", "s", keys.value, keys.value_unit, keys.value_table});
   return at_key(table, key, [&] {
     SmoothMotion motion = SmoothMotion::of_displacement_table(columns.x, columns.y);
     if (columns.x.front() > 0 || columns.x.back() < assembly.end_time_s) {
@@ -166,7 +166,7 @@ Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& as
   } else if (key == keys.value || key == keys.value_table) {
     motion.function = tabulated_motion(table, keys, key, assembly);
   } else {
-    motion.acceleration = acceleration_table(table, keys, assembly);
+    motion.acceleration = acceleration_table(table, keys);
   }
   return motion;
 }

@@ -63,7 +63,6 @@ struct ColumnKeys {
   std::string file = "table";
 };
 /// Two lists under the keys x and y, or a file (csv_table.h).
-TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
-                          std::vector<InputFile>& files);
+TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys);
 
 }  // namespace flexneck::pipeline

@@ -44,8 +44,7 @@ std::vector<double> breakpoints(const StudyTable& table) {
   return table.has("breakpoints") ? table.quantities("breakpoints") : std::vector<double>{};
 }
 
-TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
-                          std::vector<InputFile>& files) {
+TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys) {
   if (!table.has(keys.file)) {
     TableColumns columns;
     columns.x = table.quantities(keys.x, 0, keys.x_unit);
@@ -57,9 +56,7 @@ TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys,
       table.refuse(key, "is given twice, here and by the key '" + keys.file +
                             "'; leave one out, over a table of another file by " + key + " = []");
   const std::filesystem::path path = table.file(keys.file);
-  TableColumns columns = read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
-  files.push_back({columns.source.filename().string(), hash_of_file(columns.source.string())});
-  return columns;
+  return read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
 }
 
 }  // namespace flexneck::pipeline

@@ -19,8 +19,7 @@ LoadCurve polynomial(const StudyTable& table, const std::string& prefix,
                           table.quantity(prefix + "cubic", units.over("^3")));
 }
 
-LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units,
-                     std::vector<InputFile>& files) {
+LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units) {
   const bool is_table = table.has("deflections") || table.has("table");
   if (!is_table && table.has("locks_at")) {
     table.refuse_given({"quadratic", "cubic"}, "the curve is given already by locks_at");
@@ -33,7 +32,7 @@ LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units,
   table.refuse_given({"stiffness", "quadratic", "cubic", "locks_at"},
                      "the curve is given already by a table");
   TableColumns columns =
-      read_columns(table, {"deflections", units.deflection, "loads", units.load}, files);
+      read_columns(table, {"deflections", units.deflection, "loads", units.load});
   try {
     return LoadCurve::table(std::move(columns.x), std::move(columns.y));
   } catch (const InputError& error) {
@@ -54,10 +53,9 @@ void refuse_if_it_falls(const StudyTable& table, const ResistanceSide& side) {
 
 }  // namespace
 
-ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUnits& units,
-                                    std::vector<InputFile>& files) {
+ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUnits& units) {
   ResistanceSide side;
-  side.curve = load_curve(table, units, files);
+  side.curve = load_curve(table, units);
   side.stop = table.quantity("stop", units.deflection);
   side.beyond_stop = polynomial(table, "stop_", units);
   side.unloading_ratio = table.number("unloading_ratio");
@@ -65,14 +63,13 @@ ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUni
   return side;
 }
 
-Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& units,
-                               std::vector<InputFile>& files) {
+Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& units) {
   Resistance resistance;
-  resistance.positive = resistance.negative = read_resistance_side(table, units, files);
+  resistance.positive = resistance.negative = read_resistance_side(table, units);
   const auto side_of = [&](const char* key, ResistanceSide& side) {
     if (!table.has(key)) return;
     const StudyTable own = table.table(key);
-    side = read_resistance_side(own, units, files);
+    side = read_resistance_side(own, units);
     own.finish();
   };
   side_of("positive", resistance.positive);

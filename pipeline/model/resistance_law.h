@@ -59,12 +59,10 @@ inline constexpr auto kResistanceKeys = joined(
 /// One direction: stiffness with quadratic and cubic or locks_at, or deflections with loads or a
 /// table; stop, unloading_ratio. A table that is read is appended to `files`.
 multibody::ResistanceSide read_resistance_side(const StudyTable& table,
-                                               const ResistanceUnits& units,
-                                               std::vector<InputFile>& files);
+                                               const ResistanceUnits& units);
 
 /// Curves of the table itself hold for both directions, those of its sub-tables positive and
 /// negative for one; damping, friction and full_rate for both.
-multibody::Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& units,
-                                          std::vector<InputFile>& files);
+multibody::Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& units);
 
 }  // namespace flexneck::pipeline

@@ -91,13 +91,12 @@ void take_angles(const StudyTable& table, const multibody::StateHistory& state, 
 
 }  // namespace
 
-void read_restart(const StudyTable& table, multibody::Model& model, std::vector<InputFile>& files,
+void read_restart(const StudyTable& table, multibody::Model& model,
                   std::vector<std::string>& warnings) {
   const std::filesystem::path path = table.file("file");
   const double time_s = table.quantity("time");
   table.finish();
   const History history = read_history(path).history;
-  files.push_back({path.filename().string(), hash_of_file(path.string())});
   const std::vector<BodyHistory>& states = history.state.bodies;
   if (states.empty())
     table.refuse("file", path.string() +

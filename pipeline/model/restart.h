@@ -17,9 +17,9 @@ inline constexpr std::array<Key, 2> kRestartKeys = {{
 }};
 
 /// Gives the bodies of a model the state of an output of a history, and the model its time: keys
-/// kRestartKeys. The file is appended to `files`, and to `warnings` which bodies have other masses.
+/// kRestartKeys. To `warnings` it adds which bodies have other masses.
 /// @throws InputError if the history has no states, other bodies or modes, or no such output.
-void read_restart(const StudyTable& table, multibody::Model& model, std::vector<InputFile>& files,
+void read_restart(const StudyTable& table, multibody::Model& model,
                   std::vector<std::string>& warnings);
 
 }  // namespace flexneck::pipeline

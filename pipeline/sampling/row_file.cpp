@@ -6,12 +6,14 @@
 #include <charconv>
 #include <cstring>
 #include <fcntl.h>
+#include <span>
 #include <sys/types.h>
 #include <unistd.h>
 #include <utility>
 
 #include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/printable.h"
 
@@ -25,7 +27,17 @@ constexpr std::size_t kHashDigits = 16;
 
 fs::path curves_beside(const fs::path& path) { return path.string() + ".curves"; }
 
-std::string heading(const RowFormat& format) { return "flexneck rows 1," + format.definition; }
+constexpr std::string_view kFiles = "files";
+
+std::string heading(const RowFormat& format) { return "flexneck rows 2," + format.definition; }
+
+/// "files", and of each a tab, its hash, a blank and its path. One whose path has characters that
+/// are spelt out is never found again: its rows are computed again.
+std::string line_of(const std::vector<FileRead>& files) {
+  std::string line(kFiles);
+  for (const FileRead& file : files) line += '\t' + file.hash + ' ' + printable(file.path);
+  return line;
+}
 
 std::string bytes_of(const Eigen::VectorXd& curves) {
   std::string bytes(static_cast<std::size_t>(curves.size()) * sizeof(double), '\0');
@@ -33,8 +45,8 @@ std::string bytes_of(const Eigen::VectorXd& curves) {
   return bytes;
 }
 
-std::string hash_of(const std::string& line, const std::string& curves) {
-  return hash_of_text(line + '\n' + curves).substr(0, kHashDigits);
+std::string hash_of(const std::string& files, const std::string& line, const std::string& curves) {
+  return hash_of_text(files + '\n' + line + '\n' + curves).substr(0, kHashDigits);
 }
 
 /// A number up to a comma, which goes, too.
@@ -68,36 +80,83 @@ FileDescriptor opened(const fs::path& path, std::uint64_t keep) {
 
 }  // namespace
 
-RowReader::RowReader(const fs::path& path, RowFormat format)
-    : format_(std::move(format)), lines_(path, std::ios::binary) {
-  std::string first;
-  if (!std::getline(lines_, first) || lines_.eof()) return;
-  if (first != heading(format_)) {
-    is_of_another_ = true;
-    lines_.setstate(std::ios::failbit);
-    return;
+WholeLines::WholeLines(fs::path path) : path_(std::move(path)) {
+  std::error_code none;
+  if (fs::exists(path_, none)) file_ = open_to_read(path_);
+}
+
+bool WholeLines::next(std::string& line) {
+  constexpr std::size_t kBlock = 1 << 16;
+  if (!file_) return false;
+  for (;;) {
+    const std::size_t end = block_.find('\n', at_);
+    if (end != std::string::npos) {
+      line = block_.substr(at_, end - at_);
+      at_ = end + 1;
+      end_ += line.size() + 1;
+      return true;
+    }
+    block_.erase(0, std::exchange(at_, 0));
+    const std::size_t kept = block_.size();
+    block_.resize(kept + kBlock);
+    const std::size_t count = read_at(file_, place_, std::span(block_).subspan(kept), path_);
+    block_.resize(kept + count);
+    place_ += count;
+    if (count == 0) return false;
   }
-  end_ = first.size() + 1;
-  if (format_.curve_values > 0) curves_.open(curves_beside(path), std::ios::binary);
+}
+
+RowReader::RowReader(const fs::path& path, RowFormat format)
+    : format_(std::move(format)), curves_path_(curves_beside(path)), lines_(path) {
+  std::string first;
+  is_at_end_ = !lines_.next(first);
+  if (is_at_end_) return;
+  is_of_another_ = is_at_end_ = first != heading(format_);
+  if (is_of_another_) return;
+  end_ = lines_.end();
+  std::error_code none;
+  if (format_.curve_values > 0 && fs::exists(curves_path_, none))
+    curves_ = open_to_read(curves_path_);
+}
+
+bool RowReader::are_as_read(std::string_view line) {
+  line.remove_prefix(kFiles.size());
+  while (!line.empty()) {
+    line.remove_prefix(1);  // the tab
+    const std::string_view file = line.substr(0, line.find('\t'));
+    line.remove_prefix(file.size());
+    const std::size_t blank = std::min(file.find(' '), file.size() - 1);
+    const FileRead read{std::string(file.substr(blank + 1)), std::string(file.substr(0, blank))};
+    if (format_.files->is_same(read)) continue;
+    changed_ = read.path;
+    return false;
+  }
+  return true;
 }
 
 bool RowReader::next(RowResult& result) {
   std::string line;
-  if (!std::getline(lines_, line) || lines_.eof()) return false;  // a last line without its end
   const auto stop = [&] {
-    lines_.setstate(std::ios::failbit);
+    is_at_end_ = true;
     return false;
   };
+  for (;;) {
+    if (is_at_end_ || !lines_.next(line)) return false;
+    if (!line.starts_with(kFiles)) break;
+    files_ = line;
+    if (!are_as_read(files_)) return stop();
+  }
   if (line.size() < kHashDigits + 1) return stop();
   const std::string text = line.substr(0, line.size() - kHashDigits - 1);
   if (!parse(text, format_.figures, result)) return stop();
   result.curves.resize(format_.curve_values);
   std::string bytes(static_cast<std::size_t>(format_.curve_values) * sizeof(double), '\0');
-  if (!bytes.empty() && !curves_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+  if (!bytes.empty() &&
+      (!curves_ || read_at(curves_, end_of_curves_, bytes, curves_path_) < bytes.size()))
     return stop();
-  if (line.substr(text.size()) != "|" + hash_of(text, bytes)) return stop();
+  if (line.substr(text.size()) != "|" + hash_of(files_, text, bytes)) return stop();
   if (!bytes.empty()) std::memcpy(result.curves.data(), bytes.data(), bytes.size());
-  end_ += line.size() + 1;
+  end_ = lines_.end();
   end_of_curves_ += bytes.size();
   return true;
 }
@@ -113,9 +172,12 @@ void RowWriter::append(const RowResult& result) {
   for (const double figure : result.figures) line += exact_text(figure) + ",";
   line += printable(result.problem);
   const std::string curves = bytes_of(result.curves);
+  const std::string files = line_of(result.reads);
   // The curves first: a row is there once its line is.
   if (curves_) write(curves_, curves);
-  write(lines_, line + "|" + hash_of(line, curves) + "\n");
+  const std::string before = files == files_ ? "" : files + "\n";
+  write(lines_, before + line + "|" + hash_of(files, line, curves) + "\n");
+  files_ = files;
 }
 
 void RowWriter::write(const FileDescriptor& file, std::string_view bytes) const {

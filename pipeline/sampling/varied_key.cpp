@@ -118,14 +118,6 @@ std::string definition_of(const Study& study) {
   std::string text = build_id() + '\n';
   for (const std::vector<Parameter>* const list : {&study.parameters, &study.defaults})
     for (const Parameter& each : *list) text += each.key + '\n' + each.value + '\n';
-  for (const InputFile& each : study.tables) text += each.name + '\n' + each.hash + '\n';
-  std::set<std::filesystem::path> files;
-  if (study.structure) files.insert(study.structure->file());
-  if (study.matrices)
-    files.insert({study.matrices->stiffness, study.matrices->mass, study.matrices->nodes});
-  for (const TestSection& each : study.tests) files.insert(each.file);
-  for (const std::filesystem::path& each : files)
-    text += each.filename().string() + '\n' + hash_of_file(each.string()) + '\n';
   return hash_of_text(text);
 }
 

@@ -46,8 +46,8 @@ void check_varied(Evaluator& evaluator, const std::vector<TwoSettings>& all,
                   const WantedOutputs& wanted, const std::string& own_table,
                   const std::string& outputs);
 
-/// Hash of the program and of all that outputs are computed from: every value of the study, and
-/// every file it names.
+/// Hash of the program and of every value of the study. Rows know the files that they are made from
+/// (row_file.h).
 std::string definition_of(const Study& study);
 
 }  // namespace flexneck::pipeline

@@ -28,12 +28,11 @@ CurveCorridor listed_corridor(const StudyTable& table) {
 
 }  // namespace
 
-CurveCorridor read_corridor(const StudyTable& table, std::vector<InputFile>& files) {
+CurveCorridor read_corridor(const StudyTable& table) {
   CurveCorridor corridor;
   if (table.has("table")) {
     table.refuse_given({"times", "lower", "upper"}, "is given twice, here and by the key 'table'");
-    corridor = {read_curve_column(table, "lower", files), read_curve_column(table, "upper", files)};
-    files.pop_back();
+    corridor = {read_curve_column(table, "lower"), read_curve_column(table, "upper")};
     corridor.upper = in_unit(std::move(corridor.upper), corridor.lower.unit);
   } else {
     corridor = listed_corridor(table);

@@ -27,6 +27,6 @@ inline constexpr auto kCorridorKeys = std::to_array<Key>({
 
 /// Its file, if there is one, is appended to `files`.
 /// @throws InputError with file, line and key, also for a corridor that crosses itself.
-CurveCorridor read_corridor(const StudyTable& table, std::vector<InputFile>& files);
+CurveCorridor read_corridor(const StudyTable& table);
 
 }  // namespace flexneck::pipeline

@@ -47,17 +47,15 @@ void filter_as_asked(const StudyTable& table, Curve& curve) {
 
 }  // namespace
 
-Curve read_curve_column(const StudyTable& table, const std::string& column,
-                        std::vector<InputFile>& files) {
+Curve read_curve_column(const StudyTable& table, const std::string& column) {
   const std::filesystem::path path = table.file("table");
   Curve curve = read_curve(path, column);
-  files.push_back({curve.source.filename().string(), hash_of_file(curve.source.string())});
   set_unit(table, curve);
   return curve;
 }
 
-Curve read_curve_table(const StudyTable& table, std::vector<InputFile>& files) {
-  Curve curve = read_curve_column(table, table.text("column"), files);
+Curve read_curve_table(const StudyTable& table) {
+  Curve curve = read_curve_column(table, table.text("column"));
   if (table.has("filter")) filter_as_asked(table, curve);
   curve.time_s.array() -= table.quantity("time_zero");
   return curve;

@@ -35,10 +35,9 @@ inline constexpr auto kCurveTableKeys = std::to_array<Key>({
 /// The curve over the time of the case, filtered as asked, in the file's unit. Its file is appended
 /// to `files`.
 /// @throws InputError with file, line and key, or as read_curve() does.
-Curve read_curve_table(const StudyTable& table, std::vector<InputFile>& files);
+Curve read_curve_table(const StudyTable& table);
 
 /// A column of the file as it stands there: by "table" and "unit" alone.
-Curve read_curve_column(const StudyTable& table, const std::string& column,
-                        std::vector<InputFile>& files);
+Curve read_curve_column(const StudyTable& table, const std::string& column);
 
 }  // namespace flexneck::pipeline

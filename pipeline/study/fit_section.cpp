@@ -115,25 +115,24 @@ FitParameter read_parameter(const StudyTable& table) {
 }
 
 /// What the curve should be. @return the times that it covers
-const Eigen::VectorXd& read_wanted_curve(const StudyTable& table, FitCurve& curve,
-                                         std::vector<InputFile>& files) {
+const Eigen::VectorXd& read_wanted_curve(const StudyTable& table, FitCurve& curve) {
   if (table.has("corridor")) {
     table.refuse_given({"table", "column", "unit", "filter", "time_zero", "rating"},
                        "expected none beside a corridor");
     const StudyTable corridor = table.table("corridor");
-    curve.corridor = read_corridor(corridor, files);
+    curve.corridor = read_corridor(corridor);
     corridor.finish();
     return curve.corridor->lower.time_s;
   }
   if (!table.has("table")) table.refuse("table", "expected the file of the curve, or a corridor");
-  curve.target = read_curve_table(table, files);
+  curve.target = read_curve_table(table);
   return curve.target.time_s;
 }
 
-FitCurve read_fit_curve(const StudyTable& table, std::vector<InputFile>& files) {
+FitCurve read_fit_curve(const StudyTable& table) {
   FitCurve curve;
   curve.output = table.text("curve");
-  const Eigen::VectorXd& time_s = read_wanted_curve(table, curve, files);
+  const Eigen::VectorXd& time_s = read_wanted_curve(table, curve);
   const double first_s = time_s[0];
   const double last_s = time_s[time_s.size() - 1];
   curve.from_s = table.has("from") ? table.quantity("from") : first_s;
@@ -185,7 +184,7 @@ void read_wanted(const StudyTable& table, FitTarget& target) {
   table.refuse_given({"smoothing"}, "expected of a window only");
 }
 
-FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
+FitTarget read_target(const StudyTable& table) {
   FitTarget target{.name = table.text("name"),
                    .output = table.text("output"),
                    .expression = table.text("expression"),
@@ -202,7 +201,7 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
   if (table.has("output") + table.has("curve") + table.has("expression") != 1)
     table.refuse("output", "expected one of output, curve and expression");
   if (table.has("curve")) {
-    target.curve = read_fit_curve(table, files);
+    target.curve = read_fit_curve(table);
   } else {
     table.refuse_given({"table", "corridor", "column", "unit", "filter", "time_zero", "from", "to",
                         "points", "rating"},
@@ -224,7 +223,7 @@ FitTarget read_target(const StudyTable& table, std::vector<InputFile>& files) {
 
 std::span<const Key> fit_keys() { return kFitKeys; }
 
-FitSection read_fit(const StudyTable& table, std::vector<InputFile>& files) {
+FitSection read_fit(const StudyTable& table) {
   FitSection fit;
   fit.starts = table.count("starts");
   fit.seed = table.count("seed");
@@ -241,8 +240,7 @@ FitSection read_fit(const StudyTable& table, std::vector<InputFile>& files) {
     fit.parameters.push_back(read_parameter(each));
   if (fit.parameters.empty()) table.refuse("parameter", "expected at least one");
   check_names(names_of(fit.parameters), "fit.parameter");
-  for (const StudyTable& each : table.tables("target"))
-    fit.targets.push_back(read_target(each, files));
+  for (const StudyTable& each : table.tables("target")) fit.targets.push_back(read_target(each));
   if (std::all_of(fit.targets.begin(), fit.targets.end(),
                   [](const FitTarget& each) { return each.is_held_out || each.must_hold; }))
     table.refuse("target", "expected at least one that is not held out and counts");
@@ -252,13 +250,14 @@ FitSection read_fit(const StudyTable& table, std::vector<InputFile>& files) {
 }
 
 FitSection read_fit(const std::filesystem::path& study, const std::vector<std::string>& settings) {
+  FilesRead reads;
   const StudyDocument document(study, settings, study_keys());
+  reads.forget();  // values tell them apart; files of targets count
   if (!document.root().has(kFitSection))
     throw InputError(study.string() +
                      ": expected [fit] with [[fit.parameter]] and [[fit.target]], found none; "
                      "'flexneck keys study.fit' tells its keys");
-  std::vector<InputFile> files;
-  return read_fit(document.root().table(kFitSection), files);
+  return read_fit(document.root().table(kFitSection));
 }
 
 }  // namespace flexneck::pipeline

@@ -77,7 +77,7 @@ std::span<const Key> fit_keys();
 
 /// Reads the section and the files of its curves, which are appended to `files`.
 /// @throws InputError with file, line and key.
-FitSection read_fit(const StudyTable& table, std::vector<InputFile>& files);
+FitSection read_fit(const StudyTable& table);
 
 /// [fit] of a study. @throws InputError if it has none.
 FitSection read_fit(const std::filesystem::path& study, const std::vector<std::string>& settings);

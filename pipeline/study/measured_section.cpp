@@ -35,18 +35,18 @@ constexpr Key kMeasuredKeys[] = {
     Key::tables("limit", "Where peaks, their times and zero crossings should lie", kLimitKeys),
 };
 
-MeasuredCurve read_measured_curve(const StudyTable& table, std::vector<InputFile>& files) {
+MeasuredCurve read_measured_curve(const StudyTable& table) {
   MeasuredCurve measured;
   measured.channel = table.text("channel");
-  measured.curve = read_curve_table(table, files);
+  measured.curve = read_curve_table(table);
   if (table.has("from")) measured.from_s = table.quantity("from");
   if (table.has("to")) measured.to_s = table.quantity("to");
   table.finish();
   return measured;
 }
 
-MeasuredCorridor read_measured_corridor(const StudyTable& table, std::vector<InputFile>& files) {
-  MeasuredCorridor measured{read_corridor(table, files), table.text("channel")};
+MeasuredCorridor read_measured_corridor(const StudyTable& table) {
+  MeasuredCorridor measured{read_corridor(table), table.text("channel")};
   table.finish();
   return measured;
 }
@@ -64,12 +64,12 @@ MeasuredLimit read_limit(const StudyTable& table) {
 
 std::span<const Key> measured_keys() { return kMeasuredKeys; }
 
-MeasuredTest read_measured(const StudyTable& test, std::vector<InputFile>& files) {
+MeasuredTest read_measured(const StudyTable& test) {
   MeasuredTest measured;
   for (const StudyTable& table : test.tables("curve"))
-    measured.curves.push_back(read_measured_curve(table, files));
+    measured.curves.push_back(read_measured_curve(table));
   for (const StudyTable& table : test.tables("corridor"))
-    measured.corridors.push_back(read_measured_corridor(table, files));
+    measured.corridors.push_back(read_measured_corridor(table));
   for (const StudyTable& table : test.tables("limit")) measured.limits.push_back(read_limit(table));
   return measured;
 }

@@ -52,6 +52,6 @@ std::span<const Key> measured_keys();
 
 /// Reads them and their files, which are appended to `files`.
 /// @throws InputError with file, line and key, or file and line of what they name.
-MeasuredTest read_measured(const StudyTable& test, std::vector<InputFile>& files);
+MeasuredTest read_measured(const StudyTable& test);
 
 }  // namespace flexneck::pipeline

@@ -20,10 +20,10 @@ constexpr auto kPulseKeys = joined(
 
 std::span<const Key> pulse_keys() { return kPulseKeys; }
 
-PulseSection read_pulse(const StudyTable& table, std::vector<InputFile>& files) {
+PulseSection read_pulse(const StudyTable& table) {
   PulseSection pulse;
   pulse.name = table.text("name");
-  TableColumns columns = read_columns(table, {"times", "s", "deceleration", "m/s^2"}, files);
+  TableColumns columns = read_columns(table, {"times", "s", "deceleration", "m/s^2"});
   const char* const key = table.has("table") ? "table" : "times";
   // The table itself knows what times must be.
   at_key(table, key, [&] {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "geometry/foundation/error.h"
@@ -39,12 +38,11 @@ void read_solver(const StudyTable& table, Study& study) {
 
 namespace {
 
-template <typename Section, typename... More>
+template <typename Section>
 std::vector<Section> read_all(const StudyTable& root, const std::string& key,
-                              Section (*read)(const StudyTable&, More...),
-                              std::type_identity_t<More>... more) {
+                              Section (*read)(const StudyTable&)) {
   std::vector<Section> sections;
-  for (const StudyTable& table : root.tables(key)) sections.push_back(read(table, more...));
+  for (const StudyTable& table : root.tables(key)) sections.push_back(read(table));
   check_names(names_of(sections), key);
   return sections;
 }
@@ -95,28 +93,25 @@ void check_references(const Study& study) {
   }
 }
 
-void add_file(std::vector<InputFile>& files, const InputFile& file) {
-  const auto is_same = [&](const InputFile& other) {
-    return other.name == file.name && other.hash == file.hash;
-  };
-  if (std::none_of(files.begin(), files.end(), is_same)) files.push_back(file);
-}
-
 /// Bodies, joints and forces, and the cases that are made of them.
-void read_experiments(const StudyTable& root, const std::vector<TestSection>& known,
-                      CasesRead which, Study& study) {
-  study.pulses = read_all(root, "pulse", read_pulse, study.tables);
+void read_experiments(const StudyTable& root, CasesRead which, Study& study) {
+  const FilesRead reads;
+  study.pulses = read_all(root, "pulse", read_pulse);
   const StudyModels models(root, names_of(study.interfaces));
   study.cases = read_cases(root, models, which);
   check_names(names_of(study.cases), "case");
   double longest_s = 0;
-  for (const CaseSection& experiment : study.cases) {
+  for (const CaseSection& experiment : study.cases)
     longest_s = std::max(longest_s, experiment.duration_s);
-    for (const InputFile& file : experiment.model.files) add_file(study.tables, file);
-  }
   study.model = models.whole(longest_s > 0 ? longest_s : 1, study.solver.resolution_s);
-  for (const InputFile& file : study.model.files) add_file(study.tables, file);
+  study.tables = input_files(reads.files());
+}
+
+void read_all_tests(const StudyTable& root, const std::vector<TestSection>& known, CasesRead which,
+                    Study& study) {
+  const FilesRead reads;
   read_tests(root, known, which, study);
+  study.rules = input_files(reads.files());
   select_cases(root, study);
 }
 
@@ -170,12 +165,18 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   study.interfaces = read_all(root, "interface", read_interface);
   study.loads = read_all(root, "load", read_load);
   check_loads(root, study);
-  read_experiments(root, known, which, study);
+  read_experiments(root, which, study);
+  read_all_tests(root, known, which, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
   // For what is wrong with them.
   if (root.has("sweep")) read_sweep(root.table("sweep"));
-  if (root.has("fit")) read_fit(root.table("fit"), study.tables);
+  if (root.has("fit")) {
+    const FilesRead reads;
+    read_fit(root.table("fit"));
+    const std::vector<InputFile> targets = input_files(reads.files());
+    study.tables.insert(study.tables.end(), targets.begin(), targets.end());
+  }
   root.finish();
   check_sections(root, study);
   check_references(study);
@@ -215,7 +216,9 @@ Study StudyReader::read(const std::vector<std::string>& more) {
   all.insert(all.end(), more.begin(), more.end());
   std::vector<std::string> keys = keys_of(more);
   if (!document_ || keys != keys_ || std::ranges::any_of(more, concerns_variables)) {
+    FilesRead reads;
     document_.emplace(path_, all, study_keys());
+    reads.forget();  // values tell them apart
     keys_ = std::move(keys);
   } else {
     for (const std::string& setting : more) document_->set(setting);

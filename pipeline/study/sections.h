@@ -45,7 +45,7 @@ fe_modal::Formulation read_formulation(const StudyTable& table);
 ModesSection read_modes(const StudyTable& modes);
 ModesConnections read_modes_connections(const StudyTable& modes);
 /// The keys table, a CSV file, or times and deceleration. A file read is appended to `files`.
-PulseSection read_pulse(const StudyTable& pulse, std::vector<InputFile>& files);
+PulseSection read_pulse(const StudyTable& pulse);
 /// The tables [[body]], [[marker]], … as a study has them.
 std::vector<Key> model_table_keys();
 /// Which cases of a study get their models and are checked whole, with the tests that judge them.

@@ -15,6 +15,7 @@
 #include "fe_modal/element/formulation.h"
 #include "fe_modal/system/loads.h"
 #include "fe_modal/system/solver.h"
+#include "geometry/foundation/files_read.h"
 #include "geometry/foundation/provenance.h"
 #include "geometry/foundation/units.h"
 #include "multibody/model/model.h"
@@ -100,7 +101,8 @@ struct TestSection {
   std::string name;
   std::string experiment;  ///< the case
   CertificationTest rules;
-  std::filesystem::path file;  ///< that the rules stand in
+  std::filesystem::path file;   ///< that the rules stand in
+  std::vector<FileRead> reads;  ///< it and others
 };
 
 /// The table of keys of study files, by section.
@@ -129,7 +131,8 @@ struct Study {
   std::filesystem::path verification;  ///< table of reference figures; empty for none
 
   std::vector<InputFile> files;   ///< of the study itself
-  std::vector<InputFile> tables;  ///< CSV files that it names
+  std::vector<InputFile> tables;  ///< others read for experiments: CSV files, bodies, …
+  std::vector<InputFile> rules;   ///< and for tests: regulations, measured curves
   std::vector<Parameter> parameters;
   std::vector<std::string> warnings;  ///< of names of earlier versions
   std::vector<Parameter> defaults;    ///< what holds for keys that the study does not give

@@ -29,8 +29,10 @@ ShippedTest rules_of(const StudyTable& table, const std::string& test_name,
   const bool has_file = table.has("file");
   for (const TestSection& each : known)
     if (each.name == test_name && each.rules.name == name &&
-        (!has_file || each.file == table.file("file")))
+        (!has_file || each.file == table.file("file"))) {
+      note_reads(each.reads);
       return {each.rules, each.file};
+    }
   if (!has_file) return at_key(table, "regulation", [&] { return shipped_test(name); });
   const std::filesystem::path file = table.file("file");
   const std::vector<CertificationTest> tests = read_regulation(file);
@@ -55,7 +57,9 @@ void read_certification(const StudyTable& table, const std::vector<TestSection>&
                         Study& study) {
   TestSection test;
   test.name = table.text("name");
+  const FilesRead reads;
   auto [rules, file] = rules_of(table, test.name, known);
+  test.reads = reads.files();
   test.rules = std::move(rules);
   test.file = std::move(file);
   test.experiment = table.text("case");
@@ -70,7 +74,7 @@ void read_certification(const StudyTable& table, const std::vector<TestSection>&
 void read_test(const StudyTable& table, const std::vector<TestSection>& known, Study& study) {
   const std::string experiment = table.text("case");
   at_key(table, "case", [&] { return find_name(names_of(study.cases), experiment, "case"); });
-  MeasuredTest measured = read_measured(table, study.tables);
+  MeasuredTest measured = read_measured(table);
   measured.name = table.text("name");
   measured.experiment = experiment;
   if (table.has("regulation"))

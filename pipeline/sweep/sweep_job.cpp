@@ -82,6 +82,7 @@ RowResult SweepJob::computed(std::uint64_t row) {
   result.row = row;
   result.figures = VectorXd::Constant(format_.figures, kUnknown);
   result.curves = VectorXd::Constant(format_.curve_values, kUnknown);
+  const FilesRead reads;
   try {
     Evaluation evaluation = evaluator_.evaluate(sweep_.settings(row), wanted_);
     add_curves(evaluation, result);
@@ -93,6 +94,8 @@ RowResult SweepJob::computed(std::uint64_t row) {
     result.problem = error.what();
     result.curves.setConstant(kUnknown);
   }
+  evaluator_.require_same_study();
+  result.reads = reads.files();
   return result;
 }
 
@@ -118,6 +121,8 @@ bool SweepJob::compute(const SweepShare& share, const Progress& tell) {
   if (reader.is_of_another() && tell)
     tell(own.string() + ": is of another study, other values or another program; begun anew");
   const std::optional<std::uint64_t> last = read_to_end(reader);
+  if (!reader.changed().empty() && tell)
+    tell(own.string() + ": " + reader.changed() + " has changed since; its rows are begun anew");
   const std::optional<std::uint64_t> first_due = decltype(due)(due)();
   if (last && first_due && *first_due < *last) {
     // Rows before those here were in a file that is gone: a file is in ascending order.
@@ -148,6 +153,17 @@ std::uint64_t SweepJob::rows_done(const Shard& shard) const {
   const auto begin = there.begin() + static_cast<std::ptrdiff_t>(shard.first(sweep_.count()));
   const auto end = there.begin() + static_cast<std::ptrdiff_t>(shard.end(sweep_.count()));
   return static_cast<std::uint64_t>(std::count(begin, end, true));
+}
+
+std::vector<std::string> SweepJob::outdated() const {
+  std::vector<std::string> lines;
+  for (const fs::path& file : row_files(results_)) {
+    RowReader reader(file, format_);
+    read_to_end(reader);
+    if (!reader.changed().empty())
+      lines.push_back(file.string() + ": rows were made from another " + reader.changed());
+  }
+  return lines;
 }
 
 bool SweepJob::is_complete() const { return rows_done(Shard()) == sweep_.count(); }

@@ -41,6 +41,10 @@ class SweepJob {
 
   /// Whether all rows of the sweep are there.
   bool is_complete() const;
+  /// Of files of rows that count no more since what they were made from has changed, a line each.
+  std::vector<std::string> outdated() const;
+  /// The files that the rows are made from, once all are there.
+  std::vector<FileRead> files() const { return format_.files->files(); }
   /// How many rows of a range are there.
   std::uint64_t rows_done(const Shard& shard) const;
 

@@ -22,12 +22,16 @@ using testing::run_flexneck;
 namespace {
 
 /// Without mpirun's own word on a process that fails.
-CommandOutcome run_on_two_ranks(const std::string& arguments) {
+CommandOutcome run_by_mpi(const std::string& processes) {
   return testing::run_shell(
       "timeout 100 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 "
       "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_base_warn_component_unused=0 "
-      "mpirun --quiet -n 2 " +
-      testing::flexneck_program() + " " + arguments);
+      "mpirun --quiet " +
+      processes);
+}
+
+CommandOutcome run_on_two_ranks(const std::string& arguments) {
+  return run_by_mpi("-n 2 " + testing::flexneck_program() + " " + arguments);
 }
 
 void require_success(const CommandOutcome& outcome) {
@@ -78,6 +82,35 @@ TEST_CASE("what is wrong is said once on two ranks, and both end") {
   check_refused(run_on_two_ranks(std::string("modes -q -o ") + out + testing::kCoarseNeck +
                                  " --set modes.count=100000"),
                 "100000");
+}
+
+TEST_CASE("ranks that are asked for different things say so in one line, and all end") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + folder.path().string();
+  require_success(run_flexneck("mesh -q" + out + testing::kCoarseNeck));
+  const std::string rank = "-n 1 " + testing::flexneck_program() + " ";
+  const std::string modes = "modes -q" + out;
+  for (const std::string& other :
+       {modes + " --set modes.count=3", modes + " --set modes.certify=true",
+        modes + " --set modes.basis=residual", modes + " --solver iterative", "mesh -q" + out,
+        "info" + folder.path().string(), modes + " --nonsense", std::string("--help")}) {
+    INFO(other);
+    check_refused(run_by_mpi(rank + modes + " : " + rank + other), "rank 1 was given '" + other);
+    check_refused(run_by_mpi(rank + other + " : " + rank + modes), "rank 1 was given '" + modes);
+  }
+  // The same words, but each finds another study in its folder.
+  for (const char* const name : {"one", "two"}) {
+    std::filesystem::create_directory(folder / name);
+    testing::write_test_file(folder / (std::string(name) + "/study.toml"),
+                             "include = [\"hybrid3\"]\n[modes]\ncount = " +
+                                 std::to_string(name == std::string("one") ? 4 : 5) + "\n");
+  }
+  const auto in_folder = [&](const std::string& name) {
+    return "-n 1 --wdir " + (folder / name).string() + " " + testing::flexneck_program() +
+           " modes study.toml -q" + out;
+  };
+  check_refused(run_by_mpi(in_folder("one") + " : " + in_folder("two")),
+                "reads other values than the first one");
 }
 
 TEST_CASE("ranks as few as elements work, also without free nodes, and more are refused") {

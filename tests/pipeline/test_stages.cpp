@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/files_read.h"
+#include "geometry/foundation/input_file.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/folder/results_folder.h"
@@ -65,6 +67,52 @@ TEST_CASE("a stage runs if what it is made from or what it wrote has changed, el
   CHECK(run(folder.path(), "10 m", "6 kg").empty());
   write(folder / "stages.json", "{ half a");
   CHECK(run(folder.path(), "10 m", "6 kg") == "first second");
+}
+
+TEST_CASE(
+    "a stage runs again if a file that it has read has changed, gone or come, and warns again") {
+  const TemporaryFolder results;
+  const fs::path inputs = results / "inputs";
+  fs::create_directories(inputs);
+  const fs::path input = inputs / "table.csv";
+  const auto runs = [&] {
+    Stages stages(results.path(), false);
+    const bool ran = stages.make("only", from("1"), {}, [&] {
+      if (fs::exists(input)) write(results / "one.txt", text_of_file(input));
+      note_read(inputs / "may_come.csv");
+      {
+        const TemporaryFolder passing;
+        write(passing / "own.txt", "of the stage alone");
+        CHECK_FALSE(text_of_file(passing / "own.txt").empty());
+      }
+      stages.add_warning("table: rough");
+    });
+    CHECK(stages.warnings("only") == std::vector<std::string>{"table: rough"});
+    return ran;
+  };
+  write(inputs / "a.csv", "1");
+  write(inputs / "b.csv", "2");
+  fs::create_symlink("a.csv", input);
+  CHECK(runs());
+  CHECK_FALSE(runs());
+  write(inputs / "a.csv", "3");
+  CHECK(runs());
+  fs::remove(input);
+  fs::create_symlink("b.csv", input);
+  CHECK(runs());
+  CHECK_FALSE(runs());
+  write(inputs / "may_come.csv", "there");
+  CHECK(runs());
+  fs::remove(input);
+  CHECK(runs());
+}
+
+TEST_CASE("a stage that reads what nobody knows is made each time") {
+  const TemporaryFolder folder;
+  for (int k = 0; k < 2; ++k) {
+    Stages stages(folder.path(), false);
+    CHECK(stages.make("only", from("1"), {}, [&] { note_unknown_reads(folder / "script.geo"); }));
+  }
 }
 
 TEST_CASE("a stage that was stopped is made again, those before it are kept") {
