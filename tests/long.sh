@@ -25,6 +25,7 @@ readme 1 python3 -B tests/readme/readme_test.py "$root/build" "$root" --whole
 manual 1 cmake --build "$root/build" --target manual
 package 1 sh tests/install/package.sh "$root/build" "$out"
 python-leaks 10000 env PYTHONPATH=build/python /usr/bin/python3 -B tests/pipeline/python/package_test.py build . --calls $count Leaks
+constrained-bodies 1000 build/tests/campaigns/campaign_constrained_bodies --seed $seed --runs $count --out $out
 mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '
 

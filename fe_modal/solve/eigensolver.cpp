@@ -19,6 +19,10 @@ namespace {
 /// Residuals relative to the eigenvalue theta = 1 / (lambda - shift). The error of an eigenvector
 /// is this over the relative gap to its neighbour: 1e-10 for frequencies 1 % apart.
 constexpr double kResidual = 1e-12;
+/// What rounding leaves of a residual, relative to the largest theta: on soft mounts elastic modes
+/// have a theta of 1e-8 of it. Their eigenvalues are exact to the square of their residuals.
+constexpr double kRounding = 1e-15;
+constexpr double kMaxResidual = 1e-5;
 /// The first pair that is not wanted is settled to the square of this: enough to tell that it is
 /// not one that was missed.
 constexpr double kResidualOfNext = 1e-2;
@@ -31,7 +35,10 @@ EigenPairs lowest_eigenpairs(Mat mass, const ShiftInverse& inverse, Eigen::Index
   if (std::optional<EigenPairs> own = inverse.iterate(mass, count)) return *std::move(own);
   const Settled settled = [&](const RitzState& state) {
     const Eigen::VectorXd& residuals = state.residuals;
-    return residuals.head(count).maxCoeff() < kResidual &&
+    const Eigen::ArrayXd distances = state.values.head(count).array() - inverse.shift();
+    const Eigen::ArrayXd allowed =
+        (kRounding / distances[0] * distances).max(kResidual).min(kMaxResidual);
+    return (residuals.head(count).array() < allowed).all() &&
            (residuals.size() == count || residuals[count] < kResidualOfNext);
   };
   const Eigen::Index size = size_of(mass);
