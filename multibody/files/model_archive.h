@@ -53,8 +53,8 @@ void archive(A& all, ModeRecord& x) {
 /// attached bodies, and what the errors of the mesh are worth.
 template <class A>
 void archive(A& all, ModalBody& x) {
-  auto& [hertz, modes, boundary, prestress, of_prestress, certificate, limits, solver, orthogonality,
-         nodes, shapes, interfaces, invariants, attached, stiffness, slits] = x;
+  auto& [hertz, modes, boundary, prestress, of_prestress, certificate, limits, solver,
+         orthogonality, nodes, shapes, interfaces, invariants, attached, stiffness, slits] = x;
   all(hertz, modes, boundary, prestress, of_prestress, certificate, solver, orthogonality, nodes,
       shapes, interfaces, invariants, stiffness);
   static_cast<void>(limits);

@@ -217,6 +217,11 @@ bool is_refusal_of_input(const std::string& text) {
   return false;
 }
 
+Eigen::Index independent(const Body& body) {
+  const DofMap dof_map(body.mesh, {});
+  return dof_map.dof_count() - dof_map.dependent_count();
+}
+
 std::optional<std::string> judge(Case& drawn) {
   Body body(drawn);
   add_supports(drawn, body);
@@ -224,13 +229,18 @@ std::optional<std::string> judge(Case& drawn) {
   add_equations(drawn, body);
   add_springs_and_masses(drawn, body);
   ModalOptions options;
-  options.mode_count = 8;
   ModalBody found;
   try {
+    options.mode_count = static_cast<int>(std::min<Eigen::Index>(8, independent(body)));
     found = analyse_modes(body.mesh, options, {});
   } catch (const InputError& error) {
     if (is_refusal_of_input(error.what())) return std::nullopt;
     throw;
+  } catch (const ComputationError& error) {
+    std::ostringstream problem;
+    problem << error.what() << "; expected "
+            << dense_truth(body, options.mode_count).values.transpose();
+    return problem.str();
   }
   const Truth truth = dense_truth(body, options.mode_count);
   const Eigen::VectorXd values = (2 * std::numbers::pi * found.frequencies_Hz.array()).square();

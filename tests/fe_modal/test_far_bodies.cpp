@@ -81,7 +81,8 @@ TEST_CASE("a body keeps what its supports leave of rigid motions, wherever it st
     return moved(std::move(mesh), center_m);
   };
   const ModalBody expected = analyse_modes(cylindrical(Eigen::Vector3d::Zero()), options, {});
-  CHECK((expected.frequencies_Hz.array() == 0).count() == 2);  // it turns and slides
+  CHECK((expected.frequencies_Hz.array() == 0).count() ==
+        4);  // it slides and turns every way but across
   for (const double distance_m : {20.0, 5e5})
     check_the_same(analyse_modes(cylindrical({distance_m, 10 * distance_m, 1}), options, {}),
                    expected);
@@ -142,10 +143,8 @@ TEST_CASE("modes of a block on soft springs, 1e-8 of its own, are found together
   ModalOptions options = eight_modes();
   const ModalBody body = analyse_modes(mesh, options, {});
   const Eigen::VectorXd values = (2 * std::numbers::pi * body.frequencies_Hz.array()).square();
-  const double mass_kg = kSteel.density_kg_m3 * 0.1 * 0.12 * 0.05;
   CAPTURE(values.transpose(), lowest.transpose());
-  CHECK((values.array() > 0).all());
-  CHECK((values.array() / (1200 / mass_kg) > 0.3).all());
+  CHECK((values.head(6) - lowest.head(6)).cwiseAbs().maxCoeff() < 1e-5 * lowest[0]);
   // The block's own, by dense matrices without springs, which soft ones hardly move.
   const Eigen::VectorXd own = testing::dense_pairs(model.stiffness, model.mass).values;
   for (Eigen::Index k = 6; k < 8; ++k) CHECK(values[k] == Approx(own[k]).epsilon(1e-6));
