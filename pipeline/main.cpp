@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 
 #include "fe_modal/algebra/rank_session.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/signal_cleanup.h"
@@ -30,7 +31,9 @@ using flexneck::fe_modal::RankOutcome;
 using flexneck::fe_modal::Ranks;
 using flexneck::fe_modal::RankSession;
 
-constexpr const char* kNoMemory = "the memory that is free does not suffice for this";
+/// For want of memory for more words.
+constexpr const char* kNoMemory =
+    "memory runs out: give the command more, or take a coarser mesh or a smaller model";
 constexpr int kVerificationFailed = 1;
 constexpr int kUnusableInput = 2;
 constexpr int kComputationFailed = 3;
@@ -40,14 +43,22 @@ struct Failure {
   std::string text;
 };
 
+std::string doing_of(const CommandLine& line) {
+  return line.command == nullptr ? "reading the command line"
+                                 : "running 'flexneck " + line.command->name + "'";
+}
+
 /// Of the exception that is being handled.
-Failure failure() {
+/// @param doing for want of memory, what ran out of it
+Failure failure(const std::string& doing) {
   try {
     throw;
   } catch (const InputError& error) {
     return {kUnusableInput, error.what()};
   } catch (const std::bad_alloc&) {
-    return {kComputationFailed, kNoMemory};
+    constexpr const char* kAdvice =
+        "give the command more, or take a coarser mesh or a smaller model";
+    return {kComputationFailed, flexneck::out_of_memory(doing, kAdvice).what()};
   } catch (const std::exception& error) {
     return {kComputationFailed, error.what()};
   } catch (...) {
@@ -64,7 +75,7 @@ int exit_code_of(const CommandLine& line) {
     }
     return execute(line, console) ? 0 : kVerificationFailed;
   } catch (...) {
-    const Failure found = failure();
+    const Failure found = failure(doing_of(line));
     console.error(found.text);
     return found.exit_code;
   }
@@ -95,7 +106,7 @@ RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks
     }
     return {execute(line, console, ranks) ? 0 : kVerificationFailed};
   } catch (...) {
-    const Failure found = failure();
+    const Failure found = failure("running a rank");
     return {found.exit_code, found.text};
   }
 }
@@ -146,7 +157,7 @@ void tell_without_console(const char* text) noexcept {
 /// Of the exception that is being handled. There may be no memory for more than a line.
 int told_without_console() noexcept {
   try {
-    const Failure found = failure();
+    const Failure found = failure("starting or ending the command");
     tell_without_console(flexneck::printable(found.text).c_str());
     return found.exit_code;
   } catch (...) {

@@ -9,9 +9,8 @@
 
 namespace flexneck::fe_modal {
 
-ComputationError no_memory_for_factor() {
-  return ComputationError(std::string("memory runs out while factorising the stiffness matrix; ") +
-                          kOrAnotherSolution);
+OutOfMemory no_memory_for_factor() {
+  return out_of_memory("factorising the stiffness matrix", kOrAnotherSolution);
 }
 
 cholmod_sparse cholmod_view(std::span<const int> offsets, std::span<const int> columns,

@@ -9,7 +9,7 @@
 #include "fe_modal/algebra/cholmod_order.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "fe_modal/algebra/supernodal_elimination.h"
-#include "geometry/foundation/error.h"
+#include "geometry/foundation/available_memory.h"
 
 namespace flexneck::fe_modal {
 
@@ -17,7 +17,7 @@ namespace flexneck::fe_modal {
 inline constexpr const char* kOrAnotherSolution =
     "take a coarser mesh, --solver iterative, or more ranks with mpirun";
 /// Where memory runs out.
-ComputationError no_memory_for_factor();
+OutOfMemory no_memory_for_factor();
 
 /// A symmetric matrix whose upper half by rows is stored, columns ascending; it is only read.
 /// Without values: the places of entries alone, both halves.
@@ -36,8 +36,7 @@ class CholmodAnalysis {
  public:
   /// @param matrix must outlive this; with values, unless the best order is sought, of whole blocks
   /// @param order of elimination if it is given, a permutation of the blocks
-  /// @throws InputError if CHOLMOD's integers do not count the entries, ComputationError if memory
-  /// runs out.
+  /// @throws InputError if CHOLMOD's integers do not count the entries, OutOfMemory.
   CholmodAnalysis(const cholmod_sparse& matrix, CholmodOrder kind, std::span<const int> order = {});
   ~CholmodAnalysis();
   CholmodAnalysis(const CholmodAnalysis&) = delete;
@@ -49,7 +48,7 @@ class CholmodAnalysis {
   /// Of the factor, without the zeros in its supernodes.
   double nonzeros() const { return nonzeros_; }
   /// Of the matrix in the order of elimination; lives as long as this.
-  /// @throws ComputationError if memory runs out.
+  /// @throws OutOfMemory
   LowerHalf lower_half();
 
  private:

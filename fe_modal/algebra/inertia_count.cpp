@@ -127,6 +127,8 @@ std::optional<Eigen::Index> count_in(CholmodAnalysis& analysis, Mat product,
                                           Pivots::of_any_sign);
     const auto inverse = [&](const Eigen::MatrixXd& x) { return factor.solution(x, threads); };
     return count_by_factor({}, product, {inverse, factor.negative_pivots()}, known);
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const ComputationError&) {  // a pivot is zero
     return std::nullopt;
   }

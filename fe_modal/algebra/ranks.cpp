@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "fe_modal/algebra/communicator.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -15,9 +16,11 @@ namespace {
 
 constexpr std::chrono::microseconds kNap{200};
 
+enum class Kind { computation, input, memory };
+
 struct RankFailure {
   std::string text;  ///< empty: none
-  bool is_of_input = false;
+  Kind kind = Kind::computation;
 };
 
 RankFailure failure_of(const std::function<void()>& work) {
@@ -25,9 +28,13 @@ RankFailure failure_of(const std::function<void()>& work) {
     work();
     return {};
   } catch (const InputError& error) {
-    return {error.what(), true};
+    return {error.what(), Kind::input};
+  } catch (const OutOfMemory& error) {
+    return {error.what(), Kind::memory};
+  } catch (const std::bad_alloc&) {
+    return {current_failure(), Kind::memory};
   } catch (...) {
-    return {current_failure(), false};
+    return {current_failure()};
   }
 }
 
@@ -113,11 +120,12 @@ void Ranks::together(const std::function<void()>& work) const {
   int first = count_;
   MPI_Allreduce(&own_failure, &first, 1, MPI_INT, MPI_MIN, communicator(*this));
   if (first == count_) return;
-  int head[2] = {static_cast<int>(failure.text.size()), failure.is_of_input ? 1 : 0};
+  int head[2] = {static_cast<int>(failure.text.size()), static_cast<int>(failure.kind)};
   MPI_Bcast(head, 2, MPI_INT, first, communicator(*this));
   failure.text.resize(static_cast<std::size_t>(head[0]));
   MPI_Bcast(failure.text.data(), head[0], MPI_CHAR, first, communicator(*this));
-  if (head[1] != 0) throw InputError(failure.text);
+  if (head[1] == static_cast<int>(Kind::input)) throw InputError(failure.text);
+  if (head[1] == static_cast<int>(Kind::memory)) throw OutOfMemory(failure.text);
   throw ComputationError(failure.text);
 }
 

@@ -7,6 +7,7 @@
 
 #include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
+#include "fe_modal/analysis/estimate_limits.h"
 #include "fe_modal/analysis/prestress.h"
 #include "fe_modal/analysis/slit_basis.h"
 #include "fe_modal/analysis/sound_factor.h"
@@ -275,6 +276,9 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
     const auto errors =
         mesh_errors({mesh, system, pairs, *inverse, rigid.count()}, options, progress);
     for (std::size_t k = 0; k < errors.size(); ++k) body.modes[k].mesh_error = errors[k];
+    body.mesh_error_limits = limits_of_estimate(mesh, options);
+    if (!body.mesh_error_limits.empty() && warn)
+      warn("the errors of the mesh are an indication alone: " + body.mesh_error_limits);
   }
   body.solver = inverse->describe();
   times.stop();

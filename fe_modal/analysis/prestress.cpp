@@ -13,6 +13,7 @@
 #include "fe_modal/analysis/static_analysis.h"
 #include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/system/assembly.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -150,6 +151,8 @@ std::unique_ptr<const ShiftInverse> factorise_prestressed(const mesher::Mesh& me
   if (options.solver == Solver::iterative) refuse_if_buckled();
   try {
     return system.shift_inverse(0);
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const ComputationError&) {
     refuse_if_buckled();
     throw;

@@ -2,6 +2,7 @@
 #include "fe_modal/analysis/sound_factor.h"
 
 #include "fe_modal/solve/mechanism.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -21,6 +22,8 @@ std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh
     std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(shift);
     if (inverse->is_doubtful()) refuse_if_mechanism();
     return inverse;
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const ComputationError&) {
     refuse_if_mechanism();
     throw;

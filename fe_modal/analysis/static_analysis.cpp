@@ -97,7 +97,9 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
         "the static step is not in equilibrium: " + std::to_string(solution.imbalance) +
         " of the forces are left over at free nodes");
   const std::vector<std::array<bool, 3>> reacting = reacting_directions_of(mesh, options);
-  solution.reactions_N = unbalanced_N;
+  // The weights of masses at points are loads, handed to nodes by connections.
+  const Eigen::Matrix3Xd weights_N = weights_on_nodes(mesh, connections_of(mesh, options), loads);
+  solution.reactions_N = unbalanced_N - weights_N;
   for (std::size_t k = 0; k < reacting.size(); ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (!reacting[k][a])
@@ -108,7 +110,7 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
   solution.at_nodes = std::move(stresses.at_nodes);
   solution.at_points = std::move(stresses.at_points);
   solution.displacements_m = std::move(step.displacements_m);
-  solution.applied_N = std::move(step.applied_N);
+  solution.applied_N = step.applied_N + weights_N;
   return solution;
 }
 

@@ -255,6 +255,8 @@ void write_mesh_errors(Hdf5Writer& file, const ModalBody& body) {
   file.write("/convergence/refined_frequency", refined, {names.size()}, "Hz");
   file.write("/convergence/mac", macs, {names.size()}, "1");
   file.write("/convergence/error", errors, {names.size()}, "1");
+  if (!body.mesh_error_limits.empty())
+    file.write_attribute("/convergence", "limits", std::string_view(body.mesh_error_limits));
 }
 
 void read_mesh_errors(const Hdf5Reader& file, ModalBody& body) {
@@ -267,6 +269,9 @@ void read_mesh_errors(const Hdf5Reader& file, ModalBody& body) {
   const std::vector<double> refined = read("refined_frequency", "Hz");
   const std::vector<double> macs = read("mac", "1");
   const std::vector<double> errors = read("error", "1");
+  const std::vector<std::string> attributes = file.attributes("/convergence");
+  if (std::find(attributes.begin(), attributes.end(), "limits") != attributes.end())
+    body.mesh_error_limits = file.string_attribute("/convergence", "limits");
   const std::vector<std::string> known = names_of(body.modes);
   for (std::size_t l = 0; l < k; ++l) {
     const auto mode = std::find(known.begin(), known.end(), names[l]);

@@ -37,6 +37,8 @@ class AffineConstraints {
   /// dependent. Nothing changes if the sum is zero already.
   void add_equation(std::span<const DofTerm> terms, const std::string& source);
 
+  /// Largest of |coefficient| / scale.
+  double size_of(std::span<const DofTerm> terms) const;
   bool is_dependent(std::int32_t dof) const { return line_of_[static_cast<std::size_t>(dof)] >= 0; }
   /// What a dependent degree of freedom is, by rising independent ones; empty: zero.
   std::span<const DofTerm> line(std::int32_t dof) const {
@@ -56,8 +58,6 @@ class AffineConstraints {
   }
   /// In independent degrees of freedom, rising; what cancels but for rounding is dropped.
   std::vector<DofTerm> expanded(std::span<const DofTerm> terms) const;
-  /// Largest of |coefficient| / scale.
-  double size_of(std::span<const DofTerm> terms) const;
   void insert(std::int32_t dof, std::vector<DofTerm> terms, const std::string& source);
   const std::string& source_of(std::int32_t dof) const;
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -113,19 +114,53 @@ Terms terms_of(const std::vector<mesher::Term>& sum, const TiedNodes& tied) {
   return terms;
 }
 
-/// The largest coefficient of the first term is that of the dependent degree of freedom.
-void add_equation(const mesher::Equation& equation, const TiedNodes& tied,
-                  AffineConstraints& constraints) {
-  Terms terms = terms_of(equation.terms, tied);
-  const std::int32_t site = terms.front().dof / 3;
-  auto dependent = terms.begin();
-  for (auto term = terms.begin(); term != terms.end() && term->dof / 3 == site; ++term) {
-    if (std::abs(term->coefficient) > std::abs(dependent->coefficient)) dependent = term;
+/// An equation of several terms. The largest coefficient of the first one is that of the dependent
+/// degree of freedom.
+struct NamedEquation {
+  NamedEquation(const mesher::Equation& equation, const TiedNodes& tied)
+      : terms(terms_of(equation.terms, tied)), name(equation.name) {
+    const std::int32_t site = terms.front().dof / 3;
+    for (std::size_t k = 0; k < terms.size() && terms[k].dof / 3 == site; ++k) {
+      if (std::abs(terms[k].coefficient) > std::abs(terms[dependent].coefficient)) dependent = k;
+    }
   }
-  const DofTerm chosen = *dependent;
-  terms.erase(dependent);
-  for (DofTerm& term : terms) term.coefficient /= -chosen.coefficient;
-  constraints.add_line(chosen.dof, terms, equation.name);
+
+  /// Whether the dependent degree of freedom moves at most a hundred times as far as others, so
+  /// that differences of these leave digits of it.
+  bool is_well_scaled(const AffineConstraints& constraints) const {
+    constexpr double kLeast = 1e-2;
+    return constraints.size_of(std::span(terms).subspan(dependent, 1)) >=
+           kLeast * constraints.size_of(terms);
+  }
+
+  void add_to(AffineConstraints& constraints) const {
+    const DofTerm chosen = terms[dependent];
+    Terms others = terms;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(dependent));
+    for (DofTerm& term : others) term.coefficient /= -chosen.coefficient;
+    constraints.add_line(chosen.dof, others, name);
+  }
+
+  Terms terms;
+  const std::string& name;
+  std::size_t dependent = 0;
+};
+
+/// Those of several terms. Where the dependent degree of freedom has a small coefficient another
+/// one takes its place, after all others have theirs.
+void add_equations(const mesher::Connections& connections, const TiedNodes& tied,
+                   AffineConstraints& constraints) {
+  std::vector<NamedEquation> later;
+  for (const mesher::Equation& equation : connections.equations) {
+    if (equation.terms.size() == 1) continue;
+    NamedEquation named(equation, tied);
+    if (named.is_well_scaled(constraints)) {
+      named.add_to(constraints);
+    } else {
+      later.push_back(std::move(named));
+    }
+  }
+  for (const NamedEquation& named : later) constraints.add_equation(named.terms, named.name);
 }
 
 void add_support(const mesher::Mesh& mesh, const mesher::Support& support,
@@ -186,9 +221,7 @@ AffineConstraints constraints_of(const mesher::Mesh& mesh, std::span<const std::
   for (const mesher::Coupling& coupling : connections.couplings) {
     add_coupling(mesh, connections, coupling, tied, constraints);
   }
-  for (const mesher::Equation& equation : connections.equations) {
-    if (equation.terms.size() > 1) add_equation(equation, tied, constraints);
-  }
+  add_equations(connections, tied, constraints);
   hold_points(mesh, connections, constraints);
   for (const mesher::Equation& equation : connections.equations) {
     if (equation.terms.size() > 1) continue;

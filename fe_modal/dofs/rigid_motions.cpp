@@ -17,37 +17,85 @@ namespace {
 using Six = Eigen::Matrix<double, 6, 6>;
 using Motion = Eigen::Matrix<double, 3, 6>;
 
-/// A residual below this share of the largest, or of a unit motion, squared, is rounding of
-/// positions in text files.
+/// Sum of squares of what constraints leave over of a motion, relative to the motion: below this it
+/// is rounding of positions in text files.
 constexpr double kKept = 1e-12;
 
-/// The six motions of a site, rotations times `length_m`.
+/// The six motions of a site about the body's centre, rotations times `length_m`.
 class WholeBody {
  public:
   WholeBody(const mesher::Mesh& mesh, const mesher::Connections& connections)
-      : mesh_(mesh),
-        connections_(connections),
-        length_m_(mesher::bounding_box(mesh).extent_m().norm()) {}
+      : mesh_(mesh), connections_(connections) {
+    const mesher::BoundingBox box = mesher::bounding_box(mesh);
+    center_m_ = box.center_m();
+    length_m_ = box.extent_m().norm();
+  }
 
   Motion at(std::int32_t site) const {
-    const auto nodes = static_cast<std::int32_t>(mesh_.nodes.size());
     Motion motion = Motion::Zero();
-    if (site >= nodes && (site - nodes) % 2 == 1) {
+    if (is_rotation(site)) {
       motion.rightCols<3>() = Eigen::Matrix3d::Identity() / length_m_;
       return motion;
     }
+    const auto nodes = static_cast<std::int32_t>(mesh_.nodes.size());
     const auto& x =
         site < nodes ? mesh_.nodes[static_cast<std::size_t>(site)]
                      : connections_.points[static_cast<std::size_t>(site - nodes) / 2].position_m;
-    motion = rigid_motions_at(Eigen::Vector3d(x.data()));
+    motion = rigid_motions_at(Eigen::Vector3d(x.data()) - center_m_);
     motion.rightCols<3>() /= length_m_;
     return motion;
   }
+  bool is_rotation(std::int32_t site) const {
+    const auto nodes = static_cast<std::int32_t>(mesh_.nodes.size());
+    return site >= nodes && (site - nodes) % 2 == 1;
+  }
+  double length_m() const { return length_m_; }
 
  private:
   const mesher::Mesh& mesh_;
   const mesher::Connections& connections_;
+  Eigen::Vector3d center_m_;
   double length_m_;
+};
+
+/// The six motions as the blocks of degrees of freedom have them, and what constraints make of
+/// these at a site. Of sites that share a block, any has given it its motion: the others show what
+/// is left over.
+class ConstrainedMotions {
+ public:
+  ConstrainedMotions(const WholeBody& body, const DofMap& dof_map)
+      : dof_map_(dof_map), values_(dof_map.dof_count(), 6), sizes_(dof_map.dof_count()) {
+    for (auto site = static_cast<std::int32_t>(dof_map.site_count()); site-- > 0;) {
+      if (dof_map.index(site) < 0) continue;
+      values_.middleRows<3>(3 * dof_map.index(site)) = body.at(site);
+      sizes_.segment<3>(3 * dof_map.index(site))
+          .setConstant(body.is_rotation(site) ? 1 / body.length_m() : 1);
+    }
+  }
+
+  Motion at(std::int32_t site) const {
+    Motion motion;
+    for (Eigen::Index k = 0; k < 6; ++k) motion.col(k) = dof_map_.motion_of(site, values_.col(k));
+    return motion;
+  }
+  /// How far each direction of a site moves with degrees of freedom that all move by the body's
+  /// size: constraints are compared with this, whatever the sizes of their coefficients.
+  Eigen::Vector3d sizes_at(std::int32_t site) const {
+    if (dof_map_.is_plain(site)) return Eigen::Vector3d::Ones();
+    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+    for (int a = 0; a < 3; ++a) {
+      for (const DofTerm& term : dof_map_.terms(site, a)) {
+        const double size = term.coefficient * sizes_[term.dof];
+        squares[a] += size * size;
+      }
+    }
+    return squares.cwiseSqrt();
+  }
+
+ private:
+  const DofMap& dof_map_;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> values_;
+  Eigen::VectorXd sizes_;
 };
 
 /// "x", "x and y", "(0.6, 0.8, 0)", "every direction"
@@ -78,21 +126,11 @@ std::string directions(const Eigen::Matrix3Xd& span, const std::string& every) {
 RigidMotions::RigidMotions(const mesher::Mesh& mesh, const mesher::Connections& connections,
                            const DofMap& dof_map) {
   const WholeBody body(mesh, connections);
-  // The free values that a rigid motion has, and where constraints make another motion of them.
-  Eigen::Matrix<double, Eigen::Dynamic, 6> values(dof_map.dof_count(), 6);
-  const auto sites = static_cast<std::int32_t>(dof_map.site_count());
-  for (std::int32_t site = sites; site-- > 0;) {
-    if (dof_map.index(site) >= 0) values.middleRows<3>(3 * dof_map.index(site)) = body.at(site);
-  }
-  const auto moved = [&](std::int32_t site) {
-    Motion motion;
-    for (Eigen::Index k = 0; k < 6; ++k) motion.col(k) = dof_map.motion_of(site, values.col(k));
-    return motion;
-  };
+  const ConstrainedMotions constrained(body, dof_map);
   Six residuals = Six::Zero();
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(dof_map.node_count()); ++node) {
-    if (dof_map.is_plain(node) && dof_map.index(node) >= 0) continue;
-    const Motion residual = moved(node) - body.at(node);
+    const Motion residual = constrained.sizes_at(node).cwiseMax(1).cwiseInverse().asDiagonal() *
+                            (constrained.at(node) - body.at(node));
     residuals += residual.transpose() * residual;
   }
   for (const mesher::Spring& spring : connections.springs) {
@@ -100,16 +138,14 @@ RigidMotions::RigidMotions(const mesher::Mesh& mesh, const mesher::Connections& 
     double size = 0;
     for (const mesher::Term& term : spring.terms) {
       const Eigen::Vector3d coefficients(term.coefficients.data());
-      elongation += coefficients.transpose() * moved(term.site);
-      size += coefficients.norm();
+      elongation += coefficients.transpose() * constrained.at(term.site);
+      size += coefficients.norm() / (body.is_rotation(term.site) ? body.length_m() : 1);
     }
     elongation /= size;
     residuals += elongation.transpose() * elongation;
   }
   const Eigen::SelfAdjointEigenSolver<Six> spectrum(residuals);
-  const double largest = spectrum.eigenvalues()[5];
-  const Eigen::Index count =
-      (spectrum.eigenvalues().array() <= kKept * std::max(largest, 1.0)).count();
+  const Eigen::Index count = (spectrum.eigenvalues().array() <= kKept).count();
   motions_ = spectrum.eigenvectors().leftCols(count);
 }
 

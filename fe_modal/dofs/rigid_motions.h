@@ -23,7 +23,7 @@ class RigidMotions {
   std::string text() const;
 
  private:
-  /// (6, count) translation of the origin, m, and rotation, times `length_m`, orthonormal.
+  /// (6, count) translation of the body's centre, m, and rotation, times `length_m`, orthonormal.
   Eigen::Matrix<double, 6, Eigen::Dynamic> motions_;
 };
 

@@ -155,7 +155,8 @@ EigenPairs block_lanczos(Mat mass, const ShiftInverse& inverse, Eigen::MatrixXd 
     }
   }
   throw ComputationError("the eigensolver has not converged in " + std::to_string(kMaxBlocks) +
-                         " blocks");
+                         " blocks; rounding may hide the higher modes of a body that hardly "
+                         "anything holds in some motion: hold it there, or stiffen what does");
 }
 
 EigenPairs purified(Mat mass, const ShiftInverse& inverse, const EigenPairs& pairs) {

@@ -228,6 +228,8 @@ std::optional<Eigen::Index> count_in(const DistributedMatrix& matrix, Mat produc
     const auto inverse = [&](const Eigen::MatrixXd& x) { return factor.solution(x); };
     return count_by_factor(matrix.layout.ranks(), product, {inverse, factor.negative_pivots()},
                            known);
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const ComputationError&) {  // a pivot is zero
     return std::nullopt;
   }
@@ -272,6 +274,8 @@ std::unique_ptr<ShiftInverse> make_shift_inverse(const DistributedMatrix& matrix
                        single->entries_text()},
           matrices, shift, std::move(make_in_double), matrix.layout.ranks());
     }
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const ComputationError&) {  // as factorise_in_single(), on all ranks
   }
   return make_distributed_in_double(matrix, shift);

@@ -93,7 +93,8 @@ std::string boundary_of(const mesher::Mesh& mesh, const ModalOptions& options,
   }
   for (const std::string& name : others) add(name);
   constexpr Eigen::Index kFree = 6;
-  if (fixed.empty() && rigid.count() < kFree) fixed = "springs";
+  if (fixed.empty() && rigid.count() < kFree)
+    fixed = mesh.connections.springs.empty() ? "equations" : "springs";
   if (fixed.empty()) return "free";
   return "fixed: " + fixed + (rigid.count() > 0 ? "; " + rigid.text() : "");
 }

@@ -16,6 +16,11 @@ namespace flexneck::fe_modal {
 Eigen::VectorXd weights_at_points(const mesher::Mesh& mesh, const DofMap& dof_map,
                                   const std::vector<Load>& loads);
 
+/// The same weights on nodes, (3, n) in N: the least forces with their resultants on the nodes that
+/// couplings, equations and springs join to each point, through other points where it has none.
+Eigen::Matrix3Xd weights_on_nodes(const mesher::Mesh& mesh, const mesher::Connections& connections,
+                                  const std::vector<Load>& loads);
+
 /// Forces that the springs resist free values with, K_springs q: (dof_count()).
 Eigen::VectorXd spring_forces(const mesher::Mesh& mesh, const DofMap& dof_map,
                               const Eigen::VectorXd& free_values);

@@ -9,8 +9,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "geometry/foundation/error.h"
-
 namespace flexneck {
 
 namespace fs = std::filesystem;
@@ -89,6 +87,15 @@ std::string memory_text(double bytes) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3g GB", bytes / kGigabyte);
   return text.data();
+}
+
+OutOfMemory out_of_memory(const std::string& doing, const std::string& advice) {
+  constexpr double kKilobyte = 1024;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return OutOfMemory("memory runs out while " + doing + ": " +
+                     memory_text(kKilobyte * static_cast<double>(usage.ru_maxrss)) +
+                     " are taken, " + memory_text(available_memory()) + " are free; " + advice);
 }
 
 void require_memory(const std::string& what, double bytes, const std::string& advice) {

@@ -4,7 +4,16 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/foundation/error.h"
+
 namespace flexneck {
+
+/// Memory ran out in the midst of a computation, of which nothing else is known: neither that a
+/// matrix is not definite nor that an iteration would not converge.
+class OutOfMemory : public ComputationError {
+ public:
+  using ComputationError::ComputationError;
+};
 
 /// Bytes that this process may still take: the least of what the machine has (MemAvailable), what
 /// the limits of its control group leave, and that of its address space (ulimit -v). Infinite where
@@ -14,6 +23,9 @@ double available_memory(const std::filesystem::path& root = "/");
 
 /// "12.3 GB"
 std::string memory_text(double bytes);
+
+/// "memory runs out while <doing>: 1.2 GB are taken, 0.3 GB are free; <advice>"
+OutOfMemory out_of_memory(const std::string& doing, const std::string& advice);
 
 /// Refuses what will not fit into memory, before it starts.
 /// @param what needs them, e.g. "the factor of 123 million entries"

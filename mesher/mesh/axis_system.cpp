@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/mesh/axis_system.h"
 
+#include <limits>
+
 #include <Eigen/Geometry>
 
 #include "geometry/foundation/error.h"
@@ -10,6 +12,8 @@ namespace {
 
 /// A vector shorter than this share of another one is rounding.
 constexpr double kNothing = 1e-9;
+/// Differences of coordinates below this share of them are rounding.
+constexpr double kDigits = 4 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -18,7 +22,7 @@ Eigen::Matrix3d AxisSystem::at(const Eigen::Vector3d& position_m) const {
   const Eigen::Vector3d arm = position_m - origin_m;
   const Eigen::Vector3d z = axes.col(2);
   const Eigen::Vector3d radial = arm - arm.dot(z) * z;
-  if (!(radial.norm() > kNothing * (arm.norm() + origin_m.norm()))) {
+  if (!(radial.norm() > kNothing * arm.norm() + kDigits * origin_m.norm())) {
     throw InputError("a node on the axis of a cylindrical axis system has no radial direction");
   }
   Eigen::Matrix3d result;

@@ -12,6 +12,7 @@ struct BoundingBox {
   Eigen::Vector3d high_m;
 
   Eigen::Vector3d extent_m() const { return high_m - low_m; }
+  Eigen::Vector3d center_m() const { return low_m + extent_m() / 2; }
 };
 
 /// @pre the mesh has nodes

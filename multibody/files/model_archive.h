@@ -49,14 +49,15 @@ void archive(A& all, ModeRecord& x) {
   auto& [name, kind, shares, residual, mesh_error] = x;
   all(name, kind, shares, residual, mesh_error);
 }
-/// What a run has no use for is left out: slits, which models have as gaps, and frequencies with
-/// attached bodies.
+/// What a run has no use for is left out: slits, which models have as gaps, frequencies with
+/// attached bodies, and what the errors of the mesh are worth.
 template <class A>
 void archive(A& all, ModalBody& x) {
-  auto& [hertz, modes, boundary, prestress, of_prestress, certificate, solver, orthogonality, nodes,
-         shapes, interfaces, invariants, attached, stiffness, slits] = x;
+  auto& [hertz, modes, boundary, prestress, of_prestress, certificate, limits, solver,
+         orthogonality, nodes, shapes, interfaces, invariants, attached, stiffness, slits] = x;
   all(hertz, modes, boundary, prestress, of_prestress, certificate, solver, orthogonality, nodes,
       shapes, interfaces, invariants, stiffness);
+  static_cast<void>(limits);
   static_cast<void>(attached);
   static_cast<void>(slits);
 }

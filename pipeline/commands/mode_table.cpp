@@ -26,7 +26,9 @@ std::vector<std::string> head(const fe_modal::ModalBody& body, bool with_shares)
   }
   cells.emplace_back("residual");
   if (body.modes.front().mesh_error) {
-    for (const char* title : {"refined Hz", "mesh error %", "MAC"}) cells.emplace_back(title);
+    cells.emplace_back("refined Hz");
+    cells.emplace_back(body.mesh_error_limits.empty() ? "mesh error %" : "indicated error %");
+    cells.emplace_back("MAC");
   }
   return cells;
 }

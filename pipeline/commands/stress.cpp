@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/commands/stress.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/analysis/estimate_limits.h"
 #include "fe_modal/analysis/static_analysis.h"
 #include "fe_modal/exchange/static_xdmf.h"
 #include "geometry/foundation/error.h"
@@ -21,6 +24,14 @@ void write_stresses(const CommandInput& input, mesher::MeshFile mesh) {
   options.solver = study.modes.solver;
   options.node_order = mesh.node_order;
   options.prestress.clear();
+  const auto warn_of = [&](const std::vector<std::string>& single) {
+    for (const std::string& line : single)
+      input.console.warning(line +
+                            " acts on single nodes: what is computed beside them has no limit "
+                            "as the elements become smaller");
+  };
+  warn_of(fe_modal::loaded_at_single_nodes(mesh.mesh, study.loads));
+  warn_of(fe_modal::held_at_single_nodes(mesh.mesh, options));
   input.console.step(fmt::format("Static step with {} loads", study.loads.size()));
   fe_modal::StaticSolutionFile file;
   try {

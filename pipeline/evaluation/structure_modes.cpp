@@ -33,10 +33,17 @@ std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptio
                                         [](const mesher::Material& a, const mesher::Material& b) {
                                           return a.poissons_ratio < b.poissons_ratio;
                                         });
-  std::string line = fmt::format(
-      "rounding moves the first frequency by {:.1e} of it: Poisson's ratio of '{}' is {:.15g}, too "
-      "near 1/2 for so slender a body; each nine less makes a tenth of the error",
-      error, nearest->name, nearest->poissons_ratio);
+  // K has the bulk modulus beside the shear modulus: ten times it at a ratio of 0.45.
+  constexpr double kNearlyIncompressible = 0.45;
+  std::string line = fmt::format("rounding moves the first frequency by {:.1e} of it: ", error);
+  line += nearest->poissons_ratio > kNearlyIncompressible
+              ? fmt::format(
+                    "Poisson's ratio of '{}' is {:.15g}, too near 1/2 for so slender a "
+                    "body; each nine less makes a tenth of the error",
+                    nearest->name, nearest->poissons_ratio)
+              : "the body is so slender that what it resists in bending is small beside what its "
+                "elements resist in stretching; model a shorter or thicker one, or take a beam's "
+                "or plate's theory";
   if (!(error < kWrong)) throw ComputationError(line);
   return line;
 }

@@ -108,7 +108,8 @@ HtmlTable mode_table_of(const fe_modal::ModalBody& body) {
     for (const char* const share : {"fore-aft %", "lateral %", "twist %", "axial %"})
       table.columns.push_back({share, true});
   table.columns.push_back({"residual", true});
-  table.columns.push_back({"mesh error %", true});
+  table.columns.push_back(
+      {body.mesh_error_limits.empty() ? "mesh error %" : "indicated error %", true});
   for (std::size_t k = 0; k < body.modes.size(); ++k) {
     const fe_modal::ModeRecord& mode = body.modes[k];
     HtmlTable::Row row{{html_text(mode.name), html_text(mode.kind),
@@ -140,6 +141,10 @@ std::string modes_html(const Results& results) {
       html += fmt::format("{:.3f} ", frequency);
     html += "Hz, finite elements, no gravity</dd>\n";
   }
+  if (!body.mesh_error_limits.empty())
+    html +=
+        "<dt>Errors of the mesh</dt><dd>an indication alone: " + html_text(body.mesh_error_limits) +
+        "</dd>\n";
   return html + "</dl>\n" + html_of(mode_table_of(body));
 }
 

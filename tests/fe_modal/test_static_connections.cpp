@@ -67,6 +67,19 @@ Eigen::Matrix3Xd dense_displacements(const mesher::Mesh& mesh) {
   return motion.head(3 * n).reshaped(3, n);
 }
 
+/// Weights by the invariants of the whole, masses at points and nodes included, and pushes.
+Resultant all_loads(const mesher::Mesh& mesh) {
+  ModalOptions options;
+  options.mode_count = 1;
+  const InertiaInvariants inertia = analyse_modes(mesh, options, {}).invariants;
+  Resultant sum{inertia.mass * kGravity, inertia.S1.cross(kGravity)};
+  for (const std::int32_t node : mesh.node_set("top").nodes) {
+    sum.force_N += kForce;
+    sum.moment_Nm += point_of(mesh.nodes[static_cast<std::size_t>(node)]).cross(kForce);
+  }
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("a static step under constraints, springs and masses is that of the null space") {
@@ -79,6 +92,13 @@ TEST_CASE("a static step under constraints, springs and masses is that of the nu
     StaticSolutionFile file;
     file.solution = analyse_static(mesh, options, loads(), {});
     CHECK((file.solution.displacements_m - expected).norm() < kSame * expected.norm());
+    // The weight of the whole, the mass at the point included, and the pushes: about the origin.
+    const Resultant applied = resultant_of(file.solution.nodes_m, file.solution.applied_N);
+    const Resultant reactions = resultant_of(file.solution.nodes_m, file.solution.reactions_N);
+    const auto [force_N, moment_Nm] = all_loads(mesh);
+    CHECK((applied.force_N - force_N).norm() < kSame * force_N.norm());
+    CHECK((applied.moment_Nm - moment_Nm).norm() < kSame * moment_Nm.norm());
+    CHECK((reactions.force_N + force_N).norm() < kSame * force_N.norm());
     // Readers refuse reactions that do not balance the loads.
     const TemporaryFolder folder;
     write_static_solution(folder / "static.h5", file);

@@ -8,6 +8,7 @@
 #include "fe_modal/algebra/cholmod_handles.h"
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/solve/block_lanczos.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -17,6 +18,8 @@ std::optional<SupernodalFactor<float>> factorise_in_single(CholmodAnalysis& anal
   try {
     SupernodalFactor<float> factor(analysis, threads);
     if (factor.smallest_pivot() > kDoubtfulSinglePivot) return factor;
+  } catch (const OutOfMemory&) {
+    throw;
   } catch (const ComputationError&) {  // perhaps definite all the same, but for seven digits
   }
   return std::nullopt;
@@ -43,6 +46,8 @@ Eigen::MatrixXd SingleInverse::solve(const Eigen::MatrixXd& right_hand_sides) co
   if (!in_double_) {
     try {
       return gradient_solution(right_hand_sides, kMaxIterations);
+    } catch (const OutOfMemory&) {
+      throw;
     } catch (const ComputationError&) {  // on all ranks
       go_on_in_double();
     }
