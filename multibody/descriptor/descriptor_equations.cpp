@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "multibody/descriptor/coupled_bodies.h"
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/equilibrium.h"
@@ -14,6 +16,7 @@ namespace flexneck::multibody {
 namespace {
 
 using Eigen::Index;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// pdd = P Vdot + gp, Omd = W Vdot + gr.
@@ -42,6 +45,16 @@ Energies energies_of(const EquationsOfMotion& equations, const VectorXd& state) 
     sum.strain_J += body.constants.springs.energy_J(terms.a);
   }
   sum.strain_J += equations.forces().stored_J();
+  for (const PrescribedMotion& base : equations.prescribed()) {
+    double carried_J = 0;
+    for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+      const BodyConstants& body = system.bodies[b].constants;
+      const Vector3d& w = base.angular_velocity_rad_s;
+      const Vector3d v = base.velocity_m_s + w.cross(equations.body(b).x - base.position_m);
+      carried_J += body.mass / 2 * v.squaredNorm() + body.J0.trace() / 4 * w.squaredNorm();
+    }
+    sum.carried_J = std::max(sum.carried_J, carried_J);
+  }
   return sum;
 }
 

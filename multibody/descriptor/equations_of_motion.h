@@ -74,6 +74,7 @@ class EquationsOfMotion {
   const Eigen::VectorXd& position_residual() const { return position_residual_; }
   const Eigen::VectorXd& velocity_residual() const { return velocity_residual_; }
   const BodyTerms& body(std::size_t index) const { return bodies_[index]; }
+  const std::vector<PrescribedMotion>& prescribed() const { return prescribed_; }
   const NodeKinematics& marker(std::size_t index) const { return markers_[index]; }
   const JointRows& joint(std::size_t index) const { return joints_[index]; }
   const KktSolver& solver() const { return solver_; }

@@ -15,14 +15,18 @@ struct EnergyBooks {
   bool are_open = false;
   double first_balance_J = 0, first_gravitational_J = 0, first_dissipated_J = 0, first_work_J = 0;
   double largest_J = 0;     ///< kinetic, stored or dissipated energy or work, so far
-  double departs_at_s = 0;  ///< where the balance first was off by more than is told
-  double worst = 0;         ///< by how much it was off, of the largest
+  double worst_J = 0;       ///< by how much the balance was off
+  double departs_at_s = 0;  ///< where it began to be off by more than is told
+  bool departs = false;
+  int wrong_steps = 0;  ///< one after the other
 };
 
 /// Watches the balance of energy of a run in time,
 ///   kinetic + gravitational + strain + dissipated - work,
-/// which must stay what it was. It is told where it changes by more than 1e-3 of the largest energy
-/// so far, and ends the run above 1e-1: a motion whose energy is wrong is wrong.
+/// which must stay what it was. It is told where it changes by more than 1e-3 of the run's largest
+/// energy, and ends the run where it is off by more than 1e-1 for twenty steps: a motion whose
+/// energy is wrong is wrong. A motion that only begins has energies of the size of a step's error;
+/// they outgrow it within these steps.
 class EnergyGuard {
  public:
   EnergyGuard(const Model& model, Tolerance tolerance);
@@ -37,7 +41,8 @@ class EnergyGuard {
   void take_up(const EnergyBooks& books) { books_ = books; }
 
  private:
-  double floor_J_;  ///< energies below are those of errors that the tolerances allow
+  double floor_J_;        ///< energies below are those of errors that the tolerances allow
+  double carried_share_;  ///< of the energy of bodies carried along, in the same way
   EnergyBooks books_;
 };
 

@@ -64,6 +64,7 @@ GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius,
       offset_rate_(Vector::Zero(nv_)),
       displacement_(Vector::Zero(nv_)),
       displacement_before_(Vector::Zero(nv_)),
+      moved_(Vector::Zero(nv_)),
       residual_(Vector::Zero(nv_ + nc_)),
       change_(Vector::Zero(nv_)),
       error_(Vector::Zero(y.size())),
@@ -228,7 +229,8 @@ bool GeneralisedAlpha::try_step(double& length_s) {
     length_s = std::min(length_s, 2 * ahead_s);
     return tried(length_s);
   }
-  length_s = ahead_s;
+  // So far before it that the next step sees it inside of itself.
+  length_s = ahead_s - kClose / 2 * approached_from_s_;
   for (double back = kClose;; back = std::min(10 * back, 0.5)) {
     length_s *= 1 - back;
     if (!tried(length_s)) return false;
@@ -340,6 +342,8 @@ void GeneralisedAlpha::step(double limit_s) {
       accept(length);
       watch_from_end();
       if (at_end) time_s_ = limit_s;
+      // But one as long as a short contact would find the same accelerations at its ends.
+      if (crosses_) proposed_s_ = std::min(proposed_s_, first_step());
       if (crosses_) {
         fresh_ = false;
         approached_from_s_ = 0;
@@ -368,11 +372,11 @@ void GeneralisedAlpha::interpolate_between(const Step& step, double share, Vecto
   y = r * step.y_begin + s * step.y_end -
       (s * r) * ((1 - 2 * s) * (step.y_end - step.y_begin) + (s * h) * step.rate_end -
                  (r * h) * step.rate_begin);
-  const Vector moved = s * step.displacement - (s * r) * ((1 - 2 * s) * step.displacement +
-                                                          (s * h) * step.y_end.segment(nq_, nv_) -
-                                                          (r * h) * step.y_begin.segment(nq_, nv_));
+  moved_ = s * step.displacement -
+           (s * r) * ((1 - 2 * s) * step.displacement + (s * h) * step.y_end.segment(nq_, nv_) -
+                      (r * h) * step.y_begin.segment(nq_, nv_));
   y.head(nq_) = step.y_begin.head(nq_);
-  equations_.retract(y.head(nq_), moved);
+  equations_.retract(y.head(nq_), moved_);
 }
 
 }  // namespace flexneck::multibody

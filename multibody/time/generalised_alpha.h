@@ -99,6 +99,7 @@ class GeneralisedAlpha final : public TimeIntegrator {
   Accelerations now_, next_, before_;
   Vector offset_rate_;                         ///< (a_n - V'_n) / h
   Vector displacement_, displacement_before_;  ///< over the step tried, over the last one
+  mutable Vector moved_;                       ///< from the beginning of a step to a time inside
   Vector residual_, change_, error_;
   Vector y_next_, y_before_, y_trial_;
   Vector rate_, rate_next_, rate_before_, rate_trial_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is read off a tree once its equations are solved.
+#include <algorithm>
+
 #include "multibody/tree/spatial.h"
 #include "multibody/tree/tree_dynamics.h"
 
@@ -95,6 +97,16 @@ Energies TreeDynamics::energies() const {
     sum.strain_J += body.springs.energy_J(work.a);
     sum.kinetic_J += kinetic_energy_J(body, work.a, work.a_rate, frame.v, frame.w);
     sum.gravitational_J -= gravity_.dot(body.mass * frame.x + frame.A * S);
+  }
+  for (const Frame& base : prescribed_) {
+    double carried_J = 0;
+    for (std::size_t b = 0; b < work_.size(); ++b) {
+      const BodyInertia& body = tree_.bodies[b].inertia;
+      const Vector3d v = base.v + base.w.cross(work_[b].frame.x - base.x);
+      carried_J +=
+          body.mass / 2 * v.squaredNorm() + body.J0.head<3>().sum() / 4 * base.w.squaredNorm();
+    }
+    sum.carried_J = std::max(sum.carried_J, carried_J);
   }
   return sum;
 }

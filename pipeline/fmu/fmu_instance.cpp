@@ -14,8 +14,10 @@ namespace flexneck::multibody {
 
 template <class A>
 void archive(A& all, EnergyBooks& x) {
-  auto& [are_open, balance, gravitational, dissipated, work, largest, departs_at, worst] = x;
-  all(are_open, balance, gravitational, dissipated, work, largest, departs_at, worst);
+  auto& [are_open, balance, gravitational, dissipated, work, largest, worst, departs_at, departs,
+         wrong_steps] = x;
+  all(are_open, balance, gravitational, dissipated, work, largest, worst, departs_at, departs,
+      wrong_steps);
 }
 
 template <class A>

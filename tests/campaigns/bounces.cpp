@@ -32,6 +32,7 @@ struct Problem {
   std::function<double(const History&, Eigen::Index)> coordinate;
   double size = 1;
   int kinks = 0;
+  double stiffest_rad_s = 0;  ///< of the stops and ropes that were met
 };
 
 double magnitude(Case& drawn, double low, double high) {
@@ -80,8 +81,9 @@ Problem stops(Case& drawn) {
       "b", RigidBody{slides ? inertia : 1, Vector3d::Zero(), inertia * Matrix3d::Identity()}, {},
       slides ? Vector3d(speed * axis) : Vector3d::Zero(),
       slides ? Vector3d::Zero() : Vector3d(speed * axis));
-  build.joint("j", slides ? &kPrismaticJoint : &kRevoluteJoint, build.marker("o", ground),
-              build.marker("c", body), axis);
+  const auto origin = build.marker("o", ground);
+  const auto center = build.marker("c", body);
+  build.joint("j", slides ? &kPrismaticJoint : &kRevoluteJoint, origin, center, axis);
   JointResistance law{"stops", 0, slides ? JointCoordinate::distance : JointCoordinate::angle, {}};
   law.resistance.positive.stop = upper;
   law.resistance.positive.beyond_stop = LoadCurve::cubic(stiffness);
@@ -93,10 +95,11 @@ Problem stops(Case& drawn) {
   }
   build.model.forces.add(law);
   if (slides)
-    build.force("push", 1, axis, constant_table(load));
+    build.force("push", center, axis, constant_table(load));
   else
-    build.model.forces.add(Torque{"push", 1, axis, constant_table(load)});
+    build.model.forces.add(Torque{"push", center, axis, constant_table(load)});
   problem.model = build.model;
+  problem.stiffest_rad_s = std::sqrt(stiffness / inertia);
   expect(problem, PiecewiseMotion(acceleration, springs, 0, speed));
   if (slides) {
     problem.coordinate = [axis](const History& history, Eigen::Index k) {
@@ -142,6 +145,7 @@ Problem rope(Case& drawn) {
   // Back to a quarter of its length: beyond they would pass.
   problem.end_s = (length - start) / speed + 0.75 * length / speed;
   problem.model = build.model;
+  problem.stiffest_rad_s = std::sqrt(stiffness / reduced);
   expect(problem, PiecewiseMotion(0, {{length, 1, stiffness / reduced}}, start, speed));
   problem.coordinate = [along](const History& history, Eigen::Index k) {
     return along.dot(history.marker("j").position_m.col(k) - history.marker("i").position_m.col(k));
@@ -162,12 +166,14 @@ Problem friction(Case& drawn) {
   const auto ground = build.ground();
   const auto body = build.body("b", RigidBody{mass, Vector3d::Zero(), mass * Matrix3d::Identity()},
                                {}, speed * axis);
-  build.joint("j", &kPrismaticJoint, build.marker("o", ground), build.marker("c", body), axis);
+  const auto origin = build.marker("o", ground);
+  const auto center = build.marker("c", body);
+  build.joint("j", &kPrismaticJoint, origin, center, axis);
   JointResistance law{"brake", 0, JointCoordinate::distance, {}};
   law.resistance.friction = brake;
   law.resistance.full_rate = full;
   build.model.forces.add(law);
-  build.force("push", 1, axis, constant_table(push));
+  build.force("push", center, axis, constant_table(push));
   Problem problem;
   problem.model = build.model;
   const double braking = (brake - push) / mass;
@@ -208,6 +214,15 @@ double energy_error(const EnergyHistory& energy) {
   return (balance.array() - balance[0]).abs().maxCoeff() / largest;
 }
 
+/// Each kink passes on what errors there are at the speed of the motion. The implicit method's
+/// tolerance is of displacements: in a contact they are errors of speed by its frequency, as far as
+/// the balance of energy is not off by what is told: by 1e-3 of the largest energy, a speed of 3 %.
+double allowed_error(const Problem& problem, bool implicit, double tolerance) {
+  if (!implicit) return (1 + problem.kinks) * 100 * tolerance;
+  const double of_speed = 3 * tolerance * problem.stiffest_rad_s * problem.end_s;
+  return (1 + problem.kinks) * 3 * std::pow(tolerance, 2. / 3) + std::min(of_speed, 3e-2);
+}
+
 std::optional<std::string> judge(Case& drawn) {
   const double kind = drawn.between(0, 1);
   const Problem problem = kind < 0.6 ? stops(drawn) : kind < 0.8 ? rope(drawn) : friction(drawn);
@@ -231,15 +246,13 @@ std::optional<std::string> judge(Case& drawn) {
     const double error = largest_error(problem, history) / problem.size;
     const double share = energy_error(history.energy);
     const bool is_told = !history.warnings.empty();
-    if (share > 1e-3 && !is_told) {
+    // The guard tells of 1e-3 at steps; outputs lie between them and may miss the largest energy.
+    if (share > 4e-3 && !is_told) {
       found << "the balance changes by " << share << " without a word";
       return found.str();
     }
     if (is_told) return {};
-    // Each kink passes on what errors there are at the speed of the motion.
-    const double tolerance = solver.relative_tolerance;
-    const double allowed =
-        (1 + problem.kinks) * (implicit ? 3 * std::pow(tolerance, 2. / 3) : 100 * tolerance);
+    const double allowed = allowed_error(problem, implicit, solver.relative_tolerance);
     if (error > allowed) {
       found << "off by " << error << ", allowed are " << allowed;
       return found.str();
@@ -249,7 +262,8 @@ std::optional<std::string> judge(Case& drawn) {
     solver.relative_tolerance /= 100;
     solver.absolute_tolerance /= 100;
     const double finer = largest_error(problem, run()) / problem.size;
-    if (finer < error / 2 || finer < 1e-2 * allowed) return {};
+    if (finer < error / 2) return {};
+    if (finer < allowed_error(problem, implicit, solver.relative_tolerance)) return {};
     found << "off by " << error << ", and by " << finer << " at a hundredth of the tolerance";
     return found.str();
   } catch (const IncompleteRun& error) {

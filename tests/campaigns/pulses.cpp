@@ -147,10 +147,15 @@ std::string model_text(const Drawn& of) {
       is_turn ? "revolute" : "prismatic", is_turn ? "0, 0, 1" : "1, 0, 0", rest);
 }
 
-std::optional<std::string> judge(Case& drawn) {
-  const Drawn of = draw(drawn);
-  const std::string file = fmt::format("{}/{}.toml", drawn.folder, drawn.number);
-  std::ofstream(file) << model_text(of);
+/// Refusals that are right: a bump of a displacement beside which its kink hides, and a blow that
+/// the steps do not resolve, as the balance of energy tells.
+bool is_refused_rightly(const Drawn& of, const std::string& text) {
+  const bool is_displacement = of.drive == Drive::displacement;
+  if (text.find("balance of energy") != std::string::npos) return of.is_implicit || is_displacement;
+  return is_displacement && text.find("must be smooth") != std::string::npos;
+}
+
+std::optional<std::string> compare(const Drawn& of, const std::string& file) {
   const flexneck::pipeline::ModelFile model = flexneck::pipeline::read_model_file({file}, {});
   const flexneck::multibody::History history = flexneck::multibody::simulate(
       model.model, model.solver, {.end_time_s = of.end_s, .interval_s = of.interval_s});
@@ -182,6 +187,18 @@ std::optional<std::string> judge(Case& drawn) {
       "of {:.3g}",
       file, static_cast<int>(of.drive), of.is_implicit ? "generalised-alpha" : "Dormand-Prince",
       of.end_s, of_sled, of_block, size);
+}
+
+std::optional<std::string> judge(Case& drawn) {
+  const Drawn of = draw(drawn);
+  const std::string file = fmt::format("{}/{}.toml", drawn.folder, drawn.number);
+  std::ofstream(file) << model_text(of);
+  try {
+    return compare(of, file);
+  } catch (const std::runtime_error& error) {
+    if (is_refused_rightly(of, error.what())) return {};
+    throw;
+  }
 }
 
 }  // namespace
