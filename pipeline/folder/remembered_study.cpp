@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kFile = "study.json";
 constexpr const char* kFormat = "flexneck choice of a study";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& found) {
@@ -52,7 +51,7 @@ StudyChoice with_settings(StudyChoice choice, const std::vector<std::string>& mo
 }
 
 std::optional<StudyChoice> remembered_study(const fs::path& folder) {
-  const fs::path path = folder / kFile;
+  const fs::path path = folder / kRememberedStudy;
   if (!fs::exists(path)) return {};
   try {
     const nlohmann::json json = nlohmann::json::parse(text_of_file(path));
@@ -80,7 +79,7 @@ void remember_study(const fs::path& folder, const StudyChoice& choice) {
     if (is_shipped) json["shipped"] = true;
   }
   json["settings"] = choice.settings;
-  write_text(folder / kFile, json.dump(1) + "\n", Durability::none);
+  write_text(folder / kRememberedStudy, json.dump(1) + "\n", Durability::none);
 }
 
 }  // namespace flexneck::pipeline

@@ -8,6 +8,9 @@
 
 namespace flexneck::pipeline {
 
+/// The file in a folder of results that says what they were last made with.
+inline constexpr const char* kRememberedStudy = "study.json";
+
 /// A study and the values that the command line set in it.
 struct StudyChoice {
   std::filesystem::path study;        ///< the file; empty: the built-in one
@@ -23,8 +26,7 @@ std::string text_of(const StudyChoice& choice);
 /// The same study with more values set: each key once, the later value.
 StudyChoice with_settings(StudyChoice choice, const std::vector<std::string>& more);
 
-/// What a folder of results was last made with, from its file study.json; none if there is no such
-/// file.
+/// What a folder of results was last made with, from that file; none if there is no such file.
 /// @throws InputError if the file is none of ours.
 std::optional<StudyChoice> remembered_study(const std::filesystem::path& folder);
 

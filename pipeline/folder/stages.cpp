@@ -10,6 +10,7 @@
 #include "geometry/foundation/build_id.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/output_file.h"
+#include "pipeline/folder/remembered_study.h"
 
 namespace flexneck::pipeline {
 
@@ -92,10 +93,14 @@ const std::vector<std::string>& Stages::warnings(const std::string& stage) const
 std::vector<FileRead> Stages::reads_beside_outputs(const FilesRead& reads,
                                                    const Record& record) const {
   std::vector<FileRead> others = reads.files();
-  for (const auto& [name, hash] : record.outputs) {
+  const auto leave_out = [&](const std::string& name) {
     const std::string path = fs::absolute(folder_ / name).string();
     std::erase_if(others, [&](const FileRead& file) { return file.path == path; });
-  }
+  };
+  for (const auto& [name, hash] : record.outputs) leave_out(name);
+  // A stage that looks through all files of the folder meets its records, too.
+  leave_out(kFile);
+  leave_out(kRememberedStudy);
   return others;
 }
 
