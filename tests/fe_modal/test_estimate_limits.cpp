@@ -42,18 +42,18 @@ TEST_CASE("errors are an indication alone above the aspect ratios for which they
 }
 
 TEST_CASE("what single nodes hold or load is named by its set, whole faces are not") {
-  mesher::Mesh mesh = testing::box({2, 2, 2}, {1, 1, 1}, kSteel).make();
+  mesher::Mesh mesh = testing::box({4, 4, 1}, {1, 1, 1}, kSteel).make();
   CHECK(held_at_single_nodes(mesh, fixed("bottom")).empty());
   const std::vector<std::int32_t> bottom = mesh.node_set("bottom").nodes;
-  mesh.node_sets.push_back({"corners", {bottom[0], bottom[4], bottom[20], bottom[24]}});
-  mesh.node_sets.push_back({"edge", {bottom.begin(), bottom.begin() + 5}});
+  mesh.node_sets.push_back({"corners", {bottom[0], bottom[8], bottom[72], bottom[80]}});
+  mesh.node_sets.push_back({"edge", {bottom.begin(), bottom.begin() + 9}});
   // A face of nine nodes, one beside it, and a node of the far side.
   mesh.node_sets.push_back({"patch",
-                            {bottom[0], bottom[1], bottom[2], bottom[5], bottom[6], bottom[7],
-                             bottom[10], bottom[11], bottom[12], bottom[13], bottom[24]}});
+                            {bottom[0], bottom[1], bottom[2], bottom[9], bottom[10], bottom[11],
+                             bottom[18], bottom[19], bottom[20], bottom[12], bottom[80]}});
   using Lines = std::vector<std::string>;
   CHECK(held_at_single_nodes(mesh, fixed("corners")) == Lines{"node set 'corners' (4 nodes)"});
-  CHECK(held_at_single_nodes(mesh, fixed("edge")) == Lines{"node set 'edge' (5 nodes)"});
+  CHECK(held_at_single_nodes(mesh, fixed("edge")) == Lines{"node set 'edge' (9 nodes)"});
   const Lines patch = held_at_single_nodes(mesh, fixed("patch"));
   REQUIRE(patch.size() == 1);
   CHECK_THAT(patch[0], Contains("node set 'patch' (") && Contains(" of its 11 nodes)"));

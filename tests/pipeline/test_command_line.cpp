@@ -35,7 +35,7 @@ TEST_CASE("modes --certify proves that no mode is missing and estimates the mesh
   INFO(outcome.text);
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.text, Contains("certified: no mode is missing below") &&
-                               Contains("mesh error %") && Contains("seconds: read ") &&
+                               Contains("indicated error %") && Contains("seconds: read ") &&
                                Contains("factorise "));
   const fe_modal::ModalBody body = fe_modal::read_modal_body(folder / "modes.h5").body;
   for (Eigen::Index k = 0; k < body.mode_count(); ++k) {

@@ -82,8 +82,8 @@ position = ["0 m", "0 m", "0 m"]
 name = "j"
 lower = "sled.o"
 upper = "block.o"
-axis = [0, 0, 1]
 )toml";
+  const std::string axis = "axis = [0, 0, 1]\n";
   const std::string pulse =
       "acceleration = \"-100 * sin(pi*(t-27.6)/0.08) * (t>27.6 && t<27.68)\"\n";
   const auto at_end = [&](const std::string& sled, const std::string& more) {
@@ -104,7 +104,8 @@ axis = [0, 0, 1]
             .angular_velocity_rad_s(2, 1) == Approx(gained).epsilon(1e-9));
   const std::string ground = "kind = \"ground\"\n";
   const std::string motor = "[[motor]]\nname = \"m\"\njoint = \"j\"\n";
-  CHECK(at_end(ground, "kind = \"prismatic\"\n" + motor + "coordinate = \"distance\"\n" + pulse)
+  CHECK(at_end(ground,
+               axis + "kind = \"prismatic\"\n" + motor + "coordinate = \"distance\"\n" + pulse)
             .marker("block.o")
             .velocity_m_s(2, 1) == Approx(gained).epsilon(1e-6));
   // A bell has no kink where steps would end: the block slides on its sled and stays.
@@ -114,7 +115,7 @@ axis = [0, 0, 1]
                                    "\"\n[output]\ninterval = \"3 s\"\n[[body]]\nname = \"sled\"\n" +
                                    prescribed + "direction = [0, 0, 1]\n" +
                                    "acceleration = \"1000 * exp(-((t - 1.5) / 0.002)^2)\"\n" +
-                                   blocks + "kind = \"prismatic\"\n"));
+                                   blocks + axis + "kind = \"prismatic\"\n"));
     CHECK(history.marker("sled.o").velocity_m_s(2, 1) ==
           Approx(2 * std::sqrt(std::numbers::pi)).epsilon(1e-9));
     CHECK(history.marker("block.o").velocity_m_s(2, 1) == Approx(0).margin(0.02));

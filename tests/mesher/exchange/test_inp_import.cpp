@@ -307,7 +307,7 @@ TEST_CASE("other files, supports of later steps and masses by direction are refu
              Contains("it belongs to a step behind *FREQUENCY"));
 }
 
-TEST_CASE("an NSET means its nodes; faces that cover others under its name are refused") {
+TEST_CASE("an NSET means its nodes, and faces that cover others under its name are refused") {
   const Files files;
   const auto mesh_of = [&](const std::string& more) {
     return import_mesh(
