@@ -131,7 +131,14 @@ class DescriptorEquations final : public Equations {
                         const Vector& error) const override {
     return error_(begin, end, error);
   }
-  std::string name_of(std::size_t component) const override { return error_.name_of(component); }
+  std::string name_of(std::size_t component) const override {
+    const std::optional<std::size_t> indefinite = equations_.solver().indefinite_body();
+    if (!indefinite) return error_.name_of(component);
+    return error_.name_of(component) + " (the mass matrix of body '" +
+           system_.bodies[*indefinite].name +
+           "' is not positive definite as it is deformed: it is thinner than its displacements of "
+           "second order. The recursive form may go further, several bodies in its place do)";
+  }
   const ForceSet& forces() const override { return equations_.forces(); }
   int evaluations() const override { return equations_.evaluations(); }
   std::vector<std::string> redundant_constraints() const override {

@@ -89,8 +89,22 @@ void KktSolver::set_rows(std::size_t joint, const JointRows& rows) {
   joints_[joint].Y_j = rows.B_j;
 }
 
+void KktSolver::factorise_bodies() {
+  bool are_definite = true;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Eigen::MatrixXd& factor = bodies_[b].factor;
+    factorise_cholesky(factor);
+    if (std::isfinite(factor.diagonal().sum())) continue;
+    are_definite = false;
+    // Above the diagonal the mass matrix is still there.
+    const Eigen::MatrixXd above = factor.triangularView<Eigen::StrictlyUpper>();
+    if (above.allFinite()) indefinite_body_ = b;
+  }
+  if (are_definite) indefinite_body_.reset();
+}
+
 void KktSolver::factorise() {
-  for (BodyBlock& body : bodies_) factorise_cholesky(body.factor);
+  factorise_bodies();
   for (JointBlock& joint : joints_) {
     if (joint.place.body_i != JointPlace::kNoBody)
       solve_lower(bodies_[joint.place.body_i].factor, joint.Y_i);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -59,6 +60,9 @@ class KktSolver {
   }
   /// B^T of the last factorisation with velocities in m/s, (velocity_count, constraint_count).
   Eigen::SparseMatrix<double> rows_in_metres() const;
+  /// The body whose mass matrix, itself all numbers, was not positive definite when it was
+  /// factorised last: what followed is not a number, up to a factorisation of all bodies.
+  std::optional<std::size_t> indefinite_body() const { return indefinite_body_; }
   /// Whether S of the last factorisation had enough digits.
   bool is_well_scaled() const { return !weighted_; }
 
@@ -93,6 +97,7 @@ class KktSolver {
   void add_meetings(std::size_t row_joint);
   Block& block(std::size_t row_joint, std::size_t column_joint);
   void assemble_schur_complement();
+  void factorise_bodies();
   Pivots factorise_schur_complement();
   static void factorise_diagonal(const JointBlock& joint, const RowVector& before, Block& diagonal,
                                  Pivots& pivots);
@@ -114,6 +119,7 @@ class KktSolver {
   std::vector<Meeting> meetings_;
   Eigen::Index velocity_count_ = 0;
   Eigen::Index constraint_count_ = 0;
+  std::optional<std::size_t> indefinite_body_;
   std::vector<Block> schur_;  ///< row by row of the lower triangle; its factor after factorise()
   Eigen::VectorXd lengths_m_;
   WeightedElimination weighted_elimination_;

@@ -36,7 +36,8 @@ struct Energies {
   double kinetic_J = 0;
   double gravitational_J = 0;
   double strain_J = 0;
-  /// Their kinetic energy if the fastest prescribed body carried them along, turning about any axis.
+  /// Their kinetic energy if the fastest prescribed body carried them along, turning about any
+  /// axis.
   double carried_J = 0;
 };
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include <Eigen/LU>
@@ -158,4 +160,21 @@ TEST_CASE(
     CHECK((r - expected.head(18)).segment<6>(6 * body).norm() <
           1e-11 * expected.segment<6>(6 * body).norm());
   CHECK((s - expected.tail(15)).norm() < 1e-11 * expected.tail(15).norm());
+}
+
+TEST_CASE("a body whose mass matrix is not positive definite is named until all are again") {
+  KktSolver solver({2, 2}, {}, VectorXd::Ones(4));
+  const auto factorise = [&](double of_first, double of_second) {
+    solver.set_mass(0, (MatrixXd(2, 2) << 2, 1, 1, of_first).finished());
+    solver.set_mass(1, (MatrixXd(2, 2) << 2, 1, 1, of_second).finished());
+    solver.factorise();
+    return solver.indefinite_body();
+  };
+  CHECK(factorise(1, 1) == std::nullopt);
+  CHECK(factorise(1, 0.4) == std::size_t{1});
+  // Numbers that are none are no sign of it, and say nothing of the last one that was.
+  const double nan = std::nan("");
+  CHECK(factorise(nan, nan) == std::size_t{1});
+  CHECK(factorise(0.4, 1) == std::size_t{0});
+  CHECK(factorise(1, 1) == std::nullopt);
 }
