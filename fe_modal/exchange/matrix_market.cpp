@@ -2,19 +2,23 @@
 #include "fe_modal/exchange/matrix_market.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/regular_file.h"
+#include "geometry/foundation/text_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
+
+constexpr std::string_view kBlanks = " \t\r\v\f";
 
 /// Numbers of a file line by line, comments left out.
 class NumberLines {
@@ -23,9 +27,9 @@ class NumberLines {
       : path_(path), size_(static_cast<double>(size_of_file(path))), stream_(path) {
     if (!stream_) throw InputError(path.string() + ": cannot be read");
     next_line();
-    header_ = line_;
+    header_ = without_mark(line_);
     std::transform(header_.begin(), header_.end(), header_.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                   [](char c) { return lower_case(c); });
     if (!header_.starts_with("%%matrixmarket matrix")) {
       refuse("expected a file that starts with %%MatrixMarket matrix");
     }
@@ -39,12 +43,12 @@ class NumberLines {
   std::vector<double> next(std::size_t count) {
     do {
       next_line();
-    } while (line_.starts_with('%') || line_.find_first_not_of(" \t\r") == std::string::npos);
+    } while (line_.starts_with('%') || line_.find_first_not_of(kBlanks) == std::string::npos);
     std::vector<double> numbers;
     const char* place = line_.data();
     const char* const end = place + line_.size();
     for (;;) {
-      while (place != end && std::isspace(static_cast<unsigned char>(*place)) != 0) ++place;
+      while (place != end && kBlanks.find(*place) != std::string_view::npos) ++place;
       if (place == end) break;
       if (*place == '+' && place + 1 != end) ++place;  // Fortran's; from_chars has none
       double number = 0;

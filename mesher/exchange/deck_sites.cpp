@@ -10,7 +10,8 @@ namespace flexneck::mesher {
 
 namespace {
 
-/// Whether one of a node's directions x and y is held alone, translations and rotations apart.
+/// Tells whether one of a node's directions x and y is held alone, translations and rotations
+/// apart.
 bool holds_one(const std::array<bool, 6>& components) {
   return components[0] != components[1] || components[3] != components[4];
 }

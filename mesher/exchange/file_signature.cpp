@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 
+#include "geometry/foundation/ascii.h"
 #include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/text_lines.h"
 
@@ -17,7 +17,7 @@ std::string shown(std::string_view text) {
   std::string result;
   for (const char c : text.substr(0, 24)) {
     if (c == '\n' || c == '\r') break;
-    result += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
+    result += c >= ' ' && c <= '~' ? c : '?';
   }
   return "'" + result + "'";
 }
@@ -41,7 +41,7 @@ std::string msh_section_problem(TextLines lines) {
       return at + " lies in no section: " + shown(text);
     }
     open = text.substr(1);
-    has_nodes = has_nodes || open == "Nodes";
+    has_nodes = has_nodes || open == "Nodes" || open == "ParametricNodes";
     has_elements = has_elements || open == "Elements";
   }
   if (!open.empty()) return "section $" + open + " has no end: the file is truncated";
@@ -58,9 +58,12 @@ std::string msh_binary_problem(std::string_view contents) {
   if (!trimmed(lines.next().value_or("")).starts_with("$End")) {
     return "section $MeshFormat has no end";
   }
-  for (const std::string_view name : {"$Nodes", "$EndNodes", "$Elements", "$EndElements"}) {
+  const bool is_parametric = contents.find("$ParametricNodes") != std::string_view::npos;
+  const std::string nodes = is_parametric ? "ParametricNodes" : "Nodes";
+  for (const std::string& name :
+       {"$" + nodes, "$End" + nodes, std::string("$Elements"), std::string("$EndElements")}) {
     if (contents.find(name) == std::string_view::npos) {
-      return "it has no " + std::string(name) + ": the file is truncated, or no mesh";
+      return "it has no " + name + ": the file is truncated, or no mesh";
     }
   }
   return {};
@@ -145,8 +148,7 @@ std::string inp_problem(std::string_view contents) {
   while (const auto line = lines.next()) {
     const std::string_view text = trimmed(*line);
     if (text.empty() || text.starts_with("**")) continue;
-    if (text.size() > 1 && text[0] == '*' &&
-        std::isalpha(static_cast<unsigned char>(text[1])) != 0) {
+    if (text.size() > 1 && text[0] == '*' && is_letter(text[1])) {
       return {};
     }
     return "expected a keyword such as *NODE in line " + std::to_string(lines.number()) +

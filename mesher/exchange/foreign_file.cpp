@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <string>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/text_file.h"
@@ -37,7 +37,7 @@ constexpr std::array<FormatRecord, 8> kFormats = {{
 const FormatRecord& record_of(const fs::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                 [](char c) { return lower_case(c); });
   const auto* const found =
       std::find_if(kFormats.begin(), kFormats.end(),
                    [&](const FormatRecord& record) { return record.ending == ending; });

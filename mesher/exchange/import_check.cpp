@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <set>
 #include <span>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/disjoint_sets.h"
 #include "mesher/mesh/mesh_measures.h"
@@ -25,11 +25,7 @@ constexpr double kDegenerate = 1e-6;
 
 using Point = std::array<double, 3>;
 
-std::string place(const Point& x) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "(%.4g, %.4g, %.4g) m", x[0], x[1], x[2]);
-  return text.data();
-}
+std::string place(const Point& x) { return "(" + rounded_texts(x, 4) + ") m"; }
 
 Point centre_of(const Mesh& mesh, std::span<const std::int32_t> nodes) {
   const Eigen::Vector3d centre = positions_of(mesh, nodes).rowwise().mean();

@@ -2,11 +2,11 @@
 #include "mesher/exchange/inp_cards.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/text_file.h"
@@ -30,12 +30,12 @@ std::vector<std::string> fields_of(std::string_view line) {
   return fields;
 }
 
-/// Blanks inside a keyword count as one: "*SOLID  SECTION".
-std::string keyword_of(const std::string& field) {
-  std::istringstream words(field.substr(1));
-  std::string keyword;
-  for (std::string word; words >> word;) keyword += (keyword.empty() ? "" : " ") + word;
-  return upper_case(keyword);
+/// Blanks inside a keyword or the name of a parameter count as one: "SOLID  SECTION".
+std::string name_of(const std::string& text) {
+  std::istringstream words(text);
+  std::string name;
+  for (std::string word; words >> word;) name += (name.empty() ? "" : " ") + word;
+  return upper_case(name);
 }
 
 std::string unquoted(std::string_view text) {
@@ -47,13 +47,14 @@ InpCard card_of(const InpPlace& place, const std::string& line) {
   InpCard card;
   card.place = place;
   const std::vector<std::string> fields = fields_of(line);
-  card.keyword = keyword_of(fields.front());
+  card.keyword = name_of(fields.front().substr(1));
   for (std::size_t f = 1; f < fields.size(); ++f) {
+    if (fields[f].empty()) continue;
     const std::size_t equals = fields[f].find('=');
-    const std::string name = upper_case(trimmed(fields[f].substr(0, equals)));
+    const std::string name = name_of(fields[f].substr(0, equals));
     const std::string value =
         equals == std::string::npos ? "" : unquoted(trimmed(fields[f].substr(equals + 1)));
-    card.parameters[name] = value;
+    if (!card.parameters.emplace(name, value).second) card.refuse(name + " is given twice");
   }
   return card;
 }
@@ -104,6 +105,7 @@ class Reader {
     constexpr std::size_t kDeepest = 8;
     constexpr std::size_t kMaxFiles = 1000;
     const std::string name = card.parameter("INPUT");
+    if (card.parameters.size() > 1) card.refuse("only INPUT= is supported");
     std::error_code error;
     const fs::path file = fs::weakly_canonical(folder_ / name, error);
     if (error) card.refuse("INPUT=" + name + " cannot be read (" + error.message() + ")");
@@ -144,7 +146,7 @@ const std::string& field_of(const InpData& line, std::size_t field) {
 std::string upper_case(std::string_view text) {
   std::string result(text);
   std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+                 [](char c) { return flexneck::upper_case(c); });
   return result;
 }
 

@@ -59,23 +59,18 @@ const std::map<std::string, InpConnectionReader::Handler>& InpConnectionReader::
       {"BOUNDARY", &InpConnectionReader::boundary},
       {"EQUATION", &InpConnectionReader::equation},
       {"MPC", &InpConnectionReader::mpc},
+      {"MASS", &InpConnectionReader::point_property},
       {"RIGID BODY", &InpConnectionReader::rigid_body},
+      {"SPRING", &InpConnectionReader::point_property},
       {"TRANSFORM", &InpConnectionReader::transform}};
   return kHandlers;
 }
 
-bool InpConnectionReader::read(const InpCard& card, const InpModel& model) {
-  if (point_elements_.read(card)) return true;
-  const auto found = handlers().find(card.keyword);
-  if (found == handlers().end()) return false;
-  (this->*found->second)(card, model);
-  return true;
+void InpConnectionReader::read(const InpCard& card, const InpModel& model) {
+  (this->*handlers().at(card.keyword))(card, model);
 }
 
 void InpConnectionReader::boundary(const InpCard& card, const InpModel& model) {
-  if (card.has("TYPE") && upper_case(card.parameter("TYPE")) != "DISPLACEMENT") {
-    card.refuse("only displacements are supported");
-  }
   if (card.has("OP") && upper_case(card.parameter("OP")) == "NEW" && !supports_.empty()) {
     card.refuse("OP=NEW lets go what was fixed before; give one *BOUNDARY for the modes");
   }
@@ -193,9 +188,7 @@ void InpConnectionReader::rigid_body(const InpCard& card, const InpModel& model)
 
 void InpConnectionReader::transform(const InpCard& card, const InpModel& model) {
   const std::string type = card.has("TYPE") ? upper_case(card.parameter("TYPE")) : "R";
-  if ((type != "R" && type != "C") || card.data.size() != 1) {
-    card.refuse("expected TYPE=R or TYPE=C and one line of data");
-  }
+  if (card.data.size() != 1) card.refuse("expected one line of data");
   const Eigen::Vector3d one = vector_at(card.data.front(), 0);
   const Eigen::Vector3d other = vector_at(card.data.front(), 3);
   AxisSystem axes;

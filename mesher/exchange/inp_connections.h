@@ -24,8 +24,8 @@ class InpConnectionReader {
     return point_elements_.add(card, type);
   }
 
-  /// Whether the card is one of those above, but *ELEMENT; it is read then.
-  bool read(const InpCard& card, const InpModel& model);
+  /// @param card one of those above, but *ELEMENT
+  void read(const InpCard& card, const InpModel& model);
 
   /// Nodes that supports and rigid bodies name by number.
   const std::vector<std::int64_t>& supported_by_number() const { return supported_by_number_; }
@@ -42,6 +42,9 @@ class InpConnectionReader {
   void mpc(const InpCard& card, const InpModel& model);
   void rigid_body(const InpCard& card, const InpModel& model);
   void transform(const InpCard& card, const InpModel& model);
+  void point_property(const InpCard& card, const InpModel& /*model*/) {
+    point_elements_.read(card);
+  }
 
   DeckConnections connections_;
   InpPointElements point_elements_;

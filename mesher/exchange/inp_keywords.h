@@ -1,19 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
+
+#include "mesher/exchange/inp_cards.h"
 
 namespace flexneck::mesher {
 
-/// Output requests, the control of an analysis, properties that only other analyses ask for: they
-/// change neither mesh nor modes.
-bool is_silent_keyword(const std::string& keyword);
+enum class InpUse {
+  read,         ///< nodes, elements, sets, materials, connections
+  passed_over,  ///< output requests, the control of an analysis, properties of other analyses
+  left_out,     ///< loads, prestress and damping, which a mesh cannot hold: told with their number
+  assembly      ///< parts, instances and assembly, which are refused with a way out
+};
 
-/// Loads, prestress and damping: they change what is computed from the deck, but a mesh cannot hold
-/// them.
-bool is_left_out_keyword(const std::string& keyword);
+/// A parameter of a keyword line that is accepted.
+struct InpParameter {
+  std::string name;
+  std::vector<std::string> values;  ///< in capitals; empty: any. A flag has the one value "".
+  std::string no_effect;            ///< the reason why it changes nothing; empty: it is obeyed
+};
 
-/// Parts, instances and assembly.
-bool is_assembly_keyword(const std::string& keyword);
+struct InpKeyword {
+  InpUse use = InpUse::read;
+  std::vector<InpParameter> parameters;
+  std::string others;  ///< the reason why all other parameters change nothing; empty: refused
+};
+
+/// All keywords that are known, in capitals; others may change the structure.
+const std::map<std::string, InpKeyword>& inp_keywords();
+
+/// @throws InputError for a parameter that the keyword's row does not accept, with its name.
+void check_parameters(const InpCard& card, const InpKeyword& keyword);
 
 }  // namespace flexneck::mesher

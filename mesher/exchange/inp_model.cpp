@@ -25,18 +25,19 @@ class ModelReader {
       card.refuse("it belongs to a step behind *FREQUENCY in " + frequencies_ +
                   ", whose modes are without it; take that step away");
     }
+    const auto row = inp_keywords().find(card.keyword);
+    if (row == inp_keywords().end() || row->second.use == InpUse::assembly) refuse_keyword(card);
+    check_parameters(card, row->second);
     const auto found = handlers().find(card.keyword);
     if (found != handlers().end()) {
       (this->*found->second)(card);
-    } else if (connections_.read(card, model_)) {
-      return;
-    } else if (is_left_out_keyword(card.keyword)) {
+    } else if (row->second.use == InpUse::read) {
+      connections_.read(card, model_);
+    } else if (row->second.use == InpUse::left_out) {
       model_.left_out.add("*" + card.keyword);
-    } else if (is_silent_keyword(card.keyword)) {
+    } else {
       if (ignored_.insert(card.keyword).second) model_.ignored.push_back(card.keyword);
       notice_preload(card);
-    } else {
-      refuse_keyword(card);
     }
   }
 
@@ -127,21 +128,18 @@ void ModelReader::notice_preload(const InpCard& card) {
 }
 
 void ModelReader::refuse_keyword(const InpCard& card) {
-  if (is_assembly_keyword(card.keyword)) {
+  if (inp_keywords().count(card.keyword) > 0) {
     card.refuse(
         "parts and instances are not supported; write a flat input, in Abaqus/CAE with "
         "mdb.models['…'].setValues(noPartsInputFile=ON)");
   }
   std::vector<std::string> known;
-  for (const auto& [keyword, handler] : handlers()) known.push_back(keyword);
+  for (const auto& [keyword, row] : inp_keywords()) known.push_back(keyword);
   card.refuse("this keyword is not known here, and it may change the structure; remove it" +
               did_you_mean(known, card.keyword));
 }
 
 void ModelReader::nodes(const InpCard& card) {
-  if (card.has("SYSTEM") && upper_case(card.parameter("SYSTEM")) != "R") {
-    card.refuse("only rectangular coordinates are supported");
-  }
   std::vector<std::int64_t> numbers;
   for (const InpData& line : card.data) {
     std::array<double, 3> x{};
@@ -209,9 +207,6 @@ void ModelReader::elements(const InpCard& card) {
 }
 
 void ModelReader::surface(const InpCard& card) {
-  if (card.has("TYPE") && upper_case(card.parameter("TYPE")) != "ELEMENT") {
-    card.refuse("only TYPE=ELEMENT is supported; a set of nodes is an *NSET");
-  }
   InpSurface surface{card.parameter("NAME"), {}};
   for (const InpData& line : card.data) {
     const std::string side = line.fields.size() > 1 ? upper_case(line.fields[1]) : "";
@@ -226,16 +221,12 @@ void ModelReader::surface(const InpCard& card) {
 }
 
 void ModelReader::elastic(const InpCard& card) {
-  if (card.has("TYPE") && !upper_case(card.parameter("TYPE")).starts_with("ISO")) {
-    card.refuse("only isotropic materials are supported");
-  }
   InpMaterial& material = material_of(card);
   material.youngs_modulus = inp_number(only_line_of(card), 0);
   material.poissons_ratio = inp_number(only_line_of(card), 1);
 }
 
 void ModelReader::solid_section(const InpCard& card) {
-  if (card.has("ORIENTATION")) card.refuse("ORIENTATION is not supported");
   model_.sections.push_back({card.place, card.parameter("ELSET"), card.parameter("MATERIAL")});
 }
 

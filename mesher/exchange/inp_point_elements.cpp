@@ -44,15 +44,9 @@ std::vector<std::int64_t> InpPointElements::add(const InpCard& card, const std::
   return numbers;
 }
 
-bool InpPointElements::read(const InpCard& card) {
-  if (card.keyword != "MASS" && card.keyword != "SPRING") return false;
-  for (const char* const parameter : {"NONLINEAR", "ORIENTATION", "RTOL", "TYPE", "ALPHA",
-                                      "COMPOSITE", "DEPENDENCIES", "COMPLEX STIFFNESS"}) {
-    if (card.has(parameter)) card.refuse(std::string(parameter) + " is not supported");
-  }
+void InpPointElements::read(const InpCard& card) {
   static_cast<void>(card.parameter("ELSET"));
   properties_.push_back(card);
-  return true;
 }
 
 void InpPointElements::add_masses(const InpCard& card, DeckConnections& connections) const {

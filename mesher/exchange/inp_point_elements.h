@@ -18,8 +18,8 @@ class InpPointElements {
   static bool has(const std::string& type);
   /// @return the numbers of the elements
   std::vector<std::int64_t> add(const InpCard& card, const std::string& type);
-  /// Whether the card is *MASS or *SPRING; it is read then.
-  bool read(const InpCard& card);
+  /// @param card *MASS or *SPRING
+  void read(const InpCard& card);
   /// @throws InputError for elements without *MASS or *SPRING, and for springs at nodes that have
   /// axes of their own.
   void add_to(DeckConnections& connections) const;

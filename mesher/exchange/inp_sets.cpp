@@ -2,8 +2,8 @@
 #include "mesher/exchange/inp_sets.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 
@@ -47,8 +47,7 @@ std::vector<std::int64_t> inp_members_of(const InpData& line, std::size_t field,
   }
   const std::string& text = line.fields[field];
   if (is_inp_set(line, field, sets)) return sets.at(upper_case(text)).members;
-  if (std::isdigit(static_cast<unsigned char>(text.front())) != 0)
-    return {inp_integer(line, field)};
+  if (is_digit(text.front())) return {inp_integer(line, field)};
   std::vector<std::string> names;
   for (const auto& [key, each] : sets) names.push_back(each.name);
   throw InputError(line.place.text() + "there is no " + kind + " '" + text + "'" +
@@ -57,9 +56,6 @@ std::vector<std::int64_t> inp_members_of(const InpData& line, std::size_t field,
 
 void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& sets) {
   const std::string& name = card.parameter(parameter);
-  if (card.has("INSTANCE") || (parameter == "NSET" && card.has("ELSET"))) {
-    card.refuse("INSTANCE= and ELSET= are not supported; list the numbers");
-  }
   std::size_t all = 0;
   for (const auto& [key, set] : sets) all += set.members.size();
   std::vector<std::int64_t> members;

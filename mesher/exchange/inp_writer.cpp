@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <set>
 #include <span>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/output_file.h"
@@ -27,10 +27,9 @@ std::string number(double value) { return text_within(value, kNumberWidth); }
 void check_inp_names(const std::vector<std::string>& names, const std::string& kind) {
   std::set<std::string> seen;
   for (const std::string& name : names) {
-    const bool is_plain = std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
-                          name.size() <= 80 &&
-                          std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                            return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+    const bool is_plain = is_letter(name.front()) && name.size() <= 80 &&
+                          std::all_of(name.begin(), name.end(), [](char c) {
+                            return is_letter_or_digit(c) || c == '_' || c == '-' || c == '.';
                           });
     if (!is_plain) {
       throw InputError("an .inp cannot hold the " + kind + " '" + name +

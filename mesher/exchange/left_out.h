@@ -8,7 +8,7 @@
 
 namespace flexneck::mesher {
 
-/// What a file gives beside the mesh and the mesh cannot hold, by kind and number. Loads and the
+/// Collects what a file gives and the mesh cannot hold, by kind and number. Loads and the
 /// like are told to the user in one line; what changes the structure, such as rigid elements, is
 /// refused unless the user has named it.
 class LeftOut {

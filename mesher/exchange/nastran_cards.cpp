@@ -2,10 +2,10 @@
 #include "mesher/exchange/nastran_cards.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/text_lines.h"
@@ -72,8 +72,8 @@ void read_free(std::string_view text, BulkLine& line) {
   const std::size_t count = line.is_wide ? 4 : 8;
   if (all.size() > count + 1) {
     const std::string& last = all[count + 1];
-    const auto first = static_cast<unsigned char>(last.empty() ? '0' : last.front());
-    const bool is_mark = first == '+' || first == '*' || std::isalpha(first) != 0;
+    const char first = last.empty() ? '0' : last.front();
+    const bool is_mark = first == '+' || first == '*' || is_letter(first);
     if (all.size() > count + 2 || !is_mark) {
       refuse_line(line.number, line.head + ": expected at most " + std::to_string(count) +
                                    " free fields in a line and the mark of the next, found " +

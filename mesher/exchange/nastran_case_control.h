@@ -11,7 +11,7 @@
 
 namespace flexneck::mesher {
 
-/// What the lines before BEGIN BULK select.
+/// The sets that the lines before BEGIN BULK select.
 struct NastranCaseControl {
   bool is_given = false;                     ///< the file has a BEGIN BULK
   std::map<std::string, std::int64_t> sets;  ///< by "SPC" and "MPC": the one that acts

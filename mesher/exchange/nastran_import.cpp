@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <string_view>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/foreign_file.h"
@@ -45,7 +45,7 @@ constexpr std::array<std::string_view, 39> kLoads = {
     "DAREA",  "DELAY",  "DPHASE", "LSEQ",   "TIC",     "CVISC",   "CDAMP1", "CDAMP2",
     "CDAMP3", "CDAMP4", "ASET",   "ASET1",  "OMIT",    "OMIT1",   "QSET1"};
 
-/// What gmsh writes for curves.
+/// The element that gmsh writes for curves.
 constexpr std::string_view kCurve = "CBAR";
 
 struct Solid {
@@ -77,8 +77,7 @@ auto find_card(const Kinds& kinds, std::string_view name) {
 /// Letters and digits, eight at most, as every card's name is.
 bool is_name(const std::string& text) {
   return !text.empty() && text.size() <= 8 &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) != 0; });
+         std::all_of(text.begin(), text.end(), is_letter_or_digit);
 }
 
 bool is_given(const std::string& field) { return !field.empty() && field != "0"; }

@@ -26,7 +26,7 @@ struct NumberedGroup {
   std::vector<NumberedElement> elements;
 };
 
-/// What a file of numbered nodes and elements says, without materials.
+/// The mesh of a file with numbered nodes and elements, without materials.
 struct NumberedMesh {
   std::map<std::int64_t, std::array<double, 3>> nodes;  ///< in the file's unit
   std::vector<NumberedGroup> parts;                     ///< of solid elements

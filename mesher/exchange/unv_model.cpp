@@ -5,11 +5,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/text_lines.h"
 
@@ -286,11 +286,8 @@ class Reader {
     if (lines.size() < 2) return;
     const std::vector<double> factors = numbers_in<double>(lines[1]);
     if (factors.empty() || std::abs(factors[0] * length_unit_m_ - 1) < 1e-3) return;
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "data set 164 says that lengths count %.4g to the metre, the study's unit %.4g",
-                  factors[0], 1 / length_unit_m_);
-    left_out_.remark(text.data());
+    left_out_.remark("data set 164 says that lengths count " + rounded_text(factors[0], 4) +
+                     " to the metre, the study's unit " + rounded_text(1 / length_unit_m_, 4));
   }
 
   double length_unit_m_;

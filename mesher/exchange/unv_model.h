@@ -24,7 +24,7 @@ struct UnvGroup {
   std::vector<std::int64_t> elements;
 };
 
-/// What we take from an I-deas universal file.
+/// The datasets that we take from an I-deas universal file.
 struct UnvModel {
   NumberedMesh mesh;  ///< nodes alone
   std::vector<UnvElement> solids;

@@ -121,7 +121,7 @@ std::string GmshGroup::label() const {
   return "physical " + entity_name(dimension) + " '" + name + "'";
 }
 
-std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source) {
+std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source, const GroupNames& names) {
   gmsh::vectorpair tags;
   gmsh::model::getPhysicalGroups(tags, dimension);
   std::sort(tags.begin(), tags.end());
@@ -131,6 +131,8 @@ std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source) {
   for (const auto& [dim, tag] : tags) {
     GmshGroup group{.dimension = dim, .name = {}, .entities = {}};
     gmsh::model::getPhysicalName(dim, tag, group.name);
+    const auto given = names.find({dim, tag});
+    if (group.name.empty() && given != names.end()) group.name = given->second;
     if (group.name.empty() && !outside) {
       throw InputError("the script has a physical group without a name: dimension " +
                        std::to_string(dim) + ", tag " + std::to_string(tag) +

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesher/mesh/element_kind.h"
@@ -22,11 +23,15 @@ struct GmshGroup {
   std::string label() const;  ///< "physical volume 'part'"
 };
 
+/// Names of physical groups by dimension and tag.
+using GroupNames = std::map<std::pair<int, int>, std::string>;
+
 /// Physical groups of a dimension in the order of their tags; those of one name are one. From an
 /// outside file, a group without a name is called "volume_<tag>" (surface, curve, point), and if
 /// there is no group of volumes or surfaces at all, each entity with elements counts as one.
+/// @param names of groups to which gmsh gives none
 /// @throws InputError if a script's group has no name.
-std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source);
+std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source, const GroupNames& names);
 
 /// @throws InputError unless every volume belongs to exactly one group: material would be lost or
 /// counted twice.

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
+#include <map>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include <gmsh.h>
@@ -119,6 +122,24 @@ void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double si
   gmsh::model::mesh::generate(3);
 }
 
+/// Names by $PhysicalNames: lines `dimension tag "name"`, text in binary files too. gmsh forgets
+/// the name of a group where another one of its dimension has it already.
+GroupNames names_in(const std::string& contents) {
+  GroupNames names;
+  const std::size_t begin = contents.find("\n$PhysicalNames");
+  if (begin == std::string::npos) return names;
+  std::istringstream lines(
+      contents.substr(begin, contents.find("$EndPhysicalNames", begin) - begin));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    int dimension = 0;
+    int tag = 0;
+    std::string name;
+    if (fields >> dimension >> tag >> std::quoted(name)) names[{dimension, tag}] = name;
+  }
+  return names;
+}
+
 }  // namespace
 
 Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, LeftOut& left_out) {
@@ -136,8 +157,11 @@ Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, Lef
   if (!errors.empty()) {
     throw InputError("gmsh cannot " + std::string(is_shape ? "mesh" : "read") + " it: " + errors);
   }
-  Mesh mesh = import_gmsh_mesh(options.materials, options.material_of_part,
-                               is_shape ? GmshSource::script : GmshSource::foreign_file);
+  Mesh mesh =
+      is_shape
+          ? import_gmsh_mesh(options.materials, options.material_of_part, GmshSource::script)
+          : import_gmsh_mesh(options.materials, options.material_of_part, GmshSource::foreign_file,
+                             names_in(checked_contents(options.file)));
   for (auto& node : mesh.nodes) {
     for (double& x : node) x *= scale;
   }

@@ -75,8 +75,9 @@ class NodeNumbering {
   std::vector<std::size_t> tags_;  ///< ascending, unique
 };
 
-void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source) {
-  for (const GmshGroup& surface : gmsh_groups(2, source)) {
+void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source,
+                   const GroupNames& names) {
+  for (const GmshGroup& surface : gmsh_groups(2, source, names)) {
     FaceSet set{.name = surface.name, .blocks = {}};
     for (const auto& [kind, tags] : elements_of(surface)) {
       FaceBlock faces{.kind = kind, .nodes = numbering.indices_of(tags, surface.label())};
@@ -89,9 +90,10 @@ void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source
 }
 
 /// Surfaces, curves and points of one name are one node set.
-void add_node_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source) {
+void add_node_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source,
+                   const GroupNames& names) {
   for (const int dimension : {1, 0}) {
-    for (const GmshGroup& group : gmsh_groups(dimension, source)) {
+    for (const GmshGroup& group : gmsh_groups(dimension, source, names)) {
       std::vector<std::int32_t> nodes = numbering.indices_of(node_tags_of(group), group.label());
       const auto known = std::find_if(mesh.node_sets.begin(), mesh.node_sets.end(),
                                       [&](const NodeSet& set) { return set.name == group.name; });
@@ -110,9 +112,9 @@ void add_node_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source
 }  // namespace
 
 Mesh import_gmsh_mesh(const std::vector<Material>& materials,
-                      const std::map<std::string, std::string>& material_of_part,
-                      GmshSource source) {
-  const std::vector<GmshGroup> volumes = gmsh_groups(3, source);
+                      const std::map<std::string, std::string>& material_of_part, GmshSource source,
+                      const GroupNames& names) {
+  const std::vector<GmshGroup> volumes = gmsh_groups(3, source, names);
   if (volumes.empty()) {
     throw InputError(source == GmshSource::script
                          ? "the script has no physical volume; each part needs one, as in "
@@ -142,8 +144,8 @@ Mesh import_gmsh_mesh(const std::vector<Material>& materials,
                              .nodes = numbering.indices_of(tags, volumes[p].label())});
     }
   }
-  add_face_sets(mesh, numbering, source);
-  add_node_sets(mesh, numbering, source);
+  add_face_sets(mesh, numbering, source, names);
+  add_node_sets(mesh, numbering, source, names);
   return mesh;
 }
 

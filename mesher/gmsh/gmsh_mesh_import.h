@@ -14,11 +14,12 @@ namespace flexneck::mesher {
 /// physical surfaces, curves and points. Nodes are those of the volume elements,
 /// in the order of gmsh's tags. Faces point out of the part that they bound. A script's positions
 /// are rounded to 1.5e-11 of the largest, a file's stay as they are.
+/// @param names of groups to which gmsh gives none
 /// @throws InputError if a script's physical group has no name, a group has no elements or elements
 /// of a kind that a mesh cannot hold, a volume is in no or several physical volumes, a part has no
 /// material, or a surface, curve or point lies on no part.
 Mesh import_gmsh_mesh(const std::vector<Material>& materials,
                       const std::map<std::string, std::string>& material_of_part,
-                      GmshSource source = GmshSource::script);
+                      GmshSource source = GmshSource::script, const GroupNames& names = {});
 
 }  // namespace flexneck::mesher

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 
@@ -12,9 +11,10 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
+#include "mesher/exchange/script_files.h"
 #include "mesher/gmsh/gmsh_mesh_import.h"
 #include "mesher/gmsh/gmsh_session.h"
-#include "mesher/gmsh/script_files.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/slits/slits.h"
 
@@ -36,9 +36,7 @@ void refuse_scaling(const std::filesystem::path& script) {
     double factor = 1;
     gmsh::option::getNumber(option, factor);
     if (factor == 1) continue;
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%g", factor);
-    throw InputError(script.string() + ": " + option + " = " + text.data() +
+    throw InputError(script.string() + ": " + option + " = " + rounded_text(factor) +
                      " would have no effect here; take it away and say the unit of the script's "
                      "lengths in geometry.unit");
   }
@@ -147,14 +145,10 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 
 [[noreturn]] void refuse_patch(const NodePatches& patches, const std::array<double, 3>& centre,
                                double nearest_m) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(),
-                "no node of face set '%s' lies within %.4g m of (%.4g, %.4g, %.4g) m, the nearest "
-                "is %.4g m away",
-                patches.face_set.c_str(), patches.radius_m, centre[0], centre[1], centre[2],
-                nearest_m);
-  throw InputError("node set '" + patches.name + "': " + text.data() +
-                   "; raise the radius or the divisions of the mesh");
+  throw InputError("node set '" + patches.name + "': no node of face set '" + patches.face_set +
+                   "' lies within " + rounded_text(patches.radius_m, 4) + " m of (" +
+                   rounded_texts(centre, 4) + ") m, the nearest is " + rounded_text(nearest_m, 4) +
+                   " m away; raise the radius or the divisions of the mesh");
 }
 
 NodeSet patch_nodes(const Mesh& mesh, const NodePatches& patches) {

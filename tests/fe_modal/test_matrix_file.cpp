@@ -87,6 +87,13 @@ TEST_CASE("what is wrong with a matrix is said with file and line") {
   check_refused(".csv", "", ".mtx");
 }
 
+TEST_CASE("a mark of UTF-8 at the beginning of a Matrix Market file is passed over") {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "marked.mtx")
+      << "\xef\xbb\xbf%%MatrixMarket matrix coordinate real symmetric\n3 3 1\n1 1 2.5\n";
+  CHECK(full(read_matrix(folder / "marked.mtx"))(0, 0) == 2.5);
+}
+
 TEST_CASE("sizes that a file cannot have are refused before they take memory") {
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
   check_refused(".mtx", head + "2147483647 2147483647 1\n1 1 1\n", ":2: expected a whole number");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <memory>
 
 #include <Eigen/Geometry>
@@ -129,6 +130,39 @@ TEST_CASE("what lies nearer to the eye hides what lies behind, whatever is drawn
     square(raster, near_first ? 1 : 2, near_first ? Colour(0, 0, 1) : Colour(1, 0, 0));
     CHECK(pixel_at(raster, 12, 7) == 0xFF0000);
   }
+}
+
+TEST_CASE(
+    "what reaches far beyond a picture is drawn within it, and what is no number not at all") {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const double far : {30.0, 1e6, 1e9, 1e12}) {
+    INFO(far);
+    Raster line(20, 20, {1, 1, 1});
+    line.draw_line({-far, 10.5, 0}, {far, 10.5, 0}, Colour(0, 0, 0), 1, 0);
+    CHECK(covered(line) == 20);
+    Raster triangle(20, 20, {1, 1, 1});
+    const std::array<Colour, 3> red = {Colour(1, 0, 0), Colour(1, 0, 0), Colour(1, 0, 0)};
+    triangle.draw_triangle({ScreenPoint(-far, -far, 0), {far, -far, 0}, {0, far, 0}}, red);
+    CHECK(covered(triangle) > 20 * 20 / 2);
+  }
+  Raster empty(20, 20, {1, 1, 1});
+  const std::array<Colour, 3> black = {};
+  for (const double none : {kNone, std::numeric_limits<double>::infinity(), 1e300, -1e300}) {
+    empty.draw_line({none, 1, 0}, {5, 5, 0}, Colour(0, 0, 0), 1, 0);
+    empty.draw_line({1, 5, 0}, {5, -none, 0}, Colour(0, 0, 0), 1, 0);
+    empty.draw_triangle({ScreenPoint(none, 1, 0), {5, 5, 0}, {1, none, 0}}, black);
+  }
+  CHECK(covered(empty) == 0);
+  const Mesh mesh = box_of(1, 1, 1);
+  const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
+  BodyPicture what{.displacement_m = Eigen::Matrix3Xd::Zero(3, n),
+                   .field = Eigen::VectorXd::Zero(n),
+                   .element_edges = false};
+  what.displacement_m(1, 3) = kNone;
+  CHECK_THROWS_AS(draw_body(mesh, surface_of(mesh), what, {{1, 0, 0}}, 50, 50), ComputationError);
+  what.displacement_m.setZero();
+  what.field[2] = kNone;
+  CHECK_THROWS_AS(draw_body(mesh, surface_of(mesh), what, {{1, 0, 0}}, 50, 50), ComputationError);
 }
 
 TEST_CASE("displacements move the picture and a field colours it") {

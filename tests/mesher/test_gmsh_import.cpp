@@ -43,6 +43,7 @@ void write_boxes(const Files& files, const std::vector<std::string>& names, doub
     const bool is_old = name.find('2') != std::string::npos;
     gmsh::option::setNumber("Mesh.MshFileVersion", is_old ? 2.2 : 4.1);
     gmsh::option::setNumber("Mesh.Binary", name.find("binary") != std::string::npos ? 1 : 0);
+    gmsh::option::setNumber("Mesh.SaveParametric", name.find("parametric") != std::string::npos);
     gmsh::write(files / name);
   }
 }
@@ -96,7 +97,14 @@ void check_boxes(const Mesh& mesh, const std::string& lower, const std::string& 
 
 TEST_CASE("a mesh comes over from every version of .msh, and from .unv, with its groups") {
   const Files files;
-  const std::vector<std::string> names = {"text4.msh", "text2.msh", "binary4.msh", "binary2.msh",
+  const std::vector<std::string> names = {"text4.msh",
+                                          "text2.msh",
+                                          "binary4.msh",
+                                          "binary2.msh",
+                                          "parametric4.msh",
+                                          "parametric2.msh",
+                                          "binary_parametric4.msh",
+                                          "binary_parametric2.msh",
                                           "mesh.unv"};
   write_boxes(files, names);
   for (const std::string& name : names) {
@@ -204,6 +212,20 @@ TEST_CASE("a .msh without nodes or without elements is refused before gmsh reads
     CHECK_THAT(testing::refusal(import_options(files.write("part.msh", without), {"corner"})),
                Contains("part.msh") && Contains("it has no $Nodes or no $Elements"));
   }
+}
+
+TEST_CASE("physical surfaces of one name are one set, whatever their numbers") {
+  const Files files;
+  std::string mesh = testing::kTetrahedronMsh;
+  const std::size_t begin = mesh.find("1\n1 11 2");
+  mesh = mesh.substr(0, begin) +
+         "3\n1 11 2 7 1 1 2 3 4 5 6 7 8 9 10\n2 9 2 8 1 1 3 2 7 6 5\n3 9 2 9 2 1 2 4 5 10 8\n"
+         "$EndElements\n";
+  mesh.replace(mesh.find("1\n3 7"), 2, "3\n2 8 \"walls\"\n2 9 \"walls\"\n");
+  const Mesh read = import_mesh(import_options(files.write("walls.msh", mesh), {"corner"}), {});
+  REQUIRE(read.face_sets.size() == 1);
+  CHECK(area_m2(read, read.face_set("walls")) == Approx(1));
+  CHECK(read.node_set("walls").nodes == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 9});
 }
 
 TEST_CASE("points and curves in groups become node sets") {

@@ -9,7 +9,7 @@
 
 #include "geometry/foundation/files_read.h"
 #include "geometry/foundation/temporary_folder.h"
-#include "mesher/gmsh/script_files.h"
+#include "mesher/exchange/script_files.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -57,7 +57,8 @@ TEST_CASE("a script that may read anything is noted as such") {
                              "Merge name;",
                              "d = GetEnv(\"W\");",
                              "Field[1] = ExternalProcess;",
-                             "Field[1].FileName = \"size.txt\";"};
+                             "Field[1].FileName = \"size.txt\";",
+                             "Plugin(FieldFromAmplitudePhase).MeshFile = \"a.msh\";"};
   for (const char* const text : all) {
     INFO(text);
     CHECK(names_for(folder, text).contains("unknown"));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/gmsh/script_files.h"
+#include "mesher/exchange/script_files.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <set>
 #include <string>
 #include <string_view>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/files_read.h"
 #include "geometry/foundation/input_file.h"
 
@@ -20,11 +20,12 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 6> kReaders = {
     "Include", "Merge", "MergeWithBoundingBox", "Open", "ShapeFromFile", "ListFromFile"};
 
-/// With which a script may depend on anything: commands, the environment, files of fields, whose
-/// names are looked for in several folders.
-constexpr std::array<std::string_view, 8> kUnknown = {
-    "System", "SystemCall", "NonBlockingSystemCall", "OnelabRun",
-    "GetEnv", "FileExists", "ExternalProcess",       "FileName"};
+/// A script with one of these words may depend on anything: commands, the environment, files of
+/// fields, whose names are looked for in several folders, plugins, of which some read files.
+constexpr std::array<std::string_view, 9> kUnknown = {
+    "System",          "SystemCall", "NonBlockingSystemCall",
+    "OnelabRun",       "GetEnv",     "FileExists",
+    "ExternalProcess", "FileName",   "Plugin"};
 
 /// Meshes and shapes, in which no script is looked for; gmsh takes all else for one.
 constexpr std::array<std::string_view, 15> kData = {".msh", ".stl",  ".step", ".stp",  ".brep",
@@ -38,7 +39,7 @@ bool is_one_of(const auto& all, std::string_view word) {
 bool is_data(const fs::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+                 [](char c) { return lower_case(c); });
   return is_one_of(kData, ending);
 }
 
@@ -56,7 +57,7 @@ class ScriptTokens {
       rest_.remove_prefix(std::min<std::size_t>(1, rest_.size()));
       return text;
     }
-    const auto is_part = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    const auto is_part = [](char c) { return is_letter_or_digit(c) || c == '_'; };
     const auto* const end = std::find_if_not(rest_.begin(), rest_.end(), is_part);
     return take(std::max<std::size_t>(1, static_cast<std::size_t>(end - rest_.begin())));
   }
