@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kMissing = "missing";
 constexpr const char* kUnknown = "unknown";
 
-/// Of this thread.
+/// The innermost collector of this thread.
 FilesRead*& innermost() {
   thread_local FilesRead* collector = nullptr;
   return collector;
@@ -66,8 +66,8 @@ FilesRead::~FilesRead() {
 void note_read(const FileRead& file) {
   FilesRead* const collector = innermost();
   if (collector == nullptr) return;
-  const bool is_unknown = file.hash.starts_with(kUnknown);  // of a child process, too
-  const FileRead noted{file.path, is_unknown ? unknown_hash() : file.hash};
+  // An unknown file of a child process is one of this process.
+  const FileRead noted{file.path, is_unknown(file) ? unknown_hash() : file.hash};
   std::vector<FileRead>& files = collector->files_;
   if (std::find(files.begin(), files.end(), noted) == files.end()) files.push_back(noted);
 }
@@ -90,9 +90,9 @@ void note_unknown_reads(const fs::path& path) {
   note_read(FileRead{fs::absolute(path).string(), kUnknown});
 }
 
-bool has_content(const FileRead& file) {
-  return file.hash != kMissing && !file.hash.starts_with(kUnknown);
-}
+bool is_unknown(const FileRead& file) { return file.hash.starts_with(kUnknown); }
+
+bool has_content(const FileRead& file) { return file.hash != kMissing && !is_unknown(file); }
 
 bool is_unknown_here(const std::string& hash) { return hash == unknown_hash(); }
 

@@ -31,7 +31,7 @@ class FilesRead {
 
   /// In the order of their first reading.
   const std::vector<FileRead>& files() const { return files_; }
-  /// Of files whose content is known otherwise.
+  /// Drops what was collected, where the files' content is known otherwise.
   void forget() { files_.clear(); }
 
  private:
@@ -52,9 +52,11 @@ void note_reads(const std::vector<FileRead>& files);
 /// A file that reads what nobody knows, such as a script that runs commands: it is the same as
 /// before for this process alone.
 void note_unknown_reads(const std::filesystem::path& path);
-/// Whether its content was there and says all.
+/// Tells whether it is such a file, of whatever process.
+bool is_unknown(const FileRead& file);
+/// Tells whether its content was there and says all.
 bool has_content(const FileRead& file);
-/// Whether a hash is of such a file as this process has noted it.
+/// Tells whether a hash is of such a file as this process has noted it.
 bool is_unknown_here(const std::string& hash);
 void forget_reads_in(const std::filesystem::path& folder);
 

@@ -85,6 +85,11 @@ void add_redo(CLI::App& app, CommandLine& line) {
   app.add_flag("--force", line.redo, "Redo what has not changed, too");
 }
 
+void add_keep(CLI::App& app, CommandLine& line) {
+  app.add_flag("--keep", line.keep,
+               "The folder keeps this study and these values for the commands to come");
+}
+
 void add_show(CLI::App& app, CommandLine& line) {
   app.add_flag("--dry-run,--show", line.show, "Print dimensions and a section, mesh nothing");
 }
@@ -137,7 +142,7 @@ struct OptionRow {
   CommandOption option;
   void (*add)(CLI::App&, CommandLine&);
 };
-constexpr std::array<OptionRow, 14> kOptions = {
+constexpr std::array<OptionRow, 15> kOptions = {
     {{CommandOption::folder, add_folder},
      {CommandOption::optional_folder, add_optional_folder},
      {CommandOption::curves, add_curves},
@@ -150,6 +155,7 @@ constexpr std::array<OptionRow, 14> kOptions = {
      {CommandOption::cases, add_cases},
      {CommandOption::sensitivity, add_sensitivity},
      {CommandOption::redo, add_redo},
+     {CommandOption::keep, add_keep},
      {CommandOption::show, add_show},
      {CommandOption::target, add_target}}};
 

@@ -36,6 +36,7 @@ struct CommandLine {
   bool is_verbose = false;
   bool show = false;
   bool redo = false;
+  bool keep = false;
   bool sensitivity = false;
   std::filesystem::path target;
   bool is_binary = false;

@@ -54,6 +54,7 @@ enum class CommandOption {
   cases,
   sensitivity,
   redo,
+  keep,
   show,
   target,
   curves,
@@ -84,7 +85,7 @@ struct Command {
   bool locks = true;           ///< the folder, all the time; otherwise it does so itself
   bool has_shards = false;     ///< which processes of mpirun are
   bool uses_ranks = false;     ///< processes of mpirun work together
-  bool is_remembered = true;   ///< the folder remembers its study
+  bool is_remembered = true;   ///< the folder remembers its study, if it is told to or knows none
 };
 
 /// All commands, in the order of --help; the first one is that of a line without a command.

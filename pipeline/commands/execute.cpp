@@ -2,6 +2,7 @@
 #include "pipeline/commands/execute.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -21,6 +22,11 @@ using fe_modal::Ranks;
 
 namespace {
 
+bool holds_results(const std::filesystem::path& path) {
+  const ResultsFolder folder(path);
+  return std::filesystem::exists(folder.mesh()) || std::filesystem::exists(folder.modes());
+}
+
 /// The study of a command that goes on in a folder without naming one is the folder's.
 StudyChoice choose_study(const CommandLine& line, const Console& console) {
   StudyChoice choice;
@@ -31,6 +37,10 @@ StudyChoice choose_study(const CommandLine& line, const Console& console) {
     choice.study = line.command->built_in();
   if (line.command->begins || !line.files.empty()) return choice;
   const std::optional<StudyChoice> kept = remembered_study(line.folder);
+  if (!kept && holds_results(line.folder))
+    throw InputError(line.folder.string() +
+                     ": study.json, which says what study the results there are of, is missing; "
+                     "name the study");
   if (!kept) return choice;
   const StudyChoice given = choice;
   choice = with_settings(*kept, line.settings);
@@ -74,6 +84,19 @@ Study read_together(const CommandLine& line, const Console& console, const Ranks
   return std::move(*study);
 }
 
+/// A folder keeps what it was begun with; what else a command was given holds for that one alone.
+void remember(const CommandLine& line, const Console& console, const StudyChoice& choice) {
+  const std::optional<StudyChoice> kept = remembered_study(line.folder);
+  if (kept && same(*kept, choice)) return;
+  if (line.command->begins || line.keep || !kept) {
+    remember_study(line.folder, choice);
+    return;
+  }
+  const std::string given = line.files.empty() ? text_of_settings(line.settings) : text_of(choice);
+  console.result("\nFor this command alone: " + given + "; with --keep for those to come in " +
+                 line.folder.string() + ", too");
+}
+
 bool works_on_files(const CommandLine& line) {
   if (line.command->run_on_files == nullptr) return false;
   return line.command->run == nullptr || exports_file(line.files, line.target);
@@ -109,7 +132,9 @@ bool do_command(const CommandLine& line, const Console& console, Ranks ranks,
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
     ranks = {};
   }
+  const bool is_remembered = is_first && command.writes_results && command.is_remembered;
   ranks.together([&] {
+    if (is_remembered && !line.show) require_rememberable(line.folder, choice);
     if (is_first) take_lock();
   });
   if (line.show) return show_command({study, folder, console});
@@ -122,8 +147,7 @@ bool do_command(const CommandLine& line, const Console& console, Ranks ranks,
                                    .redo = line.redo,
                                    .sensitivity = line.sensitivity,
                                    .shares = line.shares});
-  if (is_first && command.writes_results && command.is_remembered)
-    remember_study(line.folder, choice);
+  if (is_remembered) remember(line, console, choice);
   return passed;
 }
 

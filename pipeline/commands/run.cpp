@@ -145,7 +145,7 @@ void print_kept(const CommandInput& input, const std::string& stage) {
   show_tables(input, read_tables(tables).tables);
 }
 
-/// What is kept may still not be what it seems.
+/// Kept results may still not be what they seem: their warnings are told again.
 void warn_again(const CommandInput& input, const Stages& records, const std::string& stage) {
   for (const std::string& line : records.warnings(stage)) input.console.warning(line);
 }

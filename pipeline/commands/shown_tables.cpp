@@ -114,6 +114,7 @@ void show_verification(const CommandInput& input, const VerificationTable& table
     input.console.result("  nothing is judged: " + why_unjudged(input.study, table));
   if (others > 0 && !input.console.is_verbose())
     input.console.result(fmt::format("  and {} figures without a verdict (--verbose)", others));
+  if (!table.passed()) input.console.error("a verification failed, see the table");
 }
 
 }  // namespace flexneck::pipeline

@@ -160,13 +160,13 @@ void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& s
 /// whose files have changed, of which no table is made.
 void refuse_or_wait(const CommandInput& input, const SweepJob& job, const Shard& shard,
                     const SweepRows& sweep) {
-  const std::vector<std::string> outdated = job.outdated();
+  const std::vector<std::string> outdated = job.outdated(shard);
   const std::uint64_t own = shard.end(sweep.count()) - shard.first(sweep.count());
   if (job.rows_done(shard) < own)
     throw InputError((outdated.empty() ? "rows of this sweep are gone" : outdated.front()) +
                      ", which changed meanwhile; the same command computes them again");
   for (const std::string& line : outdated)
-    input.console.warning(line + " than it is now; run that part again, no table is made of both");
+    input.console.warning(line + "; run that part again, no table is made of both");
   input.console.result("Part " + shard.name() +
                        " is done; the table is made once all parts are there");
 }

@@ -23,19 +23,41 @@ constexpr const char* kFormat = "flexneck choice of a study";
                    found + "; name the study, or remove the file");
 }
 
+nlohmann::ordered_json json_of(const fs::path& folder, const StudyChoice& choice) {
+  nlohmann::ordered_json json = {{"format", kFormat}, {"study", ""}};
+  if (!choice.study.empty()) {
+    const fs::path study = fs::weakly_canonical(choice.study);
+    const fs::path shipped = study.lexically_relative(shipped_folder());
+    const bool is_shipped = !shipped.empty() && *shipped.begin() != "..";
+    json["study"] = is_shipped
+                        ? shipped.generic_string()
+                        : study.lexically_proximate(fs::weakly_canonical(fs::absolute(folder)))
+                              .generic_string();
+    if (is_shipped) json["shipped"] = true;
+  }
+  json["settings"] = choice.settings;
+  return json;
+}
+
 }  // namespace
 
 bool same(StudyChoice a, StudyChoice b) {
   std::sort(a.settings.begin(), a.settings.end());
   std::sort(b.settings.begin(), b.settings.end());
-  return a.study == b.study && a.settings == b.settings;
+  return fs::weakly_canonical(a.study) == fs::weakly_canonical(b.study) && a.settings == b.settings;
+}
+
+std::string text_of_settings(const std::vector<std::string>& settings) {
+  std::string text;
+  for (const std::string& setting : settings)
+    text += (text.empty() ? "--set " : " --set ") + setting;
+  return text;
 }
 
 std::string text_of(const StudyChoice& choice) {
-  std::string text =
+  const std::string study =
       choice.study.empty() ? "the built-in one" : choice.study.lexically_normal().string();
-  for (const std::string& setting : choice.settings) text += " --set " + setting;
-  return text;
+  return study + (choice.settings.empty() ? "" : " ") + text_of_settings(choice.settings);
 }
 
 StudyChoice with_settings(StudyChoice choice, const std::vector<std::string>& more) {
@@ -67,19 +89,18 @@ std::optional<StudyChoice> remembered_study(const fs::path& folder) {
   }
 }
 
-void remember_study(const fs::path& folder, const StudyChoice& choice) {
-  nlohmann::ordered_json json = {{"format", kFormat}, {"study", ""}};
-  if (!choice.study.empty()) {
-    const fs::path study = fs::weakly_canonical(choice.study);
-    const fs::path shipped = study.lexically_relative(shipped_folder());
-    const bool is_shipped = !shipped.empty() && *shipped.begin() != "..";
-    json["study"] = is_shipped
-                        ? shipped.generic_string()
-                        : study.lexically_proximate(fs::weakly_canonical(folder)).generic_string();
-    if (is_shipped) json["shipped"] = true;
+void require_rememberable(const fs::path& folder, const StudyChoice& choice) {
+  try {
+    json_of(folder, choice).dump();
+  } catch (const nlohmann::json::type_error&) {
+    throw InputError(choice.study.string() +
+                     ": expected a path in UTF-8, by which the folder of results names its study; "
+                     "rename the file, or the folder that it is in");
   }
-  json["settings"] = choice.settings;
-  write_text(folder / kRememberedStudy, json.dump(1) + "\n", Durability::none);
+}
+
+void remember_study(const fs::path& folder, const StudyChoice& choice) {
+  write_text(folder / kRememberedStudy, json_of(folder, choice).dump(1) + "\n", Durability::none);
 }
 
 }  // namespace flexneck::pipeline

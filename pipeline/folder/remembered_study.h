@@ -20,15 +20,20 @@ struct StudyChoice {
 /// Whether two choices are of the same values, in whatever order.
 bool same(StudyChoice a, StudyChoice b);
 
+/// "--set modes.count=4 --set modes.basis=residual"
+std::string text_of_settings(const std::vector<std::string>& settings);
 /// "geometry/examples/cantilever.toml --set modes.count=4"
 std::string text_of(const StudyChoice& choice);
 
 /// The same study with more values set: each key once, the later value.
 StudyChoice with_settings(StudyChoice choice, const std::vector<std::string>& more);
 
-/// What a folder of results was last made with, from that file; none if there is no such file.
+/// The study that a folder of results was last made with, from that file; none without the file.
 /// @throws InputError if the file is none of ours.
 std::optional<StudyChoice> remembered_study(const std::filesystem::path& folder);
+
+/// @throws InputError for a path that study.json could not name; say so before the work is done.
+void require_rememberable(const std::filesystem::path& folder, const StudyChoice& choice);
 
 /// Writes that file, with the path of the study from the folder, or from the shipped files if it is
 /// one of them: those may stand elsewhere later.

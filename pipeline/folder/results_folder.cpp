@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/foundation/error.h"
+#include "mesher/exchange/script_files.h"
 #include "pipeline/document/former_names.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/model/model_sections.h"
@@ -174,6 +175,34 @@ std::string replaced_source(const fs::path& file, const Provenance& made_from) {
   return {};
 }
 
+namespace {
+
+bool names(const Provenance& made_from, const std::string& name) {
+  return std::any_of(made_from.inputs.begin(), made_from.inputs.end(),
+                     [&](const InputFile& input) { return input.name == name; });
+}
+
+/// The files as they are that a mesh or modes of matrices are made from; none if they are not made
+/// from the study's, or if a script may read what nobody knows.
+std::vector<InputFile> sources_now(const Provenance& made_from, const Study& study) {
+  FilesRead reads;
+  if (study.matrices && names(made_from, study.matrices->stiffness.filename().string())) {
+    for (const fs::path& path :
+         {study.matrices->stiffness, study.matrices->mass, study.matrices->nodes})
+      note_read(path);
+  } else if (study.structure && names(made_from, study.structure->file().filename().string())) {
+    const auto* const script = std::get_if<mesher::ScriptMeshOptions>(&study.structure->source);
+    script != nullptr ? mesher::note_script_files(script->script)
+                      : note_read(study.structure->file());
+  }
+  const std::vector<FileRead> found = reads.files();
+  reads.forget();  // to look at them is no reading
+  return std::any_of(found.begin(), found.end(), is_unknown) ? std::vector<InputFile>()
+                                                             : input_files(found);
+}
+
+}  // namespace
+
 void require_same_inputs(const fs::path& file, const Provenance& made_from, const Study& study,
                          const std::vector<Parameter>& expected, const std::string& made_by) {
   if (made_from.program.empty() || study.parameters.empty()) return;
@@ -193,6 +222,13 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
   for (const Parameter& now : expected) {
     if (find(made_with, now.key) == nullptr && matters(now.key))
       refuse("without " + now.key + ", the study has " + now.value);
+  }
+  std::vector<InputFile> files = sources_now(made_from, study);
+  files.insert(files.end(), study.tables.begin(), study.tables.end());
+  for (const InputFile& now : files) {
+    const auto& inputs = made_from.inputs;
+    if (names(made_from, now.name) && std::find(inputs.begin(), inputs.end(), now) == inputs.end())
+      refuse("from another " + now.name + " than there is now");
   }
 }
 

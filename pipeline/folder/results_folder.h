@@ -58,7 +58,7 @@ std::vector<Parameter> mesh_values(const Study& study);
 /// What the study says of the mesh and the modes.
 /// @param with_attached  of the attached body, too, for the frequencies with it
 std::vector<Parameter> modes_values(const Study& study, bool with_attached = true);
-/// What a mesh is made from: these values, and the study's files.
+/// The values and files of a study that a mesh is made from.
 Provenance mesh_provenance(const Study& study);
 /// The same for the modes of a mesh.
 Provenance modes_provenance(const Study& study);
@@ -69,10 +69,12 @@ Provenance experiment_provenance(const Study& study, CaseSection::Kind kind);
 /// The same for one case: of sections with a name, only what it uses.
 Provenance case_provenance(const Study& study, const CaseSection& experiment);
 
-/// Refuses a file that was made with other values than the study has now, given or by default. One
+/// Refuses a file that was made with other values than the study has now, given or by default, or
+/// from files that are others by now: what a mesh or modes of matrices are made from, tables. One
 /// that another program has made is taken as it is.
 /// @param expected the values that it would be made from now; empty if they are not known
-/// @throws InputError naming the first value that differs, and the command that makes the file.
+/// @throws InputError naming the first value or file that differs, and the command that makes the
+/// file.
 void require_same_inputs(const std::filesystem::path& file, const Provenance& made_from,
                          const Study& study, const std::vector<Parameter>& expected,
                          const std::string& made_by);

@@ -22,8 +22,8 @@ class Stages {
   /// A file of records that is missing, damaged or of another build of the program counts as none.
   Stages(std::filesystem::path folder, bool redo);
 
-  /// Whether all that a stage read and wrote the last time is there, unchanged, and was made from
-  /// the same.
+  /// Tells whether all that a stage read and wrote the last time is there, unchanged, and was made
+  /// from the same.
   /// @param from the values and files it depends on, besides what it reads
   /// @param after stages whose files it reads, as far as they have been made
   bool is_made(const std::string& stage, const Provenance& from,
@@ -36,9 +36,9 @@ class Stages {
   bool make(const std::string& stage, const Provenance& from, const std::vector<std::string>& after,
             const std::function<void()>& work);
 
-  /// What the stage that runs warns of.
+  /// Keeps a warning of the stage that runs.
   void add_warning(const std::string& line) { told_.push_back(line); }
-  /// What a stage that is made has warned of.
+  /// The warnings of a stage that is made.
   const std::vector<std::string>& warnings(const std::string& stage) const;
 
  private:

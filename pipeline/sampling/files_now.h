@@ -9,8 +9,8 @@
 
 namespace flexneck::pipeline {
 
-/// Whether files are still as they were when they were read. Each is looked at once, so that all
-/// that one object calls the same is of one state.
+/// Tells whether files are still as they were when they were read. Each is looked at once, so that
+/// all that one object calls the same is of one state.
 class FilesNow {
  public:
   bool is_same(const FileRead& file);

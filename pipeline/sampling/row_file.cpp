@@ -129,6 +129,10 @@ bool RowReader::are_as_read(std::string_view line) {
     const FileRead read{std::string(file.substr(blank + 1)), std::string(file.substr(0, blank))};
     if (format_.files->is_same(read)) continue;
     changed_ = read.path;
+    if (is_unknown(read))
+      changed_ +=
+          " (a script that reads what nobody knows counts for one process alone, so take no "
+          "--shard)";
     return false;
   }
   return true;

@@ -37,6 +37,8 @@ std::optional<Shard> shard_of_process() {
   return {};
 }
 
+bool have_one_command_line() { return number_in("OMPI_NUM_APP_CTX").value_or(1) == 1; }
+
 void forget_other_processes() {
   constexpr std::array<std::string_view, 4> kPrefixes = {"OMPI_", "PMIX_", "PMI_", "OPAL_"};
   std::vector<std::string> names;

@@ -11,6 +11,9 @@ namespace flexneck::pipeline {
 /// alone. Known without MPI.
 std::optional<Shard> shard_of_process();
 
+/// Tells whether all these processes were started by one command line, as far as Open MPI tells.
+bool have_one_command_line();
+
 /// Has this process forget the others: what uses MPI in it runs alone. Shards of a sweep need
 /// nothing of each other but their files. Before any thread begins.
 void forget_other_processes();

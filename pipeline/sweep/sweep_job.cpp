@@ -155,13 +155,18 @@ std::uint64_t SweepJob::rows_done(const Shard& shard) const {
   return static_cast<std::uint64_t>(std::count(begin, end, true));
 }
 
-std::vector<std::string> SweepJob::outdated() const {
+std::vector<std::string> SweepJob::outdated(const Shard& shard) const {
+  const std::string beside = "-of-" + std::to_string(shard.count);
   std::vector<std::string> lines;
   for (const fs::path& file : row_files(results_)) {
     RowReader reader(file, format_);
     read_to_end(reader);
+    if (reader.is_of_another() && file.parent_path().filename().string().ends_with(beside))
+      lines.push_back(file.string() +
+                      ": rows are of another study, other values or another program");
     if (!reader.changed().empty())
-      lines.push_back(file.string() + ": rows were made from another " + reader.changed());
+      lines.push_back(file.string() + ": rows were made from another " + reader.changed() +
+                      " than it is now");
   }
   return lines;
 }

@@ -41,8 +41,9 @@ class SweepJob {
 
   /// Whether all rows of the sweep are there.
   bool is_complete() const;
-  /// Of files of rows that count no more since what they were made from has changed, a line each.
-  std::vector<std::string> outdated() const;
+  /// Names the files of rows that do not count, since what they were made from is another by now, a
+  /// line each; for a shard, those of other studies beside it, too.
+  std::vector<std::string> outdated(const Shard& shard) const;
   /// The files that the rows are made from, once all are there.
   std::vector<FileRead> files() const { return format_.files->files(); }
   /// How many rows of a range are there.

@@ -92,7 +92,7 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
   const CommandOutcome whole = printed_by(folder, "verify -v");
   CHECK_THAT(whole.text, Contains("effective damping"));
 
-  const CommandOutcome modes = run_flexneck("modes --set modes.count=8" + out);
+  const CommandOutcome modes = run_flexneck("modes --keep --set modes.count=8" + out);
   INFO(modes.text);
   CHECK(modes.exit_code == 0);
   CHECK_THAT(modes.text,
@@ -119,6 +119,74 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
                  Contains("not made from the modes.h5 in it, are left out"));
   std::ofstream(folder / "out/study.json") << "{ half a";
   check_refused(run_flexneck("static" + out), "out/study.json: expected the study");
+}
+
+TEST_CASE("paths that the system or a folder's study.json cannot take are unusable input") {
+  const TemporaryFolder folder;
+  const fs::path here = folder.path();
+  const std::string out = " -o " + (here / "out").string();
+  const std::string shipped = std::string(FLEXNECK_SOURCE_DIR) + "/geometry/examples/";
+  const std::string name(300, 'a');
+  for (const std::string& command :
+       {"mesh cantilever -o " + name, "run cantilever -o " + name, "info " + name,
+        "modes -o " + name, "rate " + name + " " + name, "compare " + name + " " + name})
+    check_refused(run_flexneck(command), name);
+  check_refused(run_flexneck("info " + name), "a name has at most 255 bytes");
+  // Not known to be UTF-8 before all is done: a whole name, one in a folder, one beside this one.
+  for (const char* const bytes : {"st\xff\xfe", "b\xe4r", "\xc3", "\xed\xa0\x80"}) {
+    fs::create_directories(here / bytes);
+    fs::copy_file(shipped + "cantilever.toml", here / bytes / "cantilever.toml");
+    fs::copy_file(shipped + "cantilever.geo", here / bytes / "cantilever.geo");
+    check_refused(run_flexneck("mesh '" + (here / bytes / "cantilever.toml").string() + "'" + out),
+                  "expected a path in UTF-8");
+    CHECK_FALSE(fs::exists(here / "out/mesh.h5"));
+    // A folder can hold a study that it can name from where it is.
+    const auto inside =
+        testing::run_shell("cd '" + (here / bytes).string() + "' && " + FLEXNECK_BINARY_DIR +
+                           "/flexneck mesh -q cantilever.toml -o new 2>&1");
+    INFO(inside.text);
+    CHECK(inside.exit_code == 0);
+    CHECK(fs::exists(here / bytes / "new/study.json"));
+  }
+}
+
+TEST_CASE("no built-in study is taken for results whose study.json is missing") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  REQUIRE(run_flexneck("mesh -q cantilever" + out).exit_code == 0);
+  REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
+  fs::remove(folder / "out/study.json");
+  for (const char* const command : {"modes", "pendulum", "static", "verify", "report", "stress"})
+    check_refused(run_flexneck(command + out),
+                  "study.json, which says what study the results there are of, is missing; name");
+  CHECK(run_flexneck("modes -q cantilever" + out).exit_code == 0);
+  CHECK(run_flexneck("modes -q" + out).exit_code == 0);
+}
+
+TEST_CASE(
+    "a value set for a stage holds for that command alone, which says so, unless it is kept") {
+  const TemporaryFolder folder;
+  const std::string out = " -o " + (folder / "out").string();
+  const std::string study = std::string(FLEXNECK_SOURCE_DIR) + "/geometry/examples/cantilever.toml";
+  const auto modes = [&](const std::string& more) {
+    const CommandOutcome outcome = run_flexneck("modes " + more + out);
+    INFO(outcome.text);
+    CHECK(outcome.exit_code == 0);
+    return outcome.text;
+  };
+  REQUIRE(run_flexneck("mesh -q --set modes.count=5 " + study + out).exit_code == 0);
+  CHECK_THAT(modes("--set modes.count=3"),
+             Contains("Solving for 3 modes") &&
+                 Contains("For this command alone: --set modes.count=3; with --keep for those to "
+                          "come in " +
+                          (folder / "out").string() + ", too"));
+  CHECK_THAT(modes(""), Contains("Solving for 5 modes") && !Contains("alone"));
+  CHECK_THAT(modes(study), Contains("For this command alone: ") && Contains("cantilever.toml"));
+  CHECK_THAT(modes("--certify"), Contains("alone: --set modes.certify=true"));
+  CHECK_THAT(modes("--set modes.count=3 --keep"), !Contains("alone"));
+  CHECK_THAT(modes("--set modes.count=3"), Contains("Solving for 3 modes") && !Contains("alone"));
+  CHECK_THAT(modes(""), Contains("Solving for 3 modes"));
+  check_refused(run_flexneck("mesh --keep" + out), "--keep belongs to the command modes, stress");
 }
 
 TEST_CASE("studies and models point at the command that takes them, and a model at what it needs") {

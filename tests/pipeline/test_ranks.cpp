@@ -182,4 +182,13 @@ TEST_CASE("two ranks are shards of a sweep, whose table one rank makes, too") {
       run_on_two_ranks(testing::sweep(study, folder / "two", "--shard 1/2"));
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.text, Contains("expected none under mpirun"));
+  const std::string one =
+      "-n 1 " + testing::flexneck_program() + " -q " + testing::sweep(study, folder / "three");
+  for (const std::string& other :
+       {one + " --set modes.count=4", "-n 1 " + testing::flexneck_program() + " keys"}) {
+    INFO(other);
+    const CommandOutcome mixed = run_by_mpi(one + " : " + other);
+    CHECK(mixed.exit_code == 2);
+    CHECK_THAT(mixed.text, Contains("mpirun was given several command lines"));
+  }
 }

@@ -115,6 +115,77 @@ TEST_CASE("a stage that reads what nobody knows is made each time") {
   }
 }
 
+TEST_CASE("files of one name in several folders are told apart") {
+  const TemporaryFolder folder;
+  const auto hash_with = [&](const std::string& middle) {
+    const char* const names[] = {"a", "b", "c"};
+    const std::string texts[] = {"1", middle, "2"};
+    std::string hashes;
+    const FilesRead reads;
+    for (std::size_t k = 0; k < 3; ++k) {
+      fs::create_directories(folder / names[k]);
+      write(folder / names[k] / "pulse.csv", texts[k]);
+      text_of_file(folder / names[k] / "pulse.csv");
+    }
+    for (const InputFile& file : input_files(reads.files())) hashes += file.name + file.hash;
+    return hashes;
+  };
+  CHECK(hash_with("1") != hash_with("2"));
+}
+
+TEST_CASE("a result of a stage before is refused once a file that it was made from is another") {
+  const TemporaryFolder folder;
+  Study study;
+  study.parameters = from("2 m").parameters;
+  study.defaults = study.parameters;
+  Provenance mesh = from("2 m");
+  mesh.program = "flexneck";
+  mesh.parameters.clear();
+  const auto check = [&](const std::string& other) {
+    const auto look = [&] { require_same_inputs("mesh.h5", mesh, study, {}, "flexneck mesh"); };
+    if (other.empty())
+      CHECK_NOTHROW(look());
+    else
+      CHECK_THROWS_WITH(look(), "mesh.h5: was made from another " + other +
+                                    " than there is now; make it again with 'flexneck mesh'");
+  };
+  SECTION("what a script includes") {
+    write(folder / "part.geo", "W = 1;");
+    write(folder / "bar.geo", "Include \"part.geo\";");
+    mesher::ScriptMeshOptions script;
+    script.script = folder / "bar.geo";
+    study.structure.emplace();
+    study.structure->source = script;
+    mesh.inputs = {{"bar.geo", hash_now(folder / "bar.geo")},
+                   {"part.geo", hash_now(folder / "part.geo")}};
+    check("");
+    write(folder / "part.geo", "W = 2;");
+    check("part.geo");
+    fs::remove(folder / "part.geo");  // of a folder that was moved elsewhere nothing can be said
+    check("");
+    // A script that runs commands may write it.
+    write(folder / "bar.geo", "SystemCall \"make\"; Include \"part.geo\";");
+    write(folder / "part.geo", "W = 3;");
+    check("");
+  }
+  SECTION("a matrix, and a table") {
+    for (const char* const name : {"K.mtx", "M.mtx", "nodes.mtx"}) {
+      write(folder / name, name);
+      mesh.inputs.push_back({name, hash_now(folder / name)});
+    }
+    study.matrices = MatricesSection{folder / "K.mtx", folder / "M.mtx", folder / "nodes.mtx"};
+    study.tables = {{"pulse.csv", "1"}};
+    check("");
+    mesh.inputs.push_back({"pulse.csv", "1"});
+    check("");
+    write(folder / "M.mtx", "4 M");
+    check("M.mtx");
+    write(folder / "M.mtx", "M.mtx");
+    study.tables = {{"pulse.csv", "2"}};
+    check("pulse.csv");
+  }
+}
+
 TEST_CASE("a stage that was stopped is made again, those before it are kept") {
   const TemporaryFolder folder;
   int first = 0;

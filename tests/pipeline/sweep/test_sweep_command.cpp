@@ -192,7 +192,7 @@ values = [7000, 28000]
   return folder / "bar.toml";
 }
 
-/// Of a row of sweep.csv, the last cell but the problem's.
+/// The frequency in a row of sweep.csv: the last cell but the problem's.
 double frequency_Hz(const fs::path& out, std::size_t row) {
   const std::string line = lines_of(bytes_of(out / "sweep.csv")).at(1 + row);
   std::istringstream cells(line);
@@ -221,6 +221,27 @@ TEST_CASE("a table never holds rows of two states of a file that a script includ
   const testing::CommandOutcome whole = run_flexneck(sweep(study, out));
   CHECK_THAT(whole.text, Contains("2 rows to compute, 0 there already"));
   CHECK(frequency_Hz(out, 0) > 1.9 * thin_Hz);
+}
+
+TEST_CASE("a part beside those of another study, and of a script that runs commands, is told") {
+  const TemporaryFolder folder;
+  const fs::path study = write_bar_sweep(folder.path());
+  const auto second_after = [&](const fs::path& out, const std::string& more) {
+    require_done(sweep(study, out, "--shard 1/2"));
+    const testing::CommandOutcome second = run_flexneck(sweep(study, out, "--shard 2/2 " + more));
+    CHECK_FALSE(fs::exists(out / "sweep.csv"));
+    return second.text;
+  };
+  CHECK_THAT(
+      second_after(folder / "two", "--set modes.count=4"),
+      Contains("1-of-2/rows.txt: rows are of another study, other values or another program; "
+               "run that part again"));
+  std::ofstream(folder / "bar.geo", std::ios::app) << "SystemCall \"true\";\n";
+  CHECK_THAT(second_after(folder / "unknown", ""),
+             Contains("counts for one process alone, so take no --shard"));
+  require_done(sweep(study, folder / "unknown"));
+  CHECK(frequency_Hz(folder / "unknown", 0) ==
+        Approx(2 * frequency_Hz(folder / "unknown", 1)).epsilon(1e-9));
 }
 
 TEST_CASE("a sweep whose rows cannot be read is not done, and says so") {
