@@ -51,7 +51,7 @@ Energies energies_of(const EquationsOfMotion& equations, const VectorXd& state) 
       const BodyConstants& body = system.bodies[b].constants;
       const Vector3d& w = base.angular_velocity_rad_s;
       const Vector3d v = base.velocity_m_s + w.cross(equations.body(b).x - base.position_m);
-      carried_J += body.mass / 2 * v.squaredNorm() + body.J0.trace() / 4 * w.squaredNorm();
+      carried_J += carried_energy_J(v, w, body.mass, body.J0.trace());
     }
     sum.carried_J = std::max(sum.carried_J, carried_J);
   }
@@ -272,7 +272,8 @@ class DescriptorEquations final : public Equations {
         state.segment(system_.position_count, system_.velocity_count));
   }
 
-  /// Of the present configuration. @param visit  called with the residuals of each joint first
+  /// Checks the joints in the present configuration. @param visit  called with the residuals of
+  /// each joint first
   template <class Visit>
   void check_joints(double time_s, const Visit& visit) {
     for (const Joint& joint : system_.joints)

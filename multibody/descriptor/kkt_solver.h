@@ -63,7 +63,7 @@ class KktSolver {
   /// The body whose mass matrix, itself all numbers, was not positive definite when it was
   /// factorised last: what followed is not a number, up to a factorisation of all bodies.
   std::optional<std::size_t> indefinite_body() const { return indefinite_body_; }
-  /// Whether S of the last factorisation had enough digits.
+  /// Tells whether S of the last factorisation had enough digits.
   bool is_well_scaled() const { return !weighted_; }
 
  private:
@@ -103,7 +103,8 @@ class KktSolver {
                                  Pivots& pivots);
   /// @return whether other rows are left out than before.
   bool choose_rows();
-  /// Whether those that are left out still depend on the others, as the factors of these tell.
+  /// Tells whether those that are left out still depend on the others, as the factors of these
+  /// tell.
   bool left_out_depend();
   /// Y^T of a row into `to`, (velocity_count).
   void copy_row(const JointBlock& joint, Eigen::Index row, Eigen::VectorXd& to) const;

@@ -2,12 +2,12 @@
 #include "multibody/descriptor/massless_rotation.h"
 
 #include <algorithm>
-#include <sstream>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/symmetric_pairs.h"
 #include "multibody/descriptor/equations_of_motion.h"
 #include "multibody/descriptor/initial_state.h"
@@ -103,12 +103,10 @@ VectorXd moved_rows(const EquationsOfMotion& equations, const MasslessRotation& 
   axis.cwiseAbs().maxCoeff(&main);
   if (axis[main] < 0) axis = -axis;
   axis = (axis.array().abs() < 1e-9).select(0, axis);
-  std::ostringstream problem;
-  problem << "body '" << system.bodies[body].name << "' has no moment of inertia about the axis ("
-          << axis[0] << ", " << axis[1] << ", " << axis[2]
-          << ") of its frame, through its centre of mass, and no joint holds it there, "
-          << "so its rotation is not determined; give it a moment of inertia, or hold it";
-  throw InputError(problem.str());
+  throw InputError("body '" + system.bodies[body].name +
+                   "' has no moment of inertia about the axis (" + rounded_texts({axis.data(), 3}) +
+                   ") of its frame, through its centre of mass, and no joint holds it there, so "
+                   "its rotation is not determined; give it a moment of inertia, or hold it");
 }
 
 }  // namespace

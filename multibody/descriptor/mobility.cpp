@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multibody/descriptor/mobility.h"
 
-#include <sstream>
-
+#include "geometry/foundation/output_file.h"
 #include "multibody/numerics/independent_rows.h"
 
 namespace flexneck::multibody {
@@ -12,7 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What is left of a row across the others, as a share: parts are aligned to about half a degree.
+/// The share of a row across the others that counts as misalignment: parts are aligned to about
+/// half a degree.
 constexpr double kAlignment = 1e-2;
 
 /// Calls visit(joint, row of the joint, row among all).
@@ -65,14 +65,12 @@ std::vector<std::string> doubts_of_mobility(const EquationsOfMotion& equations) 
   each_row(equations, [&](std::size_t k, Index r, Index row) {
     any_motor = any_motor || is_motor(equations.joint(k), r);
     if (solver.is_left_out(k, r) || !(shares[row] < kAlignment)) return;
-    std::ostringstream text;
-    text << "joint '" << equations.system().joints[k].name << "', "
-         << name_of_row(equations.joint(k), r) << ": other joints hold the same but for "
-         << shares[row]
-         << " of it, as axes that are out of line by so many rad do. It takes a degree of freedom, "
-            "and its reactions may be large; align the joints (to "
-         << kDependent << "), or take one that holds less";
-    doubts.push_back(text.str());
+    doubts.push_back(
+        "joint '" + equations.system().joints[k].name + "', " + name_of_row(equations.joint(k), r) +
+        ": other joints hold the same but for " + rounded_text(shares[row]) +
+        " of it, as axes that are out of line by so many rad do. It takes a degree of freedom, "
+        "and its reactions may be large; align the joints (to " +
+        rounded_text(kDependent) + "), or take one that holds less");
   });
   const auto redundant = static_cast<Index>(solver.redundant_rows().size());
   if (redundant > 0 && !any_motor &&

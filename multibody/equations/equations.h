@@ -85,16 +85,16 @@ class Equations {
   /// that motors, prescribed bodies and joints leave no freedom.
   virtual void given_velocities(std::vector<bool>& /*given*/) {}
 
-  /// Behind an accepted step, and at the start of a run: whether joints hold and bodies deform
-  /// within reason. Counts the turns of joints on. @throws ComputationError of a guard that ends
-  /// the run.
+  /// Checks behind an accepted step, and at the start of a run, that joints hold and that bodies
+  /// deform within reason. Counts the turns of joints on. @throws ComputationError of a guard that
+  /// ends the run.
   virtual void accept(double time_s, const Vector& state, RunWatch& watch) = 0;
   /// The angle of a joint that has one, as accept() or settle() counted it last.
   virtual double joint_angle_rad(std::size_t joint) const = 0;
   /// Shows a watch the markers that it follows, of a state inside or at the end of a step.
   virtual void show(double time_s, const Vector& state, RunWatch& watch) = 0;
 
-  /// Of a state like the one that was evaluated last.
+  /// The energies of a state like the one that was evaluated last.
   virtual Energies energies(const Vector& state) const = 0;
 
   /// Records an interpolated state, put onto the joints first.

@@ -84,7 +84,7 @@ class ForceSet {
   const std::vector<int>& pieces() const { return pieces_; }
   /// Beside each of them the coordinate that it goes by, with the kinks around it.
   const std::vector<KinksAround>& kinks() const { return kinks_; }
-  /// Whether it goes by a deflection, not by a rate.
+  /// Tells whether it goes by a deflection, not by a rate.
   static bool is_deflection(std::size_t piece) { return piece % 2 == 0; }
   /// What happens where the number of this index changes.
   std::string name_of_piece(std::size_t index) const;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/foundation/available_memory.h"
+#include "geometry/foundation/output_file.h"
 #include "multibody/files/history_layout.h"
 
 namespace flexneck::multibody {
@@ -122,7 +123,8 @@ template <class Number>
 int count_from(const Hdf5Reader& file, const std::string& object, Number number) {
   constexpr auto kMost = static_cast<Number>(std::numeric_limits<int>::max());
   if (!(number >= 0 && number <= kMost) || static_cast<Number>(static_cast<int>(number)) != number)
-    file.refuse(object, "expected a number of steps, found " + std::to_string(number));
+    file.refuse(object,
+                "expected a number of steps, found " + rounded_text(static_cast<double>(number)));
   return static_cast<int>(number);
 }
 

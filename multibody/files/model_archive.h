@@ -49,7 +49,7 @@ void archive(A& all, ModeRecord& x) {
   auto& [name, kind, shares, residual, mesh_error] = x;
   all(name, kind, shares, residual, mesh_error);
 }
-/// What a run has no use for is left out: slits, which models have as gaps, frequencies with
+/// Data that a run has no use for are left out: slits, which models have as gaps, frequencies with
 /// attached bodies, and what the errors of the mesh are worth.
 template <class A>
 void archive(A& all, ModalBody& x) {

@@ -35,7 +35,7 @@ struct ForceInput {
   const MarkerKinematics& i;
   const MarkerKinematics& j;
   const std::vector<Joint>& joints;  ///< of the model
-  /// Of the joints, of those that have an angle: as it was seen last.
+  /// The angle of each joint that has one, as it was seen last.
   const std::vector<CountedAngle>& angles;
   double time_s;
   InternalVariables internal = {};  ///< of a RelaxingForce

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -56,19 +56,13 @@ DeformationGuard::DeformationGuard(const Model& model) {
 }
 
 std::string DeformationGuard::text_of(const Watched& watched, const Deformation& found) {
-  std::ostringstream text;
-  text.precision(3);
-  text << "body '" << watched.name << "' ";
-  if (found.turns)
-    text << "turns its interface '" << found.interface->name << "' by "
-         << found.value * 180 / std::numbers::pi << " deg";
-  else
-    text << "displaces its "
-         << (found.interface == nullptr ? "mass" : "interface '" + found.interface->name + "'")
-         << " by " << found.value << " of its length";
-  text.precision(6);
-  text << " at " << found.time_s << " s";
-  return text.str();
+  const std::string where =
+      found.interface == nullptr ? "mass" : "interface '" + found.interface->name + "'";
+  return "body '" + watched.name + "' " + (found.turns ? "turns its " : "displaces its ") + where +
+         " by " +
+         (found.turns ? rounded_text(found.value * 180 / std::numbers::pi, 3) + " deg"
+                      : rounded_text(found.value, 3) + " of its length") +
+         " at " + rounded_text(found.time_s) + " s";
 }
 
 void DeformationGuard::check_large(double time_s, std::size_t body, const ConstVector& a) {

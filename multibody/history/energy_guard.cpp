@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -22,6 +22,7 @@ constexpr double kSteps = 1e5;
 /// Rounding of energies that are large beside their changes, as of a high place, is a thousandth of
 /// this share of them.
 constexpr double kDigits = 1e-10;
+constexpr int kDigitsOfTime = 9;
 
 double mass_kg(const Body& body) {
   if (const auto* rigid = std::get_if<RigidBody>(&body.kind)) return rigid->mass_kg;
@@ -39,7 +40,7 @@ EnergyGuard::EnergyGuard(const Model& model, Tolerance tolerance) {
   carried_share_ = std::pow(std::min(1.0, kSteps * tolerance.relative), 2);
 }
 
-void EnergyGuard::check(double time_s, const Energies& stored, double dissipated_J, double work_J) {
+double EnergyGuard::see(double time_s, const Energies& stored, double dissipated_J, double work_J) {
   const double balance_J =
       stored.kinetic_J + stored.gravitational_J + stored.strain_J + dissipated_J - work_J;
   EnergyBooks& books = books_;
@@ -56,37 +57,36 @@ void EnergyGuard::check(double time_s, const Energies& stored, double dissipated
        std::abs(dissipated_J - books.first_dissipated_J), std::abs(work_J - books.first_work_J),
        kDigits * std::abs(stored.gravitational_J), kDigits * std::abs(work_J)});
   const double off_J = balance_J - books.first_balance_J;
-  books.worst_J = std::max(books.worst_J, std::abs(off_J));
-  // What is not a number is off by more than everything.
+  // A balance that is not a number is off by more than everything.
+  if (!(std::abs(off_J) <= books.worst_J)) books.worst_J = std::abs(off_J);
   const bool departs = !(books.worst_J <= kTold * books.largest_J);
   if (departs && !books.departs) books.departs_at_s = time_s;
   books.departs = departs;
+  return off_J;
+}
+
+void EnergyGuard::check(double time_s, const Energies& stored, double dissipated_J, double work_J) {
+  const double off_J = see(time_s, stored, dissipated_J, work_J);
+  EnergyBooks& books = books_;
   const bool is_wrong = !(std::abs(off_J) <= kStopped * books.largest_J);
   books.wrong_steps = is_wrong ? books.wrong_steps + 1 : 0;
   if (books.wrong_steps < kWrongSteps) return;
-  std::ostringstream problem;
-  problem.precision(3);
-  problem << "the balance of energy does not hold: " << std::abs(off_J) << " J, "
-          << 100 * std::abs(off_J) / books.largest_J << " % of the largest energy of the run, are "
-          << (off_J < 0 ? "lost" : "gained") << " at ";
-  problem.precision(9);
-  problem
-      << time_s << " s, and it departs at " << books.departs_at_s
-      << " s; what follows would be wrong. Make the tolerances or max_step smaller, or take the "
-         "integrator dormand_prince if it is not";
-  throw ComputationError(problem.str());
+  throw ComputationError(
+      "the balance of energy does not hold: " + rounded_text(std::abs(off_J), 3) + " J, " +
+      rounded_text(100 * std::abs(off_J) / books.largest_J, 3) +
+      " % of the largest energy of the run, are " + (off_J < 0 ? "lost" : "gained") + " at " +
+      rounded_text(time_s, kDigitsOfTime) + " s, and it departs at " +
+      rounded_text(books.departs_at_s, kDigitsOfTime) +
+      " s; what follows would be wrong. Make the tolerances or max_step smaller, or take the "
+      "integrator dormand_prince if it is not");
 }
 
 std::vector<std::string> EnergyGuard::warnings() const {
   if (!books_.departs) return {};
-  std::ostringstream text;
-  text.precision(9);
-  text << "the balance of energy departs at " << books_.departs_at_s << " s: from there on up to ";
-  text.precision(3);
-  text << 100 * books_.worst_J / books_.largest_J
-       << " % of the run's largest energy are lost or gained by its steps; make the tolerances or "
-          "max_step smaller, or take the integrator dormand_prince if it is not";
-  return {text.str()};
+  return {"the balance of energy departs at " + rounded_text(books_.departs_at_s, kDigitsOfTime) +
+          " s: from there on up to " + rounded_text(100 * books_.worst_J / books_.largest_J, 3) +
+          " % of the run's largest energy are lost or gained by its steps; make the tolerances or "
+          "max_step smaller, or take the integrator dormand_prince if it is not"};
 }
 
 }  // namespace flexneck::multibody

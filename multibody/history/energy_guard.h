@@ -10,7 +10,7 @@
 
 namespace flexneck::multibody {
 
-/// What a run has seen of its energies: with it, it is taken up again.
+/// The energies that a run has seen: with them it is taken up again.
 struct EnergyBooks {
   bool are_open = false;
   double first_balance_J = 0, first_gravitational_J = 0, first_dissipated_J = 0, first_work_J = 0;
@@ -31,8 +31,11 @@ class EnergyGuard {
  public:
   EnergyGuard(const Model& model, Tolerance tolerance);
 
-  /// Behind each accepted step, and before the first.
-  /// @throws ComputationError: when and by how much.
+  /// Looks at the balance at an output, for warnings().
+  /// @return by how much it is off, J
+  double see(double time_s, const Energies& stored, double dissipated_J, double work_J);
+  /// Judges the balance behind each accepted step, and before the first.
+  /// @throws ComputationError that says when and by how much the balance is off.
   void check(double time_s, const Energies& stored, double dissipated_J, double work_J);
   /// A sentence if there is something to tell.
   std::vector<std::string> warnings() const;

@@ -68,7 +68,7 @@ class Recorder {
   /// Where nothing is lost, behind energy(): the work is what the energies have gained since the
   /// first column.
   void conserve_energy(Eigen::Index column);
-  /// Behind all markers: angles. @throws ComputationError as RunWatch::look().
+  /// Records the angles, once all markers are. @throws ComputationError as RunWatch::look().
   void look(Eigen::Index column);
   /// Of one joint; the largest of all counts.
   void residuals(Eigen::Index column, const Violation& position, const Violation& velocity);

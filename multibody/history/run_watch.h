@@ -12,14 +12,14 @@
 
 namespace flexneck::multibody {
 
-/// What a run looks at besides what it records: at its start, at its outputs and behind every
+/// Watches a run besides what the run records: at its start, at its outputs and behind every
 /// accepted step (Equations::accept()), and inside of steps in which watched markers turn far. It
 /// has the guards that end or annotate a run, and counts the turns of measured angles.
 class RunWatch {
  public:
   explicit RunWatch(const Model& model);
 
-  /// Of the model, whose rotations are needed at each look.
+  /// The model's markers whose rotations are needed at each look.
   const std::vector<std::size_t>& markers() const { return markers_.markers; }
   /// @param index  among markers()
   void show(std::size_t index, const Eigen::Matrix3d& R, const Eigen::Vector3d& w_rad_s) {

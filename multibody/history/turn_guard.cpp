@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 
@@ -30,12 +31,12 @@ void TurnGuard::check(double time_s, const WatchedMarkers& markers) {
   for (Watched& each : elements_) {
     Eigen::Quaterniond q(Eigen::Matrix3d(markers.motions[each.place_i].R.transpose() *
                                          markers.motions[each.place_j].R));
-    // Of the two quaternions of a rotation, the one near the last.
+    // A rotation has two quaternions: take the one near the last.
     if (q.dot(each.rotation) < 0) q.coeffs() = -q.coeffs();
     each.rotation = q;
     if (q.w() < least)
       throw ComputationError(each.title + " is turned by more than 3 rad at " +
-                             std::to_string(time_s) +
+                             rounded_text(time_s) +
                              " s: its loads jump at half a turn, so that it cannot turn further");
   }
 }

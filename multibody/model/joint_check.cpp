@@ -2,9 +2,9 @@
 #include "multibody/model/joint_check.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -13,8 +13,8 @@ constexpr double kTolerance = 1e-6;
 /// A system without extent, such as a point on a ball joint.
 constexpr double kSmallestSize_m = 1e-3;
 
-/// What rounding leaves of a residual whatever the tolerance, of the system's size or speed, of its
-/// size in a second at rest, and of a distance from the world's origin.
+/// The residual that rounding leaves whatever the tolerance, as a share of the system's size or
+/// speed, of its size in a second at rest, and of a distance from the world's origin.
 constexpr double kRounding = 1e-11;
 constexpr double kDigits = 1e-13;
 /// Of a start that just fits, added up over a motion, for rows that are left out.
@@ -31,10 +31,9 @@ constexpr double kLeftOut = 1e-5;
 void check_positions(const Model& model, std::size_t joint, const Violation& found, double size_m) {
   const double size = std::max(size_m, kSmallestSize_m);
   if (found.translation <= kTolerance * size && found.rotation <= kTolerance) return;
-  std::ostringstream problem;
-  problem << "at the start the markers are " << found.translation << " m and " << found.rotation
-          << " rad apart; give the bodies poses that fit the joint";
-  refuse(model.joints[joint], model, problem.str());
+  refuse(model.joints[joint], model,
+         "at the start the markers are " + rounded_text(found.translation) + " m and " +
+             rounded_text(found.rotation) + " rad apart; give the bodies poses that fit the joint");
 }
 
 bool velocities_fit(const Violation& found, double size_m, double speed_m_s) {
@@ -46,10 +45,10 @@ bool velocities_fit(const Violation& found, double size_m, double speed_m_s) {
 void check_velocities(const Model& model, std::size_t joint, const Violation& found, double size_m,
                       double speed_m_s) {
   if (velocities_fit(found, size_m, speed_m_s)) return;
-  std::ostringstream problem;
-  problem << "at the start the markers part with " << found.translation << " m/s and "
-          << found.rotation << " rad/s; give the bodies velocities that fit the joint";
-  refuse(model.joints[joint], model, problem.str());
+  refuse(model.joints[joint], model,
+         "at the start the markers part with " + rounded_text(found.translation) + " m/s and " +
+             rounded_text(found.rotation) +
+             " rad/s; give the bodies velocities that fit the joint");
 }
 
 JointGuard::JointGuard(const Model& model, Tolerance tolerance, double size_m)
@@ -74,16 +73,16 @@ void JointGuard::check(double time_s, std::size_t joint, const Violation& positi
   if (position.translation <= length && position.rotation <= angle &&
       velocity.translation <= speed && size_m_ * velocity.rotation <= speed)
     return;
-  std::ostringstream problem;
-  problem << "joint '" << model_.joints[joint].name << "' does not hold at " << time_s
-          << " s: its markers miss each other by " << position.translation << " m and "
-          << position.rotation << " rad and part with " << velocity.translation << " m/s and "
-          << velocity.rotation << " rad/s, where the run's tolerances allow " << length << " m, "
-          << angle << " rad and " << speed << " m/s; what follows would be wrong. ";
   const std::string known = cause ? cause() : "";
-  problem << (known.empty() ? "The joints may be nearly singular there; smaller tolerances may help"
-                            : known);
-  throw ComputationError(problem.str());
+  throw ComputationError(
+      "joint '" + model_.joints[joint].name + "' does not hold at " + rounded_text(time_s) +
+      " s: its markers miss each other by " + rounded_text(position.translation) + " m and " +
+      rounded_text(position.rotation) + " rad and part with " + rounded_text(velocity.translation) +
+      " m/s and " + rounded_text(velocity.rotation) + " rad/s, where the run's tolerances allow " +
+      rounded_text(length) + " m, " + rounded_text(angle) + " rad and " + rounded_text(speed) +
+      " m/s; what follows would be wrong. " +
+      (known.empty() ? "The joints may be nearly singular there; smaller tolerances may help"
+                     : known));
 }
 
 void refuse_floating_body(const std::string& body) {

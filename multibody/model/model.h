@@ -128,8 +128,8 @@ struct Model {
 Eigen::VectorXd initial_modal(const DeformableBody& body);
 Eigen::VectorXd initial_modal_rate(const DeformableBody& body);
 
-/// Of an undeformed body that is not prescribed: mass, its first moments and its moments of inertia
-/// (xx, yy, zz, xy, xz, yz) about the origin, kg, kg m, kg m^2.
+/// The mass of an undeformed body that is not prescribed, its first moments and its moments of
+/// inertia (xx, yy, zz, xy, xz, yz) about the origin, kg, kg m, kg m^2.
 Eigen::VectorXd inertia_of(const Body& body);
 
 /// Checks names, indices, masses and inertias (symmetric, positive, triangle inequality), damping,

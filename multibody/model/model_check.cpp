@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -10,6 +9,7 @@
 #include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "multibody/model/model.h"
 #include "multibody/model/stress_stiffening.h"
 
@@ -28,12 +28,6 @@ constexpr double kMassNormalisation = 1e-6;
   throw InputError(who + ": " + problem);
 }
 
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 template <class Derived>
 void check_finite(const std::string& who, const std::string& what,
                   const Eigen::MatrixBase<Derived>& values) {
@@ -42,19 +36,20 @@ void check_finite(const std::string& who, const std::string& what,
 
 void check_unit_vector(const std::string& who, const std::string& what, const Vector3d& vector) {
   if (!(std::abs(vector.norm() - 1) <= kSlack)) {
-    refuse(who, what + " must be a unit vector, but its length is " + text(vector.norm()));
+    refuse(who, what + " must be a unit vector, but its length is " + rounded_text(vector.norm()));
   }
 }
 
 void check_rotation(const std::string& who, const Eigen::Quaterniond& rotation) {
   if (!(std::abs(rotation.norm() - 1) <= kSlack)) {
-    refuse(who, "rotation must be a unit quaternion, but its length is " + text(rotation.norm()));
+    refuse(who, "rotation must be a unit quaternion, but its length is " +
+                    rounded_text(rotation.norm()));
   }
 }
 
 void check_mass(const std::string& who, double mass_kg) {
   if (!(mass_kg > 0) || !std::isfinite(mass_kg)) {
-    refuse(who, "mass must be positive, not " + text(mass_kg) + " kg");
+    refuse(who, "mass must be positive, not " + rounded_text(mass_kg) + " kg");
   }
 }
 
@@ -68,7 +63,8 @@ void check_inertia(const std::string& who, const Matrix3d& inertia) {
   }
   const Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  const std::string listed = text(moments[0]) + ", " + text(moments[1]) + ", " + text(moments[2]);
+  const std::string listed =
+      rounded_text(moments[0]) + ", " + rounded_text(moments[1]) + ", " + rounded_text(moments[2]);
   if (!(moments[0] >= -kSlack * moments[2])) {
     refuse(who,
            "no principal moment of inertia may be negative, but they are " + listed + " kg m^2");
@@ -126,7 +122,7 @@ void check_invariants(const std::string& who, const fe_modal::InertiaInvariants&
     const double deviation = (inv.Maa - Eigen::MatrixXd::Identity(m, m)).cwiseAbs().maxCoeff();
     if (deviation > kMassNormalisation) {
       refuse(who, "its modes are not mass-normalised: Maa differs from the identity by " +
-                      text(deviation));
+                      rounded_text(deviation));
     }
   }
   // The modes of a body can never carry more inertia than it has.
@@ -193,7 +189,7 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
     if (!(zeta >= 0) || !std::isfinite(zeta)) {
       refuse(who, "damping ratio of mode '" +
                       deformable.modes.modes[static_cast<std::size_t>(k)].name +
-                      "' must not be negative, but is " + text(zeta));
+                      "' must not be negative, but is " + rounded_text(zeta));
     }
   }
 }
@@ -257,7 +253,7 @@ void check_length(const std::string& who, const Joint& joint) {
   if (std::isfinite(value) && (value > 0 || (value < 0 && length.may_be_negative))) return;
   refuse(who, std::string(length.key) + " must be " +
                   (length.may_be_negative ? "other than zero" : "positive") + ", but is " +
-                  text(value) + " m");
+                  rounded_text(value) + " m");
 }
 
 void check_motors(const Joint& joint) {

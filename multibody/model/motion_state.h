@@ -41,4 +41,14 @@ struct Energies {
   double carried_J = 0;
 };
 
+/// Kinetic energy of a body that its base carries along, turning about any axis.
+/// @param v_m_s, w_rad_s  velocity of the base where the body's origin is, and angular velocity
+/// @param trace_kg_m2  of the body's inertia about its origin: of a moment of inertia that is half
+/// of
+///                     it, no axis of any body has more
+inline double carried_energy_J(const Eigen::Vector3d& v_m_s, const Eigen::Vector3d& w_rad_s,
+                               double mass_kg, double trace_kg_m2) {
+  return mass_kg / 2 * v_m_s.squaredNorm() + trace_kg_m2 / 4 * w_rad_s.squaredNorm();
+}
+
 }  // namespace flexneck::multibody

@@ -32,7 +32,7 @@ class PrescribedPath {
   PrescribedMotion at(double time_s, double table_time_s) const;
   PrescribedMotion at(double time_s) const { return at(time_s, time_s); }
 
-  /// By which it has turned, over full turns.
+  /// The angle by which the body has turned, over full turns.
   double angle_rad(double time_s) const { return angle_.value(time_s); }
 
  private:

@@ -7,14 +7,14 @@
 
 namespace flexneck::multibody {
 
-/// What is left of a constraint row across others below which it depends on them, as a share of the
-/// row: about as much as rounded input may turn it (joint_check.h).
+/// A constraint row depends on others if less than this share of it is left across them: about as
+/// much as rounded input may turn it (joint_check.h).
 inline constexpr double kDependent = 3e-6;
 
-/// Of each constraint row what is left of it across the independent rows before it, as a share of
-/// the row; zero of those that depend on these, of which no more than kDependent is left. Geometry
-/// alone decides; masses play no part. By a sparse QR factorisation: work in proportion to the
-/// number of rows where joints make chains, rings and trees.
+/// The share of each constraint row that is left across the independent rows before it; zero of
+/// those that depend on these, of which no more than kDependent is left. Geometry alone decides;
+/// masses play no part. By a sparse QR factorisation: work in proportion to the number of rows
+/// where joints make chains, rings and trees.
 /// @param rows_transposed  B^T with each velocity in metres, one column a row of B
 Eigen::VectorXd independent_shares(const Eigen::SparseMatrix<double>& rows_transposed);
 

@@ -22,7 +22,7 @@ class LuFactors {
   LuFactors(LuFactors&&) noexcept;
   LuFactors& operator=(LuFactors&&) noexcept;
 
-  /// Of a singular matrix solutions are not finite.
+  /// Factorises a matrix; solutions with a singular one are not finite.
   void factorise(const Eigen::SparseMatrix<double>& matrix);
   /// values <- A^-1 values
   void solve(Eigen::VectorXd& values) const;

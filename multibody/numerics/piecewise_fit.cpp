@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
@@ -13,13 +12,14 @@
 namespace flexneck::multibody {
 namespace {
 
-/// Of the function's largest value: what the last coefficients of a piece may reach, and how many
-/// times that and rounding a sample may differ.
+/// The share of the function's largest value that the last coefficients of a piece may reach, and
+/// how many times that and rounding a sample may differ.
 constexpr double kResolution = 1e-13;
 constexpr double kSampleMargin = 10;
-/// Of the time: a piece changes by its range, at some slope of a few times range by length.
+/// Roundings of the time that a sample may be off by: a piece changes by its range, at some slope
+/// of a few times range by length.
 constexpr double kRoundings = 8;
-/// What a fit may take: a piece is 0.5 kB.
+/// Limits of a fit: a piece takes 0.5 kB.
 constexpr double kMaxSamples = 1e8;
 constexpr std::size_t kMaxPieces = 1'000'000;
 constexpr std::size_t kMaxBreaks = 100'000;
@@ -30,7 +30,8 @@ constexpr double kMinSamples = 64;
 /// two over the length: here with all terms, and length one.
 constexpr double kFirstGrowth = 1e3;
 constexpr double kSecondGrowth = 1e5;
-/// Of the largest sample: beyond it the function has a pole. The coefficients of a jump are less.
+/// A function has a pole where a coefficient exceeds the largest sample so many times. The
+/// coefficients of a jump are less.
 constexpr double kUnbounded = 100;
 /// A piece that is not resolved, where others of so many times its length are on both sides, holds
 /// a single kink or jump.
@@ -49,9 +50,7 @@ ChebyshevSeries derivative_of(const PiecewiseFit::Piece& piece, int order) {
 }  // namespace
 
 void refuse_motion(double time_s, const std::string& problem) {
-  std::ostringstream text;
-  text << "the motion " << problem << " at " << time_s << " s";
-  throw InputError(text.str());
+  throw InputError("the motion " + problem + " at " + rounded_text(time_s) + " s");
 }
 
 PiecewiseFit::PiecewiseFit(const Function& f, double end_s, const Sampling& sampling)

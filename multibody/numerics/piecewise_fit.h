@@ -43,7 +43,7 @@ class PiecewiseFit {
   const std::vector<double>& breaks_s() const { return breaks_; }
   /// Whether, where piece k ends, the derivative of an order jumps beyond what rounding makes.
   bool jumps(std::size_t k, int order) const;
-  /// Whether over piece k, between two breaks close to each other, rounding makes more of the
+  /// Tells whether over piece k, between two breaks close to each other, rounding makes more of the
   /// derivative of order 1 or 2 than it may change there.
   bool loses(std::size_t k, int order) const;
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -48,13 +48,11 @@ void run(const Recursion& recursion, VectorXd& x) {
 }
 
 void check(const VectorXd& signal, double interval_s, double cfc) {
-  if (!(interval_s > 0) || interval_s * cfc * kSamplesPerClass > 1 + 1e-9) {
-    std::ostringstream problem;
-    problem << "CFC " << cfc << " needs at least " << kSamplesPerClass * cfc
-            << " samples per second (SAE J211), but the interval is " << interval_s
-            << " s; record the history at shorter intervals";
-    throw InputError(problem.str());
-  }
+  if (!(interval_s > 0) || interval_s * cfc * kSamplesPerClass > 1 + 1e-9)
+    throw InputError("CFC " + rounded_text(cfc) + " needs at least " +
+                     rounded_text(kSamplesPerClass * cfc) +
+                     " samples per second (SAE J211), but the interval is " +
+                     rounded_text(interval_s) + " s; record the history at shorter intervals");
   if (signal.size() < 2 || !signal.allFinite())
     throw InputError("a signal to be filtered needs at least two samples, all finite");
 }

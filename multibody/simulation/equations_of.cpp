@@ -27,7 +27,7 @@ void check_options(const SolverOptions& solver) {
     throw InputError("the largest step must not be below the smallest");
   if (!(solver.spectral_radius >= 0 && solver.spectral_radius <= 1))
     throw InputError("the spectral radius must be from 0 to 1, not " +
-                     std::to_string(solver.spectral_radius));
+                     rounded_text(solver.spectral_radius));
   if (solver.max_steps < 1) throw InputError("the largest number of steps must be positive");
 }
 

@@ -157,20 +157,20 @@ void SteppedRun::rebuild() {
   is_changed_ = false;
 }
 
-void SteppedRun::advance(double end_s) {
+void SteppedRun::advance(double end_s, const GoesOn& goes_on) {
   rebuild();
   try {
     if (kind_ == Kind::quasi_static)
       settle(end_s);
     else
-      integrate(end_s);
+      integrate(end_s, goes_on);
   } catch (...) {
     is_changed_ = true;  // the equations have counted turns that are not of the state
     throw;
   }
 }
 
-void SteppedRun::integrate(double end_s) {
+void SteppedRun::integrate(double end_s, const GoesOn& goes_on) {
   const StepEnds ends(*model_, solver_, state_.time_s, end_s);
   const std::unique_ptr<TimeIntegrator> integrator =
       time_integrator(*equations_, state_.time_s, state_.y, solver_);
@@ -181,11 +181,13 @@ void SteppedRun::integrate(double end_s) {
   StepGuards guards(*model_, solver_, *equations_);
   if (state_.books.are_open) guards.take_up(state_.books);
   double begin = state_.time_s;
+  bool is_ended = false;
   for (const double end : ends.kinks_s()) {
+    if (is_ended) break;
     equations_->set_interval(begin, end);
     if (!guards.books().are_open) guards.begin(begin, state_.y);
     integrator->restart();
-    while (integrator->time_s() < end) {
+    while (!is_ended && integrator->time_s() < end) {
       if (integrator->accepted() + integrator->rejected() >= solver_.max_steps)
         throw ComputationError("the run was given up after " + std::to_string(solver_.max_steps) +
                                " steps; what limits them is the " +
@@ -193,10 +195,12 @@ void SteppedRun::integrate(double end_s) {
       integrator->step(ends.limit_s(integrator->time_s(), end));
       guards.check(*integrator);
       follower.follow(*integrator, [](double) {});
+      const double time_s = integrator->time_s();
+      is_ended = goes_on && time_s < end_s && !goes_on(time_s);
     }
     begin = end;
   }
-  state_.time_s = end_s;
+  state_.time_s = is_ended ? integrator->time_s() : end_s;
   state_.y = integrator->state();
   state_.pace = integrator->pace();
   state_.angles = counted_angles(watch);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -62,9 +63,12 @@ class SteppedRun {
   /// From the present time on.
   void set_input(std::size_t index, double value);
 
+  /// Asked after each step of the integrator that ends before the end; false ends it there.
+  using GoesOn = std::function<bool(double time_s)>;
+
   /// @throws ComputationError if the run cannot go on: time and what limited it. The state is that
   /// of before.
-  void advance(double end_s);
+  void advance(double end_s, const GoesOn& goes_on = {});
   /// Of the present time: one output.
   History output();
 
@@ -78,7 +82,7 @@ class SteppedRun {
   /// Takes the turns that the state has counted for those of the model's start.
   void start_in_turns();
   std::vector<double> counted_angles(const RunWatch& watch) const;
-  void integrate(double end_s);
+  void integrate(double end_s, const GoesOn& goes_on);
   /// Looks for the equilibrium at a time. @throws ComputationError, with the state of before.
   void settle(double time_s);
   History recorded();

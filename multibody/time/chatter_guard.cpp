@@ -2,9 +2,9 @@
 #include "multibody/time/chatter_guard.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -54,14 +54,13 @@ void ChatterGuard::check(const TimeIntegrator& integrator) {
     if ((now_[k] - last_[k]).norm() > kShare * size && ++turn_overs_[k] >= kTurnOvers) chatters = k;
   }
   if (chatters < now_.size() && jumps(integrator, chatters)) {
-    std::ostringstream problem;
-    problem.precision(9);
-    problem
-        << name_of(chatters) << " jumps back and forth at " << integrator.time_s()
-        << " s, so that no step gets on: both sides of the jump lead back to it, as of friction "
-           "written as the sign of a velocity; make it continuous, such as F * tanh(vx / v0) "
-           "with a small v0, or take a [[resistance]] with friction and full_rate";
-    throw ComputationError(problem.str());
+    constexpr int kDigits = 9;
+    throw ComputationError(
+        name_of(chatters) + " jumps back and forth at " +
+        rounded_text(integrator.time_s(), kDigits) +
+        " s, so that no step gets on: both sides of the jump lead back to it, as of friction "
+        "written as the sign of a velocity; make it continuous, such as F * tanh(vx / v0) "
+        "with a small v0, or take a [[resistance]] with friction and full_rate");
   }
   if (chatters < now_.size() || ++steps_ == kSteps) {
     std::fill(turn_overs_.begin(), turn_overs_.end(), 0);

@@ -19,14 +19,14 @@ class ChatterGuard {
   /// @param equations  must outlive this
   explicit ChatterGuard(Equations& equations);
 
-  /// Behind each accepted step, whose end was evaluated last.
+  /// Looks for chatter behind each accepted step, whose end was evaluated last.
   /// @throws ComputationError naming the force, the time and the way out.
   void check(const TimeIntegrator& integrator);
 
  private:
   using Load = Eigen::Matrix<double, 6, 1>;
 
-  /// Of all function forces, as evaluated last.
+  /// Takes the loads of all function forces, as evaluated last.
   void take(double time_s, std::vector<Load>& loads) const;
   std::string name_of(std::size_t force) const;
   bool jumps(const TimeIntegrator& integrator, std::size_t force);

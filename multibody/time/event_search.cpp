@@ -14,7 +14,8 @@ constexpr double kAtBeginning = 1e-6;
 constexpr double kSwing = 3;
 /// Beyond a kink by less than this, in m, rad or per s, or of the coordinate, is rounding.
 constexpr double kRounding = 1e-12;
-/// Of one search. A graze to rounding takes a hundred; more is noise at a kink.
+/// Evaluations that one search may take. A graze to rounding takes a hundred; more is noise at a
+/// kink.
 constexpr int kMostEvaluations = 400;
 
 constexpr double kNone = 2;  ///< beyond all shares
@@ -91,7 +92,7 @@ double EventSearch::first_departure(const Span& span, int level, const Evaluate&
   const auto at = static_cast<std::size_t>(level);
   Sample& here = middles_[at];
   here.take(forces_);
-  // Of a half: a quarter of the parabola's, and of what is left of higher orders.
+  // A half swings by a quarter of the parabola's, and of what is left of higher orders.
   std::vector<double>& swings = swings_[at + 1];
   for (std::size_t k = 0; k < swings.size(); ++k) {
     const double chord = (span.at_begin.kinks[k].at + span.at_end.kinks[k].at) / 2;
@@ -114,7 +115,7 @@ double EventSearch::first_event(const Evaluate& evaluate) {
   bound_by_points();
   double found = first_departure({0, begin_, 1, end_}, 0, evaluate);
   if (found <= kAtBeginning) {
-    // What the last step ended at: this one is on the piece behind.
+    // The last step ended at this kink, so that this step is on the piece behind it.
     evaluate(kAtBeginning);
     ++evaluations_;
     begin_.take(forces_);

@@ -33,7 +33,7 @@ class EventSearch {
   /// @param share  at which it lies: below zero
   void see_step_before(double share);
   void see_end() { end_.take(forces_); }
-  /// Whether the end is on another piece than the beginning.
+  /// Tells whether the end is on another piece than the beginning.
   bool is_left() const { return begin_.pieces != end_.pieces; }
   /// The share of the step at which the first piece of a law is left; 1 if none is before the end.
   /// A point must have been seen, or the middle is.

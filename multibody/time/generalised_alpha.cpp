@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -285,11 +285,10 @@ void GeneralisedAlpha::accept(double length_s) {
 }
 
 void GeneralisedAlpha::give_up(double length_s) const {
-  std::ostringstream message;
-  message.precision(9);
-  message << "Newton's method does not converge over a step of " << length_s << " s at " << time_s_
-          << " s";
-  throw ComputationError(message.str());
+  constexpr int kDigits = 9;
+  throw ComputationError("Newton's method does not converge over a step of " +
+                         rounded_text(length_s, kDigits) + " s at " +
+                         rounded_text(time_s_, kDigits) + " s");
 }
 
 void GeneralisedAlpha::fixed_step(double length_s) {

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::array<double, 6> kStages = {0, 1. / 5, 3. / 10, 4. / 5, 8. / 9, 1};
 constexpr std::array<double, 2> kEnds = {0, 1};
-/// Of the largest load in the step: what its samples may differ by from what the method takes.
+/// Samples may differ from what the method takes by this share of the largest load in the step.
 constexpr double kOfStages = 1e-3;
 constexpr double kOfEnds = 1e-2;
-/// Of the largest load so far: what is below does not matter, such as the foot of a bell.
+/// Loads below this share of the largest so far do not matter, such as the foot of a bell.
 constexpr double kNegligible = 1e-9;
 /// Features as long as the resolution are met by steps down to this share of it, with so many
 /// samples a step.
@@ -89,7 +89,7 @@ double LoadWatch::share_seen(double begin_s, double length_s, Method method) {
   return before >= kLeastShare ? before : 0.5;
 }
 
-/// Of samples 1 to count - 1; count if none is.
+/// The first missed one of samples 1 to count - 1; count if none is.
 std::size_t LoadWatch::first_missed(const FunctionForce& force, const Motions& motions,
                                     double begin_s, std::size_t count, Method method,
                                     Load& largest) {

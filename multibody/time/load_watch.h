@@ -16,7 +16,7 @@ namespace flexneck::multibody {
 /// these is controlled as ever.
 class LoadWatch {
  public:
-  /// What a method makes of a load between the ends of a step.
+  /// How a method interpolates a load between the ends of a step.
   enum class Method {
     six_stages,  ///< a polynomial through the stages of Dormand and Prince, to 1e-3 of the load
     ends         ///< a straight line, to 1e-2

@@ -23,8 +23,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Of a piece of a motion, which is less than a period of it: steps that meet it, by the stages of
-/// a method or by its ends alone.
+/// A piece of a motion is less than a period of it. So many steps meet it, of a method with stages
+/// or of one that sees its ends alone.
 constexpr int kPartsOfStages = 2;
 constexpr int kPartsOfEnds = 8;
 
@@ -131,7 +131,7 @@ class Run {
     statistics.limits = limits_.take(*integrator_);
   }
   [[noreturn]] void give_up() const {
-    throw ComputationError("the run was given up at " + std::to_string(integrator_->time_s()) +
+    throw ComputationError("the run was given up at " + rounded_text(integrator_->time_s()) +
                            " s after " + std::to_string(max_steps_) +
                            " steps; what limits them is the " +
                            integrator_->name_of(integrator_->limiting_component()));
@@ -143,6 +143,7 @@ class Run {
       integrator_->interpolate(at, output_state_);
       recorder_.begin(next_);
       equations_.record(at, output_state_, recorder_, next_);
+      guards_.see_output(at, output_state_);
       recorder_.look(next_);
       if (next_ == 0)
         recorder_.mobility(equations_.freedoms(), equations_.redundant_constraints(),
@@ -177,6 +178,11 @@ void StepGuards::check(const TimeIntegrator& integrator) {
   chatter_.check(integrator);
 }
 
+void StepGuards::see_output(double time_s, const VectorXd& state) {
+  const Index last = state.size() - 1;
+  energy_.see(time_s, equations_.energies(state), state[last - 1], state[last]);
+}
+
 void StepGuards::check_energy(double time_s, const VectorXd& state) {
   const Index last = state.size() - 1;
   energy_.check(time_s, equations_.energies(state), state[last - 1], state[last]);
@@ -200,7 +206,7 @@ void add(const std::vector<double>& rows, std::vector<double>& times_s) {
   times_s.insert(times_s.end(), rows.begin(), rows.end());
 }
 
-/// Those inside (begin, end), ascending and distinct.
+/// Keeps the times inside (begin, end), ascending and distinct.
 void sort_inside(double begin_s, double end_s, std::vector<double>& times_s) {
   std::erase_if(times_s, [&](double time) { return !(time > begin_s && time < end_s); });
   std::sort(times_s.begin(), times_s.end());

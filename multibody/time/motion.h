@@ -25,7 +25,7 @@ std::unique_ptr<TimeIntegrator> time_integrator(Equations& equations, double tim
                                                 const Eigen::VectorXd& state,
                                                 const SolverOptions& solver);
 
-/// What looks at each accepted step of a run, in time.
+/// The guards that look at each accepted step of a run in time.
 class StepGuards {
  public:
   /// @param equations  must outlive this
@@ -39,7 +39,10 @@ class StepGuards {
   /// Instead of it, where a run is taken up.
   void take_up(const EnergyBooks& books) { energy_.take_up(books); }
   const EnergyBooks& books() const { return energy_.books(); }
-  /// Behind each step. @throws ComputationError as EnergyGuard and ChatterGuard do.
+  /// Looks at an output, whose state was evaluated last.
+  void see_output(double time_s, const Eigen::VectorXd& state);
+  /// Looks at the end of each accepted step. @throws ComputationError as EnergyGuard and
+  /// ChatterGuard do.
   void check(const TimeIntegrator& integrator);
   std::vector<std::string> warnings() const { return energy_.warnings(); }
 
@@ -62,7 +65,7 @@ class StepEnds {
 
   /// Times at which a table or a motion has a kink or a jump, ascending and distinct, and the end.
   const std::vector<double>& kinks_s() const { return kinks_s_; }
-  /// What a step from a time must not pass, inside of an interval: a part of a piece of a motion.
+  /// The time that a step must not pass, inside of an interval: a part of a piece of a motion.
   double limit_s(double time_s, double interval_end_s) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "multibody/history/incomplete_run.h"
 #include "multibody/history/recorder.h"
 #include "multibody/model/prescribed_path.h"
@@ -64,7 +65,7 @@ History settle_along(const Model& model, Equations& equations,
   } catch (const ComputationError& error) {
     count();
     const std::string why =
-        std::string(error.what()) + ", at " + std::to_string(recorder.time_s(column)) + " s";
+        std::string(error.what()) + ", at " + rounded_text(recorder.time_s(column)) + " s";
     throw IncompleteRun(why, recorder.take_incomplete(column, why));
   }
   count();

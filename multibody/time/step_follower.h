@@ -20,7 +20,7 @@ class StepFollower {
 
   /// At the start of a run, or where one that was left is taken up again.
   void begin(double time_s, const Eigen::VectorXd& state);
-  /// Behind a step of the integrator.
+  /// Follows the integrator behind a step.
   /// @param record_until  called with times that ascend to the end of the step: what looks at the
   ///                      watch until then does so in the order of time
   /// @throws ComputationError of a guard that ends the run.

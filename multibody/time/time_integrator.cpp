@@ -2,19 +2,18 @@
 #include "multibody/time/time_integrator.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::multibody {
 
 void TimeIntegrator::collapse(const ErrorEstimate& error) const {
-  std::ostringstream message;
-  message.precision(9);
-  message << "the step size fell below " << limits_.smallest_s << " s at " << time_s_
-          << " s; what limits it is the " << name_of(error.component);
-  if (!std::isfinite(error.value)) message << ", which is not a number";
-  throw ComputationError(message.str());
+  constexpr int kDigits = 9;
+  throw ComputationError("the step size fell below " + rounded_text(limits_.smallest_s, kDigits) +
+                         " s at " + rounded_text(time_s_, kDigits) + " s; what limits it is the " +
+                         name_of(error.component) +
+                         (std::isfinite(error.value) ? "" : ", which is not a number"));
 }
 
 }  // namespace flexneck::multibody

@@ -103,8 +103,7 @@ Energies TreeDynamics::energies() const {
     for (std::size_t b = 0; b < work_.size(); ++b) {
       const BodyInertia& body = tree_.bodies[b].inertia;
       const Vector3d v = base.v + base.w.cross(work_[b].frame.x - base.x);
-      carried_J +=
-          body.mass / 2 * v.squaredNorm() + body.J0.head<3>().sum() / 4 * base.w.squaredNorm();
+      carried_J += carried_energy_J(v, base.w, body.mass, body.J0.head<3>().sum());
     }
     sum.carried_J = std::max(sum.carried_J, carried_J);
   }

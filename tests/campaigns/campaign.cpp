@@ -22,7 +22,7 @@ std::optional<std::string> judged(const Judgement& judge, Case& drawn) {
 Case draw(const std::string& seed, std::uint64_t number, const std::string& out) {
   std::seed_seq mixed(seed.begin(), seed.end());
   std::mt19937_64 base(mixed);
-  return {number, std::mt19937_64(base() ^ (number * 0x9e3779b97f4a7c15ULL)), out};
+  return {number, std::mt19937_64(base() ^ (number * 0x9e3779b97f4a7c15ULL)), out, false};
 }
 
 }  // namespace
@@ -46,15 +46,18 @@ int run(int argc, char** argv, const Judgement& judge) {
   std::filesystem::create_directories(folder);
   std::ofstream kept(folder / "findings.txt");
   std::uint64_t findings = 0;
+  std::uint64_t refused = 0;
   for (std::uint64_t number = first; number < end; ++number) {
     Case drawn = draw(given["--seed"], number, folder);
     const auto finding = judged(judge, drawn);
+    if (drawn.was_refused) ++refused;
     if (!finding) continue;
     ++findings;
     std::cout << number << ": " << *finding << std::endl;
     kept << number << ": " << *finding << std::endl;
   }
-  std::cout << findings << " findings in " << end - first << " cases\n";
+  std::cout << findings << " findings and " << refused << " refusals in " << end - first
+            << " cases\n";
   return findings == 0 ? 0 : 1;
 }
 

@@ -14,6 +14,7 @@ struct Case {
   std::uint64_t number;
   std::mt19937_64 random;
   std::string folder;
+  bool was_refused = false;  ///< set by the judge of a refusal that is right
 
   double between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -27,7 +28,8 @@ struct Case {
 using Judgement = std::function<std::optional<std::string>(Case&)>;
 
 /// Runs a campaign as `PROGRAM --seed TEXT --runs N --out FOLDER [--only NUMBER]`: the same seed
-/// and number make the same case. Prints each finding in a line, also to FOLDER/findings.txt.
+/// and number make the same case. Prints each finding in a line, also to FOLDER/findings.txt, and
+/// how many cases were refused.
 /// @return the exit code: 0 without a finding, 1 with findings, 2 if the arguments are unusable.
 int run(int argc, char** argv, const Judgement& judge);
 

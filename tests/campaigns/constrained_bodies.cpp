@@ -28,9 +28,10 @@ using namespace flexneck::fe_modal;
 using campaigns::Case;
 using Eigen::Vector3d;
 
-/// Of eigenvalues: what the dense ones have of rounding, their mass and stiffness scaled.
+/// Relative difference of eigenvalues: the dense ones have rounding, their mass and stiffness
+/// scaled.
 constexpr double kSame = 1e-6;
-/// Of the slowest material's (c / L)^2: below this an eigenvalue is zero.
+/// An eigenvalue below this share of the slowest material's (c / L)^2 is zero.
 constexpr double kZero = 1e-9;
 
 double log_between(Case& drawn, double low, double high) {
@@ -234,12 +235,15 @@ std::optional<std::string> judge(Case& drawn) {
     options.mode_count = static_cast<int>(std::min<Eigen::Index>(8, independent(body)));
     found = analyse_modes(body.mesh, options, {});
   } catch (const InputError& error) {
-    if (is_refusal_of_input(error.what())) return std::nullopt;
-    throw;
+    if (!is_refusal_of_input(error.what())) throw;
+    drawn.was_refused = true;
+    return std::nullopt;
   } catch (const ComputationError& error) {
     // Frequencies too far apart for the digits of a solve, which it says.
-    if (std::string(error.what()).find("has not converged") != std::string::npos)
+    if (std::string(error.what()).find("has not converged") != std::string::npos) {
+      drawn.was_refused = true;
       return std::nullopt;
+    }
     std::ostringstream problem;
     problem << error.what() << "; expected "
             << dense_truth(body, options.mode_count).values.transpose();

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "multibody/history/energy_guard.h"
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/support/formulations.h"
@@ -222,4 +223,38 @@ TEST_CASE("Both formulations follow the same path, of markers, modes, reactions 
   for (std::size_t k = 0; k < a.modal.size(); ++k)
     CHECK((a.modal[k].coordinates - b.modal[k].coordinates).cwiseAbs().maxCoeff() < kAgreement);
   CHECK((balance(a.energy) - balance(b.energy)).cwiseAbs().maxCoeff() < 1e3 * kAgreement);
+}
+
+TEST_CASE("the balance of energy is told where it departs, and ends a run that stays wrong") {
+  using Catch::Matchers::Contains;
+  ModelBuilder build;
+  build.body("block", make_head());
+  const auto with_kinetic = [](double kinetic_J) {
+    Energies energies;
+    energies.kinetic_J = kinetic_J;
+    return energies;
+  };
+  const auto guard_after = [&](double off_J, int steps) {
+    EnergyGuard guard(build.model, {1e-6, 1e-9});
+    guard.check(0, with_kinetic(100), 0, 0);
+    for (int k = 1; k <= steps; ++k) guard.check(k, with_kinetic(100 + off_J), 0, 0);
+    return guard;
+  };
+  CHECK(guard_after(0.099, 100).warnings().empty());
+  REQUIRE(guard_after(-0.11, 100).warnings().size() == 1);
+  CHECK_THAT(guard_after(-0.11, 100).warnings()[0], Contains("at 1 s") && Contains("0.11 %"));
+  CHECK_NOTHROW(guard_after(-9.9, 100));
+  CHECK_NOTHROW(guard_after(-10.1, 19));
+  CHECK_THROWS_WITH(guard_after(-10.1, 20), Contains("10.1 J") && Contains("are lost at 20 s"));
+  CHECK_THROWS(guard_after(std::nan(""), 20));
+  CHECK_FALSE(guard_after(std::nan(""), 1).warnings().empty());
+  // A step off by half as the motion begins is nothing beside what it comes to.
+  EnergyGuard guard(build.model, {1e-6, 1e-9});
+  guard.check(0, with_kinetic(0), 0, 0);
+  guard.check(1, with_kinetic(1.5), 0, 1);
+  for (int k = 2; k < 100; ++k) guard.check(k, with_kinetic(1000), 0, 1000);
+  CHECK(guard.warnings().empty());
+  // An output between two steps counts for what is told.
+  guard.see(100, with_kinetic(1002), 0, 1000);
+  CHECK(guard.warnings().size() == 1);
 }

@@ -11,6 +11,7 @@
 #include "multibody/simulation/simulation.h"
 #include "multibody/time/generalised_alpha.h"
 #include "tests/support/formulations.h"
+#include "tests/support/piecewise_motion.h"
 #include "tests/support/test_models.h"
 
 using namespace flexneck::multibody;
@@ -257,6 +258,39 @@ TEST_CASE("generalised-alpha keeps the books of energy, damped and not, in close
     CHECK(history.energy.dissipated_J[k] ==
           Approx(whole_J + work_J - kinetic_J - strain_J).margin(tolerance_J));
   }
+}
+
+TEST_CASE("generalised-alpha does not step over a short contact") {
+  // A flight that grazes its stop by 0.2 mm: accelerations are the same on both sides of it.
+  constexpr double kPush_N = -9.174;
+  constexpr double kSpeed_m_s = 0.972491;
+  constexpr double kStop_m = 0.0513513;
+  constexpr double kStiffness = 9251;
+  constexpr double kEnd_s = 0.6;
+  ModelBuilder build;
+  const auto wall = build.marker("wall", build.ground());
+  const auto block = build.body("block", RigidBody{1, Vector3d::Zero(), Matrix3d::Identity()}, {},
+                                Vector3d(kSpeed_m_s, 0, 0));
+  const auto hook = build.marker("hook", block);
+  build.joint("rail", &kPrismaticJoint, wall, hook, Vector3d::UnitX());
+  JointResistance law{"stop", 0, JointCoordinate::distance, {}};
+  law.resistance.positive.stop = kStop_m;
+  law.resistance.positive.beyond_stop = LoadCurve::cubic(kStiffness);
+  build.model.forces.add(law);
+  build.force("push", hook, Vector3d::UnitX(), constant_table(kPush_N));
+  PiecewiseMotion motion(kPush_N, {{kStop_m, 1, kStiffness}}, 0, kSpeed_m_s);
+  motion.advance(kEnd_s);
+  SolverOptions solver = solver_of(1e-7, 1e-10);
+  solver.integrator = Integrator::generalised_alpha;
+  for (const Formulation formulation : {Formulation::recursive, Formulation::descriptor})
+    for (const double largest_s : {1e-2, 1.0}) {
+      CAPTURE(formulation == Formulation::recursive, largest_s);
+      solver.formulation = formulation;
+      solver.max_step_s = largest_s;
+      const History history =
+          simulate(build.model, solver, {.end_time_s = kEnd_s, .interval_s = kEnd_s});
+      CHECK(history.marker("hook").position_m(0, 1) == Approx(motion.x()).margin(1e-4));
+    }
 }
 
 TEST_CASE("generalised-alpha closes loops whose joints repeat each other") {
