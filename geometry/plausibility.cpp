@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/units.h"
 
 namespace flexneck::geometry {
@@ -19,11 +19,9 @@ constexpr double kSmallestMass_kg = 1e-4;
 constexpr double kLargestMass_kg = 1e5;
 
 std::string remark(const char* what, double value, const char* unit, bool is_large) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "%s is %.4g %s; were %s declared as %s?", what, value,
-                unit, is_large ? "millimetres or inches" : "metres",
-                is_large ? "metres" : "millimetres");
-  return text.data();
+  return std::string(what) + " is " + rounded_text(value, 4) + " " + unit + "; were " +
+         (is_large ? "millimetres or inches declared as metres?"
+                   : "metres declared as millimetres?");
 }
 
 /// Densities of solids that are about as stiff.
@@ -98,15 +96,13 @@ std::string implausible_density(double youngs_modulus_Pa, double poissons_ratio,
                                 double density_kg_m3) {
   const DensityRange& range = range_of(youngs_modulus_Pa, poissons_ratio);
   if (density_kg_m3 >= range.low_kg_m3 && density_kg_m3 <= range.high_kg_m3) return {};
-  std::array<char, 240> text{};
-  std::snprintf(text.data(), text.size(),
-                "the density is %.4g kg/m^3, where %s with a modulus near %.2g Pa have %g to %g",
-                density_kg_m3, range.solids, youngs_modulus_Pa, range.low_kg_m3, range.high_kg_m3);
-  std::string remark = text.data();
+  std::string remark = "the density is " + rounded_text(density_kg_m3, 4) + " kg/m^3, where " +
+                       range.solids + " with a modulus near " + rounded_text(youngs_modulus_Pa, 2) +
+                       " Pa have " + rounded_text(range.low_kg_m3) + " to " +
+                       rounded_text(range.high_kg_m3);
   if (const Slip* const slip = slip_of(range, density_kg_m3)) {
-    std::snprintf(text.data(), text.size(), "; was it %s? Then it is %.4g kg/m^3", slip->what,
-                  density_kg_m3 / slip->factor);
-    remark += text.data();
+    remark += std::string("; was it ") + slip->what + "? Then it is " +
+              rounded_text(density_kg_m3 / slip->factor, 4) + " kg/m^3";
   }
   return remark;
 }

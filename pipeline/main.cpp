@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "fe_modal/algebra/rank_session.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/path_error.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/signal_cleanup.h"
 #include "pipeline/commands/child_tasks.h"
@@ -59,6 +61,9 @@ Failure failure(const std::string& doing) {
     constexpr const char* kAdvice =
         "give the command more, or take a coarser mesh or a smaller model";
     return {kComputationFailed, flexneck::out_of_memory(doing, kAdvice).what()};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {flexneck::is_of_path(error) ? kUnusableInput : kComputationFailed,
+            flexneck::text_of(error)};
   } catch (const std::exception& error) {
     return {kComputationFailed, error.what()};
   } catch (...) {
@@ -81,7 +86,7 @@ int exit_code_of(const CommandLine& line) {
   }
 }
 
-/// What ranks do together has to be the same.
+/// Refuses ranks that were given different commands.
 void require_same_command(const std::vector<std::string>& words, const Ranks& ranks) {
   std::string text;
   for (std::size_t k = 1; k < words.size(); ++k) text += (k > 1 ? " " : "") + words[k];
@@ -120,14 +125,18 @@ std::optional<CommandLine> parsed(const std::vector<std::string>& words) {
   }
 }
 
-/// Of a sweep on several processes, which are its shards, each by itself; none of other commands,
-/// nor of what ranks together refuse in one line.
+/// The command line of a sweep on several processes, which are its shards, each by itself; none for
+/// other commands, nor for what ranks together refuse in one line.
 std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) {
   const std::optional<Shard> shard = shard_of_process();
   if (!shard) return {};
   std::optional<CommandLine> line = parsed(words);
   if (!line || line->command == nullptr || !line->command->has_shards || !line->answer.empty())
     return {};
+  if (!have_one_command_line())
+    throw InputError(
+        "mpirun was given several command lines: the parts of a sweep take the same "
+        "one, with one -n");
   if (!line->shares.shard.empty()) {
     if (shard->index > 1) std::_Exit(kUnusableInput);  // one line is enough
     throw InputError("--shard: expected none under mpirun, whose processes are the parts");

@@ -2,12 +2,13 @@
 #include "geometry/foundation/available_memory.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+#include <charconv>
 #include <fstream>
 #include <limits>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck {
 
@@ -17,13 +18,19 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
+double number_at(const std::string& text, std::size_t place, double otherwise) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data() + place, text.data() + text.size(), number);
+  return error == std::errc() ? number : otherwise;
+}
+
 /// The number behind a word, "MemAvailable: 123 kB"; if there is none, `otherwise`.
 double number_behind(const fs::path& file, const std::string& word, double otherwise) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     if (!line.starts_with(word)) continue;
     const std::size_t digits = line.find_first_of("0123456789", word.size());
-    if (digits != std::string::npos) return std::stod(line.substr(digits));
+    if (digits != std::string::npos) return number_at(line, digits, otherwise);
   }
   return otherwise;
 }
@@ -31,8 +38,9 @@ double number_behind(const fs::path& file, const std::string& word, double other
 /// A file of one number; "max" and what is missing are `otherwise`.
 double number_in(const fs::path& file, double otherwise) {
   std::ifstream stream(file);
-  double number = 0;
-  return stream >> number ? number : otherwise;
+  std::string line;
+  std::getline(stream, line);
+  return number_at(line, 0, otherwise);
 }
 
 /// What a folder of control groups leaves, of either version. Files in the cache make room.
@@ -84,9 +92,7 @@ double available_memory(const fs::path& root) {
 
 std::string memory_text(double bytes) {
   constexpr double kGigabyte = 1e9;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g GB", bytes / kGigabyte);
-  return text.data();
+  return rounded_text(bytes / kGigabyte, 3) + " GB";
 }
 
 OutOfMemory out_of_memory(const std::string& doing, const std::string& advice) {

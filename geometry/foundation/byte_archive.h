@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -170,10 +171,13 @@ class ByteReader {
   }
   template <class S, int R, int C, int O, int MR, int MC>
   void get(Eigen::Matrix<S, R, C, O, MR, MC>& matrix) {
-    const std::size_t rows = get_size(), columns = get_size();
-    const auto fits = [](std::size_t found, int fixed, int most) {
-      return (fixed == Eigen::Dynamic || found == static_cast<std::size_t>(fixed)) &&
-             (most == Eigen::Dynamic || found <= static_cast<std::size_t>(most));
+    std::uint64_t rows = 0, columns = 0;  // of an empty matrix either may be more than bytes follow
+    get(rows);
+    get(columns);
+    constexpr std::uint64_t kMost = std::numeric_limits<int>::max();
+    const auto fits = [](std::uint64_t found, int fixed, int most) {
+      return found <= (most == Eigen::Dynamic ? kMost : static_cast<std::uint64_t>(most)) &&
+             (fixed == Eigen::Dynamic || found == static_cast<std::uint64_t>(fixed));
     };
     if (!fits(rows, R, MR) || !fits(columns, C, MC) ||
         (rows > 0 && columns > rest_.size() / sizeof(S) / rows))

@@ -21,15 +21,16 @@ struct Hdf5Dictionary::Impl {
     if (!done) throw ComputationError(bytes.path().string() + ": HDF5 cannot write " + key);
   }
 
-  static Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle text_type(std::size_t length, const std::string& key) const {
     Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type.get(), length);
-    H5Tset_cset(type.get(), H5T_CSET_UTF8);
+    require(
+        type && H5Tset_size(type.get(), length) >= 0 && H5Tset_cset(type.get(), H5T_CSET_UTF8) >= 0,
+        key);
     return type;
   }
 
   void name_type(const Hdf5Handle& item, const char* datatype, const std::string& key) const {
-    const Hdf5Handle type = text_type(H5T_VARIABLE);
+    const Hdf5Handle type = text_type(H5T_VARIABLE, key);
     const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     Hdf5Handle attribute(
         H5Acreate2(item.get(), "datatype", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
@@ -46,7 +47,7 @@ struct Hdf5Dictionary::Impl {
                       : H5Screate_simple(static_cast<int>(shape.size()), extents.data(), nullptr),
         H5Sclose);
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(creation.get(), false);
+    require(creation && H5Pset_obj_track_times(creation.get(), false) >= 0, key);
     Hdf5Handle item(H5Dcreate2(file.get(), key.c_str(), type, space.get(), H5P_DEFAULT,
                                creation.get(), H5P_DEFAULT),
                     H5Dclose);
@@ -79,7 +80,7 @@ void Hdf5Dictionary::real(const std::string& key, double value) {
 }
 
 void Hdf5Dictionary::text(const std::string& key, std::string_view value) {
-  const Hdf5Handle type = Impl::text_type(value.size() + 1);
+  const Hdf5Handle type = impl_->text_type(value.size() + 1, key);
   impl_->write(key, "str", type.get(), std::string(value).c_str(), {});
 }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <charconv>
-#include <cstdio>
+#include <limits>
 
 namespace flexneck {
 
@@ -32,12 +32,37 @@ std::string exact_text(double number) {
 }
 
 std::string text_within(double number, int width) {
-  std::array<char, 40> text{};
+  std::string text;
   for (int digits = 17; digits > 0; --digits) {
-    const int length = std::snprintf(text.data(), text.size(), "%.*g", digits, number);
-    if (length <= width) break;
+    text = rounded_text(number, digits);
+    if (text.size() <= static_cast<std::size_t>(width)) break;
   }
-  return text.data();
+  return text;
+}
+
+std::string rounded_text(double number, int digits) {
+  std::array<char, 40> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number,
+                                          std::chars_format::general, digits);
+  return {text.data(), end};
+}
+
+std::string rounded_texts(std::span<const double> numbers, int digits) {
+  std::string text;
+  for (const double number : numbers)
+    text += (text.empty() ? "" : ", ") + rounded_text(number, digits);
+  return text;
+}
+
+std::string fixed_text(double number, int decimals) {
+  constexpr int kOthers = 3;  // the sign, the point, the digit that max_exponent10 does not count
+  std::string text(
+      static_cast<std::size_t>(std::numeric_limits<double>::max_exponent10 + kOthers + decimals),
+      '\0');
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number,
+                                          std::chars_format::fixed, decimals);
+  text.resize(static_cast<std::size_t>(end - text.data()));
+  return text;
 }
 
 }  // namespace flexneck

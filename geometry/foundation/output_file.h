@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -39,9 +40,17 @@ class OutputFile {
 void write_text(const std::filesystem::path& path, std::string_view text,
                 Durability durability = Durability::content);
 
+// Texts of numbers. None depends on the locale, which a program around the library may choose.
+
 /// The shortest text that reads back as the same number.
 std::string exact_text(double number);
 /// The most exact text of at most `width` characters.
 std::string text_within(double number, int width);
+/// For messages, as "%.6g" of C gives it where the decimal sign is a point.
+std::string rounded_text(double number, int digits = 6);
+/// Likewise "%.2f".
+std::string fixed_text(double number, int decimals);
+/// Several rounded texts: "1, 2.5, 3".
+std::string rounded_texts(std::span<const double> numbers, int digits = 6);
 
 }  // namespace flexneck

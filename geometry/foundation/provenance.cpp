@@ -30,11 +30,9 @@ Origin origin_from(const Hdf5Reader& file, const std::string& name) {
 
 std::vector<InputFile> input_files(const std::vector<FileRead>& reads) {
   std::vector<InputFile> files;
-  for (const FileRead& read : reads) {
-    const InputFile file{std::filesystem::path(read.path).filename().string(), read.hash};
-    if (has_content(read) && std::find(files.begin(), files.end(), file) == files.end())
-      files.push_back(file);
-  }
+  for (const FileRead& read : reads)
+    if (has_content(read))
+      files.push_back({std::filesystem::path(read.path).filename().string(), read.hash});
   return files;
 }
 

@@ -30,7 +30,7 @@ struct InputFile {
   bool operator==(const InputFile&) const = default;
 };
 
-/// Those of which the content is known, each once.
+/// The files whose content is known. Several may have the same name, in folders of their own.
 std::vector<InputFile> input_files(const std::vector<FileRead>& reads);
 
 /// How a result came about; stored in the group /provenance of every file of ours.

@@ -17,6 +17,8 @@
 
 #include <climits>
 
+#include "geometry/foundation/file_descriptor.h"
+
 namespace flexneck {
 
 namespace {
@@ -90,7 +92,7 @@ void carry_out(const Entry& entry) {
   switch (entry.action) {
     case Action::end_process:
       ::kill(entry.process, SIGKILL);
-      ::waitpid(entry.process, nullptr, 0);
+      uninterrupted([&] { return ::waitpid(entry.process, nullptr, 0); });
       break;
     case Action::remove_folder:
       remove_tree(AT_FDCWD, entry.path.data());

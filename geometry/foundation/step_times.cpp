@@ -2,19 +2,10 @@
 #include "geometry/foundation/step_times.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck {
-namespace {
-
-std::string seconds(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
-}
-
-}  // namespace
 
 void StepTimes::start(const std::string& step) {
   stop();
@@ -39,10 +30,10 @@ std::string StepTimes::summary() const {
   std::string text;
   double whole = 0;
   for (const auto& [name, spent] : steps_) {
-    text += (text.empty() ? "" : ", ") + name + " " + seconds(spent);
+    text += (text.empty() ? "" : ", ") + name + " " + fixed_text(spent, 2);
     whole += spent;
   }
-  return text + "; " + seconds(whole) + " s together";
+  return text + "; " + fixed_text(whole, 2) + " s together";
 }
 
 }  // namespace flexneck

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <clocale>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -28,8 +29,10 @@ using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 const ut_system& unit_system() {
   static const UnitSystem system = [] {
     ut_set_error_message_handler(ut_ignore);
-    UnitSystem fresh(ut_read_xml(nullptr), ut_free_system);
-    if (!fresh) throw ComputationError("the unit database of UDUNITS-2 cannot be read");
+    UnitSystem fresh(ut_read_xml(UDUNITS2_DATABASE), ut_free_system);
+    if (!fresh)
+      throw ComputationError(std::string("the unit database of UDUNITS-2 cannot be read: ") +
+                             UDUNITS2_DATABASE);
     // The database knows these units only by longer names.
     const Unit gravity(ut_parse(fresh.get(), "standard_free_fall", UT_ASCII), ut_free);
     const Unit degree(ut_parse(fresh.get(), "arc_degree", UT_ASCII), ut_free);
@@ -87,8 +90,28 @@ bool is_gravity(std::string_view unit, std::string_view beside) {
   return ut_are_convertible(parse_unit(beside).get(), acceleration.get()) != 0;
 }
 
+/// The locale of C for this thread while it lives: UDUNITS-2 reads and writes its numbers by that
+/// of the process, whose decimal sign may be a comma.
+class PlainLocale {
+ public:
+  PlainLocale() : locale_(::newlocale(LC_ALL_MASK, "C", nullptr)) {
+    if (locale_ == nullptr) throw std::bad_alloc();
+    before_ = ::uselocale(locale_);
+  }
+  ~PlainLocale() {
+    ::uselocale(before_);
+    ::freelocale(locale_);
+  }
+  PlainLocale(const PlainLocale&) = delete;
+  PlainLocale& operator=(const PlainLocale&) = delete;
+
+ private:
+  locale_t locale_, before_ = nullptr;
+};
+
 /// Factor between two units. An offset (as in degrees Celsius) has no place here.
 double computed_factor(std::string_view from, std::string_view to) {
+  const PlainLocale plain;
   const Unit source = parse_unit(is_gravity(from, to) ? "gn" : from);
   const Unit target = parse_unit(is_gravity(to, from) ? "gn" : to);
   const Converter converter(ut_get_converter(source.get(), target.get()), cv_free);

@@ -5,6 +5,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/neck/neck_parameters.h"
 
 namespace flexneck::geometry {
@@ -59,7 +60,7 @@ void check(const NeckDivisions& divisions) {
   const std::array<std::pair<const char*, double>, 2> gradings = {
       {{"ring_grading", divisions.ring_grading}, {"rubber_grading", divisions.rubber_grading}}};
   for (const auto& [name, grading] : gradings) {
-    if (!(std::isfinite(grading) && grading > 0)) refuse(name, "> 0", std::to_string(grading));
+    if (!(std::isfinite(grading) && grading > 0)) refuse(name, "> 0", rounded_text(grading));
   }
 }
 

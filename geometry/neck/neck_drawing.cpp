@@ -2,10 +2,9 @@
 #include "geometry/neck/neck_drawing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/units.h"
 
 namespace flexneck::geometry {
@@ -42,10 +41,12 @@ char character_at(const NeckParameters& neck, const NeckSlits& slits, const Slic
 }
 
 std::string label_of(const NeckLayer& layer) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "  %-10s %7.4g in", layer.part.c_str(),
-                layer.thickness_m * factor_from_si("m", "in"));
-  return text.data();
+  constexpr std::size_t kPartWidth = 10, kNumberWidth = 7;
+  std::string part = layer.part;
+  part.resize(std::max(part.size(), kPartWidth), ' ');
+  std::string number = rounded_text(layer.thickness_m * factor_from_si("m", "in"), 4);
+  number.insert(0, kNumberWidth - std::min(number.size(), kNumberWidth), ' ');
+  return "  " + part + " " + number + " in";
 }
 
 }  // namespace

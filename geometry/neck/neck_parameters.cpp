@@ -2,20 +2,18 @@
 #include "geometry/neck/neck_parameters.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string_view>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/units.h"
 
 namespace flexneck::geometry {
 namespace {
 
 std::string in_inches(double length_m) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g in", length_m * factor_from_si("m", "in"));
-  return text.data();
+  return rounded_text(length_m * factor_from_si("m", "in"), 4) + " in";
 }
 
 [[noreturn]] void refuse(const std::string& problem) {

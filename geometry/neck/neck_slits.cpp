@@ -2,23 +2,16 @@
 #include "geometry/neck/neck_slits.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::geometry {
 namespace {
 
 [[noreturn]] void refuse(const std::string& problem) {
   throw InputError("neck geometry: " + problem);
-}
-
-std::string text_of(double number) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", number);
-  return text.data();
 }
 
 void check_depth(const NeckSlits& slits) {
@@ -28,7 +21,7 @@ void check_depth(const NeckSlits& slits) {
   }
   if (slits.depth && !(*slits.depth > 0 && *slits.depth < 1)) {
     refuse("slit_depth must lie between rim and hole: 0 < slit_depth < 1, found " +
-           text_of(*slits.depth));
+           rounded_text(*slits.depth));
   }
 }
 

@@ -25,9 +25,6 @@ struct StudyDocument::Impl {
 
 namespace {
 
-/// Of a fallback, which is in SI units.
-double number_in(std::string_view text) { return std::stod(std::string(text)); }
-
 /// The unit of a quantity whose kinds measure different things is chosen by the reader.
 std::string unit_in(const Key& row, const std::string& wanted) {
   std::string_view rest = row.unit;
@@ -95,7 +92,7 @@ bool StudyTable::is_list(const std::string& key) const { return node_->value(key
 
 int StudyTable::count(const std::string& key) const {
   const Key& row = node_->row(key, KeyType::count);
-  if (node_->falls_back(key, row)) return static_cast<int>(number_in(row.fallback));
+  if (node_->falls_back(key, row)) return static_cast<int>(fallback_number(row.fallback));
   const auto value = node_->scalar<std::int64_t>(key, "a whole number");
   const Range& range = row.details.range;
   if (!range.contains(static_cast<double>(value)) || value > std::numeric_limits<int>::max()) {
@@ -113,7 +110,7 @@ int StudyTable::count_or(const std::string& key, int fallback) const {
 
 double StudyTable::number(const std::string& key) const {
   const Key& row = node_->row(key, KeyType::number);
-  if (node_->falls_back(key, row)) return number_in(row.fallback);
+  if (node_->falls_back(key, row)) return fallback_number(row.fallback);
   const double value = node_->number_of(node_->value(key), key);
   node_->require_within(key, row.details.range, value);
   return value;
@@ -138,7 +135,7 @@ std::vector<double> StudyTable::numbers(const std::string& key, std::size_t size
 double StudyTable::quantity(const std::string& key, const std::string& unit) const {
   const Key& row = node_->row(key, KeyType::quantity);
   const std::string si_unit = unit_in(row, unit);
-  if (node_->falls_back(key, row, si_unit)) return number_in(row.fallback);
+  if (node_->falls_back(key, row, si_unit)) return fallback_number(row.fallback);
   const double value = node_->quantity_of(node_->value(key), key, si_unit);
   node_->require_within(key, row.details.range, value);
   return value;

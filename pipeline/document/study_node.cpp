@@ -2,9 +2,9 @@
 #include "pipeline/document/study_node.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +14,14 @@
 #include "geometry/foundation/units.h"
 
 namespace flexneck::pipeline {
+
+double fallback_number(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw std::logic_error("the table of keys has no number '" + std::string(text) + "'");
+  return number;
+}
 
 std::string StudyTable::Node::dotted(const std::string& key) const {
   return path.empty() ? key : path + "." + key;
@@ -83,9 +91,7 @@ std::string text_of(const toml::node& node) {
     for (const toml::node& each : *list) text += (text.empty() ? "" : ", ") + text_of(each);
     return text;
   }
-  std::ostringstream stream;
-  node.visit([&](const auto& value) { stream << value; });
-  return stream.str();
+  return toml_text(node);
 }
 
 Origin origin_of(const toml::table& labels, const std::string& key) {
@@ -131,9 +137,9 @@ bool StudyTable::Node::falls_back(const std::string& key, const Key& row, const 
   if (row.fallback == kNone && !is_text) return false;
   const bool is_number =
       row.type == KeyType::count || row.type == KeyType::number || row.type == KeyType::quantity;
-  const std::string fallback(row.fallback);
-  record_default(key, (is_number ? exact_text(std::stod(fallback)) : fallback) +
-                          (unit.empty() ? "" : " " + unit));
+  record_default(
+      key, (is_number ? exact_text(fallback_number(row.fallback)) : std::string(row.fallback)) +
+               (unit.empty() ? "" : " " + unit));
   return true;
 }
 

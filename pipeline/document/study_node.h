@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/foundation/provenance.h"
@@ -18,6 +19,9 @@ struct StudyRecords {
   std::vector<Parameter> parameters;  ///< read
   std::vector<Parameter> defaults;    ///< asked for, but not there
 };
+
+/// The number that a row of the table of keys has as its fallback, in SI units.
+double fallback_number(std::string_view text);
 
 /// A table as it stands in the file: finds values, in the tables below it too, and records them.
 struct StudyTable::Node {

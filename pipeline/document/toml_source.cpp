@@ -2,6 +2,7 @@
 #include "pipeline/document/toml_source.h"
 
 #include <algorithm>
+#include <locale>
 #include <sstream>
 
 #include "geometry/foundation/error.h"
@@ -98,10 +99,9 @@ toml::table parse(const fs::path& path, const std::string& text) {
     check_texts(table);
     return table;
   } catch (const toml::parse_error& error) {
-    std::ostringstream message;
-    message << path.string() << ":" << error.source().begin.line << ":"
-            << error.source().begin.column << ": this is not TOML: " << error.description();
-    throw InputError(message.str());
+    throw InputError(path.string() + ":" + std::to_string(error.source().begin.line) + ":" +
+                     std::to_string(error.source().begin.column) +
+                     ": this is not TOML: " + std::string(error.description()));
   }
 }
 
@@ -227,12 +227,18 @@ void apply_setting(toml::table& root, const std::string& setting) {
   assign(*table, path.back(), setting.substr(equals + 1));
 }
 
+std::string toml_text(const toml::node& node) {
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  node.visit([&](const auto& value) { stream << value; });
+  return stream.str();
+}
+
 std::string location_of(const toml::node& node) {
   const toml::source_region& source = node.source();
   if (!source.path) return "command line: ";
-  std::ostringstream text;
-  text << *source.path << ":" << source.begin.line << ":" << source.begin.column << ": ";
-  return text.str();
+  return *source.path + ":" + std::to_string(source.begin.line) + ":" +
+         std::to_string(source.begin.column) + ": ";
 }
 
 }  // namespace flexneck::pipeline

@@ -27,6 +27,9 @@ toml::table parse_with_includes(const DocumentSource& source, std::vector<InputF
 /// Applies one "dotted.key=value" from the command line.
 void apply_setting(toml::table& root, const std::string& setting);
 
+/// The node as TOML has it, whatever the locale.
+std::string toml_text(const toml::node& node);
+
 /// "<file>:<line>:<column>: ", or "command line: " for what no file holds.
 std::string location_of(const toml::node& node);
 

@@ -11,6 +11,7 @@
 
 #include "geometry/foundation/output_file.h"
 #include "pipeline/console/wrapped_text.h"
+#include "pipeline/document/toml_source.h"
 #include "pipeline/evaluation/figures.h"
 #include "pipeline/fit/fit_tables.h"
 #include "pipeline/fit/uniqueness.h"
@@ -149,9 +150,7 @@ std::string fitted_study(StudyFit& fit, const FitResult& result, const fs::path&
     put_fitted(root, fit.section().parameters[k], fitted[k]);
   const Eigen::VectorXd best = fit.objective().parameters(result.best().place);
   put_fitted_to(root, fit, fit.study(best));
-  std::ostringstream text;
-  text << comments(fit, result) << root << "\n";
-  return text.str();
+  return comments(fit, result) + toml_text(root) + "\n";
 }
 
 }  // namespace flexneck::pipeline

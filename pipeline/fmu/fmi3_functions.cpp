@@ -16,6 +16,7 @@ using flexneck::InputError;
 using flexneck::pipeline::FmuInstance;
 using flexneck::pipeline::FmuModel;
 using flexneck::pipeline::guarded;
+using flexneck::pipeline::values_at;
 using Instance = flexneck::pipeline::Fmi3Instance;
 
 std::string text_of_file(const std::string& path) {
@@ -46,18 +47,21 @@ FLEXNECK_FMI fmi3String fmi3GetVersion() { return "3.0"; }
 
 FLEXNECK_FMI fmi3Instance fmi3InstantiateCoSimulation(
     fmi3String /*name*/, fmi3String token, fmi3String resources, fmi3Boolean /*visible*/,
-    fmi3Boolean /*logging*/, fmi3Boolean /*event_mode*/, fmi3Boolean /*early_return*/,
+    fmi3Boolean /*logging*/, fmi3Boolean /*event_mode*/, fmi3Boolean early_return,
     const fmi3ValueReference /*intermediate*/[], std::size_t /*intermediates*/,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
-    fmi3IntermediateUpdateCallback /*update*/) {
+    fmi3IntermediateUpdateCallback update) {
   try {
     auto instance = std::make_unique<Instance>();
     instance->environment = environment;
     instance->log = log;
+    instance->update = update;
+    instance->may_return_early = early_return;
     if (guarded(instance.get(), [&](Instance& at) {
           if (token == nullptr || resources == nullptr)
             throw InputError("an instance needs the token and the path of the resources");
-          at.model = model_in(resources, token);
+          at.token = token;
+          at.model = model_in(resources, at.token);
           at.run = std::make_unique<FmuInstance>(at.model);
         }) != fmi3OK)
       return nullptr;
@@ -103,9 +107,19 @@ FLEXNECK_FMI fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3
                                    fmi3Boolean /*no_set_state*/, fmi3Boolean* event,
                                    fmi3Boolean* terminate, fmi3Boolean* early,
                                    fmi3Float64* last_time) {
-  const fmi3Status status = guarded(instance, [&](Instance& at) { at.run->advance(time, length); });
+  bool is_early = false;
+  const fmi3Status status = guarded(
+      instance,
+      [&](Instance& at) {
+        at.run->advance(time, length, [&](double time_s) {
+          is_early = !at.goes_on(time_s);
+          return !is_early;
+        });
+      },
+      fmi3Discard);
   for (fmi3Boolean* const flag : {event, terminate, early})
     if (flag != nullptr) *flag = false;
+  if (early != nullptr) *early = is_early && status == fmi3OK;
   if (last_time != nullptr && instance != nullptr)
     *last_time = static_cast<Instance*>(instance)->run->time_s();
   if (status == fmi3OK)
@@ -120,7 +134,7 @@ FLEXNECK_FMI fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRef
                                        std::size_t count, fmi3Float64 values[],
                                        std::size_t values_count) {
   return guarded(instance, [&](Instance& at) {
-    at.run->get({references, count}, {values, values_count});
+    at.run->get(values_at(references, count), values_at(values, values_count));
   });
 }
 
@@ -128,7 +142,7 @@ FLEXNECK_FMI fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRef
                                        std::size_t count, const fmi3Float64 values[],
                                        std::size_t values_count) {
   return guarded(instance, [&](Instance& at) {
-    at.run->set({references, count}, {values, values_count});
+    at.run->set(values_at(references, count), values_at(values, values_count));
   });
 }
 
@@ -157,23 +171,26 @@ FLEXNECK_FMI fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* st
 
 FLEXNECK_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
                                                    std::size_t* size) {
-  return guarded(instance,
-                 [&](Instance&) { *size = FmuInstance::bytes_of(state_of(state)).size(); });
+  return guarded(instance, [&](Instance& at) {
+    values_at(size, 1)[0] = FmuInstance::bytes_of(state_of(state), at.token).size();
+  });
 }
 
 FLEXNECK_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state,
                                               fmi3Byte bytes[], std::size_t size) {
-  return guarded(instance, [&](Instance&) {
-    const std::string found = FmuInstance::bytes_of(state_of(state));
+  return guarded(instance, [&](Instance& at) {
+    const std::string found = FmuInstance::bytes_of(state_of(state), at.token);
     if (found.size() != size) throw InputError("the state has another size");
-    std::memcpy(bytes, found.data(), size);
+    std::memcpy(values_at(bytes, size).data(), found.data(), size);
   });
 }
 
 FLEXNECK_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[],
                                                 std::size_t size, fmi3FMUState* state) {
-  return guarded(instance, [&](Instance&) {
-    FmuInstance::State found = FmuInstance::state_of({reinterpret_cast<const char*>(bytes), size});
-    *state = std::make_unique<FmuInstance::State>(std::move(found)).release();
+  return guarded(instance, [&](Instance& at) {
+    const std::span<const fmi3Byte> given = values_at(bytes, size);
+    FmuInstance::State found = FmuInstance::state_of(
+        {reinterpret_cast<const char*>(given.data()), given.size()}, at.token);
+    values_at(state, 1)[0] = std::make_unique<FmuInstance::State>(std::move(found)).release();
   });
 }

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "geometry/foundation/byte_archive.h"
+#include "geometry/foundation/content_hash.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "multibody/files/model_archive.h"
 
 namespace flexneck::multibody {
@@ -80,8 +82,8 @@ void FmuInstance::require(Mode needed) const {
 void FmuInstance::begin_initialization(std::optional<double> relative_tolerance, double time_s) {
   require(Mode::instantiated);
   if (time_s != model_.model.start.time_s)
-    throw InputError("the model starts at " + std::to_string(model_.model.start.time_s) +
-                     " s, not at " + std::to_string(time_s) + " s");
+    throw InputError("the model starts at " + rounded_text(model_.model.start.time_s) +
+                     " s, not at " + rounded_text(time_s) + " s");
   if (relative_tolerance) {
     model_.solver.relative_tolerance = *relative_tolerance;
     run_.reset();
@@ -102,18 +104,18 @@ void FmuInstance::terminate() {
 
 double FmuInstance::time_s() { return run_ ? run_->time_s() : model_.model.start.time_s; }
 
-void FmuInstance::advance(double time_s, double length_s) {
+void FmuInstance::advance(double time_s, double length_s, const SteppedRun::GoesOn& goes_on) {
   require(Mode::step);
   SteppedRun& run = this->run();
   // Importers add up their steps.
   constexpr double kRounding = 1e-9;
   if (std::abs(time_s - run.time_s()) > kRounding * std::max(length_s, std::abs(time_s)))
-    throw InputError("a step from " + std::to_string(time_s) + " s, but the time is " +
-                     std::to_string(run.time_s()) + " s");
+    throw InputError("a step from " + rounded_text(time_s) + " s, but the time is " +
+                     rounded_text(run.time_s()) + " s");
   if (!(length_s > 0 && std::isfinite(length_s)))
-    throw InputError("a step must be longer than zero, not " + std::to_string(length_s) + " s");
+    throw InputError("a step must be longer than zero, not " + rounded_text(length_s) + " s");
   outputs();  // quaternions go on from step to step
-  run.advance(time_s + length_s);
+  run.advance(time_s + length_s, goes_on);
   outputs_are_new_ = false;
   outputs();
 }
@@ -217,13 +219,19 @@ void FmuInstance::restore(const State& state) {
   outputs_are_new_ = false;
 }
 
-std::string FmuInstance::bytes_of(State& state) {
+std::string FmuInstance::bytes_of(State& state, const std::string& token) {
   ByteWriter writer;
   archive(writer, state);
-  return writer.bytes();
+  return writer.bytes() + hash_of_text(token + writer.bytes());
 }
 
-FmuInstance::State FmuInstance::state_of(std::string_view bytes) {
+FmuInstance::State FmuInstance::state_of(std::string_view bytes, const std::string& token) {
+  const std::size_t hash_size = hash_of_text({}).size();
+  const std::size_t size = bytes.size() - std::min(bytes.size(), hash_size);
+  const std::string_view hash = bytes.substr(size);
+  bytes = bytes.substr(0, size);
+  if (hash_of_text(token + std::string(bytes)) != hash)
+    throw InputError("the saved state is damaged, or one of another model");
   ByteReader reader(bytes);
   State state;
   archive(reader, state);

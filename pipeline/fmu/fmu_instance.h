@@ -37,7 +37,7 @@ class FmuInstance {
   /// From then on parameters stay.
   void end_initialization();
   void terminate();
-  void advance(double time_s, double length_s);
+  void advance(double time_s, double length_s, const multibody::SteppedRun::GoesOn& goes_on = {});
   double time_s();
 
   void set(std::span<const Reference> references, std::span<const double> values);
@@ -48,9 +48,10 @@ class FmuInstance {
 
   State save() const;
   void restore(const State& state);
-  static std::string bytes_of(State& state);
-  /// @throws InputError for bytes that are damaged.
-  static State state_of(std::string_view bytes);
+  /// The state's bytes, followed by their hash with the model's token.
+  static std::string bytes_of(State& state, const std::string& token);
+  /// @throws InputError for bytes that are damaged or of another model.
+  static State state_of(std::string_view bytes, const std::string& token);
 
  private:
   void require(Mode needed) const;

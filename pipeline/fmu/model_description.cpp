@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <set>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/xml_text.h"
 
@@ -91,12 +91,8 @@ std::string structure(const std::vector<FmuVariable>& variables) {
 
 std::string c_identifier(const std::string& name) {
   std::string identifier;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    identifier += byte < 128 && std::isalnum(byte) != 0 ? c : '_';
-  }
-  if (identifier.empty() || std::isdigit(static_cast<unsigned char>(identifier.front())) != 0)
-    identifier = "_" + identifier;
+  for (const char c : name) identifier += is_letter_or_digit(c) ? c : '_';
+  if (identifier.empty() || is_digit(identifier.front())) identifier = "_" + identifier;
   return identifier;
 }
 
@@ -111,7 +107,8 @@ std::string model_description(const FmuDescription& description, FmuModel& fmu) 
       attribute("variableNamingConvention", "flat") + ">\n";
   text += "  <CoSimulation" + attribute("modelIdentifier", description.identifier) +
           R"( canGetAndSetFMUState="true" canSerializeFMUState="true")"
-          R"( canHandleVariableCommunicationStepSize="true"/>)"
+          R"( canHandleVariableCommunicationStepSize="true" providesIntermediateUpdate="true")"
+          R"( canReturnEarlyAfterIntermediateUpdate="true"/>)"
           "\n";
   text += unit_definitions(variables);
   text += "  <LogCategories>\n    <Category name=\"error\"/>\n  </LogCategories>\n";

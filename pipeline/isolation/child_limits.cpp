@@ -2,9 +2,11 @@
 #include "pipeline/isolation/child_limits.h"
 
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <string>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -21,14 +23,12 @@ constexpr rlim_t kStackBytes = 64U << 20U;
 /// Libraries' data, stacks and, under a sanitizer, terabytes that are reserved but not used.
 std::uint64_t bytes_at_start() {
   std::ifstream file("/proc/self/statm");
-  std::uint64_t size = 0;
-  std::uint64_t resident = 0;
-  std::uint64_t shared = 0;
-  std::uint64_t text = 0;
-  std::uint64_t library = 0;
-  std::uint64_t data = 0;
-  file >> size >> resident >> shared >> text >> library >> data;
-  return data * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  constexpr int kColumn = 6;  // size, resident, shared, text, library, data
+  std::string column;
+  for (int k = 0; k < kColumn; ++k) std::getline(file, column, ' ');
+  std::uint64_t pages = 0;
+  std::from_chars(column.data(), column.data() + column.size(), pages);
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard) {
@@ -50,7 +50,8 @@ void receive(int signal) {
 }  // namespace
 
 void limit_this_process(const ChildLimits& limits, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0)
+    throw ComputationError("the system refuses to end a child process together with its parent");
   if (getppid() != parent) std::_Exit(EXIT_FAILURE);  // it was gone before
   limit(RLIMIT_CORE, 0, 0);
   const rlim_t start = bytes_at_start();
@@ -65,7 +66,8 @@ void limit_this_process(const ChildLimits& limits, pid_t parent) {
 
 void limit_what_follows(unsigned processor_s) {
   rlimit memory{};
-  getrlimit(RLIMIT_DATA, &memory);
+  if (getrlimit(RLIMIT_DATA, &memory) != 0)
+    throw ComputationError("the system does not tell the limits of a child process");
   limit(RLIMIT_DATA, memory.rlim_max, memory.rlim_max);
   rusage used{};
   getrusage(RUSAGE_SELF, &used);

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <string_view>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -17,6 +16,7 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/exec_pointers.h"
+#include "pipeline/isolation/spawn_actions.h"
 
 namespace flexneck::pipeline {
 
@@ -41,26 +41,6 @@ std::vector<std::string> environment_with(const std::filesystem::path& temporary
   return variables;
 }
 
-/// Nothing to read, all output into one pipe, every other file closed.
-class FileActions {
- public:
-  explicit FileActions(int output) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDERR_FILENO);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
-  }
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-};
-
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
@@ -83,40 +63,41 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
     throw ComputationError("a pipe to a child process cannot be made: " +
                            std::string(std::strerror(errno)));
   }
-  output_ = pipe_ends[0];
+  FileDescriptor to_read(pipe_ends[0]);
+  const FileDescriptor to_write(pipe_ends[1]);
   std::vector<std::string> words = {program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environment_with(temporary);
-  const FileActions actions(pipe_ends[1]);
+  // Nothing to read, all output into one pipe, every other file closed.
+  SpawnActions actions;
+  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  actions.duplicate(to_write.get(), STDOUT_FILENO);
+  actions.duplicate(to_write.get(), STDERR_FILENO);
+  actions.close_from(STDERR_FILENO + 1);
   const SignalHold hold;
   const int error = posix_spawn(&id_, program.c_str(), actions.get(), nullptr,
                                 exec_pointers(words).data(), exec_pointers(variables).data());
-  close(pipe_ends[1]);
-  if (error == 0) {
-    cleanup_ = SignalCleanup(id_);
-    return;
-  }
-  close(output_);
-  throw ComputationError(program.string() +
-                         ": cannot be started as a child process: " + std::strerror(error));
+  if (error != 0)
+    throw ComputationError(program.string() +
+                           ": cannot be started as a child process: " + std::strerror(error));
+  cleanup_ = SignalCleanup(id_);
+  output_ = std::move(to_read);
 }
 
 ChildProcess::~ChildProcess() {
-  close(output_);
   if (id_ < 0) return;
   kill(id_, SIGKILL);
-  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  uninterrupted([&] { return waitpid(id_, nullptr, 0); });
 }
 
 bool ChildProcess::has_output(int timeout_ms) const {
-  pollfd readable{output_, POLLIN, 0};
+  pollfd readable{output_.get(), POLLIN, 0};
   return is_open_ && poll(&readable, 1, timeout_ms) > 0;
 }
 
 void ChildProcess::read_lines(const LineReceiver& on_line) {
   std::array<char, 4096> bytes{};
-  const ssize_t count = read(output_, bytes.data(), bytes.size());
+  const ssize_t count = read(output_.get(), bytes.data(), bytes.size());
   if (count <= 0) {
     is_open_ = count < 0 && errno == EINTR;
     return;

@@ -8,6 +8,7 @@
 #include <sys/types.h>
 #include <vector>
 
+#include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck::pipeline {
@@ -47,9 +48,9 @@ class ChildProcess {
   pid_t id_ = -1;  ///< -1: it has ended
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SignalCleanup cleanup_;
-  int output_ = -1;      ///< end of the pipe that this process reads
-  bool is_open_ = true;  ///< whether more may come from there
-  std::string unread_;   ///< beginning of a line
+  FileDescriptor output_;  ///< end of the pipe that this process reads
+  bool is_open_ = true;    ///< whether more may come from there
+  std::string unread_;     ///< beginning of a line
 };
 
 }  // namespace flexneck::pipeline

@@ -2,12 +2,12 @@
 #include "pipeline/model/expression.h"
 
 #include <algorithm>
-#include <cctype>
 #include <muParser.h>
 #include <numbers>
 #include <string_view>
 #include <vector>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/units.h"
@@ -48,7 +48,7 @@ class Grammar {
   bool follows_name() const {
     const std::size_t last = text_.substr(0, place_).find_last_not_of(" \t");
     return last != std::string_view::npos &&
-           (std::isalnum(static_cast<unsigned char>(text_[last])) != 0 || text_[last] == '_');
+           (is_letter_or_digit(text_[last]) || text_[last] == '_');
   }
 
   void compare() {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How a prescribed body moves, along a direction and about an axis, and how a motor moves a joint.
 #include <array>
-#include <sstream>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "pipeline/document/table_values.h"
 #include "pipeline/model/expression.h"
 #include "pipeline/model/model_sections.h"
@@ -141,10 +141,10 @@ SmoothMotion tabulated_motion(const StudyTable& table, const MotionKeys& keys,
   return at_key(table, key, [&] {
     SmoothMotion motion = SmoothMotion::of_displacement_table(columns.x, columns.y);
     if (columns.x.front() > 0 || columns.x.back() < assembly.end_time_s) {
-      std::ostringstream text;
-      text << "the times must cover the run, from 0 to " << assembly.end_time_s
-           << " s, but are from " << columns.x.front() << " to " << columns.x.back() << " s";
-      throw InputError(text.str());
+      throw InputError("the times must cover the run, from 0 to " +
+                       rounded_text(assembly.end_time_s) + " s, but are from " +
+                       rounded_text(columns.x.front()) + " to " + rounded_text(columns.x.back()) +
+                       " s");
     }
     return motion;
   });

@@ -50,7 +50,7 @@ auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
   }
 }
 
-/// Of what an expression of time gives.
+/// The breakpoints of an expression of time.
 inline constexpr Key kBreakpointsKey =
     Key::quantities("breakpoints", "s", kNone,
                     "Of an expression: times, increasing, at which steps end and between which "

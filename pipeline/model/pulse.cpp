@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::pipeline {
 
@@ -28,7 +29,7 @@ FittedPulse fitted_pulse(const std::vector<double>& times_s,
   pulse.area_m_s = times_s.empty() ? 0 : given.integral(times_s.back());
   if (!(pulse.area_m_s > 0)) {
     throw InputError("expected a pulse that brakes, found one whose integral is " +
-                     std::to_string(pulse.area_m_s) + " in SI units");
+                     rounded_text(pulse.area_m_s) + " in SI units");
   }
   const double factor = velocity_m_s / pulse.area_m_s;
   if (fit == PulseFit::amplitude) pulse.amplitude_factor = factor;

@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "geometry/foundation/output_file.h"
+
 namespace flexneck::pipeline {
 
 double Relaxation::sum_of_shares() const {
@@ -30,8 +32,8 @@ double shift_factor(const StudyTable& shift) {
   const double high_K = shift.quantity("to");
   if (!(low_K <= temperature_K && temperature_K <= high_K))
     shift.refuse("temperature", "expected one within the range of the shift, " +
-                                    std::to_string(low_K) + " K to " + std::to_string(high_K) +
-                                    " K, found " + std::to_string(temperature_K) + " K");
+                                    rounded_text(low_K) + " K to " + rounded_text(high_K) +
+                                    " K, found " + rounded_text(temperature_K) + " K");
   const double above_K = temperature_K - shift.quantity("reference");
   const double c2_K = shift.quantity("c2");
   if (!(c2_K + above_K > 0))

@@ -58,7 +58,7 @@ void take_state(const BodyHistory& state, Index at, Body& body) {
   deformable->initial_modal_rate = state.modal_rate.col(at);
 }
 
-/// Whether inertias differ by more than rounding of numbers in a file.
+/// Tells whether inertias differ by more than rounding of numbers in a file.
 bool differ(const VectorXd& there, const VectorXd& here) {
   if (there.size() == 0) return false;
   constexpr double kRounding = 1e-9;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/plotting/figure.h"
 
-#include <cctype>
-
 #include <fmt/core.h>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/printable.h"
 
 namespace flexneck::pipeline {
@@ -28,8 +27,7 @@ std::string gnuplot_tic(const std::string& text) {
 std::string file_part_of(const std::string& name) {
   std::string part = name;
   for (char& letter : part)
-    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '.' && letter != '_')
-      letter = '-';
+    if (!is_letter_or_digit(letter) && letter != '.' && letter != '_') letter = '-';
   return part;
 }
 

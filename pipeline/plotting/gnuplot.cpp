@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
 #include <spawn.h>
 #include <string>
@@ -12,33 +13,16 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/exec_pointers.h"
+#include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/input_file.h"
 #include "geometry/foundation/signal_cleanup.h"
+#include "pipeline/isolation/spawn_actions.h"
 
 namespace flexneck::pipeline {
 
 namespace {
 
 constexpr const char* kComplaints = "gnuplot.err";
-
-/// What the new process does before it becomes gnuplot.
-class SpawnActions {
- public:
-  explicit SpawnActions(const std::filesystem::path& folder) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
-    posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, 2, kComplaints, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  }
-  ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
-  SpawnActions(const SpawnActions&) = delete;
-  SpawnActions& operator=(const SpawnActions&) = delete;
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-};
 
 /// What gnuplot needs of ours. Its own variables (GNUPLOT_LIB, GNUTERM, FIT_SCRIPT …) would have it
 /// read other files.
@@ -53,7 +37,11 @@ std::vector<std::string> environment() {
 }  // namespace
 
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script_name) {
-  const SpawnActions actions(folder);
+  SpawnActions actions;
+  actions.enter(folder);
+  actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+  actions.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  actions.open(STDERR_FILENO, kComplaints, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   // -d: without the settings of the machine and of the user, which are programs.
   std::vector<std::string> arguments = {"gnuplot", "-d", script_name};
   std::vector<std::string> variables = environment();
@@ -72,9 +60,11 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
         "gnuplot-nox");
   }
   int status = 0;
-  if (failure != 0 || waitpid(process, &status, 0) != process || status != 0) {
+  if (failure != 0)
+    throw ComputationError(std::string("report: gnuplot cannot be started: ") +
+                           std::strerror(failure));
+  if (uninterrupted([&] { return waitpid(process, &status, 0); }) != process || status != 0)
     throw ComputationError("report: gnuplot failed: " + text_of_file(folder / kComplaints));
-  }
 }
 
 }  // namespace flexneck::pipeline

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::pipeline {
 namespace {
@@ -24,7 +25,7 @@ void check_varies(const VectorXd& curve, const std::string& name) {
     throw InputError("the " + name + " curve has a value that is not finite; take it out");
   const double spread = curve.maxCoeff() - curve.minCoeff();
   if (!(spread > 0))
-    throw InputError("the " + name + " curve is constant (" + std::to_string(curve[0]) +
+    throw InputError("the " + name + " curve is constant (" + rounded_text(curve[0]) +
                      "), so that nothing correlates with it; expected one that varies");
 }
 

@@ -2,12 +2,13 @@
 #include "pipeline/report/comparison.h"
 
 #include <algorithm>
-#include <cctype>
+#include <functional>
 #include <map>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/output_file.h"
 #include "pipeline/output/sensitivity_tables.h"
 #include "pipeline/plotting/embedding.h"
@@ -239,12 +240,9 @@ void write_comparison(const std::filesystem::path& path,
   // What differs comes before all curves.
   const auto add_table = [&](const ResultTable& table) {
     std::string id = "table-" + table.name;
-    std::replace_if(
-        id.begin(), id.end(),
-        [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '-');
+    std::replace_if(id.begin(), id.end(), std::not_fn(is_letter_or_digit), '-');
     std::string link = table.name;
-    if (!link.empty())
-      link.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(link.front())));
+    if (!link.empty()) link.front() = upper_case(link.front());
     add_section(id, html_text(link), html_text(table.title),
                 html_of(html_table_of(table)) + html_list(table.notes), texts);
   };

@@ -2,7 +2,6 @@
 #include "pipeline/report/results.h"
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <map>
 #include <set>
@@ -10,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/foundation/ascii.h"
 #include "geometry/foundation/error.h"
 #include "pipeline/folder/results_folder.h"
 #include "pipeline/isolation/result_files.h"
@@ -19,8 +19,6 @@ namespace flexneck::pipeline {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// End of the digits that begin at a place.
 std::size_t end_of_number(const std::string& text, std::size_t place) {

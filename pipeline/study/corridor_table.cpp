@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/foundation/output_file.h"
 #include "pipeline/study/curve_table.h"
 
 namespace flexneck::pipeline {
@@ -42,7 +43,7 @@ CurveCorridor read_corridor(const StudyTable& table) {
   if (width.minCoeff(&where) < 0)
     table.refuse(table.has("table") ? "table" : "upper",
                  "the corridor crosses itself: upper is below lower at " +
-                     std::to_string(corridor.lower.time_s[where]) + " s");
+                     rounded_text(corridor.lower.time_s[where]) + " s");
   return corridor;
 }
 

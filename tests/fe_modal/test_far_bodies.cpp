@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a body keeps of rigid motions depends neither on where it stands nor on the size of its
+// The rigid motions that a body keeps depend neither on where it stands nor on the size of its
 // coefficients: against the same body at the origin, and dense matrices in the null space.
 #include <numbers>
 #include <vector>

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
+#include <limits>
+#include <random>
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "geometry/foundation/text_file.h"
@@ -83,4 +89,25 @@ TEST_CASE("a text that is not UTF-8 is Windows-1252, of which ISO-8859-1 is a pa
   CHECK_THROWS_WITH(read("a\n\x81"), Contains("text:2: ") && Contains("\\x81"));
   CHECK_THROWS_WITH(read("\xe9\x1b[31m"), Contains("\\x1b"));
   CHECK_THROWS_WITH(read(std::string(101, 'a')), Contains("found more"));
+}
+
+TEST_CASE("rounded texts of numbers are those that C prints in its own locale") {
+  const auto printed = [](const char* format, int digits, double number) {
+    std::array<char, 400> text{};
+    std::snprintf(text.data(), text.size(), format, digits, number);
+    return std::string(text.data());
+  };
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> mantissa(-10, 10);
+  std::uniform_int_distribution<int> exponent(-320, 307), digits(1, 17);
+  std::vector<double> numbers = {0, -0.0, 1, 9.9999995, 1e5, 999999.5, 1e-5, 0.5, 1.5, 2.5};
+  numbers.push_back(std::numeric_limits<double>::max());
+  numbers.push_back(std::numeric_limits<double>::infinity());
+  for (int k = 0; k < 2000; ++k)
+    numbers.push_back(mantissa(random) * std::pow(10.0, k % 2 == 0 ? k % 9 - 4 : exponent(random)));
+  for (const double number : numbers) {
+    const int count = digits(random);
+    CHECK(rounded_text(number, count) == printed("%.*g", count, number));
+    CHECK(fixed_text(number, count) == printed("%.*f", count, number));
+  }
 }

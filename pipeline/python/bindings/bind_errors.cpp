@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/path_error.h"
 #include "pipeline/python/bindings/bindings.h"
 
 namespace flexneck::python {
@@ -27,6 +29,16 @@ void bind_errors(py::module_& /*module*/) {
     } catch (const InputError& error) {
       raise("InputError", error.what());
     } catch (const ComputationError& error) {
+      raise("ComputationError", error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+      raise(is_of_path(error) ? "InputError" : "ComputationError", text_of(error).c_str());
+    } catch (const py::error_already_set&) {
+      throw;  // pybind11's own, and of want of memory Python's
+    } catch (const py::builtin_exception&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
       raise("ComputationError", error.what());
     }
   });

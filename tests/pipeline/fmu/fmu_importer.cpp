@@ -43,9 +43,15 @@ FmuRun::FmuRun(const LoadedFmu& fmu) : fmu_(fmu) {
   const auto log = [](fmi3InstanceEnvironment run, fmi3Status, fmi3String, fmi3String message) {
     static_cast<FmuRun*>(run)->logged += std::string(message) + "\n";
   };
+  const auto update = [](fmi3InstanceEnvironment environment, fmi3Float64 time_s, fmi3Boolean,
+                         fmi3Boolean, fmi3Boolean, fmi3Boolean may_return, fmi3Boolean* returns,
+                         fmi3Float64*) {
+    const FmuRun& run = *static_cast<FmuRun*>(environment);
+    *returns = may_return && run.goes_on && !run.goes_on(time_s);
+  };
   instance_ = fmu.function<fmi3InstantiateCoSimulationTYPE>("fmi3InstantiateCoSimulation")(
-      "run", fmu.token().c_str(), fmu.resources().c_str(), false, true, false, false, nullptr, 0,
-      this, log, nullptr);
+      "run", fmu.token().c_str(), fmu.resources().c_str(), false, true, false, true, nullptr, 0,
+      this, log, update);
   if (instance_ == nullptr) throw std::runtime_error("no instance: " + logged);
 }
 
@@ -88,11 +94,12 @@ std::vector<double> FmuRun::get(const std::vector<std::string>& names) const {
 
 fmi3Status FmuRun::step(double time_s, double length_s) {
   fmi3Boolean event = true, terminate = true, early = true;
-  double last = -1;
   const fmi3Status status = fmu_.function<fmi3DoStepTYPE>("fmi3DoStep")(
-      instance_, time_s, length_s, true, &event, &terminate, &early, &last);
-  if (event || terminate || early) throw std::runtime_error("a flag is set without reason");
-  if (status == fmi3OK && last != time_s + length_s) throw std::runtime_error("another time");
+      instance_, time_s, length_s, true, &event, &terminate, &early, &reached_s);
+  if (event || terminate || (early && !goes_on))
+    throw std::runtime_error("a flag is set without reason");
+  if (status == fmi3OK && (reached_s != time_s + length_s) != early)
+    throw std::runtime_error("another time");
   return status;
 }
 

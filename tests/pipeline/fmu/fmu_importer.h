@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -55,6 +56,10 @@ class FmuRun {
   double get(const std::string& name) const;
   std::vector<double> get(const std::vector<std::string>& names) const;
   fmi3Status step(double time_s, double length_s);
+  /// Asked after each of the run's own steps; false asks it to return early.
+  std::function<bool(double time_s)> goes_on;
+  /// Where the last step has ended.
+  double reached_s = -1;
   /// Of a function without arguments.
   fmi3Status call(const char* function);
 

@@ -358,13 +358,52 @@ class Mpi(unittest.TestCase):
         found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
         self.assertEqual(found.stdout.strip(), "0")
 
-
     def test_an_mpirun_that_is_started_later_is_one_of_its_own(self):
         fn.Study("cantilever").mesh()  # starts MPI here
         subprocess.run(["mpirun", "-n", "2", "--oversubscribe", BUILD / "flexneck", "modes", "--help"],
                        check=True, capture_output=True,
                        env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1",
                             "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
+
+
+class Paths(InFolder):
+    def test_what_the_file_system_throws_is_an_error_of_the_package(self):
+        damaged = self.folder / "damaged.h5"
+        damaged.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 4)
+        for path in ("a" * 300, "/".join(["d" * 100] * 60), self.folder / "b" / ("a" * 256),
+                     self.folder / "none.h5", damaged, self.folder):
+            for read in (fn.Run.read, fn.Study, fn.Model):
+                with self.subTest(path=str(path)[-30:], read=read), self.assertRaises(fn.InputError):
+                    read(path)
+        for path in ("a" * 300, "/".join(["d" * 100] * 60)):
+            with self.assertRaises(fn.InputError):
+                fn.Study("cantilever").mesh(path)
+
+
+class Surroundings(unittest.TestCase):
+    def after(self, code, **variables):
+        return subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True,
+                              env={**os.environ, **variables}).stdout.strip()
+
+    def test_importing_leaves_the_environment_and_the_threads_of_the_blas(self):
+        code = ("import ctypes, os\nblas = ctypes.CDLL('libopenblas.so.0', mode=ctypes.RTLD_GLOBAL)\n"
+                "environ = ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), 'environ')\n"
+                "def state():\n"
+                "    variables = set()\n"
+                "    while environ[len(variables)]: variables.add(environ[len(variables)])\n"
+                "    return variables, blas.openblas_get_num_threads()\n"
+                "blas.openblas_set_num_threads(2)\nbefore = state()\nimport flexneck\n"
+                "assert state() == before\nprint('as before')")
+        self.assertEqual(self.after(code, OMP_NUM_THREADS="2"), "as before")
+
+    def test_another_data_base_of_units_in_the_environment_has_no_effect(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".xml") as other:
+            other.write("<unit-system><unit><base/><name><singular>metre</singular></name>"
+                        "<symbol>m</symbol></unit></unit-system>")
+            other.flush()
+            for path in (other.name, "/nowhere"):
+                code = "import flexneck as fn\nprint(f\"{fn.quantity('1 in', 'mm'):.9g}\")"
+                self.assertEqual(self.after(code, UDUNITS2_XML_PATH=path), "25.4")
 
 
 if __name__ == "__main__":

@@ -206,7 +206,7 @@ TEST_CASE("measured data that cannot be is refused with what there is") {
   const std::string corridor =
       "[[test.corridor]]\nchannel = \"head rotation\"\ntimes = [\"0 s\", \"1 s\"]\n";
   own.refuses(corridor + "unit = \"deg\"\nlower = [0, 5]\nupper = [1, 4]\n",
-              "the corridor crosses itself: upper is below lower at 1.0");
+              "the corridor crosses itself: upper is below lower at 1 s");
   own.refuses(corridor + "lower = [0, 5]\nupper = [1, 9]\n", "expected the unit");
   own.refuses(corridor + "unit = \"deg\"\nlower = [0]\nupper = [1, 9]\n", "list of 2 entries");
   const auto told = [&](const std::string& tables) {

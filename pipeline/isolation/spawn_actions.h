@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <spawn.h>
+#include <sys/types.h>
+
+namespace flexneck::pipeline {
+
+/// The actions of a new process on its files before it becomes another program, for posix_spawn().
+/// All members throw ComputationError if there is no memory for it.
+class SpawnActions {
+ public:
+  SpawnActions();
+  ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
+  SpawnActions(const SpawnActions&) = delete;
+  SpawnActions& operator=(const SpawnActions&) = delete;
+
+  void enter(const std::filesystem::path& folder);
+  void open(int as, const char* path, int flags, mode_t mode = 0);
+  void duplicate(int file, int as);
+  void close_from(int first);
+
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  static void require(int code);
+
+  posix_spawn_file_actions_t actions_{};
+};
+
+}  // namespace flexneck::pipeline
