@@ -47,7 +47,6 @@ const char* kernels_for_this_processor() {
 }  // namespace
 
 void choose_blas_kernels() {
-  call_blas_alone();
   const std::string better = kernels_for_this_processor();
   const bool is_known =
       std::find(kFallbacks.begin(), kFallbacks.end(), chosen_kernels()) == kFallbacks.end();

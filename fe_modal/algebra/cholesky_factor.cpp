@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/algebra/cholesky_factor.h"
 
-#include <array>
-#include <cstdio>
 #include <vector>
 
 #include "fe_modal/algebra/blas_kernels.h"
 #include "fe_modal/algebra/cholmod_handles.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
 std::string millions_text(double entries) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%.4g million entries", entries / 1e6);
-  return text.data();
+  return rounded_text(entries / 1e6, 4) + " million entries";
 }
 
 }  // namespace

@@ -47,8 +47,9 @@ Eigen::MatrixXd DofLayout::whole(const Eigen::MatrixXd& own) const {
   Eigen::MatrixXd result(dof_count(), own.cols());
   Eigen::VectorXd by_rank(dof_count());
   for (Eigen::Index k = 0; k < own.cols(); ++k) {
-    MPI_Allgatherv(own.col(k).data(), static_cast<int>(own.rows()), MPI_DOUBLE, by_rank.data(),
-                   counts_.data(), offsets_.data(), MPI_DOUBLE, communicator(ranks_));
+    require_mpi(MPI_Allgatherv(own.col(k).data(), static_cast<int>(own.rows()), MPI_DOUBLE,
+                               by_rank.data(), counts_.data(), offsets_.data(), MPI_DOUBLE,
+                               communicator(ranks_)));
     for (std::size_t block = 0; block < owners_.size(); ++block) {
       result.col(k).segment<3>(3 * static_cast<Eigen::Index>(block)) =
           by_rank.segment<3>(place_by_rank(block));

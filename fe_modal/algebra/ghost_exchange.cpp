@@ -17,8 +17,8 @@ class Unit {
  public:
   explicit Unit(Eigen::Index columns) : is_own_(columns > 1) {
     if (!is_own_) return;
-    MPI_Type_contiguous(static_cast<int>(columns), MPI_DOUBLE, &type_);
-    MPI_Type_commit(&type_);
+    require_mpi(MPI_Type_contiguous(static_cast<int>(columns), MPI_DOUBLE, &type_));
+    require_mpi(MPI_Type_commit(&type_));
   }
   ~Unit() {
     if (is_own_) MPI_Type_free(&type_);

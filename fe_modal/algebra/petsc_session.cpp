@@ -11,6 +11,7 @@
 #include <petscpkg_version.h>
 
 #include "fe_modal/algebra/blas_kernels.h"
+#include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "geometry/foundation/error.h"
 
@@ -76,8 +77,9 @@ PetscSession::PetscSession(Start /*start*/) {
   }
   const StartAlone alone;
   choose_blas_kernels();
+  call_blas_alone();
   int finalized = 0;
-  MPI_Finalized(&finalized);
+  require_mpi(MPI_Finalized(&finalized));
   if (finalized != 0) throw ComputationError("PETSc can be initialised once in a process only");
   PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;
   // The process keeps its signal handlers, and neither a user's .petscrc nor the environment nor

@@ -18,11 +18,11 @@ constexpr std::chrono::milliseconds kNap{2};
 /// Waits for all ranks without keeping the processor busy; one that has failed not for long.
 bool all_come(const Ranks& ranks, bool has_failed) {
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibarrier(communicator(ranks), &request);
+  require_mpi(MPI_Ibarrier(communicator(ranks), &request));
   const auto end = Clock::now() + kPatience;
   for (;;) {
     int is_complete = 0;
-    MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE);
+    require_mpi(MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE));
     if (is_complete != 0) return true;
     if (has_failed && Clock::now() > end) return false;
     std::this_thread::sleep_for(kNap);
@@ -49,11 +49,12 @@ int RankSession::end(const RankOutcome& outcome, const Progress& tell) const {
   }
   int first = has_failed ? ranks_.own() : ranks_.count();
   if (ranks_.are_many())
-    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, communicator(ranks_));
+    require_mpi(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, communicator(ranks_)));
   if (first == ranks_.own()) tell(who + outcome.failure);
   int code = outcome.exit_code;
   if (ranks_.are_many())
-    MPI_Bcast(&code, 1, MPI_INT, first == ranks_.count() ? 0 : first, communicator(ranks_));
+    require_mpi(
+        MPI_Bcast(&code, 1, MPI_INT, first == ranks_.count() ? 0 : first, communicator(ranks_)));
   return code;
 }
 

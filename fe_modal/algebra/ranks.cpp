@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/algebra/ranks.h"
 
+#include <array>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <new>
+#include <string>
 #include <thread>
 
 #include "fe_modal/algebra/communicator.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/path_error.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -29,6 +33,8 @@ RankFailure failure_of(const std::function<void()>& work) {
     return {};
   } catch (const InputError& error) {
     return {error.what(), Kind::input};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {text_of(error), is_of_path(error) ? Kind::input : Kind::computation};
   } catch (const OutOfMemory& error) {
     return {error.what(), Kind::memory};
   } catch (const std::bad_alloc&) {
@@ -52,6 +58,16 @@ std::string current_failure() {
   }
 }
 
+void require_mpi(int code) {
+  if (code == MPI_SUCCESS) return;
+  std::array<char, MPI_MAX_ERROR_STRING> text{};
+  int length = 0;
+  const bool is_known = MPI_Error_string(code, text.data(), &length) == MPI_SUCCESS;
+  throw ComputationError("MPI failed: " +
+                         (is_known ? std::string(text.data(), static_cast<std::size_t>(length))
+                                   : "code " + std::to_string(code)));
+}
+
 Ranks Ranks::with_threads(unsigned count) const {
   Ranks ranks = *this;
   ranks.threads_ = count;
@@ -60,18 +76,19 @@ Ranks Ranks::with_threads(unsigned count) const {
 
 Ranks Ranks::all() {
   Ranks ranks;
-  MPI_Comm_rank(MPI_COMM_WORLD, &ranks.own_);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks.count_);
+  require_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &ranks.own_));
+  require_mpi(MPI_Comm_size(MPI_COMM_WORLD, &ranks.count_));
   return ranks;
 }
 
 int Ranks::on_this_machine() const {
   if (!are_many()) return 1;
   MPI_Comm beside = MPI_COMM_NULL;
-  MPI_Comm_split_type(communicator(*this), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &beside);
+  require_mpi(
+      MPI_Comm_split_type(communicator(*this), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &beside));
   int count = 1;
-  MPI_Comm_size(beside, &count);
-  MPI_Comm_free(&beside);
+  require_mpi(MPI_Comm_size(beside, &count));
+  require_mpi(MPI_Comm_free(&beside));
   return count;
 }
 
@@ -80,9 +97,9 @@ void Ranks::sum(Eigen::Ref<Eigen::MatrixXd> values) const {
   Eigen::MatrixXd sums = values;  // without gaps between columns
   // Not MPI_Allreduce, which need not add in the same order on all ranks.
   const auto size = static_cast<int>(sums.size());
-  MPI_Reduce(is_first() ? MPI_IN_PLACE : sums.data(), sums.data(), size, MPI_DOUBLE, MPI_SUM, 0,
-             communicator(*this));
-  MPI_Bcast(sums.data(), size, MPI_DOUBLE, 0, communicator(*this));
+  require_mpi(MPI_Reduce(is_first() ? MPI_IN_PLACE : sums.data(), sums.data(), size, MPI_DOUBLE,
+                         MPI_SUM, 0, communicator(*this)));
+  require_mpi(MPI_Bcast(sums.data(), size, MPI_DOUBLE, 0, communicator(*this)));
   values = sums;
 }
 
@@ -94,17 +111,17 @@ double Ranks::sum(double value) const {
 
 void Ranks::max(Eigen::Ref<Eigen::VectorXd> values) const {
   if (!are_many()) return;
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
-                communicator(*this));
+  require_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()),
+                            MPI_DOUBLE, MPI_MAX, communicator(*this)));
 }
 
 std::uint64_t Ranks::of_first(std::uint64_t value) const {
   if (!are_many()) return value;
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibcast(&value, 1, MPI_UINT64_T, 0, communicator(*this), &request);
+  require_mpi(MPI_Ibcast(&value, 1, MPI_UINT64_T, 0, communicator(*this), &request));
   // The first rank may have much else to do: whoever waits long looks at times only.
   for (int is_complete = 0; is_complete == 0;) {
-    MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE);
+    require_mpi(MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE));
     if (is_complete == 0) std::this_thread::sleep_for(kNap);
   }
   return value;
@@ -118,12 +135,12 @@ void Ranks::together(const std::function<void()>& work) const {
   RankFailure failure = failure_of(work);
   const int own_failure = failure.text.empty() ? count_ : own_;
   int first = count_;
-  MPI_Allreduce(&own_failure, &first, 1, MPI_INT, MPI_MIN, communicator(*this));
+  require_mpi(MPI_Allreduce(&own_failure, &first, 1, MPI_INT, MPI_MIN, communicator(*this)));
   if (first == count_) return;
   int head[2] = {static_cast<int>(failure.text.size()), static_cast<int>(failure.kind)};
-  MPI_Bcast(head, 2, MPI_INT, first, communicator(*this));
+  require_mpi(MPI_Bcast(head, 2, MPI_INT, first, communicator(*this)));
   failure.text.resize(static_cast<std::size_t>(head[0]));
-  MPI_Bcast(failure.text.data(), head[0], MPI_CHAR, first, communicator(*this));
+  require_mpi(MPI_Bcast(failure.text.data(), head[0], MPI_CHAR, first, communicator(*this)));
   if (head[1] == static_cast<int>(Kind::input)) throw InputError(failure.text);
   if (head[1] == static_cast<int>(Kind::memory)) throw OutOfMemory(failure.text);
   throw ComputationError(failure.text);

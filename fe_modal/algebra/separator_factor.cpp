@@ -65,9 +65,9 @@ class SeparatorFactor<Scalar>::Elimination {
       add_to(p, block(panel, received_));
       // Not before: the summand that add_to() has let go leaves room.
       if (is_own(p)) factor_.values_[p].resize(size_of(panel));
-      MPI_Reduce(received_.data(), is_own(p) ? factor_.values_[p].data() : nullptr,
-                 static_cast<int>(size_of(panel)), mpi_type<Scalar>(), MPI_SUM, panel.owner,
-                 ranks());
+      require_mpi(MPI_Reduce(received_.data(), is_own(p) ? factor_.values_[p].data() : nullptr,
+                             static_cast<int>(size_of(panel)), mpi_type<Scalar>(), MPI_SUM,
+                             panel.owner, ranks()));
     }
   }
 
@@ -107,10 +107,11 @@ class SeparatorFactor<Scalar>::Elimination {
         outcome = kFailed;
       }
     }
-    MPI_Bcast(&outcome, 1, MPI_INT, panel.owner, ranks());
+    require_mpi(MPI_Bcast(&outcome, 1, MPI_INT, panel.owner, ranks()));
     if (outcome == kFailed) throw ComputationError(kNotDefinite);
     if (outcome == 1) {
-      MPI_Bcast(signs_of(panel).data(), panel.columns, mpi_type<Scalar>(), panel.owner, ranks());
+      require_mpi(MPI_Bcast(signs_of(panel).data(), panel.columns, mpi_type<Scalar>(), panel.owner,
+                            ranks()));
     }
     return outcome == 1;
   }
@@ -118,8 +119,8 @@ class SeparatorFactor<Scalar>::Elimination {
   DenseBlock<const Scalar> send(std::size_t p) {
     const Panel& panel = panels()[p];
     std::vector<Scalar>& values = is_own(p) ? factor_.values_[p] : received_;
-    MPI_Bcast(values.data(), static_cast<int>(size_of(panel)), mpi_type<Scalar>(), panel.owner,
-              ranks());
+    require_mpi(MPI_Bcast(values.data(), static_cast<int>(size_of(panel)), mpi_type<Scalar>(),
+                          panel.owner, ranks()));
     return block(panel, values);
   }
 
@@ -245,8 +246,8 @@ class SeparatorFactor<Scalar>::Solve {
 
   /// The first rows of the panel to all ranks, of which those of its columns are final.
   void send(const Panel& panel, int rows) {
-    MPI_Bcast(panel_x_.front().value, rows * static_cast<int>(kLanesOfSolve), mpi_type<Scalar>(),
-              panel.owner, communicator(factor_.ranks_));
+    require_mpi(MPI_Bcast(panel_x_.front().value, rows * static_cast<int>(kLanesOfSolve),
+                          mpi_type<Scalar>(), panel.owner, communicator(factor_.ranks_)));
     std::copy_n(panel_x_.begin(), panel.columns, x_.begin() + panel.first);
   }
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <iterator>
 #include <set>
 #include <span>
 #include <utility>
 
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/mesh_measures.h"
 
 namespace flexneck::fe_modal {
@@ -57,7 +57,7 @@ class SingleNodes {
  public:
   explicit SingleNodes(const mesher::Mesh& mesh) : mesh_(mesh) {}
 
-  /// Those of a set that covers no face.
+  /// Adds the single nodes of a set that covers no face.
   void add_set(const std::string& name, std::span<const std::int32_t> nodes) {
     add(name, count_single(mesh_, nodes), nodes.size());
   }
@@ -89,11 +89,7 @@ std::set<std::int32_t> sites_of(const std::vector<Each>& all) {
   return sites;
 }
 
-std::string ratio_text(double ratio) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", ratio);
-  return text.data();
-}
+std::string ratio_text(double ratio) { return rounded_text(ratio, 3); }
 
 }  // namespace
 

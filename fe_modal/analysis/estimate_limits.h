@@ -10,11 +10,11 @@
 
 namespace flexneck::fe_modal {
 
-/// What is held or joined at single nodes, a line for each, "node set 'bolts' (4 of its 8 nodes)":
-/// nodes of supports and couplings that are neither on a whole face of such nodes nor in an element
-/// beside one, and all nodes of equations, springs and masses. Under a force on a point an elastic
-/// body gives way without limit, so that frequencies and displacements have none either as the
-/// elements become smaller.
+/// Names the sets that are held or joined at single nodes, a line for each, "node set 'bolts' (4 of
+/// its 8 nodes)": nodes of supports and couplings that are neither on a whole face of such nodes
+/// nor in an element beside one, and all nodes of equations, springs and masses. Under a force on a
+/// point an elastic body gives way without limit, so that frequencies and displacements have none
+/// either as the elements become smaller.
 std::vector<std::string> held_at_single_nodes(const mesher::Mesh& mesh,
                                               const ModalOptions& options);
 

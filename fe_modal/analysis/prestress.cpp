@@ -2,9 +2,7 @@
 #include "fe_modal/analysis/prestress.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "fe_modal/algebra/block_product.h"
@@ -15,6 +13,7 @@
 #include "fe_modal/system/assembly.h"
 #include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -106,9 +105,7 @@ ModalOptions without_prestress(ModalOptions options) {
 }
 
 [[noreturn]] void refuse_buckled(double factor) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", factor);
-  throw InputError(std::string("the body buckles under its prestress, at ") + text.data() +
+  throw InputError("the body buckles under its prestress, at " + rounded_text(factor, 4) +
                    " of the loads: modes are those of a body that does not; lessen them");
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/analysis/spectrum_derivative.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
@@ -50,14 +49,11 @@ double coupling(const GroupDerivative& derivative, const std::vector<DesignParam
 }
 
 std::string group_note(const std::string& names, double spread, double coupled) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                " lie within %.2g %% of one another: the mean and directional derivatives%s (%.1e)",
-                100 * spread,
-                coupled < kUncoupled ? ", and by symmetry class, which no parameter couples"
-                                     : "; coupled by the parameters",
-                coupled);
-  return names + text.data();
+  return names + " lie within " + rounded_text(100 * spread, 2) +
+         " % of one another: the mean and directional derivatives" +
+         (coupled < kUncoupled ? ", and by symmetry class, which no parameter couples"
+                               : "; coupled by the parameters") +
+         " (" + rounded_text(coupled, 2) + ")";
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "fe_modal/system/point_forces.h"
 #include "fe_modal/system/supports.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
@@ -94,7 +95,7 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
   }
   if (!(solution.imbalance < kBalanced))
     throw ComputationError(
-        "the static step is not in equilibrium: " + std::to_string(solution.imbalance) +
+        "the static step is not in equilibrium: " + rounded_text(solution.imbalance) +
         " of the forces are left over at free nodes");
   const std::vector<std::array<bool, 3>> reacting = reacting_directions_of(mesh, options);
   // The weights of masses at points are loads, handed to nodes by connections.

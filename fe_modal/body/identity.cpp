@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/body/identity.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Cholesky>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "geometry/foundation/symmetric_pairs.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
+std::string number_text(double value) { return rounded_text(value, 3); }
 
 }  // namespace
 

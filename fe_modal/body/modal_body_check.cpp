@@ -17,6 +17,7 @@
 #include "fe_modal/body/skew.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -44,7 +45,7 @@ void check_modes(const ModalBody& body) {
     const std::string& kind = body.modes[static_cast<std::size_t>(k)].kind;
     const double hertz = body.frequencies_Hz[k];
     const auto refuse = [&](const std::string& expected) {
-      throw InputError("/frequencies: [" + std::to_string(k) + "] is " + std::to_string(hertz) +
+      throw InputError("/frequencies: [" + std::to_string(k) + "] is " + rounded_text(hertz) +
                        " Hz, expected " + expected);
     };
     if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
@@ -55,7 +56,7 @@ void check_modes(const ModalBody& body) {
     if (kind == kRigidMode && hertz != 0) refuse("0, for its kind is rigid");
     if (kind != kRigidMode && hertz == 0) refuse("more than 0, for its kind is not rigid");
     if (hertz < before * (1 - kEqual))
-      refuse("no less than the one before, " + std::to_string(before));
+      refuse("no less than the one before, " + rounded_text(before));
     before = hertz;
   }
 }

@@ -2,9 +2,7 @@
 #include "fe_modal/dofs/body_constraints.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -14,6 +12,7 @@
 
 #include "fe_modal/dofs/held_points.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::fe_modal {
@@ -71,10 +70,7 @@ std::string name_of(const mesher::Mesh& mesh, const mesher::Connections& connect
     return (half % 2 == 0 ? axis : "the rotation about " + axis) + " of " +
            connections.points[half / 2].name;
   }
-  std::array<char, 96> text{};
-  const auto& x = mesh.nodes[site];
-  std::snprintf(text.data(), text.size(), " of the node at (%.6g, %.6g, %.6g) m", x[0], x[1], x[2]);
-  return axis + text.data();
+  return axis + " of the node at (" + rounded_texts(mesh.nodes[site]) + ") m";
 }
 
 using Terms = std::vector<DofTerm>;
@@ -125,8 +121,8 @@ struct NamedEquation {
     }
   }
 
-  /// Whether the dependent degree of freedom moves at most a hundred times as far as others, so
-  /// that differences of these leave digits of it.
+  /// Tells whether the dependent degree of freedom moves at most a hundred times as far as others,
+  /// so that differences of these leave digits of it.
   bool is_well_scaled(const AffineConstraints& constraints) const {
     constexpr double kLeast = 1e-2;
     return constraints.size_of(std::span(terms).subspan(dependent, 1)) >=
@@ -146,8 +142,8 @@ struct NamedEquation {
   std::size_t dependent = 0;
 };
 
-/// Those of several terms. Where the dependent degree of freedom has a small coefficient another
-/// one takes its place, after all others have theirs.
+/// Adds the equations of several terms. Where the dependent degree of freedom has a small
+/// coefficient another one takes its place, after all others have theirs.
 void add_equations(const mesher::Connections& connections, const TiedNodes& tied,
                    AffineConstraints& constraints) {
   std::vector<NamedEquation> later;

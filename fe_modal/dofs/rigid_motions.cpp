@@ -2,13 +2,12 @@
 #include "fe_modal/dofs/rigid_motions.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
 #include "fe_modal/body/skew.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/bounding_box.h"
 
 namespace flexneck::fe_modal {
@@ -113,10 +112,7 @@ std::string directions(const Eigen::Matrix3Xd& span, const std::string& every) {
   if (found == span.cols()) return text;
   text.clear();
   for (const auto& column : span.colwise()) {
-    std::array<char, 64> vector{};
-    std::snprintf(vector.data(), vector.size(), "(%.3g, %.3g, %.3g)", column[0], column[1],
-                  column[2]);
-    text += (text.empty() ? "" : " and ") + std::string(vector.data());
+    text += (text.empty() ? "(" : " and (") + rounded_texts({column.data(), 3}, 3) + ")";
   }
   return text;
 }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -95,10 +95,9 @@ std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
     const Formulation chosen = formulation.of(material);
     if (chosen == Formulation::mixed_pressure) continue;
     if (!(material.poissons_ratio > kNearlyIncompressible)) continue;
-    std::array<char, 32> ratio{};
-    std::snprintf(ratio.data(), ratio.size(), "%g", material.poissons_ratio);
-    lines.push_back("material '" + material.name + "' with Poisson's ratio " + ratio.data() +
-                    " in formulation '" + std::string(name_of(chosen)) +
+    lines.push_back("material '" + material.name + "' with Poisson's ratio " +
+                    rounded_text(material.poissons_ratio) + " in formulation '" +
+                    std::string(name_of(chosen)) +
                     "' makes elements too stiff; mixed_pressure does not");
   }
   return lines;

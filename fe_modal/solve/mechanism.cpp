@@ -2,9 +2,7 @@
 #include "fe_modal/solve/mechanism.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -14,6 +12,7 @@
 #include "fe_modal/algebra/random_block.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/rigid_average.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/positions.h"
 
@@ -106,10 +105,8 @@ std::string direction_name(Eigen::Vector3d direction) {
   direction.cwiseAbs().maxCoeff(&largest);
   if (direction[largest] < 0) direction = -direction;
   if (direction[largest] > 1 - kNone) return std::string(1, "xyz"[largest]);
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "(%.2f, %.2f, %.2f)", direction[0], direction[1],
-                direction[2]);
-  return text.data();
+  return "(" + fixed_text(direction[0], 2) + ", " + fixed_text(direction[1], 2) + ", " +
+         fixed_text(direction[2], 2) + ")";
 }
 
 /// @param motion of a part: the only one it has; rotation as a length
@@ -127,10 +124,8 @@ std::string describe_motion(const Part& part, Vector6d motion, double length_m) 
   foot -= axis * axis.dot(foot);  // the same for all parts that turn together
   const double rounding = kNone * length_m;
   foot = foot.unaryExpr([&](double x) { return std::abs(x) < rounding ? 0.0 : x; });
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), " through (%.3g, %.3g, %.3g) m", foot[0], foot[1],
-                foot[2]);
-  return "turns freely about " + direction_name(axis) + text.data();
+  return "turns freely about " + direction_name(axis) + " through (" +
+         rounded_texts({foot.data(), 3}, 3) + ") m";
 }
 
 /// How the part moves; nothing if it stands still.

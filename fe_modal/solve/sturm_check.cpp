@@ -2,14 +2,13 @@
 #include "fe_modal/solve/sturm_check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <utility>
 
 #include "fe_modal/algebra/random_block.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -22,10 +21,7 @@ constexpr double kCluster = 1e-3;
 constexpr double kRigidBody = 1e-6;
 
 std::string hertz(double eigenvalue) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g Hz",
-                std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi));
-  return text.data();
+  return rounded_text(std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi)) + " Hz";
 }
 
 bool is_rigid(double eigenvalue, double shift) {
@@ -117,12 +113,10 @@ void check_eigenvalues(const Eigen::VectorXd& values, double shift) {
   const double scale = std::max(std::abs(shift), values.cwiseAbs().maxCoeff());
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (values[k] >= -kRigidBody * scale && std::isfinite(values[k])) continue;
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "eigenvalue %td is %.3g 1/s^2, expected a number >= 0: stiffness or mass is not "
-                  "positive, or too near to it",
-                  k + 1, values[k]);
-    throw ComputationError(text.data());
+    throw ComputationError("eigenvalue " + std::to_string(k + 1) + " is " +
+                           rounded_text(values[k], 3) +
+                           " 1/s^2, expected a number >= 0: stiffness or mass is not positive, or "
+                           "too near to it");
   }
 }
 

@@ -2,8 +2,6 @@
 #include "fe_modal/system/loads.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <functional>
 #include <set>
 #include <span>
@@ -12,6 +10,7 @@
 
 #include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/boundary.h"
 #include "mesher/mesh/bounding_box.h"
 #include "mesher/mesh/face_orientation.h"
@@ -24,11 +23,7 @@ namespace {
 /// A position names a node that is this near to it, relative to the size of the body.
 constexpr double kSamePlace = 1e-6;
 
-std::string text_of(const Eigen::Vector3d& v) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "(%.6g, %.6g, %.6g)", v[0], v[1], v[2]);
-  return text.data();
-}
+std::string text_of(const Eigen::Vector3d& v) { return "(" + rounded_texts({v.data(), 3}) + ")"; }
 
 /// Calls visit(nodes, shape function values, normal dA) for each integration point of some faces.
 void for_each_face_point(
@@ -160,9 +155,7 @@ struct Words {
            (load.position_m ? " at " + text_of(*load.position_m) + " m" : " at its centroid");
   }
   std::string operator()(const PressureLoad& load) const {
-    std::array<char, 32> number{};
-    std::snprintf(number.data(), number.size(), "%.6g", load.pressure_Pa);
-    return "face '" + load.set + "', pressure " + number.data() + " Pa";
+    return "face '" + load.set + "', pressure " + rounded_text(load.pressure_Pa) + " Pa";
   }
   std::string operator()(const NodeLoad& load) const {
     const std::string where = load.position_m ? "the node at " + text_of(*load.position_m) + " m"

@@ -2,12 +2,11 @@
 #include "fe_modal/system/modal_options_check.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "fe_modal/dofs/rigid_motions.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -50,7 +49,7 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options,
     static_cast<void>(find_name(names, options.sign_interface, "interface"));
     if (!(options.length_m > 0)) {
       throw InputError("the length that turns rotations into lengths must be positive, found " +
-                       std::to_string(options.length_m) + " m");
+                       rounded_text(options.length_m) + " m");
     }
   }
   for (const RigidAttachment& attachment : options.attachments) {
@@ -160,12 +159,11 @@ void check_certificate(const mesher::Mesh& mesh, const ModalOptions& options) {
         !(material.poissons_ratio > kNearlyIncompressible)) {
       continue;
     }
-    std::array<char, 32> ratio{};
-    std::snprintf(ratio.data(), ratio.size(), "%g", material.poissons_ratio);
     throw InputError("the mesh's error is not estimated for elements of kind " +
                      std::string(mesher::name_of(block.kind)) + " with a Poisson's ratio above " +
                      "0.495, and that of '" + material.name + "' in part '" + block.part + "' is " +
-                     ratio.data() + ": take hex27 there, or leave out modes.certify");
+                     rounded_text(material.poissons_ratio) +
+                     ": take hex27 there, or leave out modes.certify");
   }
 }
 

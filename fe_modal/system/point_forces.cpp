@@ -51,7 +51,7 @@ std::vector<std::set<std::int32_t>> joined(const mesher::Connections& connection
   return groups;
 }
 
-/// Those nearest to a point: joined to it, or to points that are, and so on.
+/// The nodes nearest to a point are joined to it, or to points that are, and so on.
 std::vector<std::int32_t> nodes_near(std::int32_t point, std::int32_t node_count,
                                      const std::vector<std::set<std::int32_t>>& groups) {
   std::set<std::int32_t> reached = {point};

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/foundation/error.h"
 #include "mesher/drawing/colours.h"
 #include "mesher/mesh/positions.h"
 
@@ -99,6 +100,9 @@ Raster draw_body(const Mesh& mesh, const Surface& surface, const BodyPicture& wh
   const Eigen::MatrixX3d moved =
       moves ? Eigen::MatrixX3d(nodes + what.displacement_m.transpose()) : nodes;
   const Eigen::MatrixX3d points = project(surface.value * moved);
+  if (!points.allFinite() || !what.field.allFinite())
+    throw ComputationError(
+        "a picture of a body needs positions and values that are finite numbers");
   const std::vector<Colour> colours = vertex_colours(mesh, surface, what, moved, project.axes());
   for (const auto& triangle : surface.triangles) {
     std::array<ScreenPoint, 3> corners;

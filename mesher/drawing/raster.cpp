@@ -15,9 +15,24 @@ double doubled_area(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoin
 
 /// First and last pixel whose centre lies between two coordinates, within 0 … size - 1.
 std::array<int, 2> pixel_range(double low, double high, int size) {
-  return {std::max(0, static_cast<int>(std::ceil(low - 0.5))),
-          std::min(size - 1, static_cast<int>(std::floor(high - 0.5)))};
+  return {static_cast<int>(std::clamp(std::ceil(low - 0.5), 0.0, size + 0.0)),
+          static_cast<int>(std::clamp(std::floor(high - 0.5), -1.0, size - 1.0))};
 }
+
+/// The part of a line, in shares of it, whose coordinate from a to b lies between two others.
+struct Part {
+  double begin = 0, end = 1;
+
+  void clip(double a, double b, double low, double high) {
+    if (a == b) {
+      if (a < low || a > high) end = -1;
+      return;
+    }
+    const auto [first, last] = std::minmax({(low - a) / (b - a), (high - a) / (b - a)});
+    begin = std::max(begin, first);
+    end = std::min(end, last);
+  }
+};
 
 ScreenPoint finer(const ScreenPoint& point) {
   return {point.x() * Raster::kFineness, point.y() * Raster::kFineness, point.z()};
@@ -46,7 +61,7 @@ void Raster::draw_triangle(const std::array<ScreenPoint, 3>& corners,
                            const std::array<Colour, 3>& colours) {
   const std::array<ScreenPoint, 3> p = {finer(corners[0]), finer(corners[1]), finer(corners[2])};
   const double area = doubled_area(p[0], p[1], p[2]);
-  if (area == 0) return;
+  if (area == 0 || !std::isfinite(area)) return;
   const auto [x_low, x_high] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
   const auto [y_low, y_high] = std::minmax({p[0].y(), p[1].y(), p[2].y()});
   const auto columns = pixel_range(x_low, x_high, fine_width_);
@@ -71,9 +86,17 @@ void Raster::draw_line(const ScreenPoint& from, const ScreenPoint& to, const Col
   const ScreenPoint b = finer(to);
   const double length = std::hypot(b.x() - a.x(), b.y() - a.y());
   const double radius = width_pixels * kFineness / 2;
-  const int steps = static_cast<int>(std::ceil(length)) + 1;
-  for (int s = 0; s <= steps; ++s) {
-    const ScreenPoint here = a + (b - a) * s / steps;
+  constexpr double kFarthest = 1e15;  // pixels that a double counts, many times over
+  if (!(length < kFarthest)) return;
+  Part part;
+  part.clip(a.x(), b.x(), -radius - 1, fine_width_ + radius + 1);
+  part.clip(a.y(), b.y(), -radius - 1, fine_height_ + radius + 1);
+  if (part.begin > part.end) return;
+  const double steps = std::ceil(length) + 1;
+  const auto first = static_cast<std::int64_t>(std::floor(part.begin * steps));
+  const auto last = static_cast<std::int64_t>(std::ceil(part.end * steps));
+  for (std::int64_t s = first; s <= last; ++s) {
+    const ScreenPoint here = a + (b - a) * static_cast<double>(s) / steps;
     const auto columns = pixel_range(here.x() - radius, here.x() + radius, fine_width_);
     const auto rows = pixel_range(here.y() - radius, here.y() + radius, fine_height_);
     for (int y = rows[0]; y <= rows[1]; ++y) {

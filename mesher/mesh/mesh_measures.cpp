@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/mesh/mesh_measures.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -11,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 #include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
 
@@ -195,14 +194,12 @@ void require_sound_elements(const Mesh& mesh) {
         positions_of(mesh, nodes_of(block.nodes, block.kind, measured.worst_element))
             .rowwise()
             .mean();
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "element %zu round (%.4g, %.4g, %.4g) m is inverted or degenerate (scaled "
-                  "Jacobian %.3g)",
-                  measured.worst_element, centre.x(), centre.y(), centre.z(),
-                  measured.smallest_scaled_jacobian);
-    throw ComputationError("mesh: part '" + block.part + "': " + text.data() +
-                           "; try other dimensions or divisions");
+    throw ComputationError("mesh: part '" + block.part + "': element " +
+                           std::to_string(measured.worst_element) + " round (" +
+                           rounded_texts({centre.data(), 3}, 4) +
+                           ") m is inverted or degenerate (scaled Jacobian " +
+                           rounded_text(measured.smallest_scaled_jacobian, 3) +
+                           "); try other dimensions or divisions");
   }
 }
 

@@ -81,7 +81,8 @@ NodeSet refine_set(const NodeSet& set, const RefinedNodes& refined) {
   return result;
 }
 
-/// Whether a face set of the same name has the same nodes; it has them in the finer mesh, too.
+/// Tells whether a face set of the same name has the same nodes; it has them in the finer mesh,
+/// too.
 bool is_of_faces(const Mesh& mesh, const NodeSet& set) {
   return std::any_of(mesh.face_sets.begin(), mesh.face_sets.end(), [&](const FaceSet& faces) {
     return faces.name == set.name && nodes_of(faces).nodes == set.nodes;

@@ -2,12 +2,11 @@
 #include "mesher/slits/cut_topology.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <numeric>
 #include <tuple>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::mesher {
 namespace {
@@ -42,9 +41,8 @@ CutTopology::CutTopology(const CutSurroundings& surroundings, std::vector<std::s
 
 void CutTopology::refuse(std::size_t cut, const std::string& problem, std::int32_t node) const {
   const auto& x = near_.mesh.nodes[static_cast<std::size_t>(node)];
-  std::array<char, 80> place{};
-  std::snprintf(place.data(), place.size(), " at (%.4g, %.4g, %.4g) m", x[0], x[1], x[2]);
-  throw InputError("slit '" + names_[cut] + "': " + problem + place.data());
+  throw InputError("slit '" + names_[cut] + "': " + problem + " at (" + rounded_texts(x, 4) +
+                   ") m");
 }
 
 void CutTopology::find_faces() {

@@ -37,12 +37,12 @@ std::vector<CoarseEntry> all_entries(const Ranks& ranks, const std::vector<Coars
   const MPI_Comm communicator = fe_modal::communicator(ranks);
   const int bytes = static_cast<int>(own.size() * sizeof(CoarseEntry));
   std::vector<int> counts(static_cast<std::size_t>(ranks.count()));
-  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
+  require_mpi(MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator));
   std::vector<int> offsets(counts.size() + 1, 0);
   std::partial_sum(counts.begin(), counts.end(), offsets.begin() + 1);
   std::vector<CoarseEntry> all(static_cast<std::size_t>(offsets.back()) / sizeof(CoarseEntry));
-  MPI_Allgatherv(own.data(), bytes, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE,
-                 communicator);
+  require_mpi(MPI_Allgatherv(own.data(), bytes, MPI_BYTE, all.data(), counts.data(), offsets.data(),
+                             MPI_BYTE, communicator));
   return all;
 }
 

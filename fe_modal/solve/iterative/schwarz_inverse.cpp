@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/solve/iterative/schwarz_inverse.h"
 
-#include <array>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "geometry/foundation/error.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -100,15 +99,11 @@ std::optional<EigenPairs> SchwarzInverse::iterate(Mat mass, Eigen::Index count) 
 }
 
 std::string SchwarzInverse::describe() const {
-  std::array<char, 200> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "iterative%s: %zu subdomains, whose factors have %.4g million entries, and %td coarse "
-      "functions%s",
-      ranks().are_many() ? (" on " + std::to_string(ranks().count()) + " ranks").c_str() : "",
-      preconditioner_->subdomain_count(), preconditioner_->nonzeros() / 1e6,
-      preconditioner_->coarse_size(), iterations_text().c_str());
-  return text.data();
+  return "iterative" +
+         (ranks().are_many() ? " on " + std::to_string(ranks().count()) + " ranks" : "") + ": " +
+         std::to_string(preconditioner_->subdomain_count()) + " subdomains, whose factors have " +
+         rounded_text(preconditioner_->nonzeros() / 1e6, 4) + " million entries, and " +
+         std::to_string(preconditioner_->coarse_size()) + " coarse functions" + iterations_text();
 }
 
 }  // namespace flexneck::fe_modal
