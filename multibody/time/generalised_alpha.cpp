@@ -343,10 +343,10 @@ void GeneralisedAlpha::step(double limit_s) {
       if (at_end) time_s_ = limit_s;
       // But one as long as a short contact would find the same accelerations at its ends.
       if (crosses_) proposed_s_ = std::min(proposed_s_, first_step());
-      if (crosses_) {
-        fresh_ = false;
-        approached_from_s_ = 0;
-      }
+      if (crosses_) approached_from_s_ = 0;
+      // Behind a jump a, which trails V', would carry it on from step to step.
+      const bool passed_jump = reason_ == StepReason::load && watch_->is_blind_to(length);
+      if (crosses_ || passed_jump) fresh_ = false;
       met_stop_ = crosses_ && ForceSet::is_deflection(event_);
       return;
     }

@@ -71,9 +71,11 @@ RelativeMotion LoadWatch::Motions::at(double s) const {
   return motion;
 }
 
+bool LoadWatch::is_blind_to(double length_s) const { return length_s < kShortest * resolution_s_; }
+
 double LoadWatch::share_seen(double begin_s, double length_s, Method method) {
   take(end_);
-  if (length_s < kShortest * resolution_s_) return 1;
+  if (is_blind_to(length_s)) return 1;
   // More samples than the resolution asks for: none of its length lies between two.
   const auto count = std::max(kFewest, static_cast<std::size_t>(length_s / resolution_s_) + 1);
   std::size_t missed = count;

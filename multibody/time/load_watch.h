@@ -30,6 +30,8 @@ class LoadWatch {
   /// The motion of the last evaluation is that at the end of a step.
   /// @return 1 if the step may be accepted, or the share of its length that may do
   double share_seen(double begin_s, double length_s, Method method);
+  /// Shorter steps are not looked at: what cut one down to this is a jump.
+  bool is_blind_to(double length_s) const;
   /// The step that was looked at last is accepted: the next one begins at its end.
   void accept() { begin_.swap(end_); }
 
