@@ -102,7 +102,9 @@ const std::map<std::string, InpKeyword>& inp_keywords() {
 }
 
 void check_parameters(const InpCard& card, const InpKeyword& keyword) {
-  for (const auto& [name, value] : card.parameters) {
+  for (const auto& parameter : card.parameters) {
+    const std::string& name = parameter.first;
+    const std::string& value = parameter.second;
     const auto row = std::find_if(keyword.parameters.begin(), keyword.parameters.end(),
                                   [&](const InpParameter& each) { return each.name == name; });
     if (row == keyword.parameters.end()) {

@@ -10,6 +10,7 @@
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/edge_order.h"
 #include "mesher/exchange/foreign_file.h"
+#include "mesher/exchange/inp_cards.h"
 #include "mesher/exchange/nastran_cards.h"
 #include "mesher/exchange/nastran_case_control.h"
 #include "mesher/exchange/nastran_connections.h"
