@@ -158,6 +158,8 @@ Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& as
       !key.empty() && table.is_text(key) && (key == keys.value || key == "acceleration");
   if (!is_expression && table.has("breakpoints"))
     table.refuse("breakpoints", "only a motion by an expression of t has them");
+  if (key != "table" && key != keys.value_table)
+    table.refuse_given({"column"}, "has no effect without a file that it is a column of");
   if (key.empty()) return motion;
   if (key == "pulse_times") {
     motion.acceleration = pulse(table, keys, motion.initial_rate);
