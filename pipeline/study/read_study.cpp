@@ -75,7 +75,7 @@ void check_loads(const StudyTable& root, const Study& study) {
 /// What matrices, which have neither elements nor sets, leave without effect.
 void refuse_keys_of_meshes(const StudyTable& root) {
   const std::string why = "has no effect with [matrices], which have no mesh";
-  root.refuse_given({"mesh", "substructures"}, why);
+  root.refuse_given({"substructures"}, why);
   const StudyTable modes = root.table("modes");
   for (const std::string& key : modes.keys())
     if (key != "count" && key != "certify" && key != "solver") modes.refuse_given({key}, why);
@@ -170,6 +170,7 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   const StudyTable mesh = root.table("mesh");
   study.mesh_orders = read_mesh_orders(mesh);
   if (root.has("geometry")) study.structure = read_structure(root.table("geometry"), mesh);
+  if (!root.has("geometry")) root.refuse_given({"mesh"}, "has no effect without [geometry]");
   if (root.has("matrices")) {
     if (root.has("geometry")) {
       root.refuse("matrices", "expected [geometry] or [matrices], not both");

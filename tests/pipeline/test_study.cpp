@@ -293,7 +293,19 @@ TEST_CASE("a key that another key's value leaves without effect is refused") {
            "[[load]]\nname = \"w\"\nkind = \"pressure\"\npressure = \"1 Pa\"\nmoment = [\"1 N m\", "
            "\"0 N m\", \"0 N m\"]\n",
        "load.w.moment: has no effect with kind = 'pressure' (Of a face)"},
-      {matrices + "[mesh]\nelement = \"hex8\"\n", "mesh: has no effect with [matrices]"},
+      {matrices + "[mesh]\nelement = \"hex8\"\n", "mesh: has no effect without [geometry]"},
+      {matrices + "[substructures]\nmodes = 1\n", "substructures: has no effect with [matrices]"},
+      {file +
+           "[[load]]\nname = \"w\"\nkind = \"face\"\nmoment = [\"1 N m\", \"0 N m\", \"0 N m\"]\n"
+           "position = [\"1 m\", \"0 m\", \"0 m\"]\n",
+       "load.w.position: has no effect without force"},
+      {file + "[sweep]\nseed = 3\noutputs = [\"modes.mass\"]\n[[sweep.parameter]]\nkey = "
+              "\"modes.count\"\nvalues = [1, 2]\n",
+       "sweep.seed: has no effect on a grid or a list"},
+      {file + "[[body]]\nname = \"b\"\nkind = \"prescribed\"\ndirection = [0, 1, "
+              "0]\n[body.turn]\naxis "
+              "= [0, 1, 0]\ninitial_rate = \"1 rad/s\"\n",
+       "body.b.direction: has no effect on a body that turns only"},
       {matrices + "[modes]\nfixed = [\"a\"]\n", "modes.fixed: has no effect with [matrices]"},
   };
   for (const auto& [text, why] : refused) {
@@ -323,9 +335,9 @@ TEST_CASE("values that later stages cannot take are refused at reading") {
                     Contains("body.head.name: body 'head': mass must be positive"));
   for (const std::string key :
        {"rigid_interfaces=[\"tpo\"]", "attached_to=tpo", "basis_interfaces=[\"tpo\"]"})
-    CHECK_THROWS_WITH(built_in({"modes." + key, "modes.basis=residual"}),
-                      Contains("modes." + key.substr(0, key.find('=')) +
-                               ": there is no interface 'tpo'"));
+    CHECK_THROWS_WITH(
+        built_in({"modes." + key, "modes.basis=residual"}),
+        Contains("modes." + key.substr(0, key.find('=')) + ": there is no interface 'tpo'"));
 }
 
 TEST_CASE("supports, interfaces and parts of the neck are those that its study names") {
