@@ -22,12 +22,13 @@ constexpr int kFactorise = 2;
 constexpr int kRelaxation = 14;  ///< workspace beyond the estimate, per cent
 constexpr int kFirstRelaxation = 10;
 constexpr int kMaxRelaxation = 200;
-constexpr int kMemoryRefused = -13;
 
 bool wants_more_workspace(int status) {
   return status == -8 || status == -9 || status == -14 || status == -15 || status == -17 ||
          status == -20;
 }
+
+bool wants_memory(int status) { return status == -5 || status == -7 || status == -13; }
 
 /// Entries of a part by row and column of the whole matrix, from 1.
 struct Coordinates {
@@ -108,10 +109,10 @@ struct Instance {
   }
   void require_success(const std::string& doing) const {
     if (status() >= 0) return;
-    throw ComputationError(status() == kMemoryRefused ? "MUMPS, " + doing + ": out of memory"
-                                                      : "MUMPS failed while " + doing + ": error " +
-                                                            std::to_string(status()) + ", " +
-                                                            std::to_string(data.infog[1]));
+    if (wants_memory(status()))
+      throw out_of_memory(doing + " with MUMPS", "take a coarser mesh, or leave out modes.certify");
+    throw ComputationError("MUMPS failed while " + doing + ": error " + std::to_string(status()) +
+                           ", " + std::to_string(data.infog[1]));
   }
 
   void factorise() {

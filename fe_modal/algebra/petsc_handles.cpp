@@ -3,7 +3,9 @@
 
 #include <string>
 
+#include "fe_modal/algebra/cholmod_handles.h"
 #include "fe_modal/algebra/communicator.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -11,6 +13,7 @@ namespace flexneck::fe_modal {
 void require(PetscErrorCode code, std::string_view doing) {
   if (code == 0) return;
   const char* text = nullptr;
+  if (code == PETSC_ERR_MEM) throw out_of_memory(std::string(doing), kOrAnotherSolution);
   static_cast<void>(PetscErrorMessage(code, &text, nullptr));
   throw ComputationError("PETSc failed while " + std::string(doing) + ": " +
                          (text == nullptr ? "unknown error" : text) + " (code " +

@@ -179,6 +179,8 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
   }
   if (!given.prestress.empty()) times.start("static step");
   const ModalOptions options = with_prestress(mesh, given, progress);
+  if (const std::string text = large_prestress_text(mesh, options); warn && !text.empty())
+    warn(text);
   times.start("order and factorise");
   const DofMap dof_map = numbered_dof_map_of(mesh, options);
   const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include <Eigen/Eigenvalues>
 
 #include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/kept_exception.h"
 #include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/analysis/static_analysis.h"
+#include "fe_modal/element/element_fields.h"
 #include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/system/assembly.h"
 #include "geometry/foundation/available_memory.h"
@@ -118,6 +122,35 @@ ModalOptions with_prestress(const mesher::Mesh& mesh, ModalOptions options,
   options.prestress_m =
       static_step(mesh, alone(options), options.prestress, progress).displacements_m;
   return options;
+}
+
+std::string large_prestress_text(const mesher::Mesh& mesh, const ModalOptions& options) {
+  if (options.prestress_m.cols() == 0) return {};
+  constexpr double kLargestStrain = 0.1;
+  constexpr double kLargestTurn_rad = 0.3;
+  double strain = 0;
+  double turn_rad = 0;
+  for_each_element(
+      mesh, options.formulation, {&options.prestress_m}, [&](const ElementState& state) {
+        for (Eigen::Index q = 0; q < state.fields.volumes_m3.size(); ++q) {
+          Eigen::Matrix3d gradient;
+          for (Eigen::Index k = 0; k < 9; ++k)
+            gradient(k / 3, k % 3) = state.fields.gradients[static_cast<std::size_t>(k)](0, q);
+          const Eigen::Matrix3d half_skew = (gradient - gradient.transpose()) / 2;
+          turn_rad = std::max(turn_rad, half_skew.norm() / std::numbers::sqrt2);
+          if (gradient.norm() <= strain) continue;
+          const Eigen::Vector3d strains =
+              Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>((gradient + gradient.transpose()) / 2,
+                                                             Eigen::EigenvaluesOnly)
+                  .eigenvalues();
+          strain = std::max(strain, strains.cwiseAbs().maxCoeff());
+        }
+      });
+  if (strain <= kLargestStrain && turn_rad <= kLargestTurn_rad) return {};
+  return "the static step of the prestress strains the body by up to " + rounded_text(strain, 2) +
+         " and turns parts of it by up to " + rounded_text(turn_rad * 180 / std::numbers::pi, 2) +
+         " deg: theory of small displacements errs by a tenth and more above a strain of 0.1 or "
+         "some 20 deg; lessen the loads";
 }
 
 std::optional<double> buckling_factor(const mesher::Mesh& mesh, const DofMap& dof_map,

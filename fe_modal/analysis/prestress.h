@@ -19,6 +19,11 @@ namespace flexneck::fe_modal {
 ModalOptions with_prestress(const mesher::Mesh& mesh, ModalOptions options,
                             const Progress& progress);
 
+/// A sentence on a static step that is beyond small displacements: a strain above 0.1 or a turn
+/// above 0.3 rad somewhere in the body, which errs by a tenth or a twentieth; empty below.
+/// @param options of with_prestress()
+std::string large_prestress_text(const mesher::Mesh& mesh, const ModalOptions& options);
+
 /// Smallest positive factor of the options' prestress at which the body buckles, K + factor K_g
 /// singular; nothing if there is none up to 1000.
 /// @param options of with_prestress()

@@ -55,14 +55,13 @@ DeformationGuard::DeformationGuard(const Model& model) {
   }
 }
 
-std::string DeformationGuard::text_of(const Watched& watched, const Deformation& found) {
+std::string DeformationGuard::text_of(const Deformation& found) {
   const std::string where =
-      found.interface == nullptr ? "mass" : "interface '" + found.interface->name + "'";
-  return "body '" + watched.name + "' " + (found.turns ? "turns its " : "displaces its ") + where +
-         " by " +
+      found.interface == nullptr ? "its mass" : "interface '" + found.interface->name + "'";
+  return std::string(found.turns ? "turns " : "displaces ") + where + " by " +
          (found.turns ? rounded_text(found.value * 180 / std::numbers::pi, 3) + " deg"
                       : rounded_text(found.value, 3) + " of its length") +
-         " at " + rounded_text(found.time_s) + " s";
+         " at " + rounded_text(found.time_s, 4) + " s";
 }
 
 void DeformationGuard::check_large(double time_s, std::size_t body, const ConstVector& a) {
@@ -81,9 +80,10 @@ void DeformationGuard::check_large(double time_s, std::size_t body, const ConstV
     consider((each.rotation * a).norm(), true, &each);
     consider((each.translation * a).norm() / watched.length_m, false, &each);
   }
+  if (worst.of_limit > 1 && watched.largest.of_limit <= 1) watched.since_s = time_s;
   if (worst.of_limit > watched.largest.of_limit) watched.largest = worst;
   if (is_beyond)
-    throw ComputationError(text_of(watched, worst) +
+    throw ComputationError("body '" + watched.name + "' " + text_of(worst) +
                            ", where modes mean nothing; its loads are too large, or it needs "
                            "stress_stiffening or several bodies in its place");
 }
@@ -92,10 +92,9 @@ std::vector<std::string> DeformationGuard::warnings() const {
   std::vector<std::string> texts;
   for (const std::optional<Watched>& each : bodies_)
     if (each && each->largest.of_limit > 1)
-      texts.push_back(text_of(*each, each->largest) +
-                      ", beyond the small deformations for which modes hold: above 57 deg or half "
-                      "of its length its results are off by a tenth and more; those of several "
-                      "bodies in its place are not");
+      texts.push_back("body '" + each->name + "' leaves the small deformations of its modes at " +
+                      rounded_text(each->since_s, 3) + " s and at worst " + text_of(each->largest) +
+                      ": results err by over a tenth, make it several bodies");
   return texts;
 }
 

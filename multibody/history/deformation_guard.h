@@ -34,7 +34,7 @@ class DeformationGuard {
     if (!(a.squaredNorm() <= safe_[body])) check_large(time_s, body, a);
   }
 
-  /// A sentence for each body that was beyond the first, with its largest deformation.
+  /// A sentence for each body that was beyond the first, from when on and its largest deformation.
   std::vector<std::string> warnings() const;
 
  private:
@@ -51,10 +51,11 @@ class DeformationGuard {
     double length_m = 0;
     double mass_kg = 0;
     Deformation largest = {};
+    double since_s = 0;  ///< what is told begins
   };
 
   void check_large(double time_s, std::size_t body, const ConstVector& a);
-  static std::string text_of(const Watched& watched, const Deformation& found);
+  static std::string text_of(const Deformation& found);
 
   std::vector<std::optional<Watched>> bodies_;  ///< of the model
   /// Of the bodies: |a|^2 up to which nothing can be beyond what is told.

@@ -9,6 +9,7 @@
 #include "multibody/history/recorder.h"
 #include "multibody/model/prescribed_path.h"
 #include "multibody/time/motion.h"
+#include "multibody/time/snap_search.h"
 
 namespace flexneck::multibody {
 namespace {
@@ -44,14 +45,21 @@ History settle_along(const Model& model, Equations& equations,
                      const std::function<void()>& checkpoint, const OutputOptions& output) {
   check_motions_reach(model, output.end_time_s);
   Recorder recorder(model, output);
+  SnapSearch jumps(model, equations);
+  const auto with_warnings = [&](History history) {
+    for (const std::string& each : jumps.warnings()) history.warnings.push_back(each);
+    return history;
+  };
   const auto count = [&] { recorder.statistics().evaluations = equations.evaluations(); };
   Eigen::Index column = 0;
   try {
     Eigen::VectorXd state = equations.given_place();
     for (; column < recorder.columns(); ++column) {
       const double time_s = recorder.time_s(column);
-      settle_until(model, equations, recorder.watch(),
-                   recorder.time_s(std::max<Eigen::Index>(column - 1, 0)), time_s, state);
+      const double begin_s = recorder.time_s(std::max<Eigen::Index>(column - 1, 0));
+      const Eigen::VectorXd before = state;
+      settle_until(model, equations, recorder.watch(), begin_s, time_s, state);
+      if (column > 0) jumps.look(recorder.watch(), begin_s, before, time_s, state);
       Eigen::VectorXd recorded = state;
       recorder.begin(column);
       equations.record(time_s, recorded, recorder, column);
@@ -66,10 +74,10 @@ History settle_along(const Model& model, Equations& equations,
     count();
     const std::string why =
         std::string(error.what()) + ", at " + rounded_text(recorder.time_s(column)) + " s";
-    throw IncompleteRun(why, recorder.take_incomplete(column, why));
+    throw IncompleteRun(why, with_warnings(recorder.take_incomplete(column, why)));
   }
   count();
-  return recorder.take();
+  return with_warnings(recorder.take());
 }
 
 }  // namespace flexneck::multibody

@@ -114,4 +114,30 @@ DottedKey find_dotted_key(std::span<const Key> keys, std::string_view dotted) {
   return found;
 }
 
+std::vector<std::string> tables_with_key(std::span<const Key> format, std::string_view name,
+                                         bool is_table) {
+  struct Table {
+    std::string path, heading;
+    std::span<const Key> keys;
+    std::size_t depth;
+  };
+  std::vector<Table> tables = {{"", "the top level", format, 0}};
+  std::vector<std::string> found;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const Table table = tables[k];
+    for (const Key& key : table.keys) {
+      if (key.name == name && key.keys.empty() != is_table) found.push_back(table.heading);
+      const bool is_known = std::ranges::any_of(tables, [&](const Table& other) {
+        return other.keys.data() == key.keys.data() && other.depth <= table.depth;
+      });
+      if (key.keys.empty() || is_known) continue;
+      const std::string path = table.path + (key.name == "*" ? "<name>" : std::string(key.name));
+      tables.push_back({path + ".",
+                        key.type == KeyType::tables ? "[[" + path + "]]" : "[" + path + "]",
+                        key.keys, table.depth + 1});
+    }
+  }
+  return found;
+}
+
 }  // namespace flexneck::pipeline

@@ -119,8 +119,9 @@ struct Key {
                                   KeyDetails details = {}) {
     return {name, KeyType::quantities, unit, fallback, what, details, {}};
   }
-  static constexpr Key one_or_numbers(Text name, Text fallback, Text what) {
-    return {name, KeyType::one_or_numbers, {}, fallback, what, {}, {}};
+  static constexpr Key one_or_numbers(Text name, Text fallback, Text what,
+                                      KeyDetails details = {}) {
+    return {name, KeyType::one_or_numbers, {}, fallback, what, details, {}};
   }
   static constexpr Key number_or_quantity(Text name, Text unit, Text fallback, Text what) {
     return {name, KeyType::number_or_quantity, unit, fallback, what, {}, {}};
@@ -155,6 +156,11 @@ struct DottedKey {
   UsedBy used_by = UsedBy::table;
 };
 DottedKey find_dotted_key(std::span<const Key> keys, std::string_view dotted);
+
+/// The tables of a format that have a key, as "[modes]" or "[[case]]", each by its shortest names.
+/// @param is_table  whether the key itself is a table
+std::vector<std::string> tables_with_key(std::span<const Key> format, std::string_view name,
+                                         bool is_table);
 
 /// Keys that several tables share, behind those of one.
 template <std::size_t N, std::size_t M>

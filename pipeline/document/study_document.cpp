@@ -143,10 +143,12 @@ double StudyTable::quantity(const std::string& key, const std::string& unit) con
 
 std::vector<double> StudyTable::quantities(const std::string& key, std::size_t size,
                                            const std::string& unit) const {
-  const std::string si_unit = unit_in(node_->row(key, KeyType::quantities), unit);
+  const Key& row = node_->row(key, KeyType::quantities);
+  const std::string si_unit = unit_in(row, unit);
   std::vector<double> values;
   for (const toml::node& node : node_->array(key, size)) {
     values.push_back(node_->quantity_of(node, key, si_unit));
+    node_->require_within(key, row.details.range, values.back());
   }
   return values;
 }
@@ -213,7 +215,7 @@ std::filesystem::path StudyTable::folder_of(const std::string& key) const {
 void StudyTable::finish() const {
   for (const std::string& key : keys()) {
     if (std::find(node_->known.begin(), node_->known.end(), key) != node_->known.end()) continue;
-    refuse(key, "unknown key" + did_you_mean(node_->known, key));
+    refuse(key, node_->unknown(key));
   }
 }
 
@@ -241,6 +243,7 @@ StudyTable StudyDocument::root() const {
   auto node = std::make_shared<StudyTable::Node>();
   node->table = &impl_->content.root;
   node->keys = impl_->keys;
+  impl_->records.format = impl_->keys;
   // Shares the ownership of the document: a table may outlive it.
   node->records = std::shared_ptr<StudyRecords>(impl_, &impl_->records);
   return StudyTable(std::move(node));
@@ -249,7 +252,7 @@ StudyTable StudyDocument::root() const {
 void StudyDocument::set(const std::string& setting) {
   std::vector<std::string> told;  // when the document was read
   apply_setting(impl_->content.root, with_current_names(setting, impl_->keys, told));
-  impl_->records = {impl_->content.parameters, {}};
+  impl_->records = {impl_->keys, impl_->content.parameters, {}};
 }
 
 const std::vector<InputFile>& StudyDocument::files() const { return impl_->content.files; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -73,6 +74,55 @@ std::string StudyTable::Node::misspelt(const std::string& key) const {
         others.emplace_back(name.str());
   const std::string near = nearest_name(others, key);
   return near.empty() ? near : "; is '" + near + "' meant to be it?";
+}
+
+namespace {
+
+/// "a, b or c"
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < names.size() ? ", " : " or ") + names[k];
+  return text;
+}
+
+bool is_table_of_keys(const toml::node& node) {
+  const toml::table* const table = node.as_table();
+  return table != nullptr ? !table->contains("value") : node.is_array_of_tables();
+}
+
+}  // namespace
+
+std::string StudyTable::Node::unknown(const std::string& key) const {
+  constexpr std::size_t kMost = 4;
+  const toml::node& node = *table->get(key);
+  const Key* const row = find_key(keys, key);
+  if (row != nullptr) {
+    std::string where;
+    for (const Key& other : keys) {
+      const toml::node* const kind = table->get(other.name);
+      if (other.details.choices == nullptr || other.fallback != kRequired || kind == nullptr)
+        continue;
+      where +=
+          (where.empty() ? "with " : ", ") + std::string(other.name) + " = " + toml_text(*kind);
+    }
+    return "has no effect " + (where.empty() ? "here" : where) + " (" + std::string(row->what) +
+           ")";
+  }
+  std::string text = "unknown key" + did_you_mean(known, key);
+  const std::vector<std::string> places =
+      tables_with_key(records->format, key, is_table_of_keys(node));
+  if (!places.empty() && places.size() <= kMost)
+    return text + "; it belongs into " + alternatives(places);
+  std::vector<std::string> files;
+  for (const Key& other : keys)
+    if (other.type == KeyType::file)
+      files.push_back("'" + std::string(other.name) + "' (" + std::string(other.what) + ")");
+  const bool is_file =
+      node.is_string() && std::filesystem::path(node.value_or(std::string())).has_extension();
+  if (is_file && !files.empty() && files.size() <= kMost)
+    text += "; is " + alternatives(files) + " meant?";
+  return text;
 }
 
 namespace {
@@ -153,6 +203,10 @@ const toml::node& StudyTable::Node::value(const std::string& key) {
   const toml::node* const node = find(key);
   if (node == nullptr) {
     const std::string near = misspelt(key);
+    if (near.empty() && table != nullptr)
+      for (const auto& [name, ignored] : *table)
+        if (find_key(keys, name.str()) == nullptr)
+          refuse(std::string(name.str()), unknown(std::string(name.str())));
     refuse(key, "expected this key, found none" +
                     (near.empty() ? " (" + std::string(row(key).what) + ")" : near));
   }

@@ -16,6 +16,7 @@ namespace flexneck::pipeline {
 
 /// What the tables of a document have been asked for.
 struct StudyRecords {
+  std::span<const Key> format;        ///< of the whole document
   std::vector<Parameter> parameters;  ///< read
   std::vector<Parameter> defaults;    ///< asked for, but not there
 };
@@ -65,6 +66,8 @@ struct StudyTable::Node {
 
   /// "; is 'x' meant to be it?" of a key that is there and that nobody has asked for.
   std::string misspelt(const std::string& key) const;
+  /// What is wrong with a key that is there and that nobody has asked for.
+  std::string unknown(const std::string& key) const;
   void record(const std::string& key, const toml::node& value, const toml::table* labels);
 };
 

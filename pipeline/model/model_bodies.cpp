@@ -50,6 +50,13 @@ constexpr auto kOwnKeys = joined(
     }),
     kRigidBodyKeys);
 
+/// Mass and inertia, which a study would else be told of once its modes are made.
+void check_alone(const StudyTable& table, const RigidBody& body) {
+  multibody::Model alone;
+  alone.bodies.push_back({table.text("name"), body, {}});
+  at_key(table, "name", [&] { multibody::check(alone); });
+}
+
 /// The inertia's axes may be turned against the body's.
 RigidBody rigid_body(const StudyTable& table, Assembly& assembly) {
   if (table.flag("lumped")) {
@@ -61,6 +68,7 @@ RigidBody rigid_body(const StudyTable& table, Assembly& assembly) {
   RigidBody body = read_rigid(table);
   const Eigen::Matrix3d R = rotation_or_none(table, "inertia_rotation").toRotationMatrix();
   body.inertia_kg_m2 = R * body.inertia_kg_m2 * R.transpose();
+  check_alone(table, body);
   return body;
 }
 

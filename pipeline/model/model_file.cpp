@@ -55,8 +55,13 @@ constexpr Key kOutputKeys[] = {
 void read_solver(const StudyTable& table, ModelFile& file) {
   read_steps(table, file.solver);
   file.analysis = static_cast<ModelFile::Analysis>(table.choice("analysis"));
-  if (table.has("start") && file.analysis == ModelFile::Analysis::quasi_static)
-    table.refuse("start", "a quasi-static analysis is at rest all the time; leave this key out");
+  if (file.analysis == ModelFile::Analysis::quasi_static) {
+    table.refuse_given({"start"},
+                       "a quasi-static analysis is at rest all the time; leave this key "
+                       "out");
+    table.refuse_given({"integrator", "spectral_radius", "max_step", "min_step", "max_steps"},
+                       "a quasi-static analysis takes no steps in time; leave this key out");
+  }
   file.start = static_cast<ModelFile::Start>(table.choice("start"));
   if (table.has("gravity")) file.model.gravity_m_s2 = quantity_vector(table, "gravity");
   file.end_time_s = table.quantity("end_time");

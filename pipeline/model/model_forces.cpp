@@ -70,7 +70,8 @@ TimeTable load_over_time(const StudyTable& table, const std::string& constant,
   const TimeTable::Outside outside =
       table.choice("outside") == 1 ? TimeTable::Outside::zero : TimeTable::Outside::constant;
   if (table.has(constant)) {
-    table.refuse_given({keys.x, "table"}, "the load is given already by '" + constant + "'");
+    table.refuse_given({keys.x, keys.y, "table", "column", "outside"},
+                       "the load is given already by '" + constant + "', at all times");
     return {{0.0}, {table.quantity(constant, keys.y_unit)}, TimeTable::Outside::constant};
   }
   const TableColumns columns = read_columns(table, keys);

@@ -158,6 +158,8 @@ Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& as
       !key.empty() && table.is_text(key) && (key == keys.value || key == "acceleration");
   if (!is_expression && table.has("breakpoints"))
     table.refuse("breakpoints", "only a motion by an expression of t has them");
+  if (key != "table" && key != keys.value_table)
+    table.refuse_given({"column"}, "has no effect without a file that it is a column of");
   if (key.empty()) return motion;
   if (key == "pulse_times") {
     motion.acceleration = pulse(table, keys, motion.initial_rate);
@@ -251,6 +253,8 @@ PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly) {
   if (assembly.motion == Assembly::Motion::by_case) refuse_motion(table);
   if (assembly.motion != Assembly::Motion::given && !gives_motion(table)) return body;
   if (table.has("direction")) body.direction = unit_vector(table, "direction");
+  if (motion_key(table, kTravel).empty() && !table.has(kTravel.rate))
+    table.refuse_given({"direction"}, "has no effect on a body that turns only");
   const Motion motion = read_motion(table, kTravel, assembly);
   body.initial_velocity_m_s = motion.initial_rate;
   body.acceleration_m_s2 = motion.acceleration;

@@ -13,19 +13,23 @@ namespace flexneck::pipeline {
 
 namespace {
 
+/// Far above what any body has; a percentage is no ratio.
+constexpr KeyDetails kRatio = {.range = {.low = 0, .high = 10}};
+
 // Correction modes stand for what many higher modes give statically, so a damping of their own has
 // no meaning but to let their ringing die out. On the neck with the head (four normal, six residual
 // modes) 0 and 0.05 give the same system damping within 0.3 %, the modes' 0.9 raises it by 4 %; the
 // rate 2 zeta omega stays far from the explicit step's limit.
 constexpr Key kKeys[] = {
     Key::texts("modes", kNone, "Names of the modes that are used; all if the key is not there"),
-    Key::one_or_numbers("damping_ratio", kNone, "Damping ratio of all modes, or of each"),
+    Key::one_or_numbers("damping_ratio", kNone, "Damping ratio of all modes, or of each", kRatio),
     Key::number("correction_damping_ratio", "0.05",
                 "Where there is one damping_ratio: that of modes that only complete the static "
                 "compliance, which lets their ringing die out",
-                {.origin = Origin::inferred}),
+                {.range = kRatio.range, .origin = Origin::inferred}),
     Key::quantity("damping_time", "s", kNone,
-                  "Besides or in its place: damping is this time multiplied by the stiffness"),
+                  "Besides or in its place: damping is this time multiplied by the stiffness",
+                  {.range = at_least(0)}),
     Key::numbers("offset", kNone, "Permanent set of the modal coordinates, in kg^(1/2) m"),
     Key::numbers(
         "modal_coordinates", kNone,

@@ -57,6 +57,9 @@ ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUni
   ResistanceSide side;
   side.curve = load_curve(table, units);
   side.stop = table.quantity("stop", units.deflection);
+  if (!table.has("stop"))
+    table.refuse_given({"stop_stiffness", "stop_quadratic", "stop_cubic"},
+                       "has no effect without 'stop', from where it acts");
   side.beyond_stop = polynomial(table, "stop_", units);
   side.unloading_ratio = table.number("unloading_ratio");
   refuse_if_it_falls(table, side);
@@ -72,6 +75,11 @@ Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& u
     side = read_resistance_side(own, units);
     own.finish();
   };
+  if (table.has("positive") && table.has("negative"))
+    table.refuse_given(
+        {"stiffness", "quadratic", "cubic", "locks_at", "deflections", "loads", "table", "column",
+         "stop", "stop_stiffness", "stop_quadratic", "stop_cubic", "unloading_ratio", "may_fall"},
+        "has no effect beside 'positive' and 'negative', which give both directions");
   side_of("positive", resistance.positive);
   side_of("negative", resistance.negative);
   resistance.damping = table.quantity("damping", units.load + "*s/" + units.deflection);

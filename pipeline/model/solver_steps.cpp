@@ -12,6 +12,9 @@ void read_steps(const StudyTable& table, multibody::SolverOptions& options) {
   options.formulation = static_cast<multibody::Formulation>(table.choice("formulation"));
   options.integrator = static_cast<multibody::Integrator>(table.choice("integrator"));
   options.resolution_s = table.quantity("resolution");
+  if (options.integrator != multibody::Integrator::generalised_alpha)
+    table.refuse_given({"spectral_radius"},
+                       "has no effect but with integrator = \"generalised_alpha\"; take it away");
   options.spectral_radius = table.number("spectral_radius");
   if (!(options.max_step_s > options.min_step_s)) {
     table.refuse("max_step", "expected 0 < min_step < max_step");

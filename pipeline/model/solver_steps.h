@@ -28,7 +28,8 @@ inline constexpr auto kStepKeys = std::to_array<Key>({
               {.choices = integrators}),
     Key::number(
         "spectral_radius", "0.8",
-        "Of generalised_alpha: by what a step multiplies vibrations that it does not resolve"),
+        "Of generalised_alpha: by what a step multiplies vibrations that it does not resolve",
+        {.range = {.low = 0, .high = 1}}),
     Key::quantity("resolution", "s", "0.0001",
                   "No feature of a motion or a load by an expression that is longer is missed",
                   {.range = kPositive}),

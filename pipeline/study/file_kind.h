@@ -14,7 +14,7 @@ enum class FileKind { study, model };
 FileKind kind_of_file(const std::filesystem::path& path);
 
 /// Of a file that a command refuses. @throws InputError if it is of the other kind, with the
-/// command that takes it.
+/// command that takes it, or if it is a mesh or a shape.
 void refuse_other_kind(const std::filesystem::path& path, FileKind expected);
 
 }  // namespace flexneck::pipeline

@@ -234,6 +234,8 @@ FitSection read_fit(const StudyTable& table) {
   fit.iterations = table.count("iterations");
   fit.has_profiles = table.flag("profiles");
   fit.history_samples = table.count("history_samples");
+  if (fit.history_samples == 0)
+    table.refuse_given({"history_deviations"}, "has no effect without history_samples");
   fit.history_deviations = table.number("history_deviations");
   fit.choices = table.texts("choices");
   for (const StudyTable& each : table.tables("parameter"))

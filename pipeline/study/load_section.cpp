@@ -43,6 +43,8 @@ constexpr std::array<LoadKind, 5> kLoadKinds = {{
     {"face",
      [](const StudyTable& load) -> decltype(fe_modal::Load::kind) {
        require_one_of(load, "force", "moment");
+       if (!load.has("force"))
+         load.refuse_given({"position"}, "has no effect without force, which acts there");
        return fe_modal::FaceLoad{set_of(load), vector_or_zero(load, "force"),
                                  vector_or_zero(load, "moment"), position(load)};
      }},
@@ -61,6 +63,8 @@ constexpr std::array<LoadKind, 5> kLoadKinds = {{
     {"support",
      [](const StudyTable& load) -> decltype(fe_modal::Load::kind) {
        require_one_of(load, "translation", "rotation");
+       if (!load.has("rotation"))
+         load.refuse_given({"position"}, "has no effect without rotation, whose axis it is on");
        return fe_modal::SupportLoad{set_of(load), vector_or_zero(load, "translation"),
                                     vector_or_zero(load, "rotation"),
                                     vector_or_zero(load, "position")};

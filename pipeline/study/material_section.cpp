@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/foundation/output_file.h"
 #include "pipeline/study/sections.h"
 
 namespace flexneck::pipeline {
@@ -6,9 +7,10 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr Key kMaterialKeys[] = {
-    Key::quantity("youngs_modulus", "Pa", kRequired, "Young's modulus"),
+    Key::quantity("youngs_modulus", "Pa", kRequired, "Young's modulus", {.range = kPositive}),
     Key::number("poissons_ratio", kRequired, "Poisson's ratio"),
-    Key::quantity("density", "kg/m^3", kRequired, "Density; a weight density is refused"),
+    Key::quantity("density", "kg/m^3", kRequired, "Density; a weight density is refused",
+                  {.range = kPositive}),
     Key::texts("parts", kRequired, "Parts of the mesh that are made of it"),
     Key::text("formulation", kNone, "In place of that of [modes]", {.used_by = UsedBy::modes}),
     Key::number("static_modulus_ratio", "1",
@@ -32,6 +34,10 @@ MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Ma
     const StudyTable material = table.table(name);
     materials.push_back({name, material.quantity("youngs_modulus"),
                          material.number("poissons_ratio"), material.quantity("density")});
+    const double ratio = materials.back().poissons_ratio;
+    if (!(ratio > -1 && ratio < 0.5))
+      material.refuse("poissons_ratio",
+                      "expected a value between -1 and 0.5, found " + exact_text(ratio));
     MaterialModel& model = models[name];
     if (material.has("formulation")) model.formulation = read_formulation(material);
     model.static_modulus_ratio = material.number("static_modulus_ratio");

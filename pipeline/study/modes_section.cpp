@@ -110,6 +110,11 @@ ModesSection read_modes(const StudyTable& table) {
   modes.rigid_parts = table.texts("rigid_parts");
   modes.attached_body = table.text("attached_body");
   modes.attached_to = table.text("attached_to");
+  if (modes.attached_body.empty())
+    table.refuse_given({"attached_to"}, "has no effect without attached_body");
+  if (modes.basis == fe_modal::BasisKind::normal)
+    table.refuse_given({"basis_interfaces"},
+                       "has no effect with basis = \"normal\", which has no static shapes");
   table.finish();
   return modes;
 }

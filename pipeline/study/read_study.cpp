@@ -72,6 +72,15 @@ void check_loads(const StudyTable& root, const Study& study) {
     root.table("modes").refuse("prestress", "there is no [[load]]");
 }
 
+/// What matrices, which have neither elements nor sets, leave without effect.
+void refuse_keys_of_meshes(const StudyTable& root) {
+  const std::string why = "has no effect with [matrices], which have no mesh";
+  root.refuse_given({"substructures"}, why);
+  const StudyTable modes = root.table("modes");
+  for (const std::string& key : modes.keys())
+    if (key != "count" && key != "certify" && key != "solver") modes.refuse_given({key}, why);
+}
+
 /// Names that one part of the study uses and another must define.
 void check_references(const Study& study) {
   const auto require = [&](const std::string& who, const std::vector<std::string>& names,
@@ -85,7 +94,14 @@ void check_references(const Study& study) {
   for (const CaseSection& experiment : study.cases)
     if (experiment.kind == CaseSection::Kind::pendulum)
       require("case." + experiment.name, names_of(study.pulses), experiment.pulse, "pulse");
+  const std::vector<std::string> interfaces = names_of(study.interfaces);
+  for (const std::string& name : study.modes.rigid_interfaces)
+    require("modes.rigid_interfaces", interfaces, name, "interface");
+  for (const std::string& name : study.modes.basis_interfaces)
+    require("modes.basis_interfaces", interfaces, name, "interface");
   if (study.modes.attached_body.empty()) return;
+  if (!study.modes.attached_to.empty())
+    require("modes.attached_to", interfaces, study.modes.attached_to, "interface");
   try {
     study.rigid_body(study.modes.attached_body);
   } catch (const InputError& error) {
@@ -154,11 +170,13 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   const StudyTable mesh = root.table("mesh");
   study.mesh_orders = read_mesh_orders(mesh);
   if (root.has("geometry")) study.structure = read_structure(root.table("geometry"), mesh);
+  if (!root.has("geometry")) root.refuse_given({"mesh"}, "has no effect without [geometry]");
   if (root.has("matrices")) {
     if (root.has("geometry")) {
       root.refuse("matrices", "expected [geometry] or [matrices], not both");
     }
     study.matrices = read_matrices(root.table("matrices"));
+    refuse_keys_of_meshes(root);
   }
   study.modes = read_modes(root.table("modes"));
   study.substructures = read_substructures(root.table("substructures"));

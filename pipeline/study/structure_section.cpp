@@ -138,7 +138,10 @@ mesher::ElementKind read_element(const StudyTable& table) {
 void read_slit_faces(const StudyTable& geometry, mesher::ScriptMeshOptions& options) {
   const geometry::SlitState state = read_slit_state(geometry);
   const std::vector<std::string> faces = geometry.texts("slit_faces");
-  if (state == geometry::SlitState::none) return;
+  if (state == geometry::SlitState::none) {
+    geometry.refuse_given({"slit_faces"}, "has no effect with slits = \"none\"");
+    return;
+  }
   if (faces.empty()) {
     geometry.refuse("slit_faces",
                     "slits need the script's physical surfaces that they lie on, found none");
@@ -183,6 +186,7 @@ mesher::ImportOptions read_file(const StudyTable& geometry, const StudyTable& me
     options.force_unit_N = unit(geometry, "force_unit", "N");
   if (format == ForeignFormat::step || format == ForeignFormat::brep) {
     options.element_size_m = mesh.quantity("size");
+    geometry.refuse_given({"coincident_nodes"}, "has no effect on a shape, which has no nodes");
   }
   options.keeps_doubles = geometry.choice("coincident_nodes") == 1;
   options.leave_out = geometry.texts("leave_out");

@@ -69,6 +69,9 @@ SubstructuresSection read_substructures(const StudyTable& table) {
     section.pieces.push_back(read_piece(piece));
   }
   check_names(names_of(section.pieces), "piece");
+  if (section.pieces.empty())
+    table.refuse_given({"modes", "slits", "normal"},
+                       "has no effect without [[substructures.piece]]");
   section.modes = table.count("modes");
   section.slit_motions = static_cast<fe_modal::SlitMotions>(table.choice("slits"));
   if (table.has("normal")) section.normal = unit_vector(table, "normal");
@@ -77,6 +80,8 @@ SubstructuresSection read_substructures(const StudyTable& table) {
   }
   section.by_planes = !section.pieces.empty() && section.pieces.front().up_to_m.has_value();
   check_pieces(table, section);
+  if (!section.by_planes)
+    table.refuse_given({"normal"}, "has no effect on pieces that are made of parts");
   table.finish();
   return section;
 }

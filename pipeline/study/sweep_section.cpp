@@ -223,6 +223,7 @@ SweepSection read_sweep(const StudyTable& table) {
     sweep.samples = table.count("samples");
   } else {
     table.refuse_given({"samples"}, "expected none: the values of a grid and a list are its rows");
+    table.refuse_given({"seed"}, "has no effect on a grid or a list, which are not random");
   }
   sweep.seed = table.count("seed");
   sweep.outputs = table.texts("outputs");

@@ -12,6 +12,7 @@
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/solve/iterative/block_davidson.h"
 #include "fe_modal/system/assembly.h"
+#include "geometry/foundation/available_memory.h"
 #include "geometry/foundation/error.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
@@ -101,6 +102,15 @@ TEST_CASE("whatever an operator throws comes out of the solver as it was, and th
   const CholeskyFactor factor(unit.get(), 0);
   CHECK_THROWS_AS(lowest_eigenpairs(mass.get(), factor, 2), std::bad_alloc);
   CHECK(lowest_eigenpairs(unit.get(), factor, 2).values[1] == Approx(1));
+}
+
+TEST_CASE("PETSc's want of memory is told as such, with the step, the amount and a way out") {
+  CHECK_THROWS_AS(require(PETSC_ERR_MEM, "filling a matrix"), OutOfMemory);
+  CHECK_THROWS_WITH(require(PETSC_ERR_MEM, "filling a matrix"),
+                    Catch::StartsWith("memory runs out while filling a matrix: ") &&
+                        Catch::Contains(" GB are free; take a coarser mesh"));
+  CHECK_THROWS_WITH(require(PETSC_ERR_ARG_SIZ, "filling a matrix"),
+                    Catch::Contains("PETSc failed while filling a matrix"));
 }
 
 TEST_CASE("all copies of manifold eigenvalues are found") {

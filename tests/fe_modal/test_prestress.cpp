@@ -93,6 +93,21 @@ TEST_CASE(
                     Contains("buckles under its prestress, at 0.8 of the loads"));
 }
 
+TEST_CASE("a prestress beyond small displacements is told with its strain") {
+  const mesher::Mesh mesh = half_column();
+  const auto told = [&](double force_N) {
+    std::string text;
+    analyse_modes(mesh, column_under(force_N), {}, nullptr,
+                  [&](const std::string& warning) { text += warning; });
+    return text;
+  };
+  const double area = kThickness * kDepth;
+  CHECK(told(0.05 * kYoung * area).empty());
+  CHECK_THAT(told(0.6 * kYoung * area),
+             Contains("static step of the prestress strains the body by up to 0.6") &&
+                 Contains("lessen the loads"));
+}
+
 TEST_CASE("a prestressed body is solved for iteratively and refined for its certificate, too") {
   const mesher::Mesh mesh = half_column();
   ModalOptions options;

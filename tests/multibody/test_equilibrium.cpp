@@ -17,6 +17,7 @@ using Eigen::VectorXd;
 using flexneck::testing::make_point_mass_body;
 using namespace flexneck::multibody;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -177,6 +178,69 @@ TEST_CASE("a quasi-static ramp ends where nothing holds any more, and keeps what
     CHECK(run.history.time_s.size() == 6);
     CHECK(run.history.incomplete == run.what());
   }
+}
+
+namespace {
+
+/// Von Mises' truss: a block on a vertical slide, pushed down against a spring that is fixed beside
+/// it and lies flat halfway.
+Model truss(const TimeTable& push_N) {
+  Model model = pendulum(0);
+  model.gravity_m_s2.setZero();
+  model.joints[0].kind = &kPrismaticJoint;
+  model.joints[0].axis = Vector3d::UnitZ();
+  Marker foot{"foot", 0, ""};
+  foot.position_m = {0.4, 0, -0.1};
+  model.markers.push_back(foot);
+  MarkerSpring spring;
+  spring.name = "spring";
+  spring.marker_i = 3;
+  spring.marker_j = 1;
+  spring.free_length_m = std::hypot(0.4, 0.1);
+  spring.resistance.positive.curve = spring.resistance.negative.curve = LoadCurve::cubic(1e5, 0, 0);
+  model.forces.add(std::move(spring));
+  model.forces.add(PointForce{"push", 1, -Vector3d::UnitZ(), push_N});
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("a quasi-static ramp tells a snap-through, and no other motion, however quick") {
+  using Outside = TimeTable::Outside;
+  SolverOptions solver;
+  solver.formulation = GENERATE(Formulation::descriptor, Formulation::recursive);
+  const auto warnings = [&](const Model& model, double interval_s) {
+    return settle(model, solver, {.end_time_s = 1, .interval_s = interval_s}).warnings;
+  };
+  // With the spring's height z its force upwards is k (L0 / l - 1) z, l^2 = b^2 + z^2, which is
+  // largest at l^3 = L0 b^2.
+  constexpr double kRamp_N = 200;
+  const double free = std::hypot(0.4, 0.1);
+  const double length = std::cbrt(free * 0.4 * 0.4);
+  const double height = std::sqrt(length * length - 0.4 * 0.4);
+  const double snap_s = 1e5 * (free / length - 1) * height / kRamp_N;
+  REQUIRE(snap_s < 0.9);
+  for (const double interval_s : {0.5, 0.1, 0.01}) {
+    CAPTURE(interval_s);
+    const auto told =
+        warnings(truss(TimeTable({0, 1}, {0, kRamp_N}, Outside::constant)), interval_s);
+    REQUIRE(told.size() == 1);
+    CHECK_THAT(told[0], StartsWith("the equilibrium jumps at ") && Contains("' moves by "));
+    const double at_s = std::stod(told[0].substr(std::string("the equilibrium jumps at ").size()));
+    CHECK(at_s == Approx(snap_s).margin(2e-3 * interval_s));
+  }
+  const auto there_and_back =
+      warnings(truss(TimeTable({0, 0.5, 1}, {0, kRamp_N, -kRamp_N}, Outside::constant)), 0.01);
+  REQUIRE(there_and_back.size() == 1);
+  CHECK_THAT(there_and_back[0], Contains("the first of 2 jumps"));
+  // Up to short of it, pulled, by a load that jumps, and behind a kink.
+  CHECK(warnings(truss(TimeTable({0, 1}, {0, 0.99 * snap_s * kRamp_N}, Outside::constant)), 0.1)
+            .empty());
+  CHECK(warnings(truss(TimeTable({0, 1}, {0, -kRamp_N}, Outside::constant)), 0.1).empty());
+  CHECK(warnings(truss(TimeTable({0, 0.55, 0.550001, 1}, {0, 0, -50, -50}, Outside::constant)), 0.1)
+            .empty());
+  CHECK(warnings(truss(TimeTable({0, 0.55, 1}, {0, 0, -500}, Outside::constant)), 0.1).empty());
+  CHECK(warnings(truss(TimeTable({0, 1}, {0, 0}, Outside::constant)), 0.1).empty());
 }
 
 TEST_CASE("what has no equilibrium is refused") {

@@ -87,10 +87,10 @@ TEST_CASE("materials that cannot be, and ones that lock, are told") {
   const std::string out = " -q -o " + folder.path().string() + kCoarse;
   const std::string butyl = " --set geometry.materials.butyl.";
   check_refused(run_flexneck("mesh" + out + butyl + "density='-1 kg/m^3'"),
-                "material 'butyl': density must be > 0");
-  check_refused(run_flexneck("mesh" + out + butyl + "density='-1e-9 kg/m^3'"), "-1e-09 kg/m^3");
+                "geometry.materials.butyl.density: expected a positive value, found -1");
+  check_refused(run_flexneck("mesh" + out + butyl + "density='-1e-9 kg/m^3'"), "found -1e-09");
   check_refused(run_flexneck("mesh" + out + butyl + "poissons_ratio=0.5"),
-                "material 'butyl': Poisson's ratio must lie between -1 and 0.5");
+                "poissons_ratio: expected a value between -1 and 0.5, found 0.5");
   check_refused(run_flexneck("mesh" + out + butyl + "static_modulus_ratio=0"),
                 "static_modulus_ratio: expected a positive value, found 0");
   check_refused(run_flexneck("mesh" + out + butyl + "formulation=mixd"),
@@ -112,6 +112,16 @@ TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no 
                 "none.toml: no such file");
   check_refused(run_flexneck("run " + (folder / "broken.toml").string() + out),
                 "broken.toml:1:10:");
+  for (const char* const name : {"my.inp", "my.BDF", "my.step", "my.msh", "my.unv"}) {
+    std::ofstream(folder / name) << "*NODE\n";
+    check_refused(
+        run_flexneck("run " + (folder / name).string() + out),
+        std::string("found a mesh or shape by the ending of its name; write a study, such "
+                    "as my.toml, with file = \"") +
+            name + "\" in [geometry]");
+  }
+  check_refused(run_flexneck("simulate " + (folder / "my.inp").string() + out),
+                "file = \"my.inp\"");
   check_refused(run_flexneck("run --set geometry.plate_thickness='-0.1 in'" + out),
                 "plate_thickness");
   check_refused(run_flexneck("run --set geometry.plate_thickness=0.3" + out), "with its unit");

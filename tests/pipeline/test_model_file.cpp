@@ -155,7 +155,8 @@ TEST_CASE("what a model gets wrong is told in one line with the place and the re
   CHECK_THAT(told("\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"0.01 kg*m^2\"",
                   "\"0.03 kg*m^2\", \"0.03 kg*m^2\", \"-0.01 kg*m^2\""),
              Contains("principal moment of inertia may be negative"));
-  CHECK_THAT(told("kind = \"pin\"", "kind = \"ball\""), Contains("angle: unknown key"));
+  CHECK_THAT(told("kind = \"pin\"", "kind = \"ball\""),
+             Contains("joint.shoulder.angle: has no effect with kind = 'ball'"));
   CHECK_THAT(told("lower = \"ground.hook\"", "lower = \"lower.tip\""),
              Contains("no joint or section connects the body 'upper'"));
   CHECK_THAT(
@@ -171,6 +172,34 @@ TEST_CASE("what a model gets wrong is told in one line with the place and the re
       Contains("channel.c.filter: CFC 1000 needs at least 10000 samples per second"));
   CHECK_THAT(refusal_of_model(folder, "[solver]\nend_time = \"1 s\"\n"),
              Contains("expected bodies"));
+}
+
+TEST_CASE("a key of a model that another key's value leaves without effect is refused") {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& more) {
+    return refusal_of_model(folder, double_pendulum_text() + more);
+  };
+  const std::string force =
+      "[[force]]\nname = \"f\"\nmarker = \"lower.tip\"\ndirection = [1, 0, 0]\n";
+  const std::string resistance =
+      "[[resistance]]\nname = \"r\"\njoint = \"elbow\"\ncoordinate = \"angle\"\n";
+  CHECK(told(force + "magnitude = \"1 N\"\n") == "nothing was refused");
+  CHECK_THAT(told(force + "magnitude = \"1 N\"\noutside = \"zero\"\n"),
+             Contains("force.f.outside: the load is given already by 'magnitude'"));
+  CHECK_THAT(told(force + "magnitude = \"1 N\"\nmagnitudes = [\"1 N\"]\n"),
+             Contains("force.f.magnitudes: the load is given already"));
+  CHECK_THAT(told(resistance + "stiffness = \"1 N m/rad\"\nstop_stiffness = \"1 N m/rad\"\n"),
+             Contains("resistance.r.stop_stiffness: has no effect without 'stop'"));
+  CHECK_THAT(told(resistance + "stiffness = \"1 N m/rad\"\npositive = { stiffness = \"1 N m/rad\" "
+                               "}\nnegative = { stiffness = \"1 N m/rad\" }\n"),
+             Contains("resistance.r.stiffness: has no effect beside 'positive' and 'negative'"));
+  const auto quasi_static = [&](const std::string& key) {
+    return refusal_of_model(folder, with(double_pendulum_text(), "[solver]\n",
+                                         "[solver]\nanalysis = \"quasi_static\"\n" + key));
+  };
+  CHECK_THAT(quasi_static("max_step = \"1 ms\"\n"),
+             Contains("solver.max_step: a quasi-static analysis takes no steps in time"));
+  CHECK_THAT(quasi_static("integrator = \"dormand_prince\"\n"), Contains("solver.integrator:"));
 }
 
 TEST_CASE("modes of a deformable body are chosen by name, damped one by one, and may be offset") {

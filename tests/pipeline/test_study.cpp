@@ -13,6 +13,7 @@
 #include "tests/support/dense_solvers.h"
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 using namespace flexneck;
 using namespace flexneck::pipeline;
 
@@ -227,6 +228,118 @@ TEST_CASE("what cannot be is refused before anything is computed") {
   CHECK_THROWS_WITH(built_in({"solver.relative_tolerance=0"}), Contains("positive"));
 }
 
+namespace {
+
+std::string refusal_of_study(const TemporaryFolder& folder, const std::string& text) {
+  std::ofstream(folder / "mine.toml") << text;
+  try {
+    read_study(folder / "mine.toml", {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+}  // namespace
+
+TEST_CASE("a key that is not known where it stands is told where it belongs") {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& text) { return refusal_of_study(folder, text); };
+  const std::string file = "[geometry]\nfile = \"bar.msh\"\n";
+  for (const std::string key : {"mesh = \"bar.inp\"", "step = \"bar.step\"", "path = \"a.msh\"",
+                                "mesh_file = \"bar.bdf\"", "input = \"bar.unv\""}) {
+    CHECK_THAT(told("[geometry]\n" + key + "\n"),
+               Contains("mine.toml:2:") && Contains(": unknown key; is 'script' (gmsh script") &&
+                   Contains(" or 'file' (In place of a script: a mesh or a shape"));
+  }
+  CHECK_THAT(told(file + "count = 5\n"),
+             Contains("geometry.count: unknown key; it belongs into [modes]"));
+  CHECK_THAT(told(file + "element = \"hex8\"\n"), Contains("it belongs into [mesh]"));
+  CHECK_THAT(told(file + "youngs_modulus = \"1 GPa\"\n"),
+             Contains("it belongs into [geometry.materials.<name>]"));
+  CHECK_THAT(told(file + "[geometry.mesh]\nsize = \"1 mm\"\n"),
+             Contains("geometry.mesh: unknown key; it belongs into the top level"));
+  CHECK_THAT(told(file + "[output]\nmax_step = \"1 ms\"\n"), Contains("into [solver]"));
+  CHECK_THAT(told(file + "[modes]\ndamping_ratio = 0.1\n"), Contains("into [[body]]"));
+  CHECK_THAT(told(file + "[modes]\npulse_scaling = \"none\"\n"),
+             Contains("into [pendulum], [static], [[case]] or [[variant]]"));
+  CHECK_THAT(told(file + "[modes]\nname = \"a\"\n"), EndsWith("modes.name: unknown key"));
+}
+
+TEST_CASE("a key that another key's value leaves without effect is refused") {
+  const TemporaryFolder folder;
+  const std::string file = "[geometry]\nfile = \"bar.msh\"\n";
+  const std::string matrices =
+      "[matrices]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"x.txt\"\n";
+  const std::pair<std::string, std::string> refused[] = {
+      {file + "[solver]\nspectral_radius = 0.5\n",
+       "solver.spectral_radius: has no effect but with integrator"},
+      {file + "[substructures]\nmodes = 3\n",
+       "substructures.modes: has no effect without [[substructures.piece]]"},
+      {file + "[substructures]\nnormal = [0, 0, 1]\n", "substructures.normal: has no effect"},
+      {file + "[substructures]\nnormal = [0, 0, 1]\n[[substructures.piece]]\nname = \"a\"\nparts "
+              "= [\"a\"]\n[[substructures.piece]]\nname = \"b\"\nparts = [\"b\"]\n",
+       "substructures.normal: has no effect on pieces that are made of parts"},
+      {file + "[modes]\nattached_to = \"tip\"\n",
+       "modes.attached_to: has no effect without attached_body"},
+      {file + "[modes]\nbasis_interfaces = [\"tip\"]\n",
+       "modes.basis_interfaces: has no effect with basis = \"normal\""},
+      {file + "[mesh]\nelement = \"hex8\"\n", "mesh.element: has no effect here (Kind of"},
+      {"[geometry]\nfile = \"bar.step\"\ncoincident_nodes = \"keep\"\n",
+       "geometry.coincident_nodes: has no effect on a shape"},
+      {"[geometry]\nscript = \"bar.geo\"\nslit_faces = [\"cut\"]\n",
+       "geometry.slit_faces: has no effect with slits = \"none\""},
+      {file +
+           "[[load]]\nname = \"w\"\nkind = \"pressure\"\npressure = \"1 Pa\"\nmoment = [\"1 N m\", "
+           "\"0 N m\", \"0 N m\"]\n",
+       "load.w.moment: has no effect with kind = 'pressure' (Of a face)"},
+      {matrices + "[mesh]\nelement = \"hex8\"\n", "mesh: has no effect without [geometry]"},
+      {matrices + "[substructures]\nmodes = 1\n", "substructures: has no effect with [matrices]"},
+      {file +
+           "[[load]]\nname = \"w\"\nkind = \"face\"\nmoment = [\"1 N m\", \"0 N m\", \"0 N m\"]\n"
+           "position = [\"1 m\", \"0 m\", \"0 m\"]\n",
+       "load.w.position: has no effect without force"},
+      {file + "[sweep]\nseed = 3\noutputs = [\"modes.mass\"]\n[[sweep.parameter]]\nkey = "
+              "\"modes.count\"\nvalues = [1, 2]\n",
+       "sweep.seed: has no effect on a grid or a list"},
+      {file + "[[body]]\nname = \"b\"\nkind = \"prescribed\"\ndirection = [0, 1, "
+              "0]\n[body.turn]\naxis "
+              "= [0, 1, 0]\ninitial_rate = \"1 rad/s\"\n",
+       "body.b.direction: has no effect on a body that turns only"},
+      {matrices + "[modes]\nfixed = [\"a\"]\n", "modes.fixed: has no effect with [matrices]"},
+  };
+  for (const auto& [text, why] : refused) {
+    CAPTURE(text);
+    CHECK_THAT(refusal_of_study(folder, text), Contains("mine.toml:") && Contains(why));
+  }
+  CHECK_THROWS_WITH(built_in({"solver.spectral_radius=0.5", "solver.integrator=dormand_prince"}),
+                    Contains("spectral_radius: has no effect"));
+  CHECK_NOTHROW(built_in({"solver.spectral_radius=0.5", "solver.integrator=generalised_alpha"}));
+}
+
+TEST_CASE("values that later stages cannot take are refused at reading") {
+  CHECK_THROWS_WITH(built_in({"body.neck.damping_ratio=-0.1"}),
+                    Contains("damping_ratio: expected a value from 0 to 10, found -0.1"));
+  CHECK_THROWS_WITH(built_in({"body.neck.damping_ratio=90"}), Contains("from 0 to 10, found 90"));
+  CHECK_THROWS_WITH(built_in({"body.neck.damping_ratio=[0.1, -0.1]"}),
+                    Contains("from 0 to 10, found -0.1"));
+  CHECK_THROWS_WITH(built_in({"body.neck.correction_damping_ratio=-1"}), Contains("found -1"));
+  CHECK_THROWS_WITH(built_in({"body.neck.damping_time=-1 ms"}), Contains("no negative value"));
+  CHECK_THROWS_WITH(built_in({"solver.integrator=generalised_alpha", "solver.spectral_radius=1.5"}),
+                    Contains("spectral_radius: expected a value from 0 to 1, found 1.5"));
+  CHECK_THROWS_WITH(built_in({"geometry.materials.butyl.youngs_modulus=-1 MPa"}),
+                    Contains("youngs_modulus: expected a positive value"));
+  CHECK_THROWS_WITH(built_in({"geometry.materials.butyl.poissons_ratio=0.5"}),
+                    Contains("poissons_ratio: expected a value between -1 and 0.5, found 0.5"));
+  CHECK_THROWS_WITH(built_in({"body.head.mass=-1 kg"}),
+                    Contains("body.head.name: body 'head': mass must be positive"));
+  for (const std::string key :
+       {"rigid_interfaces=[\"tpo\"]", "attached_to=tpo", "basis_interfaces=[\"tpo\"]"})
+    CHECK_THROWS_WITH(
+        built_in({"modes." + key, "modes.basis=residual"}),
+        Contains("modes." + key.substr(0, key.find('=')) + ": there is no interface 'tpo'"));
+}
+
 TEST_CASE("supports, interfaces and parts of the neck are those that its study names") {
   const Study shipped = built_in();
   CHECK(shipped.modes.fixed == std::vector<std::string>{"bolts"});
@@ -236,10 +349,10 @@ TEST_CASE("supports, interfaces and parts of the neck are those that its study n
   CHECK(shipped.interfaces[0].position_m.z() == shipped.neck()->dimensions.length);
   CHECK(shipped.interfaces[1].set == "bolts");
 
-  const Study changed = built_in({"modes.fixed=[\"base\"]", "modes.attached_to=middle",
+  const Study changed = built_in({"modes.fixed=[\"base\"]", "modes.attached_to=top",
                                   "interface.top.position=[\"0 in\", \"0 in\", \"6 in\"]"});
   CHECK(changed.modes.fixed == std::vector<std::string>{"base"});
-  CHECK(changed.modes.attached_to == "middle");
+  CHECK(changed.modes.attached_to == "top");
   CHECK(changed.neck()->fitted_to.empty());  // to the head's joint that it had
 }
 
