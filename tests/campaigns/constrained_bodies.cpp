@@ -17,6 +17,7 @@
 #include "fe_modal/analysis/modal_analysis.h"
 #include "geometry/foundation/error.h"
 #include "tests/campaigns/campaign.h"
+#include "tests/campaigns/draws.h"
 #include "tests/fe_modal/dense_constraints.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
@@ -26,6 +27,8 @@ namespace {
 using namespace flexneck;
 using namespace flexneck::fe_modal;
 using campaigns::Case;
+using campaigns::direction;
+using campaigns::log_between;
 using Eigen::Vector3d;
 
 /// Relative difference of eigenvalues: the dense ones have rounding, their mass and stiffness
@@ -33,18 +36,6 @@ using Eigen::Vector3d;
 constexpr double kSame = 1e-6;
 /// An eigenvalue below this share of the slowest material's (c / L)^2 is zero.
 constexpr double kZero = 1e-9;
-
-double log_between(Case& drawn, double low, double high) {
-  return std::exp(drawn.between(std::log(low), std::log(high)));
-}
-
-Vector3d direction(Case& drawn) {
-  Vector3d v;
-  do {
-    v = {drawn.between(-1, 1), drawn.between(-1, 1), drawn.between(-1, 1)};
-  } while (v.norm() > 1 || v.norm() < 0.1);
-  return v.normalized();
-}
 
 std::array<bool, 3> some_directions(Case& drawn) {
   std::array<bool, 3> some = {drawn.chance(0.6), drawn.chance(0.6), drawn.chance(0.6)};
