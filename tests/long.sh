@@ -28,6 +28,7 @@ python-leaks 10000 env PYTHONPATH=build/python /usr/bin/python3 -B tests/pipelin
 pulses 1000 build/tests/campaigns/campaign_pulses --seed $seed --runs $count --out $out
 bounces 1000 build/tests/campaigns/campaign_bounces --seed $seed --runs $count --out $out
 trees-and-loops 1000 build/tests/campaigns/campaign_trees_and_loops --seed $seed --runs $count --out $out
+decks 1000 build/tests/campaigns/campaign_decks --seed $seed --runs $count --out $out
 constrained-bodies 1000 build/tests/campaigns/campaign_constrained_bodies --seed $seed --runs $count --out $out
 mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '
