@@ -27,6 +27,8 @@ package 1 sh tests/install/package.sh "$root/build" "$out"
 python-leaks 10000 env PYTHONPATH=build/python /usr/bin/python3 -B tests/pipeline/python/package_test.py build . --calls $count Leaks
 pulses 1000 build/tests/campaigns/campaign_pulses --seed $seed --runs $count --out $out
 bounces 1000 build/tests/campaigns/campaign_bounces --seed $seed --runs $count --out $out
+trees-and-loops 1000 build/tests/campaigns/campaign_trees_and_loops --seed $seed --runs $count --out $out
+decks 1000 build/tests/campaigns/campaign_decks --seed $seed --runs $count --out $out
 constrained-bodies 1000 build/tests/campaigns/campaign_constrained_bodies --seed $seed --runs $count --out $out
 mutation 150 python3 -B tests/mutation/mutation.py --seed $seed --sites $count --out $out
 '

@@ -20,6 +20,9 @@ constexpr Eigen::Index kBlocksOfBasis = 10;
 constexpr int kMaxBlocks = 500;
 /// Columns of which orthogonalisation leaves less than this share have nothing new.
 constexpr double kNothingNew = 1e-12;
+/// Columns of which a second orthogonalisation leaves less than this share were rounding: the basis
+/// spans all that can move.
+constexpr double kRounding = 0.5;
 
 /// X and M X.
 struct Columns {
@@ -109,7 +112,7 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> orthogonalise(const Ranks& ranks, Ma
     block.momenta = block_product(mass, block.vectors);
     shares += more * factor;
     factor = (orthonormalise(ranks, block, shortest) * factor).eval();
-    shortest = Eigen::VectorXd::Zero(block.vectors.cols());
+    shortest = Eigen::VectorXd::Constant(block.vectors.cols(), kRounding);
   }
   return {shares, factor};
 }

@@ -10,6 +10,7 @@
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/campaigns/campaign.h"
+#include "tests/campaigns/draws.h"
 #include "tests/support/piecewise_motion.h"
 #include "tests/support/test_models.h"
 
@@ -19,6 +20,8 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using flexneck::campaigns::Case;
+using flexneck::campaigns::direction;
+using flexneck::campaigns::log_between;
 
 namespace {
 
@@ -35,18 +38,6 @@ struct Problem {
   double stiffest_rad_s = 0;  ///< of the stops and ropes that were met
 };
 
-double magnitude(Case& drawn, double low, double high) {
-  return std::pow(10, drawn.between(std::log10(low), std::log10(high)));
-}
-
-Vector3d direction(Case& drawn) {
-  Vector3d found;
-  do {
-    found = {drawn.between(-1, 1), drawn.between(-1, 1), drawn.between(-1, 1)};
-  } while (found.norm() > 1 || found.norm() < 0.1);
-  return found.normalized();
-}
-
 void expect(Problem& problem, PiecewiseMotion motion) {
   for (int k = 0; k <= kOutputs; ++k) {
     problem.expected.push_back(motion.x());
@@ -59,7 +50,7 @@ void expect(Problem& problem, PiecewiseMotion motion) {
 /// A slider or a rotor under a constant load, between one stop or two; one in three grazes.
 Problem stops(Case& drawn) {
   const bool slides = drawn.chance(0.6);
-  const double inertia = magnitude(drawn, 0.1, 10);
+  const double inertia = log_between(drawn, 0.1, 10);
   const double load = drawn.between(-10, 10) * inertia;
   const double acceleration = load / inertia;
   double speed = drawn.between(-4, 4);
@@ -70,10 +61,10 @@ Problem stops(Case& drawn) {
   problem.end_s = drawn.between(0.5, 2);
   if (drawn.chance(0.33) && acceleration < -1 && speed > 0.5) {
     const double apex = speed * speed / (-2 * acceleration);
-    upper = apex - magnitude(drawn, 1e-6, 0.05) * std::min(1.0, apex);
+    upper = apex - log_between(drawn, 1e-6, 0.05) * std::min(1.0, apex);
   }
   // A rotor within half a turn of its stops, whichever is there.
-  const double stiffness = inertia * magnitude(drawn, 1e2, 1e7);
+  const double stiffness = inertia * log_between(drawn, 1e2, 1e7);
   ModelBuilder build;
   const auto ground = build.ground();
   const Vector3d axis = direction(drawn);
@@ -118,13 +109,13 @@ Problem stops(Case& drawn) {
 
 /// Two free bodies on a rope, which tightens once or again.
 Problem rope(Case& drawn) {
-  const double mass_i = magnitude(drawn, 0.1, 10);
-  const double mass_j = magnitude(drawn, 0.1, 10);
+  const double mass_i = log_between(drawn, 0.1, 10);
+  const double mass_j = log_between(drawn, 0.1, 10);
   const double reduced = mass_i * mass_j / (mass_i + mass_j);
   const double length = drawn.between(0.5, 2);
   const double start = length * drawn.between(0.3, 0.95);
   const double speed = drawn.between(0.5, 4);
-  const double stiffness = reduced * magnitude(drawn, 1e2, 1e7);
+  const double stiffness = reduced * log_between(drawn, 1e2, 1e7);
   const Vector3d along = direction(drawn);
   const Vector3d common = drawn.between(0, 2) * direction(drawn);
   ModelBuilder build;
@@ -156,8 +147,8 @@ Problem rope(Case& drawn) {
 /// A block that friction brakes while a force pushes it: constant rates beyond the full rate,
 /// decays below.
 Problem friction(Case& drawn) {
-  const double mass = magnitude(drawn, 0.1, 10);
-  const double full = magnitude(drawn, 1e-3, 0.3);
+  const double mass = log_between(drawn, 0.1, 10);
+  const double full = log_between(drawn, 1e-3, 0.3);
   const double brake = mass * drawn.between(1, 10);
   const double push = brake * drawn.between(-0.5, 0.9);
   const double speed = full + drawn.between(0.1, 3);
@@ -230,9 +221,9 @@ std::optional<std::string> judge(Case& drawn) {
   const bool implicit = drawn.chance(0.5);
   solver.integrator = implicit ? Integrator::generalised_alpha : Integrator::dormand_prince;
   solver.formulation = drawn.chance(0.5) ? Formulation::descriptor : Formulation::recursive;
-  solver.relative_tolerance = magnitude(drawn, implicit ? 1e-7 : 1e-10, 1e-4);
+  solver.relative_tolerance = log_between(drawn, implicit ? 1e-7 : 1e-10, 1e-4);
   solver.absolute_tolerance = 1e-3 * solver.relative_tolerance;
-  solver.max_step_s = magnitude(drawn, 0.01, 1);
+  solver.max_step_s = log_between(drawn, 0.01, 1);
   const OutputOptions output{.end_time_s = problem.end_s, .interval_s = problem.end_s / kOutputs};
   std::ostringstream found;
   found << (kind < 0.6   ? "stops, "

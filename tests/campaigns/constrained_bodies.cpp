@@ -3,48 +3,27 @@
 // couplings, springs and masses, against dense eigenvalues in the null space of all equations.
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <numbers>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "fe_modal/algebra/petsc_session.h"
-#include "fe_modal/analysis/modal_analysis.h"
-#include "geometry/foundation/error.h"
 #include "tests/campaigns/campaign.h"
-#include "tests/fe_modal/dense_constraints.h"
+#include "tests/campaigns/dense_truth.h"
+#include "tests/campaigns/draws.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_meshes.h"
 
 namespace {
 
 using namespace flexneck;
-using namespace flexneck::fe_modal;
 using campaigns::Case;
+using campaigns::direction;
+using campaigns::log_between;
 using Eigen::Vector3d;
-
-/// Relative difference of eigenvalues: the dense ones have rounding, their mass and stiffness
-/// scaled.
-constexpr double kSame = 1e-6;
-/// An eigenvalue below this share of the slowest material's (c / L)^2 is zero.
-constexpr double kZero = 1e-9;
-
-double log_between(Case& drawn, double low, double high) {
-  return std::exp(drawn.between(std::log(low), std::log(high)));
-}
-
-Vector3d direction(Case& drawn) {
-  Vector3d v;
-  do {
-    v = {drawn.between(-1, 1), drawn.between(-1, 1), drawn.between(-1, 1)};
-  } while (v.norm() > 1 || v.norm() < 0.1);
-  return v.normalized();
-}
 
 std::array<bool, 3> some_directions(Case& drawn) {
   std::array<bool, 3> some = {drawn.chance(0.6), drawn.chance(0.6), drawn.chance(0.6)};
@@ -183,94 +162,18 @@ void add_springs_and_masses(Case& drawn, Body& body) {
         {"at a node", body.node(), body.mass_kg * log_between(drawn, 1e-2, 10), {}, {}});
 }
 
-struct Truth {
-  Eigen::VectorXd values;  ///< 1/s^2, ascending
-  Eigen::Index zeros = 0;
-};
-
-Truth dense_truth(const Body& body, Eigen::Index count) {
-  DenseConstraints model = dense_model(body.mesh);
-  const Eigen::Index size = model.stiffness.rows();
-  // Rotations as lengths, and equations of unit size.
-  Eigen::VectorXd units = Eigen::VectorXd::Ones(size);
-  const auto nodes = static_cast<Eigen::Index>(body.mesh.nodes.size());
-  for (Eigen::Index point = nodes; 3 * point < size; point += 2)
-    units.segment<3>(3 * point + 3).setConstant(1 / body.size_m);
-  for (Eigen::VectorXd& row : model.equations) row = row.cwiseProduct(units).normalized();
-  const Eigen::MatrixXd basis = units.asDiagonal() * allowed_motions(model);
-  const Eigen::MatrixXd mass = basis.transpose() * model.mass * basis;
-  Eigen::MatrixXd stiffness = basis.transpose() * model.stiffness * basis;
-  const double scale = body.stiffness / body.mass_kg;
-  const Eigen::VectorXd shifted =
-      testing::lowest_values(stiffness + scale * mass, mass, std::min(count, mass.rows()));
-  Truth truth{shifted.array() - scale, 0};
-  truth.zeros = (truth.values.array() < kZero * scale).count();
-  if (truth.zeros == 0)
-    truth.values = testing::lowest_values(stiffness, mass, std::min(count, mass.rows()));
-  return truth;
-}
-
-bool is_refusal_of_input(const std::string& text) {
-  for (const char* const reason : {"contradict one another", "form a cycle", "on the axis of",
-                                   "carries a mass that nothing holds"}) {
-    if (text.find(reason) != std::string::npos) return true;
-  }
-  return false;
-}
-
-Eigen::Index independent(const Body& body) {
-  const DofMap dof_map(body.mesh, {});
-  return dof_map.dof_count() - dof_map.dependent_count();
-}
-
 std::optional<std::string> judge(Case& drawn) {
   Body body(drawn);
   add_supports(drawn, body);
   add_coupling(drawn, body);
   add_equations(drawn, body);
   add_springs_and_masses(drawn, body);
-  ModalOptions options;
-  ModalBody found;
-  try {
-    options.mode_count = static_cast<int>(std::min<Eigen::Index>(8, independent(body)));
-    found = analyse_modes(body.mesh, options, {});
-  } catch (const InputError& error) {
-    if (!is_refusal_of_input(error.what())) throw;
-    drawn.was_refused = true;
-    return std::nullopt;
-  } catch (const ComputationError& error) {
-    // Frequencies too far apart for the digits of a solve, which it says.
-    if (std::string(error.what()).find("has not converged") != std::string::npos) {
-      drawn.was_refused = true;
-      return std::nullopt;
-    }
-    std::ostringstream problem;
-    problem << error.what() << "; expected "
-            << dense_truth(body, options.mode_count).values.transpose();
-    return problem.str();
-  }
-  const Truth truth = dense_truth(body, options.mode_count);
-  const Eigen::VectorXd values = (2 * std::numbers::pi * found.frequencies_Hz.array()).square();
-  const Eigen::Index zeros = (values.array() == 0).count();
-  std::ostringstream problem;
-  if (zeros != truth.zeros) {
-    problem << zeros << " rigid motions, expected " << truth.zeros << "; lowest "
-            << truth.values.transpose() << "; " << found.boundary;
-    return problem.str();
-  }
-  const double scale = truth.zeros > 0 ? body.stiffness / body.mass_kg : 0;
-  for (Eigen::Index k = zeros; k < values.size(); ++k) {
-    const double off = std::abs(values[k] - truth.values[k]);
-    if (off <= kSame * truth.values[k] + kZero * scale) continue;
-    problem << "eigenvalue " << k << " is " << values[k] << ", expected " << truth.values[k];
-    return problem.str();
-  }
-  return std::nullopt;
+  return campaigns::compare_modes(drawn, body.mesh, body.mesh, body.size_m);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const PetscSession session;
+  const fe_modal::PetscSession session;
   return campaigns::run(argc, argv, judge);
 }

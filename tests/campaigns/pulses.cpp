@@ -14,10 +14,12 @@
 #include "multibody/simulation/simulation.h"
 #include "pipeline/model/model_file.h"
 #include "tests/campaigns/campaign.h"
+#include "tests/campaigns/draws.h"
 
 namespace {
 
 using flexneck::campaigns::Case;
+using flexneck::campaigns::log_between;
 using std::numbers::pi;
 
 /// Over x from 0 to 1: an expression, and its integral from 0.
@@ -71,10 +73,6 @@ struct Drawn {
     return text;
   }
 };
-
-double log_between(Case& drawn, double low, double high) {
-  return std::exp(drawn.between(std::log(low), std::log(high)));
-}
 
 Drawn draw(Case& drawn) {
   constexpr double kResolution_s = 1e-4;

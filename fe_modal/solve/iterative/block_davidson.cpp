@@ -21,6 +21,9 @@ constexpr Eigen::Index kBlocksOfBasis = 4;  ///< when the basis is that wide, it
 constexpr std::uint64_t kSeed = 1;
 /// Columns that are so much shorter after orthogonalisation have nothing new.
 constexpr double kNothingNew = 1e-10;
+/// Of squares of what a second orthogonalisation leaves of unit columns: those that have less were
+/// rounding, and the basis spans all that can move.
+constexpr double kRounding = 0.25;
 
 Eigen::MatrixXd product(const MatrixView& columns, const MatrixView& combination) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns.rows(), combination.cols());
@@ -84,10 +87,11 @@ Eigen::MatrixXd orthonormal(const Ranks& ranks, const Basis& basis, Eigen::Matri
       if (pass == 0) momenta = block_product(mass, block);
     }
     Eigen::MatrixXd gram = inner_products(ranks, block, momenta);
-    const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(gram.cols());
+    if (pass == 0) scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
     const auto [lengths, vectors] = symmetric_pairs(gram);
-    const Eigen::Index dropped = (lengths.array() < kNothingNew).count();
+    const Eigen::Index dropped = (lengths.array() < (pass == 0 ? kNothingNew : kRounding)).count();
     const Eigen::Index kept = lengths.size() - dropped;
     const Eigen::MatrixXd combination = scale.asDiagonal() * vectors.rightCols(kept) *
                                         lengths.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mesher/mesh/mesh.h"
+#include "tests/campaigns/campaign.h"
+
+namespace flexneck::campaigns {
+
+/// Compares the lowest eight modes of a mesh with the dense eigenvalues, in the null space of all
+/// equations, of what it means: the same mesh as a rule, or the one that a file was written from.
+/// @param size_m  of the body
+/// @return what is wrong; nothing if the modes are right, or refused for a reason that holds
+std::optional<std::string> compare_modes(Case& drawn, const mesher::Mesh& given,
+                                         const mesher::Mesh& meant, double size_m);
+
+}  // namespace flexneck::campaigns
