@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gmsh.h>
 
@@ -140,6 +143,66 @@ GroupNames names_in(const std::string& contents) {
   return names;
 }
 
+/// Zero of a type that gmsh does not know, with which it refuses the file.
+int dimension_of(int element_type, GmshSession& session) {
+  std::string name;
+  int dimension = 0;
+  int order = 0;
+  int nodes = 0;
+  int corners = 0;
+  std::vector<double> positions;
+  session.errors_of([&] {
+    gmsh::model::mesh::getElementProperties(element_type, name, dimension, order, nodes, positions,
+                                            corners);
+  });
+  return dimension;
+}
+
+/// Number of a group's elements, and the sum of hashes of their nodes.
+using Elements = std::pair<std::size_t, std::size_t>;
+
+/// gmsh groups elements by the shapes that they lie on. Where a text of version 2 gives elements of
+/// one shape to different groups, each group would have them all: $Elements has lines `number type
+/// tags group shape … nodes`, for each group anew.
+void require_whole_shapes(const std::string& contents, GmshSession& session) {
+  std::istringstream lines(contents);
+  std::string line;
+  int major = 0;
+  char point = 0;
+  int minor = 0;
+  int is_binary = 1;
+  std::getline(lines, line);
+  if (!(lines >> major >> point >> minor >> is_binary) || major != 2 || is_binary != 0) return;
+  while (std::getline(lines, line) && !line.starts_with("$Elements")) {
+  }
+  std::map<std::pair<int, int>, std::map<int, Elements>> shapes;  // by dimension and tag, by group
+  std::map<int, int> dimensions;
+  while (std::getline(lines, line) && !line.starts_with("$EndElements")) {
+    std::istringstream fields(line);
+    int number = 0;
+    int type = 0;
+    int tags = 0;
+    int group = 0;
+    int shape = 0;
+    if (!(fields >> number >> type >> tags >> group >> shape) || tags < 2) continue;
+    const auto [known, is_new] = dimensions.try_emplace(type);
+    if (is_new) known->second = dimension_of(type, session);
+    Elements& own = shapes[{known->second, shape}][group];
+    ++own.first;
+    own.second += std::hash<std::string>()(line.substr(static_cast<std::size_t>(fields.tellg())));
+  }
+  for (const auto& [shape, groups] : shapes) {
+    for (const auto& [group, own] : groups) {
+      if (own == groups.begin()->second) continue;
+      throw InputError("physical groups " + std::to_string(groups.begin()->first) + " and " +
+                       std::to_string(group) +
+                       " have different elements of the elementary entity " +
+                       std::to_string(shape.second) +
+                       ", which gmsh would give to both: give each group entities of its own");
+    }
+  }
+}
+
 }  // namespace
 
 Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, LeftOut& left_out) {
@@ -147,6 +210,8 @@ Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, Lef
   const bool is_step = copy.format() == ForeignFormat::step;
   const bool is_shape = is_step || copy.format() == ForeignFormat::brep;
   const double scale = is_step ? 1 : options.length_unit_m;
+  const std::string contents = is_shape ? "" : checked_contents(options.file);
+  require_whole_shapes(contents, session);
   const std::string errors = session.errors_of([&] {
     if (is_shape) {
       mesh_shape(copy, options, options.element_size_m / scale);
@@ -158,10 +223,9 @@ Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, Lef
     throw InputError("gmsh cannot " + std::string(is_shape ? "mesh" : "read") + " it: " + errors);
   }
   Mesh mesh =
-      is_shape
-          ? import_gmsh_mesh(options.materials, options.material_of_part, GmshSource::script)
-          : import_gmsh_mesh(options.materials, options.material_of_part, GmshSource::foreign_file,
-                             names_in(checked_contents(options.file)));
+      is_shape ? import_gmsh_mesh(options.materials, options.material_of_part, GmshSource::script)
+               : import_gmsh_mesh(options.materials, options.material_of_part,
+                                  GmshSource::foreign_file, names_in(contents));
   for (auto& node : mesh.nodes) {
     for (double& x : node) x *= scale;
   }

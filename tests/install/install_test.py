@@ -108,7 +108,7 @@ class Installed(unittest.TestCase):
             for name in ("cantilever", "cantilever.toml"):
                 code, text = self.flexneck("study", name)
                 self.assertEqual(code, 2)
-                self.assertIn("cantilever.toml:1:", text)
+                self.assertIn("cantilever.toml:2:", text)
         finally:
             (self.folder / "cantilever.toml").unlink()
 

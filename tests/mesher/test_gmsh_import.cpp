@@ -228,6 +228,28 @@ TEST_CASE("physical surfaces of one name are one set, whatever their numbers") {
   CHECK(read.node_set("walls").nodes == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 9});
 }
 
+TEST_CASE("groups that share an entity of MSH 2.2 have the same elements of it, or are refused") {
+  const Files files;
+  std::string mesh = testing::kTetrahedronMsh;
+  mesh.replace(mesh.find("1\n3 7"), 2, "3\n2 8 \"bottom\"\n2 9 \"side\"\n");
+  const auto with_surfaces = [&](const std::string& elements) {
+    return mesh.substr(0, mesh.find("1\n1 11 2")) + "3\n1 11 2 7 1 1 2 3 4 5 6 7 8 9 10\n" +
+           elements + "$EndElements\n";
+  };
+  const std::string bottom = " 1 3 2 7 6 5\n";
+  const Mesh both = import_mesh(
+      import_options(
+          files.write("same.msh", with_surfaces("2 9 2 8 1" + bottom + "3 9 2 9 1" + bottom)),
+          {"corner"}),
+      {});
+  CHECK(both.node_set("bottom").nodes == both.node_set("side").nodes);
+  CHECK_THAT(testing::refusal(import_options(
+                 files.write("mixed.msh",
+                             with_surfaces("2 9 2 8 1" + bottom + "3 9 2 9 1 1 2 4 5 10 8\n")),
+                 {"corner"})),
+             Contains("groups 8 and 9") && Contains("elementary entity 1"));
+}
+
 TEST_CASE("points and curves in groups become node sets") {
   const Files files;
   std::string mesh = testing::kTetrahedronMsh;
