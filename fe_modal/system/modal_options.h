@@ -41,9 +41,7 @@ struct RigidAttachment {
 struct ModalOptions {
   int mode_count = 10;
   FormulationChoice formulation;
-  Solver solver = Solver::automatic;
-  /// Of PETSc and SLEPc, such as "-eps_ncv 40": how, not what, is solved (petsc_choices.h).
-  std::string petsc_options = {};
+  Solver solver = Solver::direct;
   BasisKind basis = BasisKind::normal;
   /// Interfaces whose static shapes join the basis; empty: all.
   std::vector<std::string> basis_interfaces;
@@ -68,7 +66,7 @@ struct ModalOptions {
   Eigen::Matrix3Xd prestress_m = Eigen::Matrix3Xd();
   Ranks ranks = {};                              ///< processes that share the work
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
-  /// (n) order of elimination from the mesh; empty: by METIS. MUMPS has its own.
+  /// (n) from the mesh; empty: by METIS. Ranks find an order of their own parts.
   std::vector<std::int32_t> node_order = {};
 };
 
