@@ -26,17 +26,6 @@ std::optional<ElementKind> kind_of(int gmsh_type) {
   return std::nullopt;
 }
 
-std::string name_of_type(int gmsh_type) {
-  std::string name;
-  int dim = 0;
-  int order = 0;
-  int nodes = 0;
-  int corners = 0;
-  std::vector<double> coordinates;
-  gmsh::model::mesh::getElementProperties(gmsh_type, name, dim, order, nodes, coordinates, corners);
-  return name;
-}
-
 /// Elements of an entity: types, and the node tags of each type.
 struct EntityElements {
   std::vector<int> types;
@@ -104,7 +93,7 @@ void add_group(GmshGroup group, std::vector<GmshGroup>& groups) {
   std::string found;
   for (const auto& [type, count] : unknown) {
     found += (found.empty() ? "" : " and ") + std::to_string(count) + " of type '" +
-             name_of_type(type) + "'";
+             gmsh_element_type(type).name + "'";
   }
   std::string known;
   for (const ElementKind kind : element_kinds()) {
@@ -116,6 +105,17 @@ void add_group(GmshGroup group, std::vector<GmshGroup>& groups) {
 }
 
 }  // namespace
+
+GmshElementType gmsh_element_type(int number) {
+  GmshElementType type;
+  int order = 0;
+  int nodes = 0;
+  int corners = 0;
+  std::vector<double> coordinates;
+  gmsh::model::mesh::getElementProperties(number, type.name, type.dimension, order, nodes,
+                                          coordinates, corners);
+  return type;
+}
 
 std::string GmshGroup::label() const {
   return "physical " + entity_name(dimension) + " '" + name + "'";
@@ -200,7 +200,7 @@ std::map<std::string, std::size_t> gmsh_elements_off_volumes() {
       for (auto node = all.nodes[t].begin(); node != all.nodes[t].end();) {
         const auto end = node + static_cast<std::ptrdiff_t>(n);
         if (std::any_of(node, end, is_off)) {
-          ++off["elements of type '" + name_of_type(all.types[t]) + "' off the solids"];
+          ++off["elements of type '" + gmsh_element_type(all.types[t]).name + "' off the solids"];
         }
         node = end;
       }

@@ -14,6 +14,14 @@ namespace flexneck::mesher {
 /// may have none, or groups without names.
 enum class GmshSource { script, foreign_file };
 
+/// A type of elements as gmsh numbers them.
+struct GmshElementType {
+  std::string name;
+  int dimension = 0;
+};
+/// Throws what gmsh throws for a number that it does not know.
+GmshElementType gmsh_element_type(int number);
+
 /// Entities of gmsh's model under one name.
 struct GmshGroup {
   int dimension = 0;

@@ -11,7 +11,6 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <gmsh.h>
 
@@ -145,16 +144,8 @@ GroupNames names_in(const std::string& contents) {
 
 /// Zero of a type that gmsh does not know, with which it refuses the file.
 int dimension_of(int element_type, GmshSession& session) {
-  std::string name;
   int dimension = 0;
-  int order = 0;
-  int nodes = 0;
-  int corners = 0;
-  std::vector<double> positions;
-  session.errors_of([&] {
-    gmsh::model::mesh::getElementProperties(element_type, name, dimension, order, nodes, positions,
-                                            corners);
-  });
+  session.errors_of([&] { dimension = gmsh_element_type(element_type).dimension; });
   return dimension;
 }
 
@@ -189,7 +180,9 @@ void require_whole_shapes(const std::string& contents, GmshSession& session) {
     if (is_new) known->second = dimension_of(type, session);
     Elements& own = shapes[{known->second, shape}][group];
     ++own.first;
-    own.second += std::hash<std::string>()(line.substr(static_cast<std::size_t>(fields.tellg())));
+    std::string nodes;
+    std::getline(fields, nodes);
+    own.second += std::hash<std::string>()(nodes);
   }
   for (const auto& [shape, groups] : shapes) {
     for (const auto& [group, own] : groups) {

@@ -248,6 +248,9 @@ TEST_CASE("groups that share an entity of MSH 2.2 have the same elements of it, 
                              with_surfaces("2 9 2 8 1" + bottom + "3 9 2 9 1 1 2 4 5 10 8\n")),
                  {"corner"})),
              Contains("groups 8 and 9") && Contains("elementary entity 1"));
+  CHECK_THAT(testing::refusal(import_options(
+                 files.write("none.msh", with_surfaces("2 9 2 8 1\n3 9 2 8 1\n")), {"corner"})),
+             Contains("none.msh"));
 }
 
 TEST_CASE("points and curves in groups become node sets") {
