@@ -10,9 +10,7 @@ endif()
 
 find_package(Eigen3 3.4 REQUIRED)
 find_package(Gmsh REQUIRED)
-find_package(CHOLMOD REQUIRED)
 find_package(METIS REQUIRED)
-find_package(MUMPS REQUIRED)
 find_package(UDUNITS2 REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers only: Sobol' sequences, special functions
 find_package(CLI11 REQUIRED)

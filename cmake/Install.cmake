@@ -92,5 +92,5 @@ flexneck_pkgconfig(
   PACKAGES eigen3 hdf5-openmpi ompi-cxx)
 flexneck_pkgconfig(
   flexneck-fe_modal "Vibration modes of a mesh by finite elements"
-  LIBRARIES fe_modal xdmf partition mesh OTHERS metis cholmod dmumps
+  LIBRARIES fe_modal xdmf partition mesh OTHERS metis
   PACKAGES flexneck-multibody slepc petsc blas)

@@ -27,7 +27,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "pkg-config, libeigen3-dev, libhdf5-openmpi-dev, libudunits2-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "flexneck, libslepc-real-dev, libgmsh-dev, libmetis-dev, libmumps-dev, libsuitesparse-dev, libcairo2-dev")
+    "flexneck, libslepc-real-dev, libgmsh-dev, libmetis-dev, libcairo2-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
     "libboost-dev, libcli11-dev, libtomlplusplus-dev, libspdlog-dev, libfmt-dev, libmuparser-dev, libnlopt-cxx-dev, libzip-dev, nlohmann-json3-dev")
 if(FLEXNECK_PYTHON)

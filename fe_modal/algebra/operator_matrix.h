@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 
-#include "fe_modal/algebra/block_product.h"
+#include <Eigen/Core>
+
 #include "fe_modal/algebra/petsc_handles.h"
 
 namespace flexneck::fe_modal {
+
+/// A linear map of the free degrees of freedom, applied to each column: this rank's rows, (own
+/// dofs, k).
+using BlockOperator = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 
 /// A symmetric linear map of the degrees of freedom as a matrix for PETSc and SLEPc, good for
 /// products alone; on many ranks each gets and gives its own rows. All shells of this library are

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include <petscsf.h>
+#include <Eigen/Core>
 #include <slepceps.h>
 
 #include "fe_modal/algebra/ranks.h"
@@ -55,9 +55,22 @@ using MatHandle = PetscHandle<Mat, MatDestroy>;
 using IsHandle = PetscHandle<IS, ISDestroy>;
 using VecHandle = PetscHandle<Vec, VecDestroy>;
 using EpsHandle = PetscHandle<EPS, EPSDestroy>;
-using StarForest = PetscHandle<PetscSF, PetscSFDestroy>;
+using KspHandle = PetscHandle<KSP, KSPDestroy>;
 
-/// A vector of the ranks, of which this one has the rows on memory that outlives it.
+/// A vector of the ranks on this rank's rows in memory that outlives it.
 VecHandle vector_on(std::span<const double> values, const Ranks& ranks = {});
+/// A vector on a column of a matrix that outlives it.
+VecHandle column_vector(const Eigen::MatrixXd& columns, Eigen::Index column,
+                        const Ranks& ranks = {});
+/// A dense matrix on this rank's rows, (own rows, k), in memory that outlives it.
+MatHandle dense_on(const Eigen::MatrixXd& columns, const Ranks& ranks = {});
+
+/// INFOG(number) of MUMPS's user's guide, of a factor that MUMPS makes.
+PetscInt infog(Mat factor, PetscInt number);
+
+/// Number of rows, over all ranks.
+Eigen::Index size_of(Mat matrix);
+/// The matrix, or operator, times each column: this rank's rows, (own rows, k).
+Eigen::MatrixXd block_product(Mat matrix, const Eigen::MatrixXd& columns);
 
 }  // namespace flexneck::fe_modal

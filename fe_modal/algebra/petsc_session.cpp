@@ -7,10 +7,11 @@
 #include <set>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 #include <petscpkg_version.h>
 
-#include "fe_modal/algebra/blas_kernels.h"
+#include "fe_modal/algebra/blas_library.h"
 #include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "geometry/foundation/error.h"
@@ -66,7 +67,23 @@ class StartAlone {
   std::set<std::string> before_;
 };
 
+/// Of the last error, in PETSc's words.
+std::string& petsc_message() {
+  thread_local std::string message;
+  return message;
+}
+
+/// Errors come back as codes, without a trace on the terminal.
+PetscErrorCode keep_message(MPI_Comm /*ranks*/, int /*line*/, const char* /*function*/,
+                            const char* /*file*/, PetscErrorCode code, PetscErrorType type,
+                            const char* message, void* /*context*/) {
+  if (type == PETSC_ERROR_INITIAL) petsc_message() = message == nullptr ? "" : message;
+  return code;
+}
+
 }  // namespace
+
+std::string last_petsc_message() { return std::exchange(petsc_message(), {}); }
 
 PetscSession::PetscSession(Start /*start*/) {
   PetscBool initialized = PETSC_FALSE;
@@ -76,7 +93,6 @@ PetscSession::PetscSession(Start /*start*/) {
     return;
   }
   const StartAlone alone;
-  choose_blas_kernels();
   call_blas_alone();
   int finalized = 0;
   require_mpi(MPI_Finalized(&finalized));
@@ -103,9 +119,9 @@ PetscSession::PetscSession(Start /*start*/) {
 // A constructor that delegates ends like any object if what comes after throws: finalised.
 PetscSession::PetscSession() : PetscSession(Start()) {
   if (!is_outer_) return;
-  // Errors come back as codes, without a trace on the terminal.
   PetscErrorPrintf = PetscErrorPrintfNone;
-  require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "silencing PETSc");
+  require(PetscOptionsInsertString(nullptr, kSessionOptions), "setting options of PETSc");
+  require(PetscPushErrorHandler(keep_message, nullptr), "silencing PETSc");
 }
 
 PetscSession::~PetscSession() {

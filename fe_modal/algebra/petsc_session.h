@@ -23,6 +23,13 @@ class PetscSession {
   bool is_outer_ = true;  ///< which ends what it has begun
 };
 
+/// Options of every session: CHOLMOD prints nothing of matrices that are not positive definite, and
+/// takes the order of elimination that it is given (elimination_order.h).
+inline constexpr const char* kSessionOptions = "-st_mat_cholmod_print 0 -st_mat_cholmod_nmethods 1";
+
+/// What PETSc said of this thread's last error, once; empty if it said nothing.
+std::string last_petsc_message();
+
 /// Versions of the BLAS with its kernels, PETSc, SLEPc and SuiteSparse, for the provenance.
 std::map<std::string, std::string> library_versions();
 

@@ -68,12 +68,6 @@ void require_mpi(int code) {
                                    : "code " + std::to_string(code)));
 }
 
-Ranks Ranks::with_threads(unsigned count) const {
-  Ranks ranks = *this;
-  ranks.threads_ = count;
-  return ranks;
-}
-
 Ranks Ranks::all() {
   Ranks ranks;
   require_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &ranks.own_));

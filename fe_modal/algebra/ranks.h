@@ -17,13 +17,10 @@ class Ranks {
   Ranks() = default;
   /// Those that mpirun or a batch system has started together. MPI must be initialised.
   static Ranks all();
-  /// The same with so many threads of each, which work where that pays and change no bit.
-  Ranks with_threads(unsigned count) const;
 
   int count() const { return count_; }
   int own() const { return own_; }
   bool are_many() const { return count_ > 1; }
-  unsigned threads() const { return threads_; }
   /// The first one writes the files and prints.
   bool is_first() const { return own_ == 0; }
 
@@ -44,7 +41,6 @@ class Ranks {
  private:
   int count_ = 1;
   int own_ = 0;
-  unsigned threads_ = 1;
 };
 
 /// In a handler: what was thrown, in words.

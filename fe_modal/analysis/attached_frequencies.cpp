@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "fe_modal/algebra/random_block.h"
+#include "fe_modal/dofs/rigid_mass.h"
 #include "fe_modal/solve/attached_mass.h"
 #include "fe_modal/solve/eigensolver.h"
 
@@ -25,10 +25,9 @@ std::size_t interface_index(const ModalOptions& options, const std::string& name
   return static_cast<std::size_t>(found - options.interfaces.begin());
 }
 
-std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
-                                               const SolvedBody& solved,
-                                               const Eigen::Ref<const Eigen::MatrixXd>& modes,
+std::vector<AttachedFrequencies> attach_bodies(const SolvedBody& solved,
                                                std::vector<std::vector<Eigen::Matrix3Xd>>* shapes) {
+  const ModalOptions& options = solved.system.model().options();
   const Eigen::Index count = std::min(kAttachedCount, size_of(solved.system.mass()));
   std::vector<AttachedFrequencies> result;
   for (const RigidAttachment& body : options.attachments) {
@@ -37,13 +36,9 @@ std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
         body.mass_kg, body.center_m - solved.averages[region].point_m(), body.inertia_kg_m2);
     const AttachedMass mass(solved.system.ranks(), solved.system.mass(),
                             solved.loads[region].forces, rigid_mass);
-    const EigenPairs pairs = modes.cols() < count
-                                 ? lowest_eigenpairs(mass.matrix(), solved.inverse, count)
-                                 : lowest_eigenpairs(mass, solved.inverse, modes, count);
+    const EigenPairs pairs = lowest_eigenpairs(mass.matrix(), solved.inverse, count);
     result.push_back({body.name, body.interface, frequencies_Hz(pairs.values), rigid_mass});
-    if (shapes == nullptr) continue;
-    shapes->push_back(
-        solved.system.fields().expand(converged_vectors(mass, solved.inverse, pairs)));
+    if (shapes != nullptr) shapes->push_back(solved.system.fields().expand(pairs.vectors));
   }
   return result;
 }

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "fe_modal/algebra/shift_inverse.h"
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/solve/assembled_system.h"
@@ -23,17 +22,14 @@ std::size_t interface_index(const ModalOptions& options, const std::string& name
 /// A body that is assembled and factorised.
 struct SolvedBody {
   const AssembledSystem& system;
-  const ShiftInverse& inverse;
+  const LinearSolver& inverse;
   const std::vector<RigidAverage>& averages;  ///< of the options' interfaces
   const std::vector<InterfaceLoads>& loads;   ///< likewise
 };
 
 /// The lowest frequencies with each of the options' bodies attached.
-/// @param modes the body's lowest eigenvectors
 /// @param shapes takes the modes with each body, of unit mass together, if it is not null
-std::vector<AttachedFrequencies> attach_bodies(const ModalOptions& options,
-                                               const SolvedBody& solved,
-                                               const Eigen::Ref<const Eigen::MatrixXd>& modes,
+std::vector<AttachedFrequencies> attach_bodies(const SolvedBody& solved,
                                                std::vector<std::vector<Eigen::Matrix3Xd>>* shapes);
 
 }  // namespace flexneck::fe_modal

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/analysis/discretisation_error.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
 
-#include "fe_modal/algebra/block_product.h"
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/analysis/prestress.h"
-#include "fe_modal/solve/refined/refined_modes.h"
-#include "fe_modal/solve/refined/refined_system.h"
+#include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/solve/mechanism.h"
 #include "mesher/mesh/refinement.h"
 
 namespace flexneck::fe_modal {
@@ -33,26 +28,11 @@ constexpr double kOneShape = 1e-2;
 /// Less similar shapes are not the same mode, and nothing is known of the error.
 constexpr double kSameMode = 0.8;
 constexpr double kUnknown = 1;
+/// Modes of the finer mesh beyond those of the coarse one, with which they may change places.
+constexpr Eigen::Index kMore = 2;
 
 double hertz(double eigenvalue) {
   return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi);
-}
-
-/// Matrices of stars, which are summed up and factorised, leave gaps in the heap. SuperLU_DIST,
-/// which PETSc is linked with, has the allocator keep all that is freed, and large blocks in the
-/// heap too.
-void give_free_memory_back() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-}
-
-/// What is farther from each coarse eigenvalue: the finer mode's upper bound, or that less what it
-/// may be above the eigenvalue.
-Eigen::VectorXd farthest(const Eigen::VectorXd& coarse, const RefinedModes& refined) {
-  const Eigen::VectorXd lower = refined.values - refined.excess;
-  return ((lower - coarse).array().abs() > (refined.values - coarse).array().abs())
-      .select(lower, refined.values);
 }
 
 /// Finds a coarse mode among the finer ones.
@@ -76,46 +56,53 @@ MeshError compare(double coarse_Hz, const Eigen::VectorXd& fine_Hz,
   return result;
 }
 
-/// Modal assurance criteria (coarse, fine) in the mass of the coarse mesh, whose nodes come first.
-Eigen::MatrixXd similarities(const SolvedMesh& coarse, const FieldMap& fine_nodes,
-                             const Eigen::MatrixXd& fine) {
-  const FieldMap& coarse_nodes = coarse.system.fields();
-  const Ranks& ranks = coarse_nodes.ranks();
-  std::vector<Eigen::Matrix3Xd> fields = fine_nodes.expand(fine);
-  for (Eigen::Matrix3Xd& field : fields) field = field.leftCols(coarse_nodes.node_count()).eval();
-  const Eigen::MatrixXd seen = coarse_nodes.restrict(fields);
-  const Eigen::MatrixXd momentum = block_product(coarse.system.mass(), seen);
-  const Eigen::ArrayXd norms = column_products(ranks, seen, momentum);
-  const Eigen::ArrayXXd products = inner_products(ranks, coarse.pairs.vectors, momentum).array();
-  return products.square().rowwise() / norms.transpose();
+/// The modes of the finer mesh, and what each shares with the coarse ones.
+struct FineModes {
+  Eigen::VectorXd frequencies_Hz;
+  Eigen::MatrixXd similarity;  ///< modal assurance criteria (coarse, fine), in the coarse mass
+};
+
+FineModes fine_modes(const AssembledSystem& coarse, const EigenPairs& pairs, const Model& model) {
+  const AssembledSystem system(model);
+  const Eigen::MatrixXd rigid = system.rigid_modes();
+  const std::unique_ptr<const LinearSolver> inverse = shift_inverse(system, shift_of(model));
+  const Eigen::Index elastic =
+      std::min(pairs.values.size() + kMore, size_of(system.mass())) - rigid.cols();
+  const EigenPairs fine = lowest_eigenpairs(system.mass(), *inverse, elastic, rigid);
+
+  // The nodes of the coarse mesh come first.
+  std::vector<Eigen::Matrix3Xd> fields = model.fields().expand(fine.vectors);
+  for (Eigen::Matrix3Xd& field : fields)
+    field = field.leftCols(coarse.fields().node_count()).eval();
+  const Eigen::MatrixXd seen = coarse.fields().restrict(fields);
+  const Eigen::MatrixXd momentum = block_product(coarse.mass(), seen);
+  const Eigen::ArrayXd norms = column_products(coarse.ranks(), seen, momentum);
+  const Eigen::ArrayXXd products = inner_products(coarse.ranks(), pairs.vectors, momentum).array();
+  return {fine.values.unaryExpr(&hertz), products.square().rowwise() / norms.transpose()};
 }
 
 }  // namespace
 
-std::vector<MeshError> mesh_errors(const SolvedMesh& solved, const ModalOptions& options,
+std::vector<MeshError> mesh_errors(const AssembledSystem& system, const EigenPairs& pairs,
                                    const Progress& progress) {
-  const mesher::RefinedMesh fine = mesher::refine(solved.mesh);
-  const DofMap dof_map = dof_map_of(fine.mesh, options);
-  if (progress) {
-    progress("refining for the error of the mesh, " + std::to_string(dof_map.dof_count()) +
+  // Rigid-body motions are the same on every mesh.
+  std::vector<MeshError> errors(static_cast<std::size_t>(pairs.values.size()), {0, 1, 0});
+  if (pairs.values.isZero(0)) return errors;
+  const mesher::RefinedMesh fine = mesher::refine(system.model().mesh());
+  ModalOptions options = system.model().options();
+  options.element_ranks.clear();
+  options.node_order.clear();
+  options.prestress_m.resize(3, 0);
+  Model model(fine.mesh, std::move(options));
+  if (progress)
+    progress("refining for the error of the mesh, " + std::to_string(model.dof_map().dof_count()) +
              " degrees of freedom");
-  }
-  ModalOptions fine_options = options;
-  fine_options.element_ranks.clear();
-  fine_options.node_order.clear();
-  fine_options = with_prestress(fine.mesh, std::move(fine_options), progress);
-  const RefinedSystem system(solved.system, solved.inverse, fine, dof_map, fine_options);
-  give_free_memory_back();
-  const RefinedModes refined = refined_modes(system, solved.pairs, solved.rigid_count);
-
-  const Eigen::MatrixXd similarity = similarities(solved, system.fields(), refined.vectors);
-  const Eigen::VectorXd fine_Hz = farthest(solved.pairs.values, refined).unaryExpr(&hertz);
-  std::vector<MeshError> errors;
-  for (Eigen::Index k = 0; k < similarity.rows(); ++k) {
-    const double coarse_Hz = hertz(solved.pairs.values[k]);
-    // Rigid-body motions are the same on every mesh.
-    errors.push_back(coarse_Hz == 0 ? MeshError{0, 1, 0}
-                                    : compare(coarse_Hz, fine_Hz, similarity.row(k)));
+  add_prestress(model, progress);
+  const FineModes found = fine_modes(system, pairs, model);
+  for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
+    if (pairs.values[k] == 0) continue;
+    errors[static_cast<std::size_t>(k)] =
+        compare(hertz(pairs.values[k]), found.frequencies_Hz, found.similarity.row(k));
   }
   return errors;
 }

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "fe_modal/algebra/petsc_choices.h"
 #include "fe_modal/analysis/attached_frequencies.h"
 #include "fe_modal/analysis/discretisation_error.h"
 #include "fe_modal/analysis/estimate_limits.h"
 #include "fe_modal/analysis/prestress.h"
 #include "fe_modal/analysis/slit_basis.h"
 #include "fe_modal/analysis/sound_factor.h"
-#include "fe_modal/dofs/rigid_motions.h"
 #include "fe_modal/reduction/geometric_stiffness.h"
 #include "fe_modal/reduction/invariants.h"
 #include "fe_modal/reduction/mode_conventions.h"
@@ -24,7 +24,6 @@
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/solve/sturm_check.h"
 #include "fe_modal/system/assembly.h"
-#include "fe_modal/system/elimination_order.h"
 #include "fe_modal/system/memory_needs.h"
 #include "fe_modal/system/modal_options_check.h"
 #include "fe_modal/system/rigid_average.h"
@@ -35,18 +34,12 @@ namespace flexneck::fe_modal {
 namespace {
 
 /// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
-void check_no_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
-                        const Eigen::VectorXd& values, Eigen::Index rigid) {
-  const double scale = eigenvalue_scale(mesh);
-  const Eigen::Index last = std::min(rigid, values.size());
-  if (last > 0 && values[last - 1] > kStrainless * scale) {
-    throw ComputationError("the body has fewer motions without strain than the " +
-                           std::to_string(rigid) + " that its supports leave");
-  }
-  if (values.size() <= rigid || values[rigid] > strainless_share(mesh) * scale) return;
-  if (const auto motions = describe_mechanism(mesh, system, rigid == 0)) {
-    refuse_mechanism(*motions);
-  }
+void check_no_mechanism(const AssembledSystem& system, const Eigen::VectorXd& values) {
+  const mesher::Mesh& mesh = system.model().mesh();
+  const Eigen::Index rigid = system.model().rigid().count();
+  if (values.size() <= rigid) return;
+  if (values[rigid] > strainless_share(mesh) * eigenvalue_scale(mesh)) return;
+  if (const auto motions = describe_mechanism(system, rigid == 0)) refuse_mechanism(*motions);
 }
 
 std::vector<Interface> reduce_interfaces(const ModalOptions& options,
@@ -116,31 +109,52 @@ struct Basis {
   std::vector<SlitField> slit_fields = {};
 };
 
-Basis reduced_basis(const mesher::Mesh& mesh, const AssembledSystem& system,
-                    const ShiftInverse& inverse, const ModalOptions& options,
-                    const std::vector<InterfaceLoads>& loads, Eigen::Index rigid_count,
-                    const Progress& progress, const Progress& warn) {
-  const BodyOperators operators = operators_of(system, inverse);
+/// What the steps of an analysis share.
+struct Analysis {
+  const Model& model;
+  const AssembledSystem& system;
+  const LinearSolver& inverse;
+  const Progress& progress;
+  const Progress& warn;
+  std::vector<RigidAverage> averages = {};  ///< of the options' interfaces
+  std::vector<InterfaceLoads> loads = {};   ///< likewise
+
+  const ModalOptions& options() const { return model.options(); }
+  BodyOperators operators() const { return operators_of(system, inverse); }
+  void report(const std::string& line) const {
+    if (progress) progress(line);
+  }
+};
+
+/// The body's lowest modes, and what is known of their number.
+CertifiedModes normal_modes(const Analysis& of) {
+  CertifiedModes modes = lowest_modes(of.system, of.inverse, of.options().mode_count,
+                                      of.system.rigid_modes(), of.options().certify, of.warn);
+  check_no_mechanism(of.system, modes.pairs.values);
+  check_eigenvalues(modes.pairs.values, of.inverse.shift());
+  warn_of_rigid_cut(modes.pairs.values.size(), of.model.rigid().count(), of.warn);
+  return modes;
+}
+
+Basis reduced_basis(const Analysis& of) {
+  const ModalOptions& options = of.options();
   if (options.slit_motions != SlitMotions::none) {
-    SlitBasis basis = slit_basis(mesh, system.fields(), operators, options, loads, progress);
+    SlitBasis basis = slit_basis(of.model, of.operators(), of.loads, of.progress);
     return {std::move(basis.reduction), kNotCertified, std::move(basis.fields)};
   }
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
-      EigenPairs pairs = lowest_eigenpairs(mass, inverse, count);
-      warn_of_cut(pairs, inverse.shift(), warn);
+      EigenPairs pairs = lowest_eigenpairs(mass, of.inverse, count);
+      warn_of_cut(pairs, of.inverse.shift(), of.warn);
       return pairs;
     };
-    return {craig_bampton(operators, system.mass(), solve, options.mode_count, loads, progress),
+    return {craig_bampton(of.operators(), of.system.mass(), solve, options.mode_count, of.loads,
+                          of.progress),
             kNotCertified};
   }
-  auto [pairs, certificate] =
-      lowest_modes(system, inverse, options.mode_count, options.certify, warn);
-  check_no_mechanism(mesh, system, pairs.values, rigid_count);
-  check_eigenvalues(pairs.values, inverse.shift());
-  warn_of_rigid_cut(pairs.values.size(), rigid_count, warn);
-  pairs.values.head(std::min(rigid_count, pairs.values.size())).setZero();
-  return {complete_modes(operators, pairs, loads, options.basis, rigid_count, progress),
+  const auto [pairs, certificate] = normal_modes(of);
+  return {complete_modes(of.operators(), pairs, of.loads, options.basis, of.model.rigid().count(),
+                         of.progress),
           certificate};
 }
 
@@ -162,127 +176,130 @@ std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
   return responses;
 }
 
-}  // namespace
-
-ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& given,
-                        const Progress& progress, StepTimes* step_times, const Progress& warn,
-                        AnalysisFields* fields) {
-  StepTimes unseen;
-  StepTimes& times = step_times != nullptr ? *step_times : unseen;
-  const auto report = [&](const std::string& line) {
-    if (progress) progress(line);
-  };
-  check_options(mesh, given);
-  check_memory(mesh, given);
-  if (fields != nullptr && !given.prestress.empty()) {
-    throw InputError("derivatives of prestressed modes are not offered: leave the prestress out");
-  }
-  if (!given.prestress.empty()) times.start("static step");
-  const ModalOptions options = with_prestress(mesh, given, progress);
-  if (const std::string text = large_prestress_text(mesh, options); warn && !text.empty())
-    warn(text);
-  times.start("order and factorise");
-  const DofMap dof_map = numbered_dof_map_of(mesh, options);
-  const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);
-  const bool fixed = rigid.count() == 0;
-  report("assembling stiffness and mass, " + std::to_string(dof_map.dof_count()) +
-         " degrees of freedom");
-  times.start("assemble");
-  AssembledSystem system(mesh, dof_map, options);
-  const FieldMap& field_map = system.fields();
-
-  times.start("order and factorise");
-  report("factorising the stiffness");
-  // A fixed body has a definite stiffness; one that keeps rigid motions is shifted below zero.
-  const double shift = fixed ? 0 : -eigenvalue_scale(mesh);
-  const std::unique_ptr<const ShiftInverse> inverse =
-      options.prestress.empty() ? factorise_or_refuse(mesh, system, shift)
-                                : factorise_prestressed(mesh, dof_map, system, options);
-  report(inverse->describe());
-  times.start("iterate");
-  report("solving for " + std::to_string(options.mode_count) + " modes");
-  std::vector<RigidAverage> averages;
-  for (const InterfaceDefinition& interface : options.interfaces) {
-    averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
-  }
-  const std::vector<InterfaceLoads> loads = loads_of(options, field_map, averages);
-  auto [basis, certificate, slit_fields] =
-      reduced_basis(mesh, system, *inverse, options, loads, rigid.count(), progress, warn);
-  EigenPairs& pairs = basis.pairs;
-  if (options.sign_interface.empty()) {
-    apply_conventions(pairs, field_map.layout());
-  } else {
-    apply_conventions(pairs, field_map, averages[interface_index(options, options.sign_interface)],
-                      options.length_m);
-  }
-
-  times.start("post-process");
-  report("reducing to modal coordinates");
+/// The modal body of a basis, without what takes more solves.
+ModalBody body_of(const Analysis& of, const Basis& basis, const std::vector<Particle>& particles) {
+  const ModalOptions& options = of.options();
+  const mesher::Mesh& mesh = of.model.mesh();
+  const EigenPairs& pairs = basis.reduction.pairs;
   ModalBody body;
   body.frequencies_Hz = frequencies_Hz(pairs.values);
-  body.boundary =
-      boundary_of(mesh, options, rigid) + (options.prestress.empty() ? "" : "; prestressed");
+  body.boundary = of.model.boundary() + (options.prestress.empty() ? "" : "; prestressed");
   body.prestress = prestress_text(options);
-  body.certificate = certificate;
+  body.certificate = basis.certificate;
   body.nodes_m = mesher::positions_of(mesh);
-  body.shapes = field_map.expand(pairs.vectors);
+  body.shapes = of.system.fields().expand(pairs.vectors);
   if (!options.prestress.empty()) {
     body.prestress_stiffness =
         geometric_stiffness(mesh, options.formulation, body.shapes, {options.prestress_m})
             .front()
             .diagonal();
   }
-  body.modes =
-      describe_modes(mesh, options, basis.kinds, body.shapes,
-                     relative_residuals(system.stiffness(), system.mass(), *inverse, pairs));
-  const Eigen::Index eigenvectors = eigenvector_count(basis);
-  body.slits = slit_motions(mesh, slit_fields, body.shapes);
-  body.interfaces = reduce_interfaces(options, averages, basis.responses, body.shapes);
-  const std::vector<Particle> particles =
-      particles_of(mesh, dof_map, field_map.layout().whole(pairs.vectors));
+  body.modes = describe_modes(
+      mesh, options, basis.reduction.kinds, body.shapes,
+      relative_residuals(of.system.stiffness(), of.system.mass(), of.inverse, pairs));
+  body.slits = slit_motions(mesh, basis.slit_fields, body.shapes);
+  body.interfaces = reduce_interfaces(options, of.averages, basis.reduction.responses, body.shapes);
   body.invariants = inertia_invariants(
-      [&](const Eigen::MatrixXd& columns) { return system.mass_integrals(columns); }, mesh.nodes,
+      [&](const Eigen::MatrixXd& columns) { return of.system.mass_integrals(columns); }, mesh.nodes,
       body.shapes, particles);
   const Eigen::MatrixXd& modal_mass = body.invariants.Maa;
   body.orthogonality =
       (modal_mass - Eigen::MatrixXd::Identity(modal_mass.rows(), modal_mass.cols()))
           .cwiseAbs()
           .maxCoeff();
+  return body;
+}
+
+void make_signs_unique(const Analysis& of, EigenPairs& pairs) {
+  const ModalOptions& options = of.options();
+  const FieldMap& fields = of.system.fields();
+  if (options.sign_interface.empty()) return apply_conventions(pairs, fields.layout());
+  apply_conventions(pairs, fields, of.averages[interface_index(options, options.sign_interface)],
+                    options.length_m);
+}
+
+void add_mesh_errors(const Analysis& of, EigenPairs pairs, Eigen::Index eigenvectors,
+                     ModalBody& body) {
+  pairs.values.conservativeResize(eigenvectors);
+  pairs.vectors.conservativeResize(Eigen::NoChange, eigenvectors);
+  const std::vector<MeshError> errors = mesh_errors(of.system, pairs, of.progress);
+  for (std::size_t k = 0; k < errors.size(); ++k) body.modes[k].mesh_error = errors[k];
+  body.mesh_error_limits = limits_of_estimate(of.model.mesh(), of.options());
+  if (!body.mesh_error_limits.empty() && of.warn)
+    of.warn("the errors of the mesh are an indication alone: " + body.mesh_error_limits);
+}
+
+}  // namespace
+
+ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
+                        const Progress& progress, StepTimes* step_times, const Progress& warn,
+                        AnalysisFields* fields) {
+  StepTimes unseen;
+  StepTimes& times = step_times != nullptr ? *step_times : unseen;
+  const PetscChoices choices(options.petsc_options);
+  mesher::check(mesh);
+  times.start("order");
+  Model model(mesh, options);
+  check_options(model);
+  check_memory(mesh, options);
+  if (fields != nullptr && !options.prestress.empty())
+    throw InputError("derivatives of prestressed modes are not offered: leave the prestress out");
+  if (!options.prestress.empty()) times.start("static step");
+  add_prestress(model, progress);
+  if (const std::string text = large_prestress_text(model); warn && !text.empty()) warn(text);
+
+  times.start("assemble");
+  if (progress)
+    progress("assembling stiffness and mass, " + std::to_string(model.dof_map().dof_count()) +
+             " degrees of freedom");
+  const AssembledSystem system(model);
+
+  times.start("factorise");
+  if (progress) progress("factorising the stiffness");
+  const bool fixed = model.rigid().count() == 0;
+  const std::unique_ptr<const LinearSolver> inverse =
+      options.prestress.empty() ? factorise_or_refuse(system, shift_of(model))
+                                : factorise_prestressed(system);
+  Analysis of{model, system, *inverse, progress, warn};
+  of.report(inverse->describe());
+
+  times.start("iterate");
+  of.report("solving for " + std::to_string(options.mode_count) + " modes");
+  for (const InterfaceDefinition& interface : options.interfaces)
+    of.averages.emplace_back(mesh, mesh.face_set(interface.set), interface.position_m);
+  of.loads = loads_of(options, system.fields(), of.averages);
+  Basis basis = reduced_basis(of);
+  EigenPairs& pairs = basis.reduction.pairs;
+  make_signs_unique(of, pairs);
+
+  times.start("post-process");
+  of.report("reducing to modal coordinates");
+  const std::vector<Particle> particles =
+      particles_of(mesh, model.dof_map(), system.fields().layout().whole(pairs.vectors));
+  ModalBody body = body_of(of, basis, particles);
   if (options.geometric_stiffness) {
-    report("integrating the geometric stiffness");
-    body.geometric_stiffness =
-        unit_load_stiffness(mesh, options.formulation, system, operators_of(system, *inverse),
-                            loads, body.shapes, particles);
+    of.report("integrating the geometric stiffness");
+    body.geometric_stiffness = unit_load_stiffness(
+        mesh, options.formulation, system, of.operators(), of.loads, body.shapes, particles);
   }
   if (!options.attachments.empty()) {
     times.start("iterate with bodies attached");
-    report("solving with rigid bodies attached");
+    of.report("solving with rigid bodies attached");
   }
-  body.attached = attach_bodies(options, {system, *inverse, averages, loads},
-                                pairs.vectors.leftCols(eigenvectors),
+  body.attached = attach_bodies({system, *inverse, of.averages, of.loads},
                                 fields != nullptr ? &fields->attached_shapes : nullptr);
   if (fields != nullptr) {
     times.start("static responses");
-    if (fixed) {
-      fields->responses = interface_responses(field_map, operators_of(system, *inverse), loads);
-    }
+    if (fixed) fields->responses = interface_responses(system.fields(), of.operators(), of.loads);
     fields->next_Hz = std::sqrt(pairs.next) / (2 * std::numbers::pi);
   }
+  const Eigen::Index eigenvectors = eigenvector_count(basis.reduction);
   if (options.certify && eigenvectors > 0) {
     times.start("refine and solve again");
-    // A factor does without K, unlike an iteration.
-    if (options.solver == Solver::direct) system.keep_mass_alone();
-    // Nothing else needs the basis any more: its other columns go, and no copy is made.
-    pairs.values.conservativeResize(eigenvectors);
-    pairs.vectors.conservativeResize(Eigen::NoChange, eigenvectors);
-    const auto errors =
-        mesh_errors({mesh, system, pairs, *inverse, rigid.count()}, options, progress);
-    for (std::size_t k = 0; k < errors.size(); ++k) body.modes[k].mesh_error = errors[k];
-    body.mesh_error_limits = limits_of_estimate(mesh, options);
-    if (!body.mesh_error_limits.empty() && warn)
-      warn("the errors of the mesh are an indication alone: " + body.mesh_error_limits);
+    add_mesh_errors(of, pairs, eigenvectors, body);
   }
   body.solver = inverse->describe();
+  choices.require_used();
   times.stop();
   return body;
 }

@@ -5,7 +5,6 @@
 #include "fe_modal/reduction/static_response.h"
 #include "fe_modal/reduction/static_shapes.h"
 #include "fe_modal/solve/assembled_system.h"
-#include "fe_modal/system/elimination_order.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -14,14 +13,14 @@ namespace {
 /// The body with its slits shut, whose nodes are those of the open one.
 class ShutBody {
  public:
-  ShutBody(mesher::Mesh mesh, const FieldMap& open, const ModalOptions& options)
-      : mesh_(tied(std::move(mesh))),
-        open_(open),
-        dof_map_(numbered_dof_map_of(mesh_, options)),
-        system_(mesh_, dof_map_, options),
-        inverse_(system_.shift_inverse(0)) {
-    if (options.mode_count > 0)
-      modes_ = lowest_eigenpairs(system_.mass(), *inverse_, options.mode_count);
+  explicit ShutBody(const Model& open)
+      : mesh_(tied(open.mesh())),
+        open_(open.fields()),
+        model_(mesh_, open.options()),
+        system_(model_),
+        inverse_(shift_inverse(system_, 0)) {
+    if (open.options().mode_count > 0)
+      modes_ = lowest_eigenpairs(system_.mass(), *inverse_, open.options().mode_count);
   }
 
   /// By the open body's degrees of freedom, as all that follows.
@@ -50,17 +49,18 @@ class ShutBody {
 
   mesher::Mesh mesh_;
   const FieldMap& open_;
-  DofMap dof_map_;
+  Model model_;
   AssembledSystem system_;
-  std::unique_ptr<const ShiftInverse> inverse_;
+  std::unique_ptr<const LinearSolver> inverse_;
   EigenPairs modes_;
 };
 
 }  // namespace
 
-SlitBasis slit_basis(const mesher::Mesh& mesh, const FieldMap& field_map, const BodyOperators& open,
-                     const ModalOptions& options, const std::vector<InterfaceLoads>& loads,
-                     const Progress& progress) {
+SlitBasis slit_basis(const Model& model, const BodyOperators& open,
+                     const std::vector<InterfaceLoads>& loads, const Progress& progress) {
+  const mesher::Mesh& mesh = model.mesh();
+  const FieldMap& field_map = model.fields();
   // Forces on couplings and in fixed directions do not pass from the one body to the other.
   if (field_map.dof_map().is_constrained())
     throw InputError(
@@ -71,14 +71,14 @@ SlitBasis slit_basis(const mesher::Mesh& mesh, const FieldMap& field_map, const 
 
   SlitBasis basis;
   basis.fields = slit_fields(mesh, field_map.expand(shapes.beyond * combinations),
-                             options.slit_motions == SlitMotions::openings_and_sliding);
+                             model.options().slit_motions == SlitMotions::openings_and_sliding);
   if (progress)
     progress(std::to_string(basis.fields.size()) + " ways in which slits part join the basis");
   std::vector<Eigen::Matrix3Xd> parted;
   for (const SlitField& field : basis.fields) parted.push_back(on_nodes(mesh, field));
   const Eigen::MatrixXd jumps = field_map.restrict(parted);
 
-  const ShutBody shut(mesh, field_map, options);
+  const ShutBody shut(model);
   const Eigen::MatrixXd modes = shut.modes();
   Eigen::MatrixXd vectors(jumps.rows(), modes.cols() + combinations.cols() + jumps.cols());
   if (modes.cols() > 0) vectors.leftCols(modes.cols()) = modes;

@@ -20,12 +20,11 @@ struct SlitBasis {
 /// shape of least energy whose jumps are that way's, the interfaces free. With all amplitudes zero
 /// the body is the one without slits, exactly; with openings that loads pull apart it is the open
 /// one as far as its jumps are sums of the fields.
-/// @param mesh     with slits, none of them tied
-/// @param field_map, open  of that mesh
-/// @param loads    of the interfaces
+/// @param model  of the open body, no slit tied
+/// @param open   of that body
+/// @param loads  of the interfaces
 /// @throws InputError as slit_fields() does, and for rigid interfaces and directions fixed alone
-SlitBasis slit_basis(const mesher::Mesh& mesh, const FieldMap& field_map, const BodyOperators& open,
-                     const ModalOptions& options, const std::vector<InterfaceLoads>& loads,
-                     const Progress& progress);
+SlitBasis slit_basis(const Model& model, const BodyOperators& open,
+                     const std::vector<InterfaceLoads>& loads, const Progress& progress);
 
 }  // namespace flexneck::fe_modal

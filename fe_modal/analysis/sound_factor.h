@@ -15,9 +15,8 @@ namespace flexneck::fe_modal {
 /// (K - shift M)^-1. A stiffness that is not definite is that of a mechanism, or of elements that
 /// are none.
 /// @throws InputError naming the parts that move without strain, and how.
-/// @throws ComputationError as ModalSystem::shift_inverse() where there is no such motion.
-std::unique_ptr<const ShiftInverse> factorise_or_refuse(const mesher::Mesh& mesh,
-                                                        const AssembledSystem& system,
+/// @throws ComputationError as LinearSolver where there is no such motion.
+std::unique_ptr<const LinearSolver> factorise_or_refuse(const AssembledSystem& system,
                                                         double shift);
 
 }  // namespace flexneck::fe_modal

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "fe_modal/algebra/petsc_choices.h"
 #include "fe_modal/analysis/sound_factor.h"
 #include "fe_modal/element/nodal_stresses.h"
 #include "fe_modal/element/stressed_elements.h"
@@ -13,7 +14,6 @@
 #include "fe_modal/solve/assembled_system.h"
 #include "fe_modal/solve/mechanism.h"
 #include "fe_modal/system/assembly.h"
-#include "fe_modal/system/elimination_order.h"
 #include "fe_modal/system/memory_needs.h"
 #include "fe_modal/system/modal_options_check.h"
 #include "fe_modal/system/point_forces.h"
@@ -30,35 +30,38 @@ namespace {
 constexpr double kBalanced = 1e-6;
 
 /// A mechanism may pass the factorisation by rounding: loads move it without strain then.
-void refuse_moved_mechanism(const mesher::Mesh& mesh, const AssembledSystem& system,
-                            const Eigen::VectorXd& response, const Eigen::VectorXd& load) {
+void refuse_moved_mechanism(const AssembledSystem& system, const Eigen::VectorXd& response,
+                            const Eigen::VectorXd& load) {
   const double kinetic = response.dot(block_product(system.mass(), response).col(0));
-  if (response.dot(load) > kStrainless * eigenvalue_scale(mesh) * kinetic || kinetic == 0) return;
-  if (const auto motions = describe_mechanism(mesh, system, true)) refuse_mechanism(*motions);
+  const double scale = eigenvalue_scale(system.model().mesh());
+  if (response.dot(load) > kStrainless * scale * kinetic || kinetic == 0) return;
+  if (const auto motions = describe_mechanism(system, true)) refuse_mechanism(*motions);
 }
 
 }  // namespace
 
-StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
-                       const std::vector<Load>& loads, const Progress& progress) {
-  require_supports(rigid_motions_of(mesh, options), "a static step");
-  const DofMap dof_map = numbered_dof_map_of(mesh, options);
+StaticStep static_step(const Model& model, const std::vector<Load>& loads,
+                       const Progress& progress) {
+  require_supports(model.rigid(), "a static step");
+  const mesher::Mesh& mesh = model.mesh();
+  const ModalOptions& options = model.options();
+  const DofMap& dof_map = model.dof_map();
   const Eigen::Matrix3Xd moved_m = support_displacements(mesh, options, loads);
   if (progress) {
     progress("static step, " + std::to_string(dof_map.dof_count()) + " degrees of freedom");
   }
-  const AssembledSystem system(mesh, dof_map, options);
+  const AssembledSystem system(model);
   StaticStep step;
   step.applied_N = nodal_forces(mesh, system.nodal_mass(), loads);
   const Eigen::VectorXd weights = weights_at_points(mesh, dof_map, loads);
   Eigen::VectorXd load = dof_map.gather(step.applied_N) + weights;
   if (moved_m.cwiseAbs().maxCoeff() > 0)
     load -= dof_map.gather(internal_forces(mesh, options.formulation, moved_m));
-  const std::unique_ptr<const ShiftInverse> inverse = factorise_or_refuse(mesh, system, 0);
+  const std::unique_ptr<const LinearSolver> inverse = factorise_or_refuse(system, 0);
   Eigen::VectorXd response = Eigen::VectorXd::Zero(load.size());
   if (load.norm() > 0)
     response = static_response_beyond(operators_of(system, *inverse), {}, load).col(0);
-  refuse_moved_mechanism(mesh, system, response, load);
+  refuse_moved_mechanism(system, response, load);
   step.displacements_m = dof_map.expand(response) + moved_m;
   step.point_forces = weights - spring_forces(mesh, dof_map, response);
   step.solver = inverse->describe();
@@ -73,13 +76,15 @@ Eigen::Matrix3Xd consistent_forces(const mesher::Mesh& mesh, const ModalOptions&
 
 StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& options,
                               const std::vector<Load>& loads, const Progress& progress) {
-  const RigidMotions rigid = rigid_motions_of(mesh, options);
-  require_supports(rigid, "a static step");
-  check_options(mesh, options);
+  const PetscChoices choices(options.petsc_options);
+  mesher::check(mesh);
+  const Model model(mesh, options);
+  require_supports(model.rigid(), "a static step");
+  check_options(model);
   check_memory(mesh, options);
-  StaticStep step = static_step(mesh, options, loads, progress);
+  StaticStep step = static_step(model, loads, progress);
   StaticSolution solution;
-  solution.boundary = boundary_of(mesh, options, rigid);
+  solution.boundary = model.boundary();
   solution.solver = std::move(step.solver);
   for (const Load& load : loads) solution.loads.push_back(describe(load));
   solution.nodes_m = mesher::positions_of(mesh);
@@ -90,8 +95,7 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
   const Eigen::Matrix3Xd unbalanced_N = internal_N - step.applied_N;
   const double scale = std::max(internal_N.norm(), step.applied_N.norm());
   if (scale > 0) {
-    solution.imbalance =
-        (dof_map_of(mesh, options).gather(unbalanced_N) - step.point_forces).norm() / scale;
+    solution.imbalance = (model.dof_map().gather(unbalanced_N) - step.point_forces).norm() / scale;
   }
   if (!(solution.imbalance < kBalanced))
     throw ComputationError(
@@ -99,7 +103,7 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
         " of the forces are left over at free nodes");
   const std::vector<std::array<bool, 3>> reacting = reacting_directions_of(mesh, options);
   // The weights of masses at points are loads, handed to nodes by connections.
-  const Eigen::Matrix3Xd weights_N = weights_on_nodes(mesh, connections_of(mesh, options), loads);
+  const Eigen::Matrix3Xd weights_N = weights_on_nodes(mesh, model.connections(), loads);
   solution.reactions_N = unbalanced_N - weights_N;
   for (std::size_t k = 0; k < reacting.size(); ++k) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -112,6 +116,7 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
   solution.at_points = std::move(stresses.at_points);
   solution.displacements_m = std::move(step.displacements_m);
   solution.applied_N = step.applied_N + weights_N;
+  choices.require_used();
   return solution;
 }
 

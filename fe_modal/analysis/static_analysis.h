@@ -7,7 +7,7 @@
 
 #include "fe_modal/body/static_solution.h"
 #include "fe_modal/system/loads.h"
-#include "fe_modal/system/modal_options.h"
+#include "fe_modal/system/model.h"
 #include "geometry/foundation/progress.h"
 #include "mesher/mesh/mesh.h"
 
@@ -21,13 +21,13 @@ struct StaticStep {
   std::string solver;                ///< how it was solved
 };
 
-/// The linear static step alone, by the options' supports, couplings, formulations and solver.
+/// The linear static step alone.
 /// @param loads at least one
 /// @throws InputError for a body that nothing fixes, or that is a mechanism; and as nodal_forces()
 /// and support_displacements() do.
 /// @throws ComputationError if the factorisation or the iteration fails.
-StaticStep static_step(const mesher::Mesh& mesh, const ModalOptions& options,
-                       const std::vector<Load>& loads, const Progress& progress);
+StaticStep static_step(const Model& model, const std::vector<Load>& loads,
+                       const Progress& progress);
 
 /// The nodal forces of the loads alone, (3, n) in N, for other programs.
 Eigen::Matrix3Xd consistent_forces(const mesher::Mesh& mesh, const ModalOptions& options,

@@ -54,10 +54,11 @@ void DofMap::number(const AffineConstraints& constraints) {
   };
   indices_.assign(static_cast<std::size_t>(sites), -1);
   for (std::int32_t site = 0; site < sites; ++site) {
-    if (site == node_count_) first_point_block_ = static_cast<std::int32_t>(free_count_);
-    if (count_dependent(site) < 3) {
-      indices_[static_cast<std::size_t>(site)] = static_cast<std::int32_t>(free_count_++);
-    }
+    if (count_dependent(site) == 3) continue;
+    indices_[static_cast<std::size_t>(site)] = static_cast<std::int32_t>(free_count_++);
+    if (sites > node_count_)
+      point_half_of_.push_back(
+          site - static_cast<std::int32_t>(std::min<Eigen::Index>(site + 1, node_count_)));
   }
   std::vector<std::int32_t> composites;
   for (std::int32_t site = 0; site < sites; ++site) {
@@ -95,62 +96,22 @@ void DofMap::add_composite(const AffineConstraints& constraints, std::int32_t si
   }
 }
 
-DofMap DofMap::part(std::span<const std::int32_t> nodes, std::span<const std::int32_t> more,
-                    std::vector<std::int32_t>& numbers) const {
-  numbers.clear();
-  for (const auto& sites : {nodes, more}) {
-    for (const std::int32_t site : sites) {
-      for_each_number(site, [&](std::int32_t block) { numbers.push_back(block); });
-    }
-  }
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  const auto place = [&](std::int32_t block) {
-    return std::lower_bound(numbers.begin(), numbers.end(), block) - numbers.begin();
-  };
-  const auto is_here = [&](std::int32_t block) {
-    return std::binary_search(numbers.begin(), numbers.end(), block);
-  };
-  DofMap result;
-  result.node_count_ = static_cast<Eigen::Index>(nodes.size());
-  result.free_count_ = static_cast<Eigen::Index>(numbers.size());
-  result.first_point_block_ = static_cast<std::int32_t>(place(first_point_block_));
-  std::vector<std::int32_t> sites(nodes.begin(), nodes.end());
-  for (auto site = static_cast<std::int32_t>(node_count()); site < site_count(); ++site) {
-    sites.push_back(site);
-  }
-  for (const std::int32_t site : sites) {
-    const std::int32_t block = index(site);
-    result.indices_.push_back(block >= 0 && is_here(block) ? static_cast<std::int32_t>(place(block))
-                                                           : -1);
-    if (!is_constrained()) continue;
-    bool is_composite = !is_plain(site);
-    // Of a point that the part does not have, nothing moves.
-    for_each_number(site, [&](std::int32_t each) { is_composite = is_composite && is_here(each); });
-    result.composite_of_.push_back(
-        is_composite ? static_cast<std::int32_t>((result.offsets_.size() - 1) / 3) : -1);
-    for (int a = 0; is_composite && a < 3; ++a) {
-      for (const DofTerm& term : terms(site, a)) {
-        const auto own = static_cast<std::int32_t>(place(term.dof / 3));
-        result.terms_.push_back({3 * own + term.dof % 3, term.coefficient});
-      }
-      result.offsets_.push_back(result.terms_.size());
-    }
-  }
-  for (std::size_t k = 0; !dependent_.empty() && k < numbers.size(); ++k) {
-    result.dependent_.push_back(dependent_[static_cast<std::size_t>(numbers[k])]);
-  }
-  return result;
-}
-
 void DofMap::renumber(std::span<const std::int32_t> order) {
   std::vector<std::int32_t> place(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     place[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
+  const auto place_of = [&](std::int32_t block) { return place[static_cast<std::size_t>(block)]; };
+  const auto in_order = [&](auto& of_blocks) {
+    auto before = of_blocks;
+    for (std::size_t k = 0; k < before.size(); ++k)
+      of_blocks[k] = before[static_cast<std::size_t>(order[k])];
+  };
   for (std::int32_t& block : indices_) {
-    if (block >= 0) block = place[static_cast<std::size_t>(block)];
+    if (block >= 0) block = place_of(block);
   }
-  is_renumbered_ = true;
+  for (DofTerm& term : terms_) term.dof = 3 * place_of(term.dof / 3) + term.dof % 3;
+  in_order(dependent_);
+  in_order(point_half_of_);
 }
 
 std::span<const DofTerm> DofMap::terms(std::int32_t site, int a) const {
@@ -230,11 +191,6 @@ void DofMap::fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) 
   };
   std::vector<Fit> fits(static_cast<std::size_t>(site_count() - node_count()) / 2);
   if (fits.empty()) return;
-  std::vector<std::size_t> place;  // of a point's own block: 2 point, or 2 point + 1
-  for (auto site = static_cast<std::int32_t>(node_count()); site < site_count(); ++site) {
-    if (index(site) != first_point_block_ + static_cast<std::int32_t>(place.size())) continue;
-    place.push_back(static_cast<std::size_t>(site - node_count()));
-  }
   for (std::int32_t node = 0; node < node_count(); ++node) {
     for (int a = 0; a < 3 && !is_plain(node); ++a) {
       Six row = Six::Zero();
@@ -242,12 +198,12 @@ void DofMap::fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) 
       std::size_t point = fits.size();
       bool is_of_one = true;
       for (const DofTerm& term : terms(node, a)) {
-        if (term.dof / 3 < first_point_block_) {
+        if (!is_of_point(term.dof / 3)) {
           rest -= term.coefficient * values[term.dof];
           continue;
         }
-        const std::size_t where =
-            place[static_cast<std::size_t>(term.dof / 3 - first_point_block_)];
+        const auto where =
+            static_cast<std::size_t>(point_half_of_[static_cast<std::size_t>(term.dof / 3)]);
         is_of_one = is_of_one && (point == fits.size() || point == where / 2);
         point = where / 2;
         row[static_cast<Eigen::Index>(3 * (where % 2)) + term.dof % 3] = term.coefficient;
@@ -265,7 +221,8 @@ void DofMap::fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) 
     for (std::int32_t half = 0; half < 2; ++half) {
       const std::int32_t block =
           index(static_cast<std::int32_t>(node_count()) + 2 * static_cast<std::int32_t>(p) + half);
-      if (block >= first_point_block_) values.segment<3>(3 * block) = motion.segment<3>(3 * half);
+      if (block >= 0 && is_of_point(block))
+        values.segment<3>(3 * block) = motion.segment<3>(3 * half);
     }
   }
 }

@@ -32,18 +32,8 @@ class DofMap {
   DofMap(const mesher::Mesh& mesh, std::span<const std::int32_t> fixed)
       : DofMap(mesh, fixed, mesh.connections) {}
 
-  /// The same of some nodes alone and of all reference points, by blocks of their own, which ascend
-  /// as those of the whole do.
-  /// @param nodes of the whole, ascending
-  /// @param more sites of the whole that have blocks besides
-  /// @param numbers takes what the blocks are in the whole
-  DofMap part(std::span<const std::int32_t> nodes, std::span<const std::int32_t> more,
-              std::vector<std::int32_t>& numbers) const;
-
   /// Numbers the blocks in an order, a permutation of them: entry k becomes block k.
-  /// @pre not constrained
   void renumber(std::span<const std::int32_t> order);
-  bool is_renumbered() const { return is_renumbered_; }
 
   Eigen::Index node_count() const { return node_count_; }
   Eigen::Index site_count() const { return static_cast<Eigen::Index>(indices_.size()); }
@@ -88,7 +78,9 @@ class DofMap {
                  Eigen::Ref<Eigen::VectorXd> values) const;
 
  private:
-  DofMap() = default;
+  bool is_of_point(std::int32_t block) const {
+    return !point_half_of_.empty() && point_half_of_[static_cast<std::size_t>(block)] >= 0;
+  }
   void number(const AffineConstraints& constraints);
   void add_composite(const AffineConstraints& constraints, std::int32_t site);
   void fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) const;
@@ -96,12 +88,13 @@ class DofMap {
   std::vector<std::int32_t> indices_;  ///< (sites)
   Eigen::Index node_count_ = 0;
   Eigen::Index free_count_ = 0;
-  bool is_renumbered_ = false;
-  std::int32_t first_point_block_ = 0;
   std::vector<std::int32_t> composite_of_;  ///< (sites), empty if all are plain
   std::vector<std::size_t> offsets_ = {0};  ///< of the terms of each composite's three directions
   std::vector<DofTerm> terms_;
   std::vector<std::array<bool, 3>> dependent_;  ///< (free_count), empty if none is
+  /// (free_count) of a block of a reference point's own: twice the point, one more for its
+  /// rotation; of a node's -1. Empty without points.
+  std::vector<std::int32_t> point_half_of_;
 };
 
 template <typename Visitor>

@@ -72,6 +72,8 @@ class ConstrainedMotions {
     }
   }
 
+  /// Of all blocks, (dofs, 6).
+  const Eigen::Matrix<double, Eigen::Dynamic, 6>& values() const { return values_; }
   Motion at(std::int32_t site) const {
     Motion motion;
     for (Eigen::Index k = 0; k < 6; ++k) motion.col(k) = dof_map_.motion_of(site, values_.col(k));
@@ -143,6 +145,17 @@ RigidMotions::RigidMotions(const mesher::Mesh& mesh, const mesher::Connections& 
   const Eigen::SelfAdjointEigenSolver<Six> spectrum(residuals);
   const Eigen::Index count = (spectrum.eigenvalues().array() <= kKept).count();
   motions_ = spectrum.eigenvectors().leftCols(count);
+}
+
+Eigen::MatrixXd RigidMotions::vectors(const mesher::Mesh& mesh,
+                                      const mesher::Connections& connections,
+                                      const DofMap& dof_map) const {
+  const WholeBody body(mesh, connections);
+  Eigen::MatrixXd vectors = ConstrainedMotions(body, dof_map).values() * motions_;
+  for (Eigen::Index row = 0; row < vectors.rows(); ++row)
+    if (dof_map.is_dependent(static_cast<std::int32_t>(row / 3), row % 3))
+      vectors.row(row).setZero();
+  return vectors;
 }
 
 std::string RigidMotions::text() const {

@@ -18,6 +18,10 @@ class RigidMotions {
                const DofMap& dof_map);
 
   Eigen::Index count() const { return motions_.cols(); }
+  /// The motions as free values, (dofs, count), independent.
+  /// @param dof_map of the same constraints, in any numbering
+  Eigen::MatrixXd vectors(const mesher::Mesh& mesh, const mesher::Connections& connections,
+                          const DofMap& dof_map) const;
   /// "slides along x and y, turns about z"; of one that turns about no point that stands still
   /// while it turns, the slide along the axis comes too; empty if there are none.
   std::string text() const;

@@ -1,26 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/exchange/exported_matrices.h"
 
+#include <cstdint>
+#include <vector>
+
 #include "fe_modal/system/assembly.h"
 #include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-UpperMatrix upper_of(SymmetricMatrix& matrix) {
-  return Eigen::Map<const UpperMatrix>(
-      matrix.size(), matrix.size(), static_cast<Eigen::Index>(matrix.columns().size()),
-      matrix.offsets().data(), matrix.columns().data(), matrix.values().data());
+constexpr const char* kReading = "reading the system matrices";
+
+/// Calls visit(row, column, value) for the entries of a matrix of this process, row by row.
+template <typename Visit>
+void each_entry(Mat matrix, const Visit& visit) {
+  const auto size = static_cast<PetscInt>(size_of(matrix));
+  for (PetscInt row = 0; row < size; ++row) {
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    require(MatGetRow(matrix, row, &count, &columns, &values), kReading);
+    for (PetscInt k = 0; k < count; ++k) visit(row, columns[k], values[k]);
+    require(MatRestoreRow(matrix, row, &count, &columns, &values), kReading);
+  }
+}
+
+UpperMatrix upper_of(Mat matrix) {
+  require(MatGetRowUpperTriangular(matrix), kReading);
+  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  each_entry(matrix, [&](PetscInt row, PetscInt column, double value) {
+    if (column >= row) entries.emplace_back(row, column, value);
+  });
+  require(MatRestoreRowUpperTriangular(matrix), kReading);
+  UpperMatrix upper(size_of(matrix), size_of(matrix));
+  upper.setFromTriplets(entries.begin(), entries.end());
+  return upper;
+}
+
+NodalMass nodal_of(Mat matrix) {
+  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  each_entry(matrix, [&](PetscInt row, PetscInt column, double value) {
+    entries.emplace_back(row, column, value);
+  });
+  NodalMass nodal(size_of(matrix), size_of(matrix));
+  nodal.setFromTriplets(entries.begin(), entries.end());
+  return nodal;
 }
 
 }  // namespace
 
 ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                              const FormulationChoice& formulation) {
-  SystemMatrices system = assemble(mesh, dof_map, formulation);
-  ImportedBody body{upper_of(system.stiffness),
-                    system.constrained_mass ? upper_of(*system.constrained_mass)
-                                            : expand_mass(system.mass.between_nodes()),
+  const SystemMatrices system = assemble(mesh, dof_map, formulation);
+  ImportedBody body{upper_of(system.stiffness.get()),
+                    system.nodal.get() != nullptr ? expand_mass(nodal_of(system.nodal.get()))
+                                                  : upper_of(system.mass.get()),
                     {}};
   body.nodes_m.resize(3, dof_map.free_count());
   const auto positions = mesher::positions_of(mesh);

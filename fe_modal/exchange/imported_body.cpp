@@ -7,13 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/reduction/invariants.h"
 #include "fe_modal/reduction/mode_conventions.h"
 #include "fe_modal/reduction/mode_naming.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/solve/sturm_check.h"
-#include "fe_modal/solve/sturm_count.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
@@ -55,27 +53,18 @@ NodalMass nodal_mass_of(const UpperMatrix& mass) {
 class ImportedSystem : public ModalSystem {
  public:
   explicit ImportedSystem(const ImportedBody& body)
-      : body_(body),
-        stiffness_(wrap(body.stiffness)),
+      : stiffness_(wrap(body.stiffness)),
         mass_(wrap(body.mass)),
         nodal_mass_(nodal_mass_of(body.mass)) {}
 
   Mat stiffness() const override { return stiffness_.get(); }
   Mat mass() const override { return mass_.get(); }
   const NodalMass& nodal_mass() const { return nodal_mass_; }
-  std::unique_ptr<ShiftInverse> shift_inverse(double shift) const override {
-    if (shift == 0) return std::make_unique<CholeskyFactor>(stiffness_.get(), shift);
-    const UpperMatrix shifted = body_.stiffness - shift * body_.mass;
-    return std::make_unique<CholeskyFactor>(wrap(shifted).get(), shift);
-  }
-  std::optional<Eigen::Index> eigenvalues_below(double sigma,
-                                                const Eigen::MatrixXd& /*known*/) const override {
-    const UpperMatrix shifted = body_.stiffness - sigma * body_.mass;
-    return negative_eigenvalues(wrap(shifted).get());
-  }
+  const Ranks& ranks() const override { return alone_; }
+  Solver solver() const override { return Solver::automatic; }
 
  private:
-  const ImportedBody& body_;
+  Ranks alone_;
   MatHandle stiffness_;
   MatHandle mass_;
   NodalMass nodal_mass_;
@@ -140,8 +129,8 @@ ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certi
   }
   if (progress) progress("factorising the stiffness that was given");
   const ImportedSystem system(input);
-  const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(0);
-  auto [pairs, certificate] = lowest_modes(system, *inverse, mode_count, certify, warn);
+  const std::unique_ptr<const LinearSolver> inverse = shift_inverse(system, 0);
+  auto [pairs, certificate] = lowest_modes(system, *inverse, mode_count, {}, certify, warn);
   check_eigenvalues(pairs.values, 0);
   apply_conventions(pairs, DofLayout(input.nodes_m.cols()));
 

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "fe_modal/algebra/block_product.h"
-#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/algebra/operator_matrix.h"
+#include "fe_modal/solve/linear_solver.h"
 #include "fe_modal/system/modal_system.h"
 
 namespace flexneck::fe_modal {
 
-/// All that the reduction of a body asks of its matrices, so that any solver can take the place of
-/// the factor.
+/// All that the reduction of a body asks of its matrices.
 struct BodyOperators {
-  BlockOperator stiffness;     ///< K x, N/m
-  BlockOperator mass;          ///< M x, kg
-  BlockOperator precondition;  ///< (K - shift M)^-1 f, or near it
-  double shift = 0;            ///< zero for a fixed body, below zero for a free one, 1/s^2
-  Ranks ranks = {};            ///< whose rows they take and give
+  BlockOperator stiffness;  ///< K x, N/m
+  BlockOperator mass;       ///< M x, kg
+  BlockOperator solve;      ///< (K - shift M)^-1 f
+  double shift = 0;         ///< zero for a fixed body, below zero for a free one, 1/s^2
+  Ranks ranks = {};         ///< whose rows they take and give
 };
 
 /// @param system, inverse must outlive the operators
-BodyOperators operators_of(const ModalSystem& system, const ShiftInverse& inverse);
+BodyOperators operators_of(const ModalSystem& system, const LinearSolver& inverse);
 
 }  // namespace flexneck::fe_modal

@@ -1,17 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/reduction/static_response.h"
 
-#include "fe_modal/algebra/conjugate_gradients.h"
+#include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/algebra/operator_matrix.h"
+#include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
-Eigen::VectorXd modal_energy(const Ranks& ranks, const EigenPairs& kept,
-                             const Eigen::MatrixXd& loads) {
-  if (kept.vectors.cols() == 0) return Eigen::VectorXd::Zero(loads.cols());
-  return modal_response(kept.values, inner_products(ranks, kept.vectors, loads))
-      .compliance.diagonal();
+constexpr const char* kSolving = "solving for static shapes";
+/// Of the energy norm of a static shape.
+constexpr double kTolerance = 1e-10;
+constexpr int kMaxRefinements = 4;
+
+/// K x = f of each column by conjugate gradients; K may be singular where f has nothing of its null
+/// space.
+Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& stiffness,
+                                    const BlockOperator& precondition,
+                                    const Eigen::MatrixXd& loads) {
+  const OperatorMatrix matrix(loads.rows(), stiffness, ranks);
+  const OperatorMatrix preconditioner(loads.rows(), precondition, ranks);
+  KspHandle solver;
+  require(KSPCreate(communicator(ranks), solver.out()), kSolving);
+  require(KSPSetOperators(solver.get(), matrix.get(), preconditioner.get()), kSolving);
+  require(KSPSetType(solver.get(), KSPCG), kSolving);
+  require(KSPSetNormType(solver.get(), KSP_NORM_NATURAL), kSolving);
+  require(KSPSetTolerances(solver.get(), kTolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT),
+          kSolving);
+  PC multiplies = nullptr;
+  require(KSPGetPC(solver.get(), &multiplies), kSolving);
+  require(PCSetType(multiplies, PCMAT), kSolving);
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(loads.rows(), loads.cols());
+  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+    const VecHandle load = column_vector(loads, k, ranks);
+    const VecHandle shape = column_vector(shapes, k, ranks);
+    const PetscErrorCode code = KSPSolve(solver.get(), load.get(), shape.get());
+    rethrow_from(preconditioner.get());
+    require(code, kSolving);
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    require(KSPGetConvergedReason(solver.get(), &reason), kSolving);
+    if (reason < 0) throw ComputationError("static shapes of a body do not converge");
+  }
+  return shapes;
 }
 
 }  // namespace
@@ -36,16 +67,26 @@ Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPai
   const Eigen::MatrixXd& modes = kept.vectors;
   const Eigen::MatrixXd momenta = modes.cols() > 0 ? body.mass(modes) : modes;
   // Modes come back by rounding.
-  const auto precondition = [&](Eigen::MatrixXd residual) {
+  const auto solve = [&](Eigen::MatrixXd residual) {
     remove_modes(body.ranks, momenta, modes, residual);
-    Eigen::MatrixXd response = body.precondition(residual);
+    Eigen::MatrixXd response = body.solve(residual);
     remove_modes(body.ranks, modes, momenta, response);
     return response;
   };
   Eigen::MatrixXd rest = loads;
   remove_modes(body.ranks, momenta, modes, rest);
-  return conjugate_gradients(body.ranks, body.stiffness, precondition, rest,
-                             modal_energy(body.ranks, kept, loads));
+  if (body.shift != 0) return conjugate_gradients(body.ranks, body.stiffness, solve, rest);
+  // What rounding of the factor leaves, and modes that are not exact.
+  Eigen::MatrixXd response = solve(rest);
+  for (int step = 0; step < kMaxRefinements; ++step) {
+    const Eigen::MatrixXd residual = rest - body.stiffness(response);
+    const Eigen::MatrixXd correction = solve(residual);
+    response += correction;
+    const Eigen::ArrayXd left = column_products(body.ranks, correction, residual);
+    const Eigen::ArrayXd whole = column_products(body.ranks, response, rest);
+    if ((left <= kTolerance * kTolerance * whole).all()) break;
+  }
+  return response;
 }
 
 }  // namespace flexneck::fe_modal

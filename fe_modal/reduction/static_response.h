@@ -18,12 +18,11 @@ void remove_modes(const Ranks& ranks, const Eigen::MatrixXd& modes, const Eigen:
 /// modes Phi. If Phi holds a free body's six rigid motions, X is its deformation under the loads
 /// and the inertia forces that balance them (inertia relief). Without modes it is K^-1 F.
 ///
-/// By conjugate gradients, which a factor of K ends after one step and one of refinement; the
-/// shift of a free body makes them more if the first elastic mode that is not in Phi is small
-/// against it.
+/// With the factor of K and a step of refinement; of a free body, whose factor is that of a shifted
+/// stiffness, by conjugate gradients.
 /// @param loads F, (dofs, n)
 /// @param kept the modes, M-orthonormal eigenpairs; all rigid motions if the shift is not zero
-/// @throws ComputationError if it does not converge to 1e-10 of the energy norm.
+/// @throws ComputationError if they do not converge.
 Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPairs& kept,
                                        const Eigen::MatrixXd& loads);
 

@@ -4,60 +4,226 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "fe_modal/algebra/block_product.h"
+#include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/matrix_product.h"
-#include "fe_modal/algebra/random_block.h"
-#include "fe_modal/solve/block_lanczos.h"
-#include "geometry/foundation/error.h"
+#include "fe_modal/algebra/operator_matrix.h"
 
 namespace flexneck::fe_modal {
 namespace {
 
+constexpr const char* kSearching = "solving the eigenproblem";
+
 /// Residuals relative to the eigenvalue theta = 1 / (lambda - shift). The error of an eigenvector
 /// is this over the relative gap to its neighbour: 1e-10 for frequencies 1 % apart.
 constexpr double kResidual = 1e-12;
-/// After so many blocks rounding is taken to hide the last digits of the residuals, as it does of
-/// elastic modes on soft mounts and where equations with large coefficients chain: ten times as
-/// much is allowed with every ten blocks more. Eigenvalues are exact to the square of residuals.
-constexpr int kBlocksInFull = 40;
-constexpr double kBlocksOfTenfold = 10;
-constexpr double kMaxResidual = 1e-5;
-/// The first pair that is not wanted is settled to the square of this: enough to tell that it is
-/// not one that was missed.
-constexpr double kResidualOfNext = 1e-2;
-constexpr Eigen::Index kColumns = 8;  ///< a free body has six equal eigenvalues
-constexpr std::uint64_t kSeed = 1;
+/// Of a pair that is only looked for to see that none is missing; its eigenvalue is exact to the
+/// square.
+constexpr double kResidualOfNext = 1e-3;
+/// A pair beside those found is one of them that was missed if its eigenvalue is below the last
+/// one's by more than this share, or a copy of it if it is not above it by more.
+constexpr double kSame = 1e-7;
+/// A Krylov space for `count` pairs has twice as many vectors and these: with more the first space
+/// is larger than it need be, with fewer restarts are many (26, 34 and 40 of them for ten modes of
+/// the neck take 27, 34 and 40 solves).
+constexpr Eigen::Index kMoreVectors = 6;
+constexpr PetscInt kRestarts = 200;
+
+/// A number between -1/2 and 1/2 that depends on its place alone (the mixer of splitmix64).
+double random_entry(std::uint64_t place) {
+  std::uint64_t bits = (place + 1) * 0x9e3779b97f4a7c15U;
+  bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
+  bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
+  return std::ldexp(static_cast<double>((bits ^ (bits >> 31U)) >> 11U), -53) - 0.5;
+}
+
+/// Of searches in the same space each has its own start: of a multiple eigenvalue the first one
+/// finds just the eigenvector that its start has, and nothing else is left of that start. The same
+/// for any number of ranks.
+Eigen::MatrixXd start_vector(Mat matrix, std::uint64_t search) {
+  PetscInt first = 0;
+  PetscInt end = 0;
+  require(MatGetOwnershipRange(matrix, &first, &end), kSearching);
+  Eigen::MatrixXd start(end - first, 1);
+  for (PetscInt row = first; row < end; ++row)
+    start(row - first, 0) = random_entry((search << 32U) + static_cast<std::uint64_t>(row));
+  return start;
+}
+
+/// An EPS on the solver's factor: A x = theta B x, shift-inverted about zero or as it is.
+class Search {
+ public:
+  /// @param a, b  of which the inverse is that of A with STSINVERT, and of B with STSHIFT
+  Search(Mat a, Mat b, const LinearSolver& inverse, STType transform)
+      : inverse_(inverse), operators_{a, b} {
+    require(EPSCreate(communicator(inverse.ranks()), eps_.out()), kSearching);
+    EPS eps = eps_.get();
+    require(EPSSetOperators(eps, a, b), kSearching);
+    require(EPSSetProblemType(eps, EPS_GHEP), kSearching);
+    require(EPSSetType(eps, EPSKRYLOVSCHUR), kSearching);
+    require(EPSGetST(eps, &transform_), kSearching);
+    require(STSetType(transform_, transform), kSearching);
+    require(STSetKSP(transform_, inverse.ksp()), kSearching);
+  }
+  /// An EPS resets its solver, which goes on to serve others.
+  ~Search() {
+    KspHandle none;
+    if (KSPCreate(communicator(inverse_.ranks()), none.out()) == 0)
+      static_cast<void>(STSetKSP(transform_, none.get()));
+  }
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+
+  EPS eps() const { return eps_.get(); }
+  void deflate(const Eigen::MatrixXd& known) {
+    std::vector<VecHandle> vectors;
+    std::vector<Vec> plain;
+    for (Eigen::Index k = 0; k < known.cols(); ++k) {
+      vectors.push_back(column_vector(known, k, inverse_.ranks()));
+      plain.push_back(vectors.back().get());
+    }
+    if (plain.empty()) return;
+    require(EPSSetDeflationSpace(eps(), static_cast<PetscInt>(plain.size()), plain.data()),
+            kSearching);
+  }
+  /// @param start  (own rows, 1)
+  /// @return pairs of the problem that have converged, as many as wanted or fewer
+  EigenPairs solve(Eigen::Index count, double tolerance, const Eigen::MatrixXd& start) {
+    const Eigen::Index size = size_of(operators_[0]);
+    const auto vectors = static_cast<PetscInt>(std::min(size, 2 * count + kMoreVectors));
+    require(EPSSetDimensions(eps(), static_cast<PetscInt>(count), vectors, PETSC_DEFAULT),
+            kSearching);
+    require(EPSSetTolerances(eps(), tolerance, kRestarts), kSearching);
+    const VecHandle first = column_vector(start, 0, inverse_.ranks());
+    Vec initial = first.get();
+    require(EPSSetInitialSpace(eps(), 1, &initial), kSearching);
+    require(EPSSetFromOptions(eps()), kSearching);
+    const PetscErrorCode code = EPSSolve(eps());
+    for (Mat matrix : operators_) rethrow_from(matrix);
+    require(code, kSearching);
+    PetscInt converged = 0;
+    require(EPSGetConverged(eps(), &converged), kSearching);
+    const Eigen::Index found = std::min<Eigen::Index>(count, converged);
+    EigenPairs pairs{Eigen::VectorXd(found), Eigen::MatrixXd(start.rows(), found)};
+    for (Eigen::Index k = 0; k < found; ++k) {
+      const VecHandle vector = column_vector(pairs.vectors, k, inverse_.ranks());
+      require(EPSGetEigenpair(eps(), static_cast<PetscInt>(k), &pairs.values[k], nullptr,
+                              vector.get(), nullptr),
+              kSearching);
+    }
+    return pairs;
+  }
+
+ private:
+  const LinearSolver& inverse_;
+  Mat operators_[2];
+  EpsHandle eps_;
+  ST transform_ = nullptr;
+};
+
+/// What one step of inverse iteration makes of a random vector, beside the known eigenvectors; no
+/// columns if that is rounding: then nothing else has mass.
+Eigen::MatrixXd start_beside(Mat mass, const LinearSolver& inverse, const Eigen::MatrixXd& known,
+                             std::uint64_t number) {
+  constexpr double kRounding = 1e-10;
+  constexpr int kPasses = 2;
+  const Ranks& ranks = inverse.ranks();
+  Eigen::MatrixXd start = inverse.solve(block_product(mass, start_vector(mass, number)));
+  const Eigen::MatrixXd momenta = known.cols() > 0 ? block_product(mass, known) : known;
+  const double whole = column_products(ranks, start, block_product(mass, start))[0];
+  for (int pass = 0; pass < kPasses && known.cols() > 0; ++pass)
+    start -= known * inner_products(ranks, momenta, start);
+  const double left = column_products(ranks, start, block_product(mass, start))[0];
+  if (!(left > kRounding * kRounding * whole)) start.resize(start.rows(), 0);
+  return start;
+}
+
+/// The lowest pairs beside the known ones, ascending; fewer where there are no more.
+/// @param number  of the search in this space
+EigenPairs search(Mat mass, const LinearSolver& inverse, Eigen::Index count, double tolerance,
+                  const Eigen::MatrixXd& known, std::uint64_t number) {
+  const Eigen::MatrixXd start = start_beside(mass, inverse, known, number);
+  if (start.cols() == 0) return {};
+  Search search(inverse.matrix(), mass, inverse, STSINVERT);
+  require(EPSSetWhichEigenpairs(search.eps(), EPS_TARGET_MAGNITUDE), kSearching);
+  require(EPSSetTarget(search.eps(), 0), kSearching);
+  search.deflate(known);
+  EigenPairs pairs = search.solve(count, tolerance, start);
+  pairs.values.array() += inverse.shift();
+  return pairs;
+}
+
+Eigen::MatrixXd beside(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
+  if (left.cols() == 0) return right;
+  Eigen::MatrixXd all(left.rows(), left.cols() + right.cols());
+  all << left, right;
+  return all;
+}
+
+/// Puts a pair in its place among ascending ones and drops the last.
+void insert(const EigenPairs& one, EigenPairs& pairs) {
+  Eigen::Index place = pairs.values.size() - 1;
+  for (; place > 0 && pairs.values[place - 1] > one.values[0]; --place) {
+    pairs.values[place] = pairs.values[place - 1];
+    pairs.vectors.col(place) = pairs.vectors.col(place - 1).eval();
+  }
+  pairs.values[place] = one.values[0];
+  pairs.vectors.col(place) = one.vectors.col(0);
+}
 
 }  // namespace
 
-EigenPairs lowest_eigenpairs(Mat mass, const ShiftInverse& inverse, Eigen::Index count) {
-  if (std::optional<EigenPairs> own = inverse.iterate(mass, count)) return *std::move(own);
-  int blocks = 0;  // that had all pairs
-  const Settled settled = [&](const RitzState& state) {
-    const Eigen::VectorXd& residuals = state.residuals;
-    const int late = std::max(++blocks - kBlocksInFull, 0);
-    const double allowed =
-        std::min(kResidual * std::pow(10, late / kBlocksOfTenfold), kMaxResidual);
-    return residuals.head(count).maxCoeff() < allowed &&
-           (residuals.size() == count || residuals[count] < kResidualOfNext);
-  };
-  const Eigen::Index size = size_of(mass);
-  const EigenPairs all =
-      block_lanczos(mass, inverse, random_block(mass, std::min(kColumns, size), kSeed),
-                    std::min(count + 1, size), settled);
-  if (all.values.size() < count) {
-    throw ComputationError("the eigensolver found " + std::to_string(all.values.size()) + " of " +
-                           std::to_string(count) + " modes");
+EigenPairs lowest_eigenpairs(Mat mass, const LinearSolver& inverse, Eigen::Index count,
+                             const Eigen::MatrixXd& known) {
+  std::uint64_t number = 0;
+  EigenPairs pairs = search(mass, inverse, count, kResidual, known, number++);
+  if (pairs.values.size() < count)
+    throw NotConverged("the eigensolver found " + std::to_string(pairs.values.size()) + " of " +
+                       std::to_string(count) + " modes");
+  const Eigen::Index others = size_of(mass) - known.cols();
+  while (count > 0 && others > count) {
+    const Eigen::MatrixXd all = beside(known, pairs.vectors);
+    EigenPairs next = search(mass, inverse, 1, kResidualOfNext, all, number++);
+    if (next.values.size() == 0) break;
+    pairs.next = next.values[0];
+    if (pairs.next >= pairs.values[count - 1] * (1 - kSame)) break;
+    next = search(mass, inverse, 1, kResidual, all, number++);
+    if (next.values.size() == 0) throw NotConverged("the eigensolver lost a mode");
+    insert(next, pairs);
   }
-  EigenPairs found{all.values.head(count), all.vectors.leftCols(count)};
-  if (all.values.size() > count) found.next = all.values[count];
-  return purified(mass, inverse, found);
+  return pairs;
 }
 
-Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const ShiftInverse& inverse,
+double largest_eigenvalue(Mat a, const LinearSolver& inverse, double of_interest) {
+  constexpr double kTolerance = 1e-9;
+  struct Floor {
+    double of_interest;
+  } floor{of_interest};
+  // Converged is also what has settled too near to zero.
+  const auto relative_error = [](EPS eps, PetscScalar value, PetscScalar /*imaginary*/,
+                                 PetscReal residual, PetscReal* error,
+                                 void* context) -> PetscErrorCode {
+    constexpr PetscInt kSettled = 4;  // by then the largest eigenvalue is known to some digits
+    const double least = static_cast<const Floor*>(context)->of_interest;
+    PetscInt iterations = 0;
+    const PetscErrorCode code = EPSGetIterationNumber(eps, &iterations);
+    if (code != 0) return code;
+    const bool is_none = iterations >= kSettled && value < least;
+    *error = is_none ? 0 : residual / std::max(least, std::abs(value));
+    return 0;
+  };
+  Search search(a, inverse.matrix(), inverse, STSHIFT);
+  require(EPSSetWhichEigenpairs(search.eps(), EPS_LARGEST_REAL), kSearching);
+  require(EPSSetConvergenceTestFunction(search.eps(), relative_error, &floor, nullptr), kSearching);
+  const EigenPairs pairs = search.solve(1, kTolerance, start_vector(a, 0));
+  if (pairs.values.size() == 0)
+    throw NotConverged("the search for the largest eigenvalue does not converge");
+  return pairs.values[0];
+}
+
+Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const LinearSolver& inverse,
                                    const EigenPairs& pairs) {
   const auto norms = [&](const Eigen::MatrixXd& columns) -> Eigen::VectorXd {
     return column_products(inverse.ranks(), columns, columns).cwiseSqrt();

@@ -5,23 +5,37 @@
 
 #include "fe_modal/algebra/eigen_pairs.h"
 #include "fe_modal/algebra/petsc_handles.h"
-#include "fe_modal/algebra/shift_inverse.h"
+#include "fe_modal/solve/linear_solver.h"
 
 namespace flexneck::fe_modal {
 
-/// By block Lanczos on the shift-inverted problem (K - shift M)^-1 M, with as many columns as a
-/// multiple eigenvalue may have copies, then one inverse iteration of all pairs; or by the
-/// inverse's own method where it has one.
-/// @param inverse of K - shift M, with a shift below all eigenvalues
-/// @param mass symmetric positive definite; may be a shell matrix, and differ from the mass in the
-/// inverse if the shift is zero
+/// The iteration did not find what was asked for.
+class NotConverged : public ComputationError {
+ public:
+  using ComputationError::ComputationError;
+};
+
+/// The lowest eigenpairs of K x = lambda M x by SLEPc's Krylov-Schur method, shift-inverted, and
+/// the eigenvalue above them. A Krylov space of one vector has but one of the eigenvectors of a
+/// multiple eigenvalue, until rounding brings the others: what the search missed of those is looked
+/// for beside the pairs that it found.
+/// @param inverse of K - shift M, with a shift that is no eigenvalue and below those wanted
+/// @param mass symmetric, positive semi-definite; may be a shell matrix, and differ from the mass
+/// in the inverse if the shift is zero
 /// @param count at most the number of degrees of freedom
-/// @throws ComputationError if the iteration does not converge.
-EigenPairs lowest_eigenpairs(Mat mass, const ShiftInverse& inverse, Eigen::Index count);
+/// @param known M-orthonormal eigenvectors, which are not found again; may have no columns
+/// @throws NotConverged if the iteration does not converge.
+EigenPairs lowest_eigenpairs(Mat mass, const LinearSolver& inverse, Eigen::Index count,
+                             const Eigen::MatrixXd& known = {});
+
+/// Largest eigenvalue theta of A x = theta B x by the same method, in the inner product of B.
+/// @param inverse of B
+/// @param of_interest a smaller one is not told from zero
+double largest_eigenvalue(Mat a, const LinearSolver& inverse, double of_interest);
 
 /// ||K x - lambda M x|| / ||K x|| of each pair; of a rigid-body motion, lambda = 0, where that is
 /// not defined, ||K x|| / ||shift M x||.
-Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const ShiftInverse& inverse,
+Eigen::VectorXd relative_residuals(Mat stiffness, Mat mass, const LinearSolver& inverse,
                                    const EigenPairs& pairs);
 
 }  // namespace flexneck::fe_modal

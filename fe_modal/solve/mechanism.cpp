@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
-#include "fe_modal/algebra/random_block.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/output_file.h"
@@ -28,7 +27,7 @@ using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
 Eigen::MatrixXd strainless_fields(const AssembledSystem& system, double scale, double strainless) {
-  const std::unique_ptr<const ShiftInverse> inverse = system.shift_inverse(-scale);
+  const std::unique_ptr<const LinearSolver> inverse = shift_inverse(system, -scale);
   const DofMap& dof_map = system.fields().dof_map();
   const Eigen::Index dofs = dof_map.dof_count() - dof_map.dependent_count();
   const EigenPairs pairs = lowest_eigenpairs(system.mass(), *inverse, std::min(kMaxMotions, dofs));
@@ -157,8 +156,8 @@ double strainless_share(const mesher::Mesh& mesh) {
   return mesh.connections.springs.empty() ? kStrainless : kOnSprings;
 }
 
-std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh,
-                                              const AssembledSystem& system, bool is_fixed) {
+std::optional<std::string> describe_mechanism(const AssembledSystem& system, bool is_fixed) {
+  const mesher::Mesh& mesh = system.model().mesh();
   const double length_m = mesher::bounding_box(mesh).extent_m().norm();
   const std::vector<Part> parts = rigid_parts_of(mesh);
   Eigen::MatrixXd fields =

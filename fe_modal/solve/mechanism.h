@@ -12,6 +12,12 @@ namespace flexneck::fe_modal {
 /// Crude estimate of a body's lowest elastic eigenvalue, 1/s^2: (c / L)^2 of the slowest material.
 double eigenvalue_scale(const mesher::Mesh& mesh);
 
+/// The shift of a body's stiffness: none of a fixed one, which has a definite stiffness; below zero
+/// of one that keeps rigid motions.
+inline double shift_of(const Model& model) {
+  return model.rigid().count() == 0 ? 0 : -eigenvalue_scale(model.mesh());
+}
+
 /// Eigenvalues below this share of the scale belong to motions without strain.
 inline constexpr double kStrainless = 1e-6;
 /// The same of a mesh: on springs a body may move as softly as they are.
@@ -22,7 +28,6 @@ double strainless_share(const mesher::Mesh& mesh);
 /// @param is_fixed whether supports leave the body no rigid motion
 /// @return nothing if every such motion is too large for parts as rigid bodies: then it bends
 /// @throws ComputationError if the motions cannot be computed.
-std::optional<std::string> describe_mechanism(const mesher::Mesh& mesh,
-                                              const AssembledSystem& system, bool is_fixed);
+std::optional<std::string> describe_mechanism(const AssembledSystem& system, bool is_fixed);
 
 }  // namespace flexneck::fe_modal

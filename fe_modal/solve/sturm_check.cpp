@@ -6,7 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "fe_modal/algebra/random_block.h"
+#include "fe_modal/solve/inertia.h"
+#include "fe_modal/system/assembly.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/output_file.h"
 
@@ -55,21 +56,6 @@ std::string name_of(const Cluster& cluster, const Eigen::VectorXd& values, doubl
                                                        : " modes at " + hertz(first));
 }
 
-/// The columns of no more than so many modes whose eigenvalues are nearest to sigma.
-Eigen::MatrixXd nearest(const EigenPairs& pairs, double sigma, Eigen::Index count) {
-  const Eigen::VectorXd& values = pairs.values;
-  Eigen::Index begin = 0;
-  Eigen::Index end = values.size();
-  while (end - begin > count) {
-    if (sigma - values[begin] > values[end - 1] - sigma) {
-      ++begin;
-    } else {
-      --end;
-    }
-  }
-  return pairs.vectors.middleCols(begin, end - begin);
-}
-
 double between(const Eigen::VectorXd& values, Eigen::Index k) {
   return (std::max(values[k - 1], 0.0) + values[k]) / 2;
 }
@@ -89,22 +75,31 @@ std::string certificate_of(const Eigen::VectorXd& values, Eigen::Index count, do
   return (last.begin == 0 ? kNotCertified : complete_below(between(values, last.begin))) + cut;
 }
 
+/// Rigid motions, whose eigenvalues are zero, before the other modes.
+EigenPairs with_rigid(const Eigen::MatrixXd& rigid, const EigenPairs& elastic) {
+  if (rigid.cols() == 0) return elastic;
+  EigenPairs all{Eigen::VectorXd::Zero(rigid.cols() + elastic.values.size()),
+                 Eigen::MatrixXd(rigid.rows(), rigid.cols() + elastic.values.size()), elastic.next};
+  all.values.tail(elastic.values.size()) = elastic.values;
+  all.vectors.leftCols(rigid.cols()) = rigid;
+  all.vectors.rightCols(elastic.values.size()) = elastic.vectors;
+  return all;
+}
+
 }  // namespace
 
-std::optional<std::string> prove_complete(const ModalSystem& system, const EigenPairs& pairs,
+std::optional<std::string> check_complete(const ModalSystem& system, const EigenPairs& pairs,
                                           Eigen::Index count, double shift) {
-  constexpr Eigen::Index kKnown = 8;  // which a factor takes together
   const Eigen::VectorXd& values = pairs.values;
   const Eigen::Index end = cluster_of(values, count - 1, shift).end;
   if (end == values.size()) return std::nullopt;
   const double sigma = between(values, end);
-  const std::optional<Eigen::Index> counted =
-      system.eigenvalues_below(sigma, nearest(pairs, sigma, kKnown));
-  if (!counted) return std::string(kNotCertified) + ": memory does not hold the factor that counts";
-  if (*counted != end) {
+  const MatHandle shifted = shifted_stiffness(system.stiffness(), system.mass(), sigma);
+  const Eigen::Index counted = negative_eigenvalues(shifted.get(), system.ranks());
+  if (counted != end) {
     throw ComputationError("the eigensolver found " + std::to_string(end) + " modes below " +
                            hertz(sigma) + ", but the inertia of the stiffness counts " +
-                           std::to_string(*counted));
+                           std::to_string(counted));
   }
   return certificate_of(values, count, shift);
 }
@@ -131,29 +126,26 @@ void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn) {
        (begin > 0 ? ", or for " + std::to_string(begin) : ""));
 }
 
-CertifiedModes lowest_modes(const ModalSystem& system, const ShiftInverse& inverse,
-                            Eigen::Index count, bool certify, const Progress& warn) {
-  const auto solve = [&](Eigen::Index asked) {
-    return lowest_eigenpairs(system.mass(), inverse, asked);
-  };
-  if (!certify) {
-    EigenPairs pairs = solve(count);
-    warn_of_cut(pairs, inverse.shift(), warn);
-    return {std::move(pairs), kNotCertified};
-  }
+CertifiedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse,
+                            Eigen::Index count, const Eigen::MatrixXd& rigid, bool certify,
+                            const Progress& warn) {
   const Eigen::Index size = size_of(system.mass());
-  for (Eigen::Index more = 1;; more *= 2) {
+  for (Eigen::Index more = certify ? 1 : 0;; more = 2 * more) {
     const Eigen::Index asked = std::min<Eigen::Index>(count + more, size);
-    const EigenPairs pairs = solve(asked);
-    auto certificate = prove_complete(system, pairs, count, inverse.shift());
-    if (!certificate && asked == size) {
-      certificate = certificate_of(pairs.values, count, inverse.shift());
+    EigenPairs pairs = with_rigid(
+        rigid, lowest_eigenpairs(system.mass(), inverse,
+                                 std::max<Eigen::Index>(asked - rigid.cols(), 1), rigid));
+    std::string certificate = kNotCertified;
+    if (certify) {
+      auto checked = check_complete(system, pairs, count, inverse.shift());
+      if (!checked && asked == size) checked = certificate_of(pairs.values, count, inverse.shift());
+      if (!checked) continue;
+      certificate = *checked;
     }
-    if (!certificate) continue;
-    EigenPairs lowest{pairs.values.head(count), pairs.vectors.leftCols(count)};
-    if (asked > count) lowest.next = pairs.values[count];
+    EigenPairs lowest{pairs.values.head(count), pairs.vectors.leftCols(count), pairs.next};
+    if (pairs.values.size() > count) lowest.next = pairs.values[count];
     warn_of_cut(lowest, inverse.shift(), warn);
-    return {std::move(lowest), *certificate};
+    return {std::move(lowest), certificate};
   }
 }
 

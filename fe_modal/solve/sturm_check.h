@@ -23,18 +23,21 @@ struct CertifiedModes {
 /// one, for which more modes are computed where they need be. Where `count` cuts a cluster of equal
 /// frequencies, which a square section has in pairs and a free body six of, the certificate says
 /// nothing of the cluster.
+/// @param rigid M-orthonormal rigid motions that the body keeps, its first modes; may have no
+/// columns
 /// @param warn takes a line if `count` cuts a cluster; may be empty
 /// @throws ComputationError if the counts disagree.
-CertifiedModes lowest_modes(const ModalSystem& system, const ShiftInverse& inverse,
-                            Eigen::Index count, bool certify, const Progress& warn);
+CertifiedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse,
+                            Eigen::Index count, const Eigen::MatrixXd& rigid, bool certify,
+                            const Progress& warn);
 
-/// Proves that there are no eigenvalues but those given below the first gap above
+/// Checks that there are no eigenvalues but those given below the first gap above
 /// pairs.values[count - 1]: the sentence that says up to where the lowest `count` are complete, or
 /// nothing if there is no gap.
 /// @param pairs ascending, those above `count` serve to find the gap
 /// @param shift of the inverse; eigenvalues much smaller than it are rigid-body motions
 /// @throws ComputationError if the inertia counts another number.
-std::optional<std::string> prove_complete(const ModalSystem& system, const EigenPairs& pairs,
+std::optional<std::string> check_complete(const ModalSystem& system, const EigenPairs& pairs,
                                           Eigen::Index count, double shift);
 
 /// @param shift of the inverse; eigenvalues are those of a body with positive stiffness otherwise

@@ -2,12 +2,16 @@
 #include "fe_modal/system/assembly.h"
 
 #include <algorithm>
-#include <numeric>
+#include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "fe_modal/algebra/communicator.h"
 #include "fe_modal/dofs/constrained_element.h"
+#include "fe_modal/dofs/node_graph.h"
 #include "fe_modal/dofs/point_element.h"
 #include "fe_modal/element/element_fields.h"
 #include "fe_modal/element/element_kernel.h"
@@ -18,215 +22,371 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// An element's nodes by rising number, so that each row of a matrix is walked once.
-class SortedNodes {
- public:
-  struct Node {
-    std::int32_t number;  ///< in the matrix; negative: it has no row
-    Eigen::Index local;
-  };
+constexpr const char* kMaking = "making the system matrices";
+constexpr const char* kAdding = "assembling the system matrices";
 
-  template <typename Numbering>
-  void assign(std::span<const std::int32_t> nodes, const Numbering& number) {
-    sorted_.clear();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const std::int32_t row = number(nodes[i]);
-      if (row >= 0) sorted_.push_back({row, static_cast<Eigen::Index>(i)});
-    }
-    std::sort(sorted_.begin(), sorted_.end(),
-              [](const Node& one, const Node& other) { return one.number < other.number; });
+void finish(Mat matrix) {
+  require(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), kAdding);
+  require(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), kAdding);
+}
+
+/// Where rows have their entries: counts of a matrix with `width` rows for each block.
+class Sparsity {
+ public:
+  Sparsity(const NodeGraph& graph, const DofLayout& layout)
+      : graph_(graph),
+        layout_(layout),
+        begin_(static_cast<std::int32_t>(layout.first_own_dof() / 3)),
+        end_(begin_ + static_cast<std::int32_t>(layout.own_dof_count() / 3)) {
+    if (9.0 * static_cast<double>(graph.columns().size()) >
+        static_cast<double>(std::numeric_limits<PetscInt>::max()))
+      throw InputError(
+          "the stiffness has more entries than PETSc's integers count; take a coarser "
+          "mesh");
   }
 
-  std::span<const Node> all() const { return sorted_; }
-  std::span<const Node> from(std::size_t k) const { return std::span(sorted_).subspan(k); }
-  std::size_t size() const { return sorted_.size(); }
+  /// Upper half, three rows a block.
+  MatHandle upper() const {
+    std::vector<PetscInt> inside;
+    std::vector<PetscInt> outside;
+    for (std::int32_t block = begin_; block < end_; ++block) {
+      const auto others = graph_.neighbours(block);
+      const auto later = std::upper_bound(others.begin(), others.end(), block);
+      const auto beyond = std::lower_bound(later, others.end(), end_);
+      for (PetscInt a = 0; a < 3; ++a) {
+        inside.push_back(3 - a + 3 * static_cast<PetscInt>(beyond - later));
+        outside.push_back(3 * static_cast<PetscInt>(others.end() - beyond));
+      }
+    }
+    MatHandle matrix = sized(MATSBAIJ, 3);
+    require(MatSeqSBAIJSetPreallocation(matrix.get(), 1, 0, inside.data()), kMaking);
+    require(MatMPISBAIJSetPreallocation(matrix.get(), 1, 0, inside.data(), 0, outside.data()),
+            kMaking);
+    require(MatSetOption(matrix.get(), MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE), kMaking);
+    require(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE), kMaking);
+    // Every row has its diagonal, though nothing may feel its degree of freedom.
+    for (PetscInt row = 3 * begin_; row < 3 * end_; ++row)
+      require(MatSetValue(matrix.get(), row, row, 0, ADD_VALUES), kAdding);
+    return matrix;
+  }
+
+  /// All entries, one row a block.
+  MatHandle nodal() const {
+    std::vector<PetscInt> inside;
+    std::vector<PetscInt> outside;
+    for (std::int32_t block = begin_; block < end_; ++block) {
+      const auto others = graph_.neighbours(block);
+      const auto own = std::lower_bound(others.begin(), others.end(), begin_);
+      const auto beyond = std::lower_bound(own, others.end(), end_);
+      inside.push_back(static_cast<PetscInt>(beyond - own));
+      outside.push_back(static_cast<PetscInt>(others.size()) - inside.back());
+    }
+    MatHandle matrix = sized(MATAIJ, 1);
+    require(MatSeqAIJSetPreallocation(matrix.get(), 0, inside.data()), kMaking);
+    require(MatMPIAIJSetPreallocation(matrix.get(), 0, inside.data(), 0, outside.data()), kMaking);
+    require(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE), kMaking);
+    return matrix;
+  }
 
  private:
-  std::vector<Node> sorted_;
+  MatHandle sized(MatType type, PetscInt width) const {
+    MatHandle matrix;
+    const PetscInt rows = width * (end_ - begin_);
+    const auto all = static_cast<PetscInt>(width * layout_.dof_count() / 3);
+    require(MatCreate(communicator(layout_.ranks()), matrix.out()), kMaking);
+    require(MatSetSizes(matrix.get(), rows, rows, all, all), kMaking);
+    require(MatSetType(matrix.get(), type), kMaking);
+    return matrix;
+  }
+
+  const NodeGraph& graph_;
+  const DofLayout& layout_;
+  std::int32_t begin_, end_;  ///< blocks of this rank
 };
 
-/// Adds an element's stiffness, (3n, 3n) with degree of freedom a n + i.
-void add_stiffness(const SortedNodes& nodes, const Eigen::MatrixXd& element,
-                   SymmetricMatrix& stiffness) {
-  const Eigen::Index n = element.rows() / 3;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const auto [row, i] = nodes.all()[k];
-    const auto later = stiffness.later(row);
-    auto place = later.begin();
-    for (const auto& [column, j] : nodes.from(k)) {
-      if (column == row) {
-        // Itself, or a node that is tied to it, whose coupling comes from both sides.
-        for (int a = 0; a < 3; ++a) {
-          for (int b = a; b < 3; ++b) {
-            double& entry = stiffness.entry(row, a, -1, b);
-            entry += element(a * n + i, b * n + j);
-            if (i != j) entry += element(a * n + j, b * n + i);
-          }
-        }
-        continue;
-      }
-      place = std::lower_bound(place, later.end(), column);
-      for (int a = 0; a < 3; ++a) {
-        double* entries = &stiffness.entry(row, a, place - later.begin(), 0);
-        for (int b = 0; b < 3; ++b) entries[b] += element(b * n + j, a * n + i);
+/// Adds element matrices to those of a body, its nodes by rising blocks: so PETSc finds the places
+/// of a row's entries one behind the other.
+class Adder {
+ public:
+  /// @param blocks of the element's nodes; negative: it has none
+  void set_nodes(std::span<const std::int32_t> blocks) {
+    order_.clear();
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      if (blocks[i] >= 0) order_.push_back(static_cast<Eigen::Index>(i));
+    const auto block = [&](Eigen::Index i) { return blocks[static_cast<std::size_t>(i)]; };
+    std::sort(order_.begin(), order_.end(),
+              [&](Eigen::Index one, Eigen::Index other) { return block(one) < block(other); });
+    nodes_.clear();
+    rows_.clear();
+    for (const Eigen::Index i : order_) {
+      nodes_.push_back(block(i));
+      for (PetscInt a = 0; a < 3; ++a) rows_.push_back(3 * block(i) + a);
+    }
+  }
+
+  /// (3n, 3n) with degree of freedom a n + i.
+  void add(const Eigen::MatrixXd& element, Mat matrix) {
+    const Eigen::Index n = element.rows() / 3;
+    places_.clear();
+    for (const Eigen::Index i : order_)
+      for (Eigen::Index a = 0; a < 3; ++a) places_.push_back(a * n + i);
+    insert(element, rows_, matrix);
+  }
+  /// (n, n)
+  void add_nodal(const Eigen::MatrixXd& element, Mat matrix) {
+    places_.assign(order_.begin(), order_.end());
+    insert(element, nodes_, matrix);
+  }
+
+ private:
+  /// Element matrices are symmetric: their columns are the rows that PETSc takes.
+  void insert(const Eigen::MatrixXd& element, const std::vector<PetscInt>& rows, Mat matrix) {
+    values_ = element(places_, places_);
+    const auto count = static_cast<PetscInt>(rows.size());
+    require(
+        MatSetValues(matrix, count, rows.data(), count, rows.data(), values_.data(), ADD_VALUES),
+        kAdding);
+  }
+
+  std::vector<Eigen::Index> order_, places_;
+  std::vector<PetscInt> nodes_, rows_;
+  Eigen::MatrixXd values_;
+};
+
+/// Adds an element's mass, (n, n), to that of all nodes.
+void add_to_all(std::span<const std::int32_t> nodes, const Eigen::MatrixXd& element,
+                NodalMass& mass) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::int32_t* const first = mass.innerIndexPtr() + mass.outerIndexPtr()[nodes[i]];
+    const std::int32_t* const last = mass.innerIndexPtr() + mass.outerIndexPtr()[nodes[i] + 1];
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      const std::int32_t* const place = std::lower_bound(first, last, nodes[j]);
+      mass.valuePtr()[place - mass.innerIndexPtr()] +=
+          element(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+}
+
+NodalMass zero_nodal_mass(const mesher::Mesh& mesh) {
+  const NodeGraph graph(mesh);
+  const auto n = static_cast<Eigen::Index>(graph.node_count());
+  const std::vector<double> zeros(graph.columns().size(), 0.0);
+  return Eigen::Map<const NodalMass>(n, n, static_cast<Eigen::Index>(zeros.size()),
+                                     graph.offsets().data(), graph.columns().data(), zeros.data());
+}
+
+/// What the elements of this rank make, and how.
+struct Task {
+  const mesher::Mesh& mesh;
+  const DofMap& dof_map;
+  const FormulationChoice& formulation;
+  const Eigen::Matrix3Xd& prestress_m;
+  const DofLayout& layout;
+  const std::vector<std::int32_t>& rank_of_element;
+
+  bool has(std::size_t element) const {
+    return rank_of_element.empty() || rank_of_element[element] == layout.ranks().own();
+  }
+};
+
+/// Calls visit(block of the mesh, nodes, coordinates) for this rank's elements; what fails names
+/// the element.
+template <typename Visit>
+void each_element(const Task& task, const Visit& visit) {
+  std::size_t element = 0;
+  for (const mesher::ElementBlock& block : task.mesh.blocks) {
+    auto visit_element = visit(block);
+    const std::size_t width = mesher::nodes_per_element(block.kind);
+    Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      if (!task.has(element++)) continue;
+      const auto nodes = std::span(block.nodes).subspan(width * e, width);
+      mesher::copy_positions(task.mesh, nodes, coordinates);
+      try {
+        visit_element(nodes, coordinates);
+      } catch (const ComputationError& error) {
+        throw ComputationError("part '" + block.part + "', element " + std::to_string(e) +
+                               " of its " + std::string(mesher::name_of(block.kind)) + ": " +
+                               error.what());
       }
     }
   }
 }
 
-/// Adds an element's mass, (n, n).
-void add_mass(const SortedNodes& nodes, const Eigen::MatrixXd& element, NodalMass& mass) {
-  for (const auto& [row, i] : nodes.all()) {
-    const std::int32_t* first = mass.innerIndexPtr() + mass.outerIndexPtr()[row];
-    const std::int32_t* last = mass.innerIndexPtr() + mass.outerIndexPtr()[row + 1];
-    const std::int32_t* place = first;
-    for (const auto& [column, j] : nodes.all()) {
-      place = std::lower_bound(place, last, column);
-      mass.valuePtr()[mass.outerIndexPtr()[row] + (place - first)] += element(j, i);
-    }
-  }
-}
-
-/// The same where there are constraints, with which the mass is not the same in each direction.
+/// Adds an element's stiffness under the constraints, and its mass if `mass` is not null.
 void add_constrained(std::span<const std::int32_t> sites, const DofMap& dof_map,
-                     const Eigen::MatrixXd& element_stiffness, const Eigen::MatrixXd& element_mass,
-                     SymmetricMatrix& stiffness, SymmetricMatrix& mass) {
+                     const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
+                     Mat to_stiffness, Mat to_mass) {
   const ConstrainedElement constrained(sites, dof_map);
-  SortedNodes sorted;
-  sorted.assign(constrained.numbers(), [](std::int32_t number) { return number; });
-  add_stiffness(sorted, constrained.reduced(element_stiffness), stiffness);
-  add_stiffness(sorted, constrained.reduced(element_mass), mass);
+  Adder adder;
+  adder.set_nodes(constrained.numbers());
+  adder.add(constrained.reduced(stiffness), to_stiffness);
+  adder.add(constrained.reduced(mass), to_mass);
 }
 
-void add_block(const mesher::Mesh& mesh, const mesher::ElementBlock& block, const DofMap& dof_map,
-               const FormulationChoice& formulation, const Eigen::Matrix3Xd& prestress_m,
-               SymmetricMatrix& stiffness, NodalMass& mass,
-               std::optional<SymmetricMatrix>& constrained_mass) {
-  const mesher::Material& material = mesh.materials.at(block.material);
-  const ElementScheme& scheme = element_scheme(block.kind, formulation.of(material));
-  ElementKernel kernel(scheme);
-  std::optional<GeometricKernel> geometric;
-  if (prestress_m.cols() > 0) geometric.emplace(scheme);
-  ElementMatrices element;
-  Eigen::MatrixXd displacements_m;
-  const std::size_t width = mesher::nodes_per_element(block.kind);
-  Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
-  SortedNodes sorted;
-  for (std::size_t e = 0; e < block.size(); ++e) {
-    const auto nodes = std::span(block.nodes).subspan(width * e, width);
-    mesher::copy_positions(mesh, nodes, coordinates);
-    try {
+std::vector<std::int32_t> blocks_of(std::span<const std::int32_t> nodes, const DofMap& dof_map) {
+  std::vector<std::int32_t> blocks;
+  for (const std::int32_t node : nodes) blocks.push_back(dof_map.index(node));
+  return blocks;
+}
+
+void add_elements(const Task& task, bool is_constrained, SystemMatrices& system) {
+  each_element(task, [&](const mesher::ElementBlock& block) {
+    const mesher::Material& material = task.mesh.materials.at(block.material);
+    const ElementScheme& scheme = element_scheme(block.kind, task.formulation.of(material));
+    return [&, kernel = ElementKernel(scheme), geometric = GeometricKernel(scheme),
+            element = ElementMatrices(), displacements_m = Eigen::MatrixXd(), adder = Adder()](
+               std::span<const std::int32_t> nodes, const Eigen::Matrix3Xd& coordinates) mutable {
       kernel.compute(coordinates, material, element);
-      if (geometric) {
-        gather(nodes, {&prestress_m}, displacements_m);
-        geometric->add(coordinates, material, displacements_m, element.stiffness);
+      if (task.prestress_m.cols() > 0) {
+        gather(nodes, {&task.prestress_m}, displacements_m);
+        geometric.add(coordinates, material, displacements_m, element.stiffness);
       }
-    } catch (const ComputationError& error) {
-      throw ComputationError("part '" + block.part + "', element " + std::to_string(e) +
-                             " of its " + std::string(mesher::name_of(block.kind)) + ": " +
-                             error.what());
-    }
-    if (constrained_mass) {
-      add_constrained(nodes, dof_map, element.stiffness, in_three_directions(element.mass),
-                      stiffness, *constrained_mass);
-    } else {
-      sorted.assign(nodes, [&](std::int32_t node) { return dof_map.index(node); });
-      add_stiffness(sorted, element.stiffness, stiffness);
-    }
-    sorted.assign(nodes, [](std::int32_t node) { return node; });
-    add_mass(sorted, element.mass, mass);
-  }
+      add_to_all(nodes, element.mass, system.nodal_mass);
+      if (is_constrained) {
+        add_constrained(nodes, task.dof_map, element.stiffness, in_three_directions(element.mass),
+                        system.stiffness.get(), system.mass.get());
+      } else {
+        adder.set_nodes(blocks_of(nodes, task.dof_map));
+        adder.add(element.stiffness, system.stiffness.get());
+        adder.add_nodal(element.mass, system.nodal.get());
+      }
+    };
+  });
 }
 
 /// Each dependent degree of freedom gets the mean diagonal entry as its only stiffness, and no
 /// mass.
-void stiffen_dependent(const DofMap& dof_map, SymmetricMatrix& stiffness) {
-  double sum = 0;
-  const auto for_each = [&](const auto& action) {
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(dof_map.free_count()); ++k) {
-      for (int a = 0; a < 3; ++a) action(k, a, stiffness.entry(k, a, -1, a));
-    }
-  };
-  for_each([&](std::int32_t /*k*/, int /*a*/, double entry) { sum += entry; });
+void stiffen_dependent(const DofMap& dof_map, const DofLayout& layout, Mat stiffness) {
+  if (dof_map.dependent_count() == 0) return;
+  VecHandle diagonal;
+  PetscScalar sum = 0;
+  require(MatCreateVecs(stiffness, diagonal.out(), nullptr), kAdding);
+  require(MatGetDiagonal(stiffness, diagonal.get()), kAdding);
+  require(VecSum(diagonal.get(), &sum), kAdding);
   const double mean = sum / static_cast<double>(dof_map.dof_count());
-  for_each([&](std::int32_t k, int a, double& entry) {
-    if (dof_map.is_dependent(k, a)) entry = mean;
+  const Eigen::Index begin = layout.first_own_dof();
+  for (Eigen::Index row = begin; row < begin + layout.own_dof_count(); ++row) {
+    if (!dof_map.is_dependent(static_cast<std::int32_t>(row / 3), row % 3)) continue;
+    const auto place = static_cast<PetscInt>(row);
+    require(MatSetValue(stiffness, place, place, mean, ADD_VALUES), kAdding);
+  }
+  finish(stiffness);
+}
+
+SystemMatrices assemble(const Task& task) {
+  const std::vector<PointElement> points =
+      point_elements_of(task.mesh.connections, task.mesh.nodes.size());
+  const bool is_constrained = task.dof_map.is_constrained() || !points.empty();
+  SystemMatrices system;
+  system.nodal_mass = zero_nodal_mass(task.mesh);
+  {
+    const NodeGraph graph(task.mesh, task.dof_map);
+    const Sparsity sparsity(graph, task.layout);
+    system.stiffness = sparsity.upper();
+    (is_constrained ? system.mass : system.nodal) =
+        is_constrained ? sparsity.upper() : sparsity.nodal();
+  }
+  // All ranks, or none of them, come to the collective calls behind.
+  task.layout.ranks().together([&] {
+    add_elements(task, is_constrained, system);
+    std::size_t element = task.rank_of_element.size() - points.size();
+    for (const PointElement& point : points) {
+      if (!task.rank_of_element.empty() && !task.has(element++)) continue;
+      add_constrained(point.sites, task.dof_map, point.stiffness, point.mass,
+                      system.stiffness.get(), system.mass.get());
+    }
   });
+  finish(system.stiffness.get());
+  stiffen_dependent(task.dof_map, task.layout, system.stiffness.get());
+  if (is_constrained) {
+    finish(system.mass.get());
+  } else {
+    finish(system.nodal.get());
+    require(MatCreateMAIJ(system.nodal.get(), 3, system.mass.out()), kMaking);
+    require(MatSetOption(system.mass.get(), MAT_SYMMETRIC, PETSC_TRUE), kMaking);
+  }
+  return system;
 }
 
 }  // namespace
 
-SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
-                        const FormulationChoice& formulation, const Eigen::Matrix3Xd& prestress_m) {
-  NodeGraph graph(mesh, dof_map);
-  SymmetricMatrix stiffness(graph);
-  NodalMass nodal_mass = zero_nodal_mass(NodeGraph(mesh));
-  std::optional<SymmetricMatrix> constrained_mass;
-  const std::vector<PointElement> points = point_elements_of(mesh.connections, mesh.nodes.size());
-  if (dof_map.is_constrained() || !points.empty()) constrained_mass.emplace(graph);
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    add_block(mesh, block, dof_map, formulation, prestress_m, stiffness, nodal_mass,
-              constrained_mass);
-  }
-  for (const PointElement& point : points) {
-    add_constrained(point.sites, dof_map, point.stiffness, point.mass, stiffness,
-                    *constrained_mass);
-  }
-  if (dof_map.dependent_count() > 0) stiffen_dependent(dof_map, stiffness);
-  MassMatrix mass(nodal_mass, graph, dof_map);
-  SystemMatrices system{std::move(graph), std::move(stiffness), NodalMass(), std::move(mass),
-                        std::move(constrained_mass)};
-  system.nodal_mass.swap(nodal_mass);  // this version of Eigen moves by copying
-  return system;
+SystemMatrices assemble(const Model& model) {
+  const ModalOptions& options = model.options();
+  return assemble(Task{model.mesh(), model.dof_map(), options.formulation, options.prestress_m,
+                       model.fields().layout(), model.rank_of_element()});
 }
 
-SymmetricMatrix assemble_geometric(const mesher::Mesh& mesh, const DofMap& dof_map,
-                                   const FormulationChoice& formulation,
-                                   const Eigen::Matrix3Xd& prestress_m) {
-  SymmetricMatrix result{NodeGraph(mesh, dof_map)};
-  SortedNodes sorted;
-  Eigen::MatrixXd displacements_m;
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    const mesher::Material& material = mesh.materials.at(block.material);
-    GeometricKernel kernel(element_scheme(block.kind, formulation.of(material)));
-    const std::size_t width = mesher::nodes_per_element(block.kind);
-    Eigen::Matrix3Xd coordinates(3, static_cast<Eigen::Index>(width));
-    Eigen::MatrixXd element(3 * coordinates.cols(), 3 * coordinates.cols());
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      const auto nodes = std::span(block.nodes).subspan(width * e, width);
-      mesher::copy_positions(mesh, nodes, coordinates);
-      gather(nodes, {&prestress_m}, displacements_m);
-      element.setZero();
-      kernel.add(coordinates, material, displacements_m, element);
-      if (dof_map.is_constrained()) {
-        const ConstrainedElement constrained(nodes, dof_map);
-        sorted.assign(constrained.numbers(), [](std::int32_t number) { return number; });
-        add_stiffness(sorted, constrained.reduced(element), result);
-      } else {
-        sorted.assign(nodes, [&](std::int32_t node) { return dof_map.index(node); });
-        add_stiffness(sorted, element, result);
-      }
-    }
-  }
+SystemMatrices assemble(const mesher::Mesh& mesh, const DofMap& dof_map,
+                        const FormulationChoice& formulation, const Eigen::Matrix3Xd& prestress_m) {
+  return assemble(
+      Task{mesh, dof_map, formulation, prestress_m, DofLayout(dof_map.free_count()), {}});
+}
+
+MatHandle assemble_geometric(const mesher::Mesh& mesh, const DofMap& dof_map,
+                             const FormulationChoice& formulation,
+                             const Eigen::Matrix3Xd& prestress_m, double factor) {
+  const DofLayout layout(dof_map.free_count());
+  MatHandle result = Sparsity(NodeGraph(mesh, dof_map), layout).upper();
+  require(MatSetOption(result.get(), MAT_SPD, PETSC_FALSE), kMaking);
+  require(MatSetOption(result.get(), MAT_SYMMETRIC, PETSC_TRUE), kMaking);
+  each_element(
+      {mesh, dof_map, formulation, prestress_m, layout, {}},
+      [&](const mesher::ElementBlock& block) {
+        const mesher::Material& material = mesh.materials.at(block.material);
+        return
+            [&, kernel = GeometricKernel(element_scheme(block.kind, formulation.of(material))),
+             displacements_m = Eigen::MatrixXd(), adder = Adder()](
+                std::span<const std::int32_t> nodes, const Eigen::Matrix3Xd& coordinates) mutable {
+              gather(nodes, {&prestress_m}, displacements_m);
+              Eigen::MatrixXd element =
+                  Eigen::MatrixXd::Zero(3 * coordinates.cols(), 3 * coordinates.cols());
+              kernel.add(coordinates, material, displacements_m, element);
+              const ConstrainedElement constrained(nodes, dof_map);
+              adder.set_nodes(constrained.numbers());
+              adder.add(factor * constrained.reduced(element), result.get());
+            };
+      });
+  finish(result.get());
   return result;
 }
 
-SymmetricMatrix shifted_stiffness(const SystemMatrices& system, double shift) {
-  SymmetricMatrix result = system.stiffness.clone();
-  if (system.constrained_mass) {
-    const auto mass = system.constrained_mass->values();
-    for (std::size_t k = 0; k < mass.size(); ++k) result.values()[k] -= shift * mass[k];
+MatHandle shifted_stiffness(Mat stiffness, Mat mass, double shift) {
+  MatHandle result;
+  require(MatDuplicate(stiffness, MAT_COPY_VALUES, result.out()), kMaking);
+  PetscBool is_nodal = PETSC_FALSE;
+  PetscBool is_nodal_on_ranks = PETSC_FALSE;
+  const auto object = reinterpret_cast<PetscObject>(mass);
+  require(PetscObjectTypeCompare(object, MATSEQMAIJ, &is_nodal), kMaking);
+  require(PetscObjectTypeCompare(object, MATMPIMAIJ, &is_nodal_on_ranks), kMaking);
+  if (is_nodal == PETSC_FALSE && is_nodal_on_ranks == PETSC_FALSE) {
+    require(MatAXPY(result.get(), -shift, mass, SUBSET_NONZERO_PATTERN), kAdding);
     return result;
   }
-  const NodalMass& mass = system.mass.between_nodes();
-  for (std::int32_t node = 0; node < system.graph.node_count(); ++node) {
-    std::ptrdiff_t place = -1;  // the diagonal block, then the later ones
-    for (NodalMass::InnerIterator entry(mass, node); entry; ++entry) {
-      if (entry.col() < node) continue;
-      for (int a = 0; a < 3; ++a) result.entry(node, a, place, a) -= shift * entry.value();
-      ++place;
+  require(MatSetOption(result.get(), MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE), kMaking);
+  Mat nodal = nullptr;
+  PetscInt begin = 0;
+  PetscInt end = 0;
+  require(MatMAIJGetAIJ(mass, &nodal), kMaking);
+  require(MatGetOwnershipRange(nodal, &begin, &end), kMaking);
+  std::vector<PetscInt> columns;
+  std::vector<PetscScalar> values;
+  for (PetscInt node = begin; node < end; ++node) {
+    PetscInt count = 0;
+    const PetscInt* others = nullptr;
+    const PetscScalar* entries = nullptr;
+    require(MatGetRow(nodal, node, &count, &others, &entries), kAdding);
+    values.assign(entries, entries + count);
+    for (PetscScalar& value : values) value *= -shift;
+    for (PetscInt row = 3 * node; row < 3 * node + 3; ++row) {
+      columns.clear();
+      for (PetscInt k = 0; k < count; ++k) columns.push_back(3 * others[k] + row % 3);
+      require(MatSetValues(result.get(), 1, &row, count, columns.data(), values.data(), ADD_VALUES),
+              kAdding);
     }
+    require(MatRestoreRow(nodal, node, &count, &others, &entries), kAdding);
   }
+  finish(result.get());
   return result;
 }
 

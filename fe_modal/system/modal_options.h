@@ -41,7 +41,9 @@ struct RigidAttachment {
 struct ModalOptions {
   int mode_count = 10;
   FormulationChoice formulation;
-  Solver solver = Solver::direct;
+  Solver solver = Solver::automatic;
+  /// Of PETSc and SLEPc, such as "-eps_ncv 40": how, not what, is solved (petsc_choices.h).
+  std::string petsc_options = {};
   BasisKind basis = BasisKind::normal;
   /// Interfaces whose static shapes join the basis; empty: all.
   std::vector<std::string> basis_interfaces;
@@ -66,7 +68,7 @@ struct ModalOptions {
   Eigen::Matrix3Xd prestress_m = Eigen::Matrix3Xd();
   Ranks ranks = {};                              ///< processes that share the work
   std::vector<std::int32_t> element_ranks = {};  ///< (elements) from the mesh; empty: by METIS
-  /// (n) from the mesh; empty: by METIS. Ranks find an order of their own parts.
+  /// (n) order of elimination from the mesh; empty: by METIS. MUMPS has its own.
   std::vector<std::int32_t> node_order = {};
 };
 

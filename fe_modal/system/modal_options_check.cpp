@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "fe_modal/dofs/rigid_motions.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/output_file.h"
@@ -148,25 +147,6 @@ void check_prestress(const mesher::Mesh& mesh, const ModalOptions& options,
   }
 }
 
-/// Local solves of the finer mesh (solve/refined/), for which other elements have too few nodes.
-void check_certificate(const mesher::Mesh& mesh, const ModalOptions& options) {
-  // Calibrated by certificate_benchmark: at 0.499 estimates fall below the error.
-  constexpr double kNearlyIncompressible = 0.495;
-  if (!options.certify) return;
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    const mesher::Material& material = mesh.materials.at(block.material);
-    if (block.kind == mesher::ElementKind::hex27 ||
-        !(material.poissons_ratio > kNearlyIncompressible)) {
-      continue;
-    }
-    throw InputError("the mesh's error is not estimated for elements of kind " +
-                     std::string(mesher::name_of(block.kind)) + " with a Poisson's ratio above " +
-                     "0.495, and that of '" + material.name + "' in part '" + block.part + "' is " +
-                     rounded_text(material.poissons_ratio) +
-                     ": take hex27 there, or leave out modes.certify");
-  }
-}
-
 }  // namespace
 
 void require_supports(const RigidMotions& rigid, const std::string& who) {
@@ -176,12 +156,12 @@ void require_supports(const RigidMotions& rigid, const std::string& who) {
                    ": name node sets in modes.fixed or modes.fixed_directions");
 }
 
-void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
-  mesher::check(mesh);
+namespace {
+
+void check_resolved(const mesher::Mesh& mesh, const ModalOptions& options, const DofMap& dof_map,
+                    const RigidMotions& rigid) {
   check_parts(mesh, options);
-  const DofMap dof_map = dof_map_of(mesh, options);
   const Eigen::Index dofs = dof_map.dof_count() - dof_map.dependent_count();
-  const RigidMotions rigid(mesh, connections_of(mesh, options), dof_map);
   // Static shapes alone make a basis too.
   const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
   if (options.mode_count < least || options.mode_count > dofs) {
@@ -193,7 +173,6 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
   check_basis(mesh, options, dofs, rigid);
   check_slit_motions(mesh, options);
   check_prestress(mesh, options, rigid);
-  check_certificate(mesh, options);
   if (options.geometric_stiffness)
     refuse_turning_forces(mesh, options, "the geometric stiffness under unit loads");
   if (options.geometric_stiffness && rigid.count() > 0) {
@@ -202,6 +181,18 @@ void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
         "is " +
         body_with(rigid) + ": name a set of nodes to fix");
   }
+}
+
+}  // namespace
+
+void check_options(const mesher::Mesh& mesh, const ModalOptions& options) {
+  mesher::check(mesh);
+  const DofMap dof_map = dof_map_of(mesh, options);
+  check_resolved(mesh, options, dof_map, {mesh, connections_of(mesh, options), dof_map});
+}
+
+void check_options(const Model& model) {
+  check_resolved(model.mesh(), model.options(), model.dof_map(), model.rigid());
 }
 
 }  // namespace flexneck::fe_modal

@@ -4,11 +4,14 @@
 #include <string>
 
 #include "fe_modal/system/modal_options.h"
+#include "fe_modal/system/model.h"
 
 namespace flexneck::fe_modal {
 
 /// @throws InputError for the first option that does not fit the mesh or the other options.
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options);
+/// The same of a mesh that mesher::check() accepts.
+void check_options(const Model& model);
 
 /// @param who needs them: "a static step"
 /// @throws InputError with the rigid motions that are left, if there are any.

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace flexneck::fe_modal {
 
-/// How K is solved with.
+/// The package whose Cholesky factor of K is solved with.
 enum class Solver {
-  direct,    ///< by a factor
-  iterative  ///< by iteration, in less memory and more time
+  automatic,  ///< CHOLMOD in one process, MUMPS on several
+  cholmod,
+  mumps
 };
+
+/// Names of the packages that may be chosen, in the order of the enumeration.
+inline std::vector<std::string> solver_names() { return {"automatic", "cholmod", "mumps"}; }
 
 }  // namespace flexneck::fe_modal

@@ -55,7 +55,7 @@ void add_modes_settings(CLI::App& app, CommandLine& line) {
       "--certify",
       [&line](std::int64_t /*times*/) { line.settings.emplace_back("modes.certify=true"); },
       "Prove that no mode is missing, estimate the mesh's error");
-  add_setting(app, line, "--solver", "NAME", "modes.solver", "direct, or iterative in less memory");
+  add_setting(app, line, "--solver", "NAME", "modes.solver", "cholmod in one process, or mumps");
 }
 
 /// Names in a list, as TOML has it.

@@ -15,11 +15,6 @@ namespace flexneck::pipeline {
 
 bool modes_of_matrices(const CommandInput& input) {
   const MatricesSection& files = *input.study.matrices;
-  if (input.study.modes.solver != fe_modal::Solver::direct) {
-    throw InputError(
-        input.study.file.string() +
-        ": the iterative solver needs a mesh for its subdomains, [matrices] have none");
-  }
   input.folder.make();
   input.console.step("Solving for " + std::to_string(input.study.modes.count) + " modes");
   const fe_modal::PetscSession session;

@@ -56,9 +56,7 @@ mesher::MeshFile read_mesh_together(const CommandInput& input) {
 /// Tells the analysis what stands in the mesh file for it.
 void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
                 fe_modal::ModalOptions& options) {
-  options.solver = input.study.modes.solver;
-  const bool each_has_one = input.ranks.are_many() && input.shares.threads == 0;
-  options.ranks = input.ranks.with_threads(each_has_one ? 1 : threads_of(input));
+  options.ranks = input.ranks;
   options.node_order = mesh.node_order;
   const auto partition = mesh.partitions.find(input.ranks.count());
   if (partition != mesh.partitions.end()) options.element_ranks = partition->second;
@@ -129,8 +127,7 @@ bool modes_command(const CommandInput& input) {
     input.console.warning(line);
   }
   const double dofs = 3.0 * static_cast<double>(mesh.mesh.nodes.size());
-  const fe_modal::MemoryNeeds needs =
-      fe_modal::memory_needs(dofs, options.solver, options.mode_count);
+  const fe_modal::MemoryNeeds needs = fe_modal::memory_needs(dofs, options.mode_count);
   input.console.step(fmt::format("Solving for {} modes of {:.0f} degrees of freedom: about {}",
                                  options.mode_count, dofs, memory_text(needs.peak)));
   times.start("start PETSc");

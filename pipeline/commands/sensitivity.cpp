@@ -32,9 +32,6 @@ void check_sensitivity(const Study& study) {
   if (study.matrices) {
     refuse("needs a mesh, [matrices] has no elements to differentiate; take it away");
   }
-  if (study.modes.solver != fe_modal::Solver::direct) {
-    refuse("needs a factor, found modes.solver = \"iterative\"; take \"direct\"");
-  }
   if (study.modes.prestress) {
     refuse("is not offered of prestressed modes; leave modes.prestress out");
   }

@@ -21,7 +21,6 @@ namespace flexneck::pipeline {
 void write_stresses(const CommandInput& input, mesher::MeshFile mesh) {
   const Study& study = input.study;
   fe_modal::ModalOptions options = modes_options(study, mesh.mesh);
-  options.solver = study.modes.solver;
   options.node_order = mesh.node_order;
   options.prestress.clear();
   const auto warn_of = [&](const std::vector<std::string>& single) {

@@ -103,6 +103,8 @@ fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
   options.geometric_stiffness = study.modes.stress_stiffening;
   if (study.modes.prestress) options.prestress = study.loads;
   options.certify = study.modes.certify;
+  options.solver = study.modes.solver;
+  options.petsc_options = study.modes.petsc_options;
   options.rigid_parts = study.modes.rigid_parts;
   options.fixed_directions = study.modes.fixed_directions;
   options.length_m = mesher::bounding_box(mesh).extent_m().maxCoeff();

@@ -133,7 +133,6 @@ bool differ_in_mesh_only(const Study& a, const Study& b) {
 
 bool has_modes_slopes(const Study& study) {
   return study.structure && !study.modes.prestress &&
-         study.modes.solver == fe_modal::Solver::direct &&
          study.modes.basis != fe_modal::BasisKind::craig_bampton;
 }
 
@@ -142,7 +141,6 @@ FigureSlopes modes_slopes(const Study& study, const mesher::Mesh& mesh, BodyUse 
                           const std::vector<std::string>& figures, const Console& console) {
   mesher::Mesh solved = mesh;
   fe_modal::ModalOptions options = modes_options(study, solved);
-  options.solver = study.modes.solver;
   options.certify = false;
   if (use != BodyUse::attached) options.attachments.clear();
   fe_modal::AnalysisFields fields;

@@ -50,7 +50,6 @@ std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptio
 
 fe_modal::ModalBody modes_of_mesh(const Study& study, mesher::Mesh mesh, BodyUse use) {
   fe_modal::ModalOptions options = modes_options(study, mesh);
-  options.solver = study.modes.solver;
   options.certify = false;
   if (use != BodyUse::attached) options.attachments.clear();
   if (use == BodyUse::static_tests)
@@ -62,7 +61,6 @@ fe_modal::ModalBody modes_of_mesh(const Study& study, mesher::Mesh mesh, BodyUse
 
 Pieces modes_of_pieces(const Study& study, mesher::Mesh mesh) {
   fe_modal::ModalOptions options = modes_options(study, mesh);
-  options.solver = study.modes.solver;
   Pieces pieces;
   for (const Substructure& piece : substructures_of(study, mesh, options)) {
     fe_modal::ModalBody body = fe_modal::analyse_modes(piece.mesh, piece.options, {});

@@ -13,7 +13,6 @@ namespace {
 
 std::vector<std::string> stiffenings() { return {"none", "unit-loads"}; }
 std::vector<std::string> prestresses() { return {"none", "loads"}; }
-std::vector<std::string> solvers() { return {"direct", "iterative"}; }
 
 constexpr Key kFixedKeys[] = {
     Key::text("*", kNone,
@@ -44,8 +43,16 @@ constexpr Key kModesKeys[] = {
               "Stresses that the modes are about: none, or those of a linear static step under all "
               "[[load]]",
               {.choices = prestresses}),
-    Key::text("solver", "direct", "How the eigenproblem is solved",
-              {.choices = solvers, .changes_results = false}),
+    Key::text("solver", "automatic",
+              "Package whose factor of the stiffness is solved with: automatic is cholmod in one "
+              "process and mumps on several ranks",
+              {.choices = [] { return fe_modal::solver_names(); }, .changes_results = false}),
+    Key::text("petsc_options", kNone,
+              "Options of PETSc and SLEPc that change how, not what, is solved, such as "
+              "\"-eps_ncv 40 -st_mat_mumps_icntl_14 50\": their names begin with -eps_ncv, "
+              "-eps_mpd, -eps_max_it, -st_ksp_, -st_pc_factor_mat_, -st_mat_mumps_ or "
+              "-st_mat_cholmod_",
+              {.changes_results = false}),
     Key::texts("fixed", kNone, "Node sets that are fixed in all directions", {.formerly = "held"}),
     Key::table("fixed_directions", "Node sets that are fixed in some directions", kFixedKeys,
                UsedBy::table, "held_directions"),
@@ -101,8 +108,8 @@ ModesSection read_modes(const StudyTable& table) {
   modes.stress_stiffening = table.choice("stress_stiffening") == 1;
   modes.slit_motions = static_cast<fe_modal::SlitMotions>(table.choice("slits"));
   modes.prestress = table.choice("prestress") == 1;
-  modes.solver =
-      table.choice("solver") == 0 ? fe_modal::Solver::direct : fe_modal::Solver::iterative;
+  modes.solver = static_cast<fe_modal::Solver>(table.choice("solver"));
+  modes.petsc_options = table.text("petsc_options");
   modes.fixed = table.texts("fixed");
   modes.fixed_directions = read_fixed_directions(table.table("fixed_directions"));
   modes.deck_supports = table.flag("deck_supports");

@@ -41,7 +41,8 @@ struct MeshOrders {
 struct ModesSection {
   int count = 10;
   fe_modal::Formulation formulation = fe_modal::Formulation::mixed_pressure;
-  fe_modal::Solver solver = fe_modal::Solver::direct;
+  fe_modal::Solver solver = fe_modal::Solver::automatic;
+  std::string petsc_options;  ///< of PETSc and SLEPc
   fe_modal::BasisKind basis = fe_modal::BasisKind::normal;
   fe_modal::SlitMotions slit_motions = fe_modal::SlitMotions::none;
   bool prestress = false;                     ///< about the stresses of the study's loads

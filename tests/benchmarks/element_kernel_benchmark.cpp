@@ -11,7 +11,6 @@
 
 #include "fe_modal/algebra/matrix_product.h"
 #include "fe_modal/element/element_kernel.h"
-#include "fe_modal/element/element_product.h"
 #include "mesher/mesh/mesh_measures.h"
 #include "mesher/mesh/positions.h"
 #include "mesher/mesh/shape_functions.h"
@@ -64,26 +63,12 @@ void print_row(ElementKind kind, Formulation formulation, double peak, int runs)
     for (int k = 0; k < kRepeats; ++k) kernel.compute(nodes, mesh.materials[0], matrices);
   });
   const double seconds = timing.fastest_ms / 1e3 / kRepeats;
-  ElementProduct product(scheme);
-  constexpr std::size_t kFields = 10;
-  const std::size_t rows = mesher::nodes_per_element(kind) * ElementProduct::groups_of(kFields);
-  std::vector<RowOf<double>> fields(rows);
-  std::vector<RowOf<double>> forces(rows);
-  std::vector<RowOf<double>> momenta(rows);
-  for (std::size_t k = 0; k < rows; ++k) fields[k].value[k % kColumnsTogether] = 1;
-  const auto products = benchmarks::measure(runs, [&] {
-    for (int k = 0; k < kRepeats; ++k) {
-      product.apply(nodes, mesh.materials[0], fields.data(), kFields, forces.data(),
-                    momenta.data());
-    }
-  });
   const double speed = product_operations(scheme) / seconds / 1e9;
   const auto n = static_cast<Eigen::Index>(mesher::nodes_per_element(kind));
   const Eigen::Index q = mesher::gauss_rule(kind, scheme.strength).weights.size();
-  std::printf("%-8s %-15s %9.2f %10.2f %7.0f %% %18.1f %12.2f\n",
+  std::printf("%-8s %-15s %9.2f %10.2f %7.0f %% %18.1f\n",
               std::string(mesher::name_of(kind)).c_str(), std::string(name_of(formulation)).c_str(),
-              1e6 * seconds, speed, 100 * speed / peak, product_speed(3 * n, q, runs),
-              1e3 * products.fastest_ms / kRepeats);
+              1e6 * seconds, speed, 100 * speed / peak, product_speed(3 * n, q, runs));
 }
 
 }  // namespace
@@ -98,8 +83,8 @@ int main(int argc, char** argv) {
     setenv("OPENBLAS_NUM_THREADS", "1", 1);
     const double peak = product_speed(256, 256, 5 * runs);
     std::printf("peak, 256 x 256 x 256: %.1f GFLOP/s\n", peak);
-    std::printf("%-8s %-15s %9s %10s %9s %18s %12s\n", "kind", "formulation", "us each", "GFLOP/s",
-                "of peak", "its product alone", "times fields");
+    std::printf("%-8s %-15s %9s %10s %9s %18s\n", "kind", "formulation", "us each", "GFLOP/s",
+                "of peak", "its product alone");
     for (const ElementKind kind : kVolumes) {
       for (const Formulation formulation : kFormulations) {
         if (offered(kind, formulation)) print_row(kind, formulation, peak, runs);

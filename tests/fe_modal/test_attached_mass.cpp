@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "fe_modal/analysis/modal_analysis.h"
+#include "fe_modal/dofs/rigid_mass.h"
 #include "fe_modal/solve/attached_mass.h"
 #include "fe_modal/system/assembly.h"
 #include "tests/fe_modal/dense.h"

@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/solve/linear_solver.h"
 #include "fe_modal/system/assembly.h"
 #include "mesher/slits/slits.h"
 #include "tests/support/block_mesh.h"
@@ -44,7 +44,7 @@ mesher::FaceSet crack(const mesher::Mesh& mesh, double depth) {
 double first_frequency(const mesher::Mesh& mesh) {
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
   const SystemMatrices system = assemble(mesh, dof_map);
-  const CholeskyFactor factor(system.stiffness.get(), 0);
+  const LinearSolver factor(system.stiffness.get(), 0);
   const EigenPairs pairs = lowest_eigenpairs(system.mass.get(), factor, 2);
   // Bending across the depth: the crack opens. The other mode bends across the width.
   const Eigen::Index mode = std::abs(dof_map.expand(pairs.vectors.col(0)).row(0).sum()) >

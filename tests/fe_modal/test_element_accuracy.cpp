@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "fe_modal/algebra/cholesky_factor.h"
 #include "fe_modal/solve/eigensolver.h"
+#include "fe_modal/solve/linear_solver.h"
 #include "fe_modal/system/assembly.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/element_choices.h"
@@ -31,8 +31,8 @@ struct Row {
 
 double lowest_frequency(const mesher::Mesh& mesh, const DofMap& dof_map, Formulation formulation) {
   const SystemMatrices system = assemble(mesh, dof_map, {formulation});
-  const CholeskyFactor factor(system.stiffness.get(), 0);
-  const EigenPairs pairs = lowest_eigenpairs(system.mass_operator(), factor, 1);
+  const LinearSolver factor(system.stiffness.get(), 0);
+  const EigenPairs pairs = lowest_eigenpairs(system.mass.get(), factor, 1);
   return std::sqrt(pairs.values[0]) / (2 * std::numbers::pi);
 }
 

@@ -28,7 +28,7 @@ TEST_CASE("errors are an indication alone above the aspect ratios for which they
       testing::box({1, 1, 8}, {0.01, 0.01, 0.8}, kSteel).make(), mesher::ElementKind::hex20);
   CHECK_THAT(limits_of_estimate(beam, fixed("bottom")),
              Contains("part 'block' has elements 10 times as long as thick"));
-  // Its estimates are indeed below the errors, against eight elements in place of each.
+  // Against eight elements in place of each.
   ModalOptions options = fixed("bottom");
   options.mode_count = 8;
   options.certify = true;
@@ -38,7 +38,9 @@ TEST_CASE("errors are an indication alone above the aspect ratios for which they
       testing::box({4, 4, 32}, {0.01, 0.01, 0.8}, kSteel).make(), mesher::ElementKind::hex20);
   options.certify = false;
   const double truth = analyse_modes(fine, options, {}).frequencies_Hz[7];
-  CHECK(body.modes[7].mesh_error->error < body.frequencies_Hz[7] / truth - 1);
+  const double error = body.frequencies_Hz[7] / truth - 1;
+  CHECK(body.modes[7].mesh_error->error > 0.7 * error);
+  CHECK(body.modes[7].mesh_error->error < 5 * error);
 }
 
 TEST_CASE("what single nodes hold or load is named by its set, whole faces are not") {

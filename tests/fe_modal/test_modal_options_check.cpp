@@ -150,45 +150,23 @@ TEST_CASE(
 
 TEST_CASE("what an analysis takes is estimated within a fifth of what was measured") {
   // Degrees of freedom and GB of necks of 27-node hexahedra, tests/benchmarks/README.md.
-  const std::vector<std::pair<double, double>> direct = {
-      {11868, 0.15}, {26388, 0.23}, {64344, 0.48}, {191388, 1.47}, {174720, 1.61}};
-  const std::vector<std::pair<double, double>> iterative = {
-      {11868, 0.15}, {26388, 0.22}, {64344, 0.42}, {191388, 1.19}, {1000782, 6.76}};
-  for (const auto& [dofs, measured] : direct) {
-    CHECK(memory_needs(dofs, Solver::direct, 10).peak == Approx(1e9 * measured).epsilon(0.2));
-  }
-  for (const auto& [dofs, measured] : iterative) {
-    CHECK(memory_needs(dofs, Solver::iterative, 10).peak == Approx(1e9 * measured).epsilon(0.2));
-  }
+  const std::vector<std::pair<double, double>> measured_GB = {
+      {11868, 0.15}, {26388, 0.27}, {64344, 0.72}, {191388, 2.6}};
+  for (const auto& [dofs, measured] : measured_GB)
+    CHECK(memory_needs(dofs, 10).peak == Approx(1e9 * measured).epsilon(0.2));
   // Modes take memory, too.
-  CHECK(memory_needs(1e5, Solver::direct, 1000).assembling >
-        memory_needs(1e5, Solver::direct, 10).assembling + 8e5 * 1000);
+  CHECK(memory_needs(1e5, 1000).assembling > memory_needs(1e5, 10).assembling + 8e5 * 1000);
 }
 
-TEST_CASE("a mesh's error is refused for all but 27-node hexahedra near Poisson's ratio 1/2") {
-  mesher::Mesh mesh = testing::box({1, 1, 1}, {1, 1, 1}, {"rubber", 1e6, 0.499, 1000}).make();
+TEST_CASE("the finer mesh of a certificate is refused where it does not fit") {
+  // Half of what is free: eight times the degrees of freedom take eight times as much besides.
+  const double per_dof = memory_needs(1e6, 10).assembling / 1e6;
+  mesher::Mesh mesh;
+  mesh.nodes.resize(static_cast<std::size_t>(available_memory() / (2 * 3 * per_dof)));
   ModalOptions options;
+  CHECK_NOTHROW(check_memory(mesh, options));
   options.certify = true;
-  CHECK_NOTHROW(check_options(mesh, options));
-  mesh = testing::with_kind(mesh, mesher::ElementKind::tet10);
-  CHECK_THROWS_WITH(check_options(mesh, options),
-                    Catch::Contains("elements of kind tet10 with a Poisson's ratio above 0.495"));
-  mesh.materials.front().poissons_ratio = 0.495;
-  CHECK_NOTHROW(check_options(mesh, options));
-}
-
-TEST_CASE("the finer mesh of a certificate is refused where it does not fit, with both solvers") {
-  for (const Solver solver : {Solver::direct, Solver::iterative}) {
-    // Half of what is free: eight times the degrees of freedom take three times as much besides.
-    const double per_dof = memory_needs(1e6, solver, 10).assembling / 1e6;
-    mesher::Mesh mesh;
-    mesh.nodes.resize(static_cast<std::size_t>(available_memory() / (2 * 3 * per_dof)));
-    ModalOptions options;
-    options.solver = solver;
-    CHECK_NOTHROW(check_memory(mesh, options));
-    options.certify = true;
-    CHECK_THROWS_WITH(check_memory(mesh, options), Catch::Contains("leave out modes.certify"));
-  }
+  CHECK_THROWS_WITH(check_memory(mesh, options), Catch::Contains("leave out modes.certify"));
 }
 
 }  // namespace flexneck::fe_modal

@@ -72,8 +72,9 @@ TEST_CASE(
                       (kLength * kLength);
   CHECK(unloaded == Approx(beam).epsilon(kSlender));
   const double euler = euler_load();
-  const ModalOptions pushed = with_prestress(mesh, column_under(-euler), {});
-  const auto factor = buckling_factor(mesh, dof_map_of(mesh, pushed), pushed);
+  Model pushed(mesh, column_under(-euler));
+  add_prestress(pushed, {});
+  const auto factor = buckling_factor(pushed);
   REQUIRE(factor);
   CHECK(*factor == Approx(1).epsilon(kSlender));
   // f = f0 sqrt(1 - P / Pcr): both are of the same half wave.
@@ -87,8 +88,9 @@ TEST_CASE(
   const double string = std::sqrt(tension / (kDensity * kThickness * kDepth)) / (2 * kLength);
   CHECK(first_Hz(mesh, column_under(tension)) ==
         Approx(string * std::sqrt(1 + 1e-3)).epsilon(2 * kSlender));
-  const ModalOptions pulled = with_prestress(mesh, column_under(euler), {});
-  CHECK_FALSE(buckling_factor(mesh, dof_map_of(mesh, pulled), pulled));
+  Model pulled(mesh, column_under(euler));
+  add_prestress(pulled, {});
+  CHECK_FALSE(buckling_factor(pulled));
   CHECK_THROWS_WITH(first_Hz(mesh, column_under(-1.25 * critical)),
                     Contains("buckles under its prestress, at 0.8 of the loads"));
 }
@@ -108,7 +110,7 @@ TEST_CASE("a prestress beyond small displacements is told with its strain") {
                  Contains("lessen the loads"));
 }
 
-TEST_CASE("a prestressed body is solved for iteratively and refined for its certificate, too") {
+TEST_CASE("a prestressed body is solved for by MUMPS and refined for its certificate, too") {
   const mesher::Mesh mesh = half_column();
   ModalOptions options;
   options.mode_count = 2;
@@ -121,9 +123,9 @@ TEST_CASE("a prestressed body is solved for iteratively and refined for its cert
   CHECK(direct.prestress == "pull: face 'top', force (0, 0, " + std::string() +
                                 direct.prestress.substr(direct.prestress.find("0, 0, ") + 6));
   CHECK_THAT(direct.boundary, Contains("fixed: bottom; prestressed"));
-  ModalOptions iterative = options;
-  iterative.solver = Solver::iterative;
-  const ModalBody other = analyse_modes(mesh, iterative, {});
+  ModalOptions by_mumps = options;
+  by_mumps.solver = Solver::mumps;
+  const ModalBody other = analyse_modes(mesh, by_mumps, {});
   CHECK((other.frequencies_Hz - direct.frequencies_Hz).norm() <
         1e-8 * direct.frequencies_Hz.norm());
   ModalOptions certified = options;
@@ -134,8 +136,8 @@ TEST_CASE("a prestressed body is solved for iteratively and refined for its cert
   CHECK(proved.modes[0].mesh_error->error < 0.02);
   FaceLoad push{"top"};
   push.force_N = {0, 0, -20 * euler_load()};
-  iterative.prestress = {{"push", push}};
-  CHECK_THROWS_WITH(analyse_modes(mesh, iterative, {}), Contains("buckles under its prestress"));
+  by_mumps.prestress = {{"push", push}};
+  CHECK_THROWS_WITH(analyse_modes(mesh, by_mumps, {}), Contains("buckles under its prestress"));
 }
 
 TEST_CASE("what a prestress does not go with is refused") {

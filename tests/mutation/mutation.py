@@ -27,7 +27,7 @@ ROOMS = {
     "mesher": (["mesher"], ["mesh", "shape_functions", "mesher", "partition", "drawing", "exchange", "neck", "chain",
                             "golden"]),
     "mesher/mesh": (["mesher/mesh"], ["mesh", "shape_functions"]),
-    "fe_modal": (["fe_modal"], ["fe_modal", "modal_body", "iterative", "corner_fields", "ranks", "golden"]),
+    "fe_modal": (["fe_modal"], ["fe_modal", "modal_body", "corner_fields", "ranks", "golden"]),
     "multibody": (["multibody"], ["multibody", "multibody_system", "multibody_runs", "mass_ratios", "reference",
                                   "golden"]),
     "pipeline": (["pipeline/experiments", "pipeline/model", "pipeline/output", "pipeline/verification",

@@ -92,7 +92,7 @@ TEST_CASE("ranks that are asked for different things say so in one line, and all
   const std::string modes = "modes -q" + out;
   for (const std::string& other :
        {modes + " --set modes.count=3", modes + " --set modes.certify=true",
-        modes + " --set modes.basis=residual", modes + " --solver iterative", "mesh -q" + out,
+        modes + " --set modes.basis=residual", modes + " --solver mumps", "mesh -q" + out,
         "info" + folder.path().string(), modes + " --nonsense", std::string("--help")}) {
     INFO(other);
     check_refused(run_by_mpi(rank + modes + " : " + rank + other), "rank 1 was given '" + other);
@@ -140,8 +140,8 @@ TEST_CASE("ranks as few as elements work, also without free nodes, and more are 
   require_success(run_on_two_ranks("modes" + arguments));
   const fe_modal::ModalBody two = fe_modal::read_modal_body(folder / "modes.h5").body;
   CHECK((two.frequencies_Hz - one.frequencies_Hz).norm() < 1e-9 * one.frequencies_Hz.norm());
-  check_refused(run_on_two_ranks("modes --set modes.solver=iterative" + arguments),
-                "rank 1 of 2 gets none of the mesh's 2 elements: start fewer ranks");
+  check_refused(run_on_two_ranks("modes --set modes.solver=cholmod" + arguments),
+                "the solver cholmod is for one process: take mumps on several ranks");
 }
 
 TEST_CASE("loads of a study on two ranks: the first one makes the static step") {

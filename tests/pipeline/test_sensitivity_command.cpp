@@ -171,8 +171,6 @@ TEST_CASE("the option --sensitivity is refused where it cannot be") {
   const std::string out = " -o " + folder.path().string();
   check_refused(run_flexneck("run --sensitivity" + out),
                 "--sensitivity belongs to the command modes, found with 'run'");
-  check_refused(run_flexneck("modes --sensitivity --solver iterative" + out),
-                "found modes.solver = \"iterative\"");
   check_refused(run_flexneck("modes --sensitivity --set modes.basis=craig-bampton" + out),
                 "needs eigenvectors, found modes.basis = \"craig-bampton\"");
   std::ofstream(folder / "matrices.toml")

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fe_modal/algebra/blas_kernels.h"
 #include "pipeline/python/bindings/bindings.h"
 #include "pipeline/python/bindings/computing.h"
 #include "pipeline/version.h"
 
 PYBIND11_MODULE(_core, module) {
   using namespace flexneck::python;
-  flexneck::fe_modal::choose_blas_kernels();  // before other threads may call the BLAS
   module.attr("__version__") = flexneck::pipeline::kVersion;
   module.attr("git_hash") = flexneck::pipeline::kGitHash;
   bind_errors(module);

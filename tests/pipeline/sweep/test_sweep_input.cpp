@@ -45,7 +45,7 @@ TEST_CASE("what is wrong with a sweep is told in one line") {
                              "\"90 ms\"]']\n")),
       "expected a key that an output depends on, found 'pulse.long.times'");
   check_refused(
-      outcome_of(small_sweep("key = \"modes.solver\"\ntexts = [\"direct\", \"iterative\"]\n")),
+      outcome_of(small_sweep("key = \"modes.solver\"\ntexts = [\"cholmod\", \"mumps\"]\n")),
       "expected a key that an output depends on");
   check_refused(outcome_of(small_sweep(damping, "\"pendulum.flexion.head\"")), "figure");
   check_refused(outcome_of(small_sweep("key = \"modes.count\"\nvalues = [3, 4]\n",

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/inertia.h"
+
+#include <string>
+
+#include "geometry/foundation/available_memory.h"
+#include "geometry/foundation/error.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr const char* kCounting = "counting modes by inertia";
+
+MatHandle indefinite_factor_of(Mat symmetric) {
+  MatHandle factor;
+  require(MatGetFactor(symmetric, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor.out()), kCounting);
+  const auto set = [&](PetscInt control, PetscInt value) {
+    require(MatMumpsSetIcntl(factor.get(), control, value), kCounting);
+  };
+  set(13, 1);    // a root by ScaLAPACK would not count its negative pivots
+  set(24, 1);    // finds null pivots
+  set(12, 1);    // no compressed ordering
+  set(6, 0);     // no maximum transversal
+  set(14, 100);  // per cent of workspace beyond the estimate, which pivoting takes
+  return factor;
+}
+
+}  // namespace
+
+Eigen::Index negative_eigenvalues(Mat symmetric, const Ranks& ranks) {
+  // A matrix marked as positive definite MUMPS would eliminate without pivoting.
+  require(MatSetOption(symmetric, MAT_SPD, PETSC_FALSE), kCounting);
+  require(MatSetOption(symmetric, MAT_SYMMETRIC, PETSC_TRUE), kCounting);
+  const MatHandle factor = indefinite_factor_of(symmetric);
+  MatFactorInfo info{};
+  require(MatFactorInfoInitialize(&info), kCounting);
+  require(MatCholeskyFactorSymbolic(factor.get(), symmetric, nullptr, &info), kCounting);
+  constexpr PetscInt kMegabytesOfLargest = 16;
+  require_memory(kCounting,
+                 1e6 * ranks.on_this_machine() * infog(factor.get(), kMegabytesOfLargest),
+                 "take a coarser mesh, or leave the check out");
+  require(MatCholeskyFactorNumeric(factor.get(), symmetric, &info), kCounting);
+  const PetscInt status = infog(factor.get(), 1);
+  if (status < 0)
+    throw ComputationError("MUMPS failed while " + std::string(kCounting) + ": error " +
+                           std::to_string(status) + ", " + std::to_string(infog(factor.get(), 2)));
+  constexpr PetscInt kNullPivots = 28;
+  if (infog(factor.get(), kNullPivots) > 0)
+    throw ComputationError("an eigenvalue lies where modes were to be counted; take another");
+  PetscInt negative = 0;
+  PetscInt zero = 0;
+  PetscInt positive = 0;
+  require(MatGetInertia(factor.get(), &negative, &zero, &positive), kCounting);
+  return negative;
+}
+
+}  // namespace flexneck::fe_modal

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fe_modal/solve/linear_solver.h"
+
+#include "fe_modal/algebra/communicator.h"
+#include "fe_modal/algebra/petsc_session.h"
+#include "fe_modal/system/assembly.h"
+#include "geometry/foundation/available_memory.h"
+#include "geometry/foundation/output_file.h"
+
+namespace flexneck::fe_modal {
+namespace {
+
+constexpr const char* kMaking = "making the solver";
+constexpr const char* kFactorising = "factorising the stiffness";
+constexpr const char* kSolving = "solving with the factor";
+constexpr const char* kWayOut =
+    "take a coarser mesh, or the solver mumps on several ranks or out of core (modes.petsc_options "
+    "= \"-st_mat_mumps_icntl_22 1\")";
+
+/// Workspace of MUMPS beyond what its analysis says, per cent: its own choice, and one try more.
+constexpr int kWorkspace = 20;
+constexpr int kMoreWorkspace = 100;
+
+// Values of INFOG(1) in the user's guide of MUMPS.
+constexpr PetscInt kSingular = -10;
+constexpr PetscInt kNoMemory = -13;
+constexpr PetscInt kNotDefinite = -40;
+
+bool wants_more_workspace(PetscInt status) {
+  return status == -8 || status == -9 || status == -14 || status == -15 || status == -17 ||
+         status == -20;
+}
+
+[[noreturn]] void throw_not_definite() {
+  throw NotDefinite("the stiffness is not positive definite");
+}
+
+Solver chosen(Solver solver, const Ranks& ranks) {
+  if (solver == Solver::automatic) return ranks.are_many() ? Solver::mumps : Solver::cholmod;
+  if (solver == Solver::cholmod && ranks.are_many())
+    throw InputError("the solver cholmod is for one process: take mumps on several ranks");
+  return solver;
+}
+
+}  // namespace
+
+LinearSolver::LinearSolver(Mat shifted_stiffness, double shift, const Ranks& ranks, Solver solver)
+    : shift_(shift), ranks_(ranks), solver_(chosen(solver, ranks)) {
+  require(PetscObjectReference(reinterpret_cast<PetscObject>(shifted_stiffness)), kMaking);
+  *matrix_.out() = shifted_stiffness;
+  set_up(kWorkspace);
+  check_memory();
+  factorise();
+  MatInfo info{};
+  require(MatGetInfo(factor(), MAT_GLOBAL_SUM, &info), kFactorising);
+  // MUMPS tells millions with a sign once they are more than an integer counts.
+  constexpr PetscInt kEntries = 9;
+  const PetscInt entries = solver_ == Solver::mumps ? infog(factor(), kEntries) : 0;
+  nonzeros_ =
+      solver_ == Solver::cholmod ? info.nz_used : (entries < 0 ? -1e6 * entries : double(entries));
+}
+
+void LinearSolver::set_up(int mumps_workspace_percent) {
+  require(KSPCreate(communicator(ranks_), ksp_.out()), kMaking);
+  KSP ksp = ksp_.get();
+  require(KSPSetOptionsPrefix(ksp, "st_"), kMaking);  // as that of an EPS has
+  require(KSPSetOperators(ksp, matrix(), matrix()), kMaking);
+  require(KSPSetType(ksp, KSPPREONLY), kMaking);
+  PC preconditioner = nullptr;
+  require(KSPGetPC(ksp, &preconditioner), kMaking);
+  require(PCSetType(preconditioner, PCCHOLESKY), kMaking);
+  const bool is_mumps = solver_ == Solver::mumps;
+  require(PCFactorSetMatSolverType(preconditioner, is_mumps ? MATSOLVERMUMPS : MATSOLVERCHOLMOD),
+          kMaking);
+  require(PCFactorSetMatOrderingType(preconditioner,
+                                     is_mumps ? MATORDERINGEXTERNAL : MATORDERINGNATURAL),
+          kMaking);
+  require(KSPSetFromOptions(ksp), kMaking);
+  require(PCFactorSetUpMatSolverType(preconditioner), kMaking);
+  if (is_mumps && mumps_workspace_percent != kWorkspace)
+    require(MatMumpsSetIcntl(factor(), 14, mumps_workspace_percent), kMaking);
+}
+
+Mat LinearSolver::factor() const {
+  PC preconditioner = nullptr;
+  Mat factor = nullptr;
+  require(KSPGetPC(ksp_.get(), &preconditioner), kMaking);
+  require(PCFactorGetMatrix(preconditioner, &factor), kMaking);
+  return factor;
+}
+
+void LinearSolver::check_memory() const {}
+
+void LinearSolver::factorise() {
+  const auto set_up_code = [&] { return KSPSetUp(ksp_.get()); };
+  PetscErrorCode code = set_up_code();
+  if (solver_ == Solver::mumps && code == 0 && wants_more_workspace(infog(factor(), 1))) {
+    set_up(kMoreWorkspace);
+    code = set_up_code();
+  }
+  if (code == PETSC_ERR_MAT_CH_ZRPVT) throw_not_definite();
+  require(code, kFactorising);
+  if (solver_ != Solver::mumps) return;
+  const PetscInt status = infog(factor(), 1);
+  constexpr PetscInt kNegativePivots = 12;
+  if (status == kNotDefinite || status == kSingular || infog(factor(), kNegativePivots) > 0)
+    throw_not_definite();
+  if (status >= 0) return;
+  if (status == kNoMemory || wants_more_workspace(status))
+    throw OutOfMemory("factorising the stiffness: memory does not suffice for MUMPS; " +
+                      std::string(kWayOut));
+  throw ComputationError("MUMPS failed while factorising the stiffness: error " +
+                         std::to_string(status) + ", " + std::to_string(infog(factor(), 2)));
+}
+
+Eigen::MatrixXd LinearSolver::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  Eigen::MatrixXd solutions(right_hand_sides.rows(), right_hand_sides.cols());
+  if (right_hand_sides.cols() == 0) return solutions;
+  const MatHandle in = dense_on(right_hand_sides, ranks_);
+  const MatHandle out = dense_on(solutions, ranks_);
+  require(KSPMatSolve(ksp_.get(), in.get(), out.get()), kSolving);
+  return solutions;
+}
+
+std::unique_ptr<LinearSolver> shift_inverse(const ModalSystem& system, double shift) {
+  const MatHandle shifted =
+      shift == 0 ? MatHandle() : shifted_stiffness(system.stiffness(), system.mass(), shift);
+  return std::make_unique<LinearSolver>(shift == 0 ? system.stiffness() : shifted.get(), shift,
+                                        system.ranks(), system.solver());
+}
+
+std::string LinearSolver::describe() const {
+  constexpr double kMillion = 1e6;
+  PetscInt solves = 0;
+  require(KSPGetTotalIterations(ksp_.get(), &solves), kSolving);
+  const std::string on =
+      ranks_.are_many() ? " on " + std::to_string(ranks_.count()) + " ranks" : "";
+  return (solver_ == Solver::mumps ? "MUMPS" : "CHOLMOD") + on + ": the factor has " +
+         rounded_text(nonzeros_ / kMillion, 4) + " million entries; " + std::to_string(solves) +
+         " solves";
+}
+
+}  // namespace flexneck::fe_modal
