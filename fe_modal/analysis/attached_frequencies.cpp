@@ -36,9 +36,15 @@ std::vector<AttachedFrequencies> attach_bodies(const SolvedBody& solved,
         body.mass_kg, body.center_m - solved.averages[region].point_m(), body.inertia_kg_m2);
     const AttachedMass mass(solved.system.ranks(), solved.system.mass(),
                             solved.loads[region].forces, rigid_mass);
-    const EigenPairs pairs = lowest_eigenpairs(mass.matrix(), solved.inverse, count);
-    result.push_back({body.name, body.interface, frequencies_Hz(pairs.values), rigid_mass});
-    if (shapes != nullptr) shapes->push_back(solved.system.fields().expand(pairs.vectors));
+    Eigen::VectorXd values;
+    if (shapes == nullptr) {
+      values = lowest_eigenvalues(mass.matrix(), solved.inverse, count);
+    } else {
+      const EigenPairs pairs = lowest_eigenpairs(mass.matrix(), solved.inverse, count);
+      shapes->push_back(solved.system.fields().expand(pairs.vectors));
+      values = pairs.values;
+    }
+    result.push_back({body.name, body.interface, frequencies_Hz(values), rigid_mass});
   }
   return result;
 }

@@ -12,13 +12,13 @@ namespace {
 constexpr const char* kSolving = "solving for static shapes";
 /// Of the energy norm of a static shape.
 constexpr double kTolerance = 1e-10;
-constexpr int kMaxRefinements = 4;
 
 /// K x = f of each column by conjugate gradients; K may be singular where f has nothing of its null
 /// space.
+/// @param within  energy norm of what may be left of each column
 Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& stiffness,
-                                    const BlockOperator& precondition,
-                                    const Eigen::MatrixXd& loads) {
+                                    const BlockOperator& precondition, const Eigen::MatrixXd& loads,
+                                    const Eigen::VectorXd& within) {
   const OperatorMatrix matrix(loads.rows(), stiffness, ranks);
   const OperatorMatrix preconditioner(loads.rows(), precondition, ranks);
   KspHandle solver;
@@ -26,8 +26,6 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& sti
   require(KSPSetOperators(solver.get(), matrix.get(), preconditioner.get()), kSolving);
   require(KSPSetType(solver.get(), KSPCG), kSolving);
   require(KSPSetNormType(solver.get(), KSP_NORM_NATURAL), kSolving);
-  require(KSPSetTolerances(solver.get(), kTolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT),
-          kSolving);
   PC multiplies = nullptr;
   require(KSPGetPC(solver.get(), &multiplies), kSolving);
   require(PCSetType(multiplies, PCMAT), kSolving);
@@ -35,6 +33,7 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& sti
   for (Eigen::Index k = 0; k < loads.cols(); ++k) {
     const VecHandle load = column_vector(loads, k, ranks);
     const VecHandle shape = column_vector(shapes, k, ranks);
+    require(KSPSetTolerances(solver.get(), 0, within[k], PETSC_DEFAULT, PETSC_DEFAULT), kSolving);
     const PetscErrorCode code = KSPSolve(solver.get(), load.get(), shape.get());
     rethrow_from(preconditioner.get());
     require(code, kSolving);
@@ -43,6 +42,13 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& sti
     if (reason < 0) throw ComputationError("static shapes of a body do not converge");
   }
   return shapes;
+}
+
+Eigen::VectorXd modal_energies(const Ranks& ranks, const EigenPairs& kept,
+                               const Eigen::MatrixXd& loads) {
+  if (kept.vectors.cols() == 0) return Eigen::VectorXd::Zero(loads.cols());
+  return modal_response(kept.values, inner_products(ranks, kept.vectors, loads))
+      .compliance.diagonal();
 }
 
 }  // namespace
@@ -75,18 +81,19 @@ Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPai
   };
   Eigen::MatrixXd rest = loads;
   remove_modes(body.ranks, momenta, modes, rest);
-  if (body.shift != 0) return conjugate_gradients(body.ranks, body.stiffness, solve, rest);
-  // What rounding of the factor leaves, and modes that are not exact.
+  // Of a fixed body and modes that are exact, two block solves are all: the second one takes away
+  // what rounding left.
   Eigen::MatrixXd response = solve(rest);
-  for (int step = 0; step < kMaxRefinements; ++step) {
-    const Eigen::MatrixXd residual = rest - body.stiffness(response);
-    const Eigen::MatrixXd correction = solve(residual);
-    response += correction;
-    const Eigen::ArrayXd left = column_products(body.ranks, correction, residual);
-    const Eigen::ArrayXd whole = column_products(body.ranks, response, rest);
-    if ((left <= kTolerance * kTolerance * whole).all()) break;
-  }
-  return response;
+  const Eigen::MatrixXd residual = rest - body.stiffness(response);
+  const Eigen::MatrixXd correction = solve(residual);
+  response += correction;
+  const Eigen::VectorXd energies =
+      modal_energies(body.ranks, kept, loads) + column_products(body.ranks, response, rest);
+  const Eigen::VectorXd within = kTolerance * energies.cwiseMax(0).cwiseSqrt();
+  const Eigen::ArrayXd left = column_products(body.ranks, correction, residual);
+  if ((left <= within.array().square()).all()) return response;
+  return response + conjugate_gradients(body.ranks, body.stiffness, solve,
+                                        rest - body.stiffness(response), within);
 }
 
 }  // namespace flexneck::fe_modal

@@ -16,19 +16,24 @@ namespace {
 
 constexpr const char* kSearching = "solving the eigenproblem";
 
-/// Residuals relative to the eigenvalue theta = 1 / (lambda - shift). The error of an eigenvector
-/// is this over the relative gap to its neighbour: 1e-10 for frequencies 1 % apart.
-constexpr double kResidual = 1e-12;
-/// Of a pair that is only looked for to see that none is missing; its eigenvalue is exact to the
-/// square.
-constexpr double kResidualOfNext = 1e-3;
+/// How well a search has to find its pairs.
+struct Accuracy {
+  double
+      residual;  ///< of (K - shift M)^-1 M, relative to its eigenvalue theta = 1 / (lambda - shift)
+  /// Beyond two for each pair wanted, of the Krylov space: with so many the first space nearly
+  /// always suffices (of 26, 28, 30 and 34 for ten modes of the neck all but the first).
+  Eigen::Index more_vectors;
+};
+/// The error of an eigenvector is the residual over the relative gap to its neighbour: 1e-10 for
+/// frequencies 1 % apart.
+constexpr Accuracy kOfVectors{1e-12, 8};
+/// An eigenvalue is exact to the square.
+constexpr Accuracy kOfValues{1e-8, 2};
+/// Of a pair that is only looked for to see that none is missing.
+constexpr Accuracy kOfNext{1e-3, 6};
 /// A pair beside those found is one of them that was missed if its eigenvalue is below the last
 /// one's by more than this share, or a copy of it if it is not above it by more.
 constexpr double kSame = 1e-7;
-/// A Krylov space for `count` pairs has twice as many vectors and these: with more the first space
-/// is larger than it need be, with fewer restarts are many (26, 34 and 40 of them for ten modes of
-/// the neck take 27, 34 and 40 solves).
-constexpr Eigen::Index kMoreVectors = 6;
 constexpr PetscInt kRestarts = 200;
 
 /// A number between -1/2 and 1/2 that depends on its place alone (the mixer of splitmix64).
@@ -66,6 +71,7 @@ class Search {
     require(EPSGetST(eps, &transform_), kSearching);
     require(STSetType(transform_, transform), kSearching);
     require(STSetKSP(transform_, inverse.ksp()), kSearching);
+    require(EPSSetPurify(eps, PETSC_FALSE), kSearching);  // takes a solve for each, one by one
   }
   /// An EPS resets its solver, which goes on to serve others.
   ~Search() {
@@ -90,16 +96,16 @@ class Search {
   }
   /// @param start  (own rows, 1)
   /// @return pairs of the problem that have converged, as many as wanted or fewer
-  EigenPairs solve(Eigen::Index count, double tolerance, const Eigen::MatrixXd& start) {
+  EigenPairs solve(Eigen::Index count, const Accuracy& accuracy, const Eigen::MatrixXd& start) {
     const Eigen::Index size = size_of(operators_[0]);
-    const auto vectors = static_cast<PetscInt>(std::min(size, 2 * count + kMoreVectors));
+    const auto vectors = static_cast<PetscInt>(std::min(size, 2 * count + accuracy.more_vectors));
     require(EPSSetDimensions(eps(), static_cast<PetscInt>(count), vectors, PETSC_DEFAULT),
             kSearching);
-    require(EPSSetTolerances(eps(), tolerance, kRestarts), kSearching);
+    require(EPSSetTolerances(eps(), accuracy.residual, kRestarts), kSearching);
     const VecHandle first = column_vector(start, 0, inverse_.ranks());
     Vec initial = first.get();
     require(EPSSetInitialSpace(eps(), 1, &initial), kSearching);
-    require(EPSSetFromOptions(eps()), kSearching);
+    if (&accuracy != &kOfNext) require(EPSSetFromOptions(eps()), kSearching);
     const PetscErrorCode code = EPSSolve(eps());
     for (Mat matrix : operators_) rethrow_from(matrix);
     require(code, kSearching);
@@ -142,15 +148,15 @@ Eigen::MatrixXd start_beside(Mat mass, const LinearSolver& inverse, const Eigen:
 
 /// The lowest pairs beside the known ones, ascending; fewer where there are no more.
 /// @param number  of the search in this space
-EigenPairs search(Mat mass, const LinearSolver& inverse, Eigen::Index count, double tolerance,
-                  const Eigen::MatrixXd& known, std::uint64_t number) {
+EigenPairs search(Mat mass, const LinearSolver& inverse, Eigen::Index count,
+                  const Accuracy& accuracy, const Eigen::MatrixXd& known, std::uint64_t number) {
   const Eigen::MatrixXd start = start_beside(mass, inverse, known, number);
   if (start.cols() == 0) return {};
   Search search(inverse.matrix(), mass, inverse, STSINVERT);
   require(EPSSetWhichEigenpairs(search.eps(), EPS_TARGET_MAGNITUDE), kSearching);
   require(EPSSetTarget(search.eps(), 0), kSearching);
   search.deflate(known);
-  EigenPairs pairs = search.solve(count, tolerance, start);
+  EigenPairs pairs = search.solve(count, accuracy, start);
   pairs.values.array() += inverse.shift();
   return pairs;
 }
@@ -173,31 +179,48 @@ void insert(const EigenPairs& one, EigenPairs& pairs) {
   pairs.vectors.col(place) = one.vectors.col(0);
 }
 
-}  // namespace
-
-EigenPairs lowest_eigenpairs(Mat mass, const LinearSolver& inverse, Eigen::Index count,
-                             const Eigen::MatrixXd& known) {
+EigenPairs lowest(Mat mass, const LinearSolver& inverse, Eigen::Index count,
+                  const Accuracy& accuracy, const Eigen::MatrixXd& known) {
   std::uint64_t number = 0;
-  EigenPairs pairs = search(mass, inverse, count, kResidual, known, number++);
+  EigenPairs pairs = search(mass, inverse, count, accuracy, known, number++);
   if (pairs.values.size() < count)
     throw NotConverged("the eigensolver found " + std::to_string(pairs.values.size()) + " of " +
                        std::to_string(count) + " modes");
   const Eigen::Index others = size_of(mass) - known.cols();
   while (count > 0 && others > count) {
     const Eigen::MatrixXd all = beside(known, pairs.vectors);
-    EigenPairs next = search(mass, inverse, 1, kResidualOfNext, all, number++);
+    EigenPairs next = search(mass, inverse, 1, kOfNext, all, number++);
     if (next.values.size() == 0) break;
     pairs.next = next.values[0];
     if (pairs.next >= pairs.values[count - 1] * (1 - kSame)) break;
-    next = search(mass, inverse, 1, kResidual, all, number++);
+    next = search(mass, inverse, 1, accuracy, all, number++);
     if (next.values.size() == 0) throw NotConverged("the eigensolver lost a mode");
     insert(next, pairs);
   }
   return pairs;
 }
 
+/// A step of inverse iteration of all vectors at once, which leaves them nothing that has no mass.
+void purify(Mat mass, const LinearSolver& inverse, EigenPairs& pairs) {
+  const Eigen::ArrayXd scales = pairs.values.array() - inverse.shift();
+  pairs.vectors = inverse.solve(block_product(mass, pairs.vectors) * scales.matrix().asDiagonal());
+}
+
+}  // namespace
+
+EigenPairs lowest_eigenpairs(Mat mass, const LinearSolver& inverse, Eigen::Index count,
+                             const Eigen::MatrixXd& known) {
+  EigenPairs pairs = lowest(mass, inverse, count, kOfVectors, known);
+  purify(mass, inverse, pairs);
+  return pairs;
+}
+
+Eigen::VectorXd lowest_eigenvalues(Mat mass, const LinearSolver& inverse, Eigen::Index count) {
+  return lowest(mass, inverse, count, kOfValues, {}).values;
+}
+
 double largest_eigenvalue(Mat a, const LinearSolver& inverse, double of_interest) {
-  constexpr double kTolerance = 1e-9;
+  constexpr Accuracy kAccuracy{1e-9, 6};
   struct Floor {
     double of_interest;
   } floor{of_interest};
@@ -217,7 +240,7 @@ double largest_eigenvalue(Mat a, const LinearSolver& inverse, double of_interest
   Search search(a, inverse.matrix(), inverse, STSHIFT);
   require(EPSSetWhichEigenpairs(search.eps(), EPS_LARGEST_REAL), kSearching);
   require(EPSSetConvergenceTestFunction(search.eps(), relative_error, &floor, nullptr), kSearching);
-  const EigenPairs pairs = search.solve(1, kTolerance, start_vector(a, 0));
+  const EigenPairs pairs = search.solve(1, kAccuracy, start_vector(a, 0));
   if (pairs.values.size() == 0)
     throw NotConverged("the search for the largest eigenvalue does not converge");
   return pairs.values[0];

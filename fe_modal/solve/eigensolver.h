@@ -28,6 +28,9 @@ class NotConverged : public ComputationError {
 EigenPairs lowest_eigenpairs(Mat mass, const LinearSolver& inverse, Eigen::Index count,
                              const Eigen::MatrixXd& known = {});
 
+/// The lowest eigenvalues alone, likewise, for fewer solves.
+Eigen::VectorXd lowest_eigenvalues(Mat mass, const LinearSolver& inverse, Eigen::Index count);
+
 /// Largest eigenvalue theta of A x = theta B x by the same method, in the inner product of B.
 /// @param inverse of B
 /// @param of_interest a smaller one is not told from zero
