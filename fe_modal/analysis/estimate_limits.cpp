@@ -16,7 +16,7 @@ namespace {
 
 /// Longest edge over shortest edge. Clamped beams of 20-node hexahedra in one row have estimates of
 /// 1.1 to 3.0 of the error to an aspect ratio of 5, of 0.8 at 7 and of 0.5 at 10; the steel tube of
-/// 27-node ones in certificate_benchmark has 5.
+/// 27-node ones in mesh_error_benchmark has 5.
 constexpr double kShownAspectRatio = 5;
 constexpr double kRounding = 1e-6;
 

@@ -102,10 +102,11 @@ void warn_of_rigid_cut(Eigen::Index count, Eigen::Index rigid_count, const Progr
        " rigid-body motions of the body, of which any combination is one: ask for at least " + all);
 }
 
-/// The basis asked for, its certificate, and the ways in which slits part that joined it.
+/// The basis asked for, what is known of its completeness, and the ways in which slits part that
+/// joined it.
 struct Basis {
   Reduction reduction;
-  std::string certificate;
+  std::string completeness;
   std::vector<SlitField> slit_fields = {};
 };
 
@@ -127,9 +128,9 @@ struct Analysis {
 };
 
 /// The body's lowest modes, and what is known of their number.
-CertifiedModes normal_modes(const Analysis& of) {
-  CertifiedModes modes = lowest_modes(of.system, of.inverse, of.options().mode_count,
-                                      of.system.rigid_modes(), of.options().certify, of.warn);
+CheckedModes normal_modes(const Analysis& of) {
+  CheckedModes modes = lowest_modes(of.system, of.inverse, of.options().mode_count,
+                                    of.system.rigid_modes(), of.options().check, of.warn);
   check_no_mechanism(of.system, modes.pairs.values);
   check_eigenvalues(modes.pairs.values, of.inverse.shift());
   warn_of_rigid_cut(modes.pairs.values.size(), of.model.rigid().count(), of.warn);
@@ -140,7 +141,7 @@ Basis reduced_basis(const Analysis& of) {
   const ModalOptions& options = of.options();
   if (options.slit_motions != SlitMotions::none) {
     SlitBasis basis = slit_basis(of.model, of.operators(), of.loads, of.progress);
-    return {std::move(basis.reduction), kNotCertified, std::move(basis.fields)};
+    return {std::move(basis.reduction), kNotChecked, std::move(basis.fields)};
   }
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
@@ -150,12 +151,12 @@ Basis reduced_basis(const Analysis& of) {
     };
     return {craig_bampton(of.operators(), of.system.mass(), solve, options.mode_count, of.loads,
                           of.progress),
-            kNotCertified};
+            kNotChecked};
   }
-  const auto [pairs, certificate] = normal_modes(of);
+  const auto [pairs, completeness] = normal_modes(of);
   return {complete_modes(of.operators(), pairs, of.loads, options.basis, of.model.rigid().count(),
                          of.progress),
-          certificate};
+          completeness};
 }
 
 /// How many of the basis, its first, are the body's own eigenvectors, which are its lowest.
@@ -185,7 +186,7 @@ ModalBody body_of(const Analysis& of, const Basis& basis, const std::vector<Part
   body.frequencies_Hz = frequencies_Hz(pairs.values);
   body.boundary = of.model.boundary() + (options.prestress.empty() ? "" : "; prestressed");
   body.prestress = prestress_text(options);
-  body.certificate = basis.certificate;
+  body.completeness = basis.completeness;
   body.nodes_m = mesher::positions_of(mesh);
   body.shapes = of.system.fields().expand(pairs.vectors);
   if (!options.prestress.empty()) {
@@ -294,7 +295,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
     fields->next_Hz = std::sqrt(pairs.next) / (2 * std::numbers::pi);
   }
   const Eigen::Index eigenvectors = eigenvector_count(basis.reduction);
-  if (options.certify && eigenvectors > 0) {
+  if (options.check && eigenvectors > 0) {
     times.start("refine and solve again");
     add_mesh_errors(of, pairs, eigenvectors, body);
   }

@@ -136,7 +136,7 @@ ModalBody transformed(const ModalBody& body, const MatrixXd& T, const VectorXd& 
   ModalBody to;
   to.frequencies_Hz = values.cwiseSqrt() / (2 * std::numbers::pi);
   to.boundary = body.boundary;
-  to.certificate = body.certificate;
+  to.completeness = body.completeness;
   to.solver = body.solver;
   to.orthogonality = body.orthogonality;
   to.nodes_m = body.nodes_m;

@@ -86,7 +86,7 @@ ModalBody select_modes(const ModalBody& body, const std::vector<std::string>& wa
   part.prestress = body.prestress;
   if (body.prestress_stiffness.size() > 0)
     part.prestress_stiffness = body.prestress_stiffness(kept);
-  part.certificate = body.certificate;
+  part.completeness = body.completeness;
   part.orthogonality = body.orthogonality;
   part.nodes_m = body.nodes_m;
   part.attached = body.attached;

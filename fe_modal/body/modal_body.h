@@ -109,7 +109,7 @@ struct ModalBody {
   std::string prestress = {};      ///< loads whose stresses the modes are about; or empty
   /// (m), what the geometric stiffness of these stresses adds to (2 pi f)^2, 1/s^2; or empty.
   Eigen::VectorXd prestress_stiffness = {};
-  std::string certificate;  ///< "not certified" until completeness has been proved
+  std::string completeness;  ///< "not checked" unless the modes were counted
   /// Why the errors of the mesh are an indication alone; empty if they are not, or not estimated.
   std::string mesh_error_limits = {};
   std::string solver;                    ///< how the modes were solved for; may be empty

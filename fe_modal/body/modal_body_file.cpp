@@ -325,7 +325,7 @@ void write_modal_body(const std::filesystem::path& path, const ModalBodyFile& co
   if (body.geometric_stiffness) write_geometric_stiffness(file, *body.geometric_stiffness);
   write_mesh_errors(file, body);
   file.write("/certificate/orthogonality", {&body.orthogonality, 1}, {1}, "1");
-  file.write_attribute("/certificate", "status", std::string_view(body.certificate));
+  file.write_attribute("/certificate", "status", std::string_view(body.completeness));
   write_provenance(file, content.provenance);
   file.commit();
 }
@@ -346,7 +346,7 @@ ModalBodyFile read_modal_body(const std::filesystem::path& path) {
   body.geometric_stiffness = read_geometric_stiffness(file, m);
   read_mesh_errors(file, body);
   body.orthogonality = read_vector(file, "/certificate/orthogonality", 1, "1")[0];
-  body.certificate = file.string_attribute("/certificate", "status");
+  body.completeness = file.string_attribute("/certificate", "status");
   try {
     check_modal_body(body);
   } catch (const InputError& error) {

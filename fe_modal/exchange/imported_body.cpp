@@ -119,7 +119,7 @@ void check(const ImportedBody& body) {
   }
 }
 
-ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certify,
+ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool check_modes,
                            const Progress& progress, const Progress& warn) {
   check(input);
   if (mode_count < 1 || mode_count > input.stiffness.rows()) {
@@ -130,14 +130,14 @@ ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool certi
   if (progress) progress("factorising the stiffness that was given");
   const ImportedSystem system(input);
   const std::unique_ptr<const LinearSolver> inverse = shift_inverse(system, 0);
-  auto [pairs, certificate] = lowest_modes(system, *inverse, mode_count, {}, certify, warn);
+  auto [pairs, completeness] = lowest_modes(system, *inverse, mode_count, {}, check_modes, warn);
   check_eigenvalues(pairs.values, 0);
   apply_conventions(pairs, DofLayout(input.nodes_m.cols()));
 
   ModalBody body;
   body.frequencies_Hz = pairs.values.cwiseMax(0).cwiseSqrt() / (2 * std::numbers::pi);
   body.boundary = "fixed: as in the matrices";
-  body.certificate = certificate;
+  body.completeness = completeness;
   body.solver = inverse->describe();
   body.nodes_m = input.nodes_m;
   for (const auto& vector : pairs.vectors.colwise()) {

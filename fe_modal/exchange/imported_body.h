@@ -28,7 +28,7 @@ void check(const ImportedBody& body);
 /// empty
 /// @throws InputError as check(), or for more modes than degrees of freedom.
 /// @throws ComputationError if the stiffness is not positive definite, or the eigensolver fails.
-ModalBody analyse_matrices(const ImportedBody& body, int mode_count, bool certify,
+ModalBody analyse_matrices(const ImportedBody& body, int mode_count, bool check_modes,
                            const Progress& progress, const Progress& warn = {});
 
 }  // namespace flexneck::fe_modal

@@ -197,7 +197,7 @@ ImportedModes import_modes(const ReducedBody& reduced) {
   body.frequencies_Hz = omega / (2 * std::numbers::pi);
   body.modes = records_of(reduced, spectrum, body.frequencies_Hz);
   body.boundary = "imported";
-  body.certificate = "not certified";
+  body.completeness = "not checked";
   body.solver = spectrum.is_as_given ? "" : "reduced eigenproblem of the imported modes";
   body.invariants = spectrum.is_as_given ? reduced.invariants : transformed(reduced.invariants, T);
   const MatrixXd& mass = body.invariants.Maa;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/solve/linear_solver.h"
 
+#include <cstdint>
+#include <limits>
+
 #include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/system/assembly.h"
@@ -11,11 +14,16 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kMaking = "making the solver";
+constexpr const char* kMeasuring = "finding out what the factor takes";
 constexpr const char* kFactorising = "factorising the stiffness";
 constexpr const char* kSolving = "solving with the factor";
 constexpr const char* kWayOut =
     "take a coarser mesh, or the solver mumps on several ranks or out of core (modes.petsc_options "
     "= \"-st_mat_mumps_icntl_22 1\")";
+
+constexpr const char* kPrefix = "st_";  // as that of an EPS has
+/// Of CHOLMOD's integers of 32 bits.
+constexpr double kMostEntries = std::numeric_limits<std::int32_t>::max();
 
 /// Workspace of MUMPS beyond what its analysis says, per cent: its own choice, and one try more.
 constexpr int kWorkspace = 20;
@@ -63,7 +71,7 @@ LinearSolver::LinearSolver(Mat shifted_stiffness, double shift, const Ranks& ran
 void LinearSolver::set_up(int mumps_workspace_percent) {
   require(KSPCreate(communicator(ranks_), ksp_.out()), kMaking);
   KSP ksp = ksp_.get();
-  require(KSPSetOptionsPrefix(ksp, "st_"), kMaking);  // as that of an EPS has
+  require(KSPSetOptionsPrefix(ksp, kPrefix), kMaking);
   require(KSPSetOperators(ksp, matrix(), matrix()), kMaking);
   require(KSPSetType(ksp, KSPPREONLY), kMaking);
   PC preconditioner = nullptr;
@@ -89,7 +97,40 @@ Mat LinearSolver::factor() const {
   return factor;
 }
 
-void LinearSolver::check_memory() const {}
+/// The symbolic factorisation alone says what the numeric one will take: PETSc's PC does both at
+/// once, so that here is a factor that lives no longer than that.
+void LinearSolver::check_memory() const {
+  MatHandle trial;
+  IsHandle rows;
+  IsHandle columns;
+  MatFactorInfo how{};
+  const bool is_mumps = solver_ == Solver::mumps;
+  require(MatGetFactor(matrix(), is_mumps ? MATSOLVERMUMPS : MATSOLVERCHOLMOD, MAT_FACTOR_CHOLESKY,
+                       trial.out()),
+          kMeasuring);
+  require(MatSetOptionsPrefix(trial.get(), kPrefix), kMeasuring);
+  require(MatFactorInfoInitialize(&how), kMeasuring);
+  if (!is_mumps)
+    require(MatGetOrdering(matrix(), MATORDERINGNATURAL, rows.out(), columns.out()), kMeasuring);
+  require(MatCholeskyFactorSymbolic(trial.get(), matrix(), rows.get(), &how), kMeasuring);
+  if (is_mumps) {
+    constexpr PetscInt kIsOutOfCore = 22;
+    constexpr PetscInt kMegabytesInCore = 16;  // of the rank that takes most
+    constexpr PetscInt kMegabytesOutOfCore = 26;
+    constexpr double kMegabyte = 1e6;
+    PetscInt is_out_of_core = 0;
+    require(MatMumpsGetIcntl(trial.get(), kIsOutOfCore, &is_out_of_core), kMeasuring);
+    const PetscInt megabytes =
+        infog(trial.get(), is_out_of_core != 0 ? kMegabytesOutOfCore : kMegabytesInCore);
+    return require_memory(kFactorising, kMegabyte * megabytes * ranks_.on_this_machine(), kWayOut);
+  }
+  MatInfo info{};
+  require(MatGetInfo(trial.get(), MAT_LOCAL, &info), kMeasuring);
+  if (info.nz_used > kMostEntries)
+    throw InputError("the factor of the stiffness has " + rounded_text(info.nz_used, 4) +
+                     " entries, and CHOLMOD takes at most 2147483647: take the solver mumps");
+  require_memory(kFactorising, sizeof(double) * info.nz_used, kWayOut);
+}
 
 void LinearSolver::factorise() {
   const auto set_up_code = [&] { return KSPSetUp(ksp_.get()); };
@@ -119,6 +160,7 @@ Eigen::MatrixXd LinearSolver::solve(const Eigen::MatrixXd& right_hand_sides) con
   const MatHandle in = dense_on(right_hand_sides, ranks_);
   const MatHandle out = dense_on(solutions, ranks_);
   require(KSPMatSolve(ksp_.get(), in.get(), out.get()), kSolving);
+  ++block_solves_;
   return solutions;
 }
 
@@ -137,7 +179,7 @@ std::string LinearSolver::describe() const {
       ranks_.are_many() ? " on " + std::to_string(ranks_.count()) + " ranks" : "";
   return (solver_ == Solver::mumps ? "MUMPS" : "CHOLMOD") + on + ": the factor has " +
          rounded_text(nonzeros_ / kMillion, 4) + " million entries; " + std::to_string(solves) +
-         " solves";
+         " solves, " + std::to_string(block_solves_) + " of blocks";
 }
 
 }  // namespace flexneck::fe_modal

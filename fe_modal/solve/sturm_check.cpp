@@ -61,18 +61,18 @@ double between(const Eigen::VectorXd& values, Eigen::Index k) {
 }
 
 std::string complete_below(double eigenvalue) {
-  return "certified: no mode is missing below " + hertz(eigenvalue) + ", by inertia";
+  return "checked: no mode is missing below " + hertz(eigenvalue) + ", by inertia";
 }
 
 /// Of `count` modes among values of which none is missing.
-std::string certificate_of(const Eigen::VectorXd& values, Eigen::Index count, double shift) {
+std::string completeness_of(const Eigen::VectorXd& values, Eigen::Index count, double shift) {
   const Cluster last = cluster_of(values, count - 1, shift);
   if (last.end == count) {
-    return count == values.size() ? "certified: all modes that there are"
+    return count == values.size() ? "checked: all modes that there are"
                                   : complete_below(between(values, count));
   }
   const std::string cut = "; the count cuts " + name_of(last, values, shift);
-  return (last.begin == 0 ? kNotCertified : complete_below(between(values, last.begin))) + cut;
+  return (last.begin == 0 ? kNotChecked : complete_below(between(values, last.begin))) + cut;
 }
 
 /// Rigid motions, whose eigenvalues are zero, before the other modes.
@@ -101,7 +101,7 @@ std::optional<std::string> check_complete(const ModalSystem& system, const Eigen
                            hertz(sigma) + ", but the inertia of the stiffness counts " +
                            std::to_string(counted));
   }
-  return certificate_of(values, count, shift);
+  return completeness_of(values, count, shift);
 }
 
 void check_eigenvalues(const Eigen::VectorXd& values, double shift) {
@@ -126,26 +126,27 @@ void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn) {
        (begin > 0 ? ", or for " + std::to_string(begin) : ""));
 }
 
-CertifiedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse,
-                            Eigen::Index count, const Eigen::MatrixXd& rigid, bool certify,
-                            const Progress& warn) {
+CheckedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse,
+                          Eigen::Index count, const Eigen::MatrixXd& rigid, bool check,
+                          const Progress& warn) {
   const Eigen::Index size = size_of(system.mass());
-  for (Eigen::Index more = certify ? 1 : 0;; more = 2 * more) {
+  for (Eigen::Index more = check ? 1 : 0;; more = 2 * more) {
     const Eigen::Index asked = std::min<Eigen::Index>(count + more, size);
     EigenPairs pairs = with_rigid(
         rigid, lowest_eigenpairs(system.mass(), inverse,
                                  std::max<Eigen::Index>(asked - rigid.cols(), 1), rigid));
-    std::string certificate = kNotCertified;
-    if (certify) {
+    std::string completeness = kNotChecked;
+    if (check) {
       auto checked = check_complete(system, pairs, count, inverse.shift());
-      if (!checked && asked == size) checked = certificate_of(pairs.values, count, inverse.shift());
+      if (!checked && asked == size)
+        checked = completeness_of(pairs.values, count, inverse.shift());
       if (!checked) continue;
-      certificate = *checked;
+      completeness = *checked;
     }
     EigenPairs lowest{pairs.values.head(count), pairs.vectors.leftCols(count), pairs.next};
     if (pairs.values.size() > count) lowest.next = pairs.values[count];
     warn_of_cut(lowest, inverse.shift(), warn);
-    return {std::move(lowest), certificate};
+    return {std::move(lowest), completeness};
   }
 }
 

@@ -11,25 +11,25 @@
 namespace flexneck::fe_modal {
 
 /// Of modes that nothing is known of.
-inline constexpr const char* kNotCertified = "not certified";
+inline constexpr const char* kNotChecked = "not checked";
 
 /// The lowest modes, and what is known of their completeness: a sentence.
-struct CertifiedModes {
+struct CheckedModes {
   EigenPairs pairs;
-  std::string certificate;
+  std::string completeness;
 };
 
-/// The lowest `count` modes. Certified, they are counted by inertia in the first gap above the last
+/// The lowest `count` modes. Checked, they are counted by inertia in the first gap above the last
 /// one, for which more modes are computed where they need be. Where `count` cuts a cluster of equal
-/// frequencies, which a square section has in pairs and a free body six of, the certificate says
-/// nothing of the cluster.
+/// frequencies, which a square section has in pairs and a free body six of, nothing is
+/// said of the cluster.
 /// @param rigid M-orthonormal rigid motions that the body keeps, its first modes; may have no
 /// columns
 /// @param warn takes a line if `count` cuts a cluster; may be empty
 /// @throws ComputationError if the counts disagree.
-CertifiedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse,
-                            Eigen::Index count, const Eigen::MatrixXd& rigid, bool certify,
-                            const Progress& warn);
+CheckedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse,
+                          Eigen::Index count, const Eigen::MatrixXd& rigid, bool check,
+                          const Progress& warn);
 
 /// Checks that there are no eigenvalues but those given below the first gap above
 /// pairs.values[count - 1]: the sentence that says up to where the lowest `count` are complete, or

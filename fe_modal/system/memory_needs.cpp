@@ -45,9 +45,9 @@ void check_memory(const mesher::Mesh& mesh, const ModalOptions& options) {
   };
   require("assembling for " + std::to_string(options.mode_count) + " modes of " + dofs_text(dofs),
           dofs, "take a coarser mesh or fewer modes");
-  if (options.certify)
+  if (options.check)
     require("the mesh's error, estimated with " + dofs_text(kCutInEight * dofs) + ",",
-            kCutInEight * dofs, "take a coarser mesh, or leave out modes.certify");
+            kCutInEight * dofs, "take a coarser mesh, or leave out modes.check");
 }
 
 }  // namespace flexneck::fe_modal

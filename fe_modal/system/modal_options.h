@@ -51,7 +51,7 @@ struct ModalOptions {
   bool geometric_stiffness = false;              ///< of the modes under unit loads; of a fixed body
   /// Count the modes by inertia too, which costs a factorisation, and estimate the error of the
   /// mesh, which costs twice the modes. Not of Craig-Bampton.
-  bool certify = false;
+  bool check = false;
   std::string fixed_set;  ///< node set fixed in all directions; empty: none
   /// Node sets fixed in some of x, y and z only.
   std::map<std::string, std::array<bool, 3>> fixed_directions = {};

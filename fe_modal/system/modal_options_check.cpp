@@ -111,10 +111,10 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError(
         "slits that open and close need static shapes: take the basis 'residual', or "
         "'craig-bampton' with no modes");
-  if (options.certify || options.geometric_stiffness)
+  if (options.check || options.geometric_stiffness)
     throw InputError(
-        "slits that open and close are offered neither with a certificate, which is that of modes "
-        "of one stiffness, nor with stress_stiffening");
+        "slits that open and close are offered neither with a check of completeness, which is that "
+        "of modes of one stiffness, nor with stress_stiffening");
   if (std::all_of(mesh.slits.begin(), mesh.slits.end(),
                   [](const mesher::Slit& slit) { return slit.tied; }))
     throw InputError("slits that open and close: the mesh has no open slit");

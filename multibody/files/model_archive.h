@@ -53,9 +53,9 @@ void archive(A& all, ModeRecord& x) {
 /// attached bodies, and what the errors of the mesh are worth.
 template <class A>
 void archive(A& all, ModalBody& x) {
-  auto& [hertz, modes, boundary, prestress, of_prestress, certificate, limits, solver,
+  auto& [hertz, modes, boundary, prestress, of_prestress, completeness, limits, solver,
          orthogonality, nodes, shapes, interfaces, invariants, attached, stiffness, slits] = x;
-  all(hertz, modes, boundary, prestress, of_prestress, certificate, solver, orthogonality, nodes,
+  all(hertz, modes, boundary, prestress, of_prestress, completeness, solver, orthogonality, nodes,
       shapes, interfaces, invariants, stiffness);
   static_cast<void>(limits);
   static_cast<void>(attached);

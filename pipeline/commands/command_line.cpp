@@ -52,8 +52,8 @@ void add_mesh_settings(CLI::App& app, CommandLine& line) {
 
 void add_modes_settings(CLI::App& app, CommandLine& line) {
   app.add_flag_function(
-      "--certify",
-      [&line](std::int64_t /*times*/) { line.settings.emplace_back("modes.certify=true"); },
+      "--check",
+      [&line](std::int64_t /*times*/) { line.settings.emplace_back("modes.check=true"); },
       "Prove that no mode is missing, estimate the mesh's error");
   add_setting(app, line, "--solver", "NAME", "modes.solver", "cholmod in one process, or mumps");
 }

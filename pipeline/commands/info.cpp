@@ -59,7 +59,7 @@ std::string describe_modes(const fs::path& path) {
   const fe_modal::ModalBodyFile file = fe_modal::read_modal_body(path);
   std::string text = fmt::format(
       "{}, {}; mass {:.4g} kg, {} nodes\nSolver: {}\n{}{}", file.body.boundary,
-      file.body.certificate, file.body.invariants.mass, file.body.nodes_m.cols(), file.body.solver,
+      file.body.completeness, file.body.invariants.mass, file.body.nodes_m.cols(), file.body.solver,
       mode_table(file.body, true), "\n" + basis_text(file.body) + loaded_text(file.body, true));
   if (!file.body.prestress.empty()) text += "\nPrestress: " + file.body.prestress;
   for (const fe_modal::Interface& interface : file.body.interfaces) {

@@ -24,7 +24,7 @@ bool modes_of_matrices(const CommandInput& input) {
                                         fe_modal::read_positions(files.nodes)};
   fe_modal::ModalBodyFile file;
   file.body =
-      fe_modal::analyse_matrices(matrices, input.study.modes.count, input.study.modes.certify,
+      fe_modal::analyse_matrices(matrices, input.study.modes.count, input.study.modes.check,
                                  input.console.detail(), input.console.warnings("modes.h5"));
   file.provenance = provenance_of(input.study, {"matrices.", "modes."});
   const std::vector<InputFile> inputs = input_files(reads.files());
@@ -34,7 +34,7 @@ bool modes_of_matrices(const CommandInput& input) {
   fe_modal::write_modal_body(input.folder.modes(), file);
   input.console.result(fmt::format(
       "\nModes: {}, {}; moving mass {:.4g} kg  ({})\nSolver: {}\n{}", file.body.boundary,
-      file.body.certificate, file.body.invariants.mass, input.folder.modes().string(),
+      file.body.completeness, file.body.invariants.mass, input.folder.modes().string(),
       file.body.solver, mode_table(file.body, input.console.is_verbose())));
   return true;
 }

@@ -7,7 +7,7 @@
 
 namespace flexneck::pipeline {
 
-/// A row for each mode: kind, frequency, residual, and what --certify has found.
+/// A row for each mode: kind, frequency, residual, and what --check has found.
 /// @param with_shares of the kinetic energy too, where they are known
 std::string mode_table(const fe_modal::ModalBody& body, bool with_shares);
 

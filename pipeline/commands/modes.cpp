@@ -97,7 +97,7 @@ void solve_static(const CommandInput& input, const mesher::Mesh& mesh,
     return;
   }
   input.console.step("Solving again with the static moduli");
-  options.certify = false;
+  options.check = false;
   StepTimes times;
   const fe_modal::ModalBody body =
       solve(input, with_static_moduli(mesh, input.study.material_models()), options,
@@ -138,7 +138,7 @@ bool modes_command(const CommandInput& input) {
   input.console.detail()("seconds: " + times.summary());
   const bool whole = input.console.is_verbose();
   input.console.result(fmt::format(
-      "\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary, body.certificate,
+      "\nModes: {}, {}; mass {}  ({})\nSolver: {}\n{}{}", body.boundary, body.completeness,
       mass_text(input.study, body.invariants.mass), input.folder.modes().string(), body.solver,
       mode_table(body, whole), loaded_text(body, whole)));
   if (!body.prestress.empty()) input.console.result("Prestress: " + body.prestress);

@@ -102,7 +102,7 @@ fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
   options.slit_motions = study.modes.slit_motions;
   options.geometric_stiffness = study.modes.stress_stiffening;
   if (study.modes.prestress) options.prestress = study.loads;
-  options.certify = study.modes.certify;
+  options.check = study.modes.check;
   options.solver = study.modes.solver;
   options.petsc_options = study.modes.petsc_options;
   options.rigid_parts = study.modes.rigid_parts;

@@ -141,7 +141,7 @@ FigureSlopes modes_slopes(const Study& study, const mesher::Mesh& mesh, BodyUse 
                           const std::vector<std::string>& figures, const Console& console) {
   mesher::Mesh solved = mesh;
   fe_modal::ModalOptions options = modes_options(study, solved);
-  options.certify = false;
+  options.check = false;
   if (use != BodyUse::attached) options.attachments.clear();
   fe_modal::AnalysisFields fields;
   const fe_modal::ModalBody body =

@@ -50,7 +50,7 @@ std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptio
 
 fe_modal::ModalBody modes_of_mesh(const Study& study, mesher::Mesh mesh, BodyUse use) {
   fe_modal::ModalOptions options = modes_options(study, mesh);
-  options.certify = false;
+  options.check = false;
   if (use != BodyUse::attached) options.attachments.clear();
   if (use == BodyUse::static_tests)
     mesh = with_static_moduli(std::move(mesh), study.material_models());

@@ -27,8 +27,7 @@ mesher::Mesh with_static_moduli(mesher::Mesh mesh, const MaterialModels& models)
 std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptions& options,
                             const fe_modal::ModalBody& body);
 
-/// The modes of a mesh by what the study says of them, on this process alone, without a
-/// certificate.
+/// The modes of a mesh by what the study says of them, on this process alone, not counted.
 /// @pre a fe_modal::PetscSession
 /// @throws as fe_modal::analyse_modes(), modes_options() and rounding_remark() do.
 fe_modal::ModalBody modes_of_mesh(const Study& study, mesher::Mesh mesh, BodyUse use);

@@ -86,7 +86,7 @@ fe_modal::ModalOptions options_of(const SubstructuresSection& section,
   options.basis_interfaces.clear();
   options.mode_count = section.modes;
   options.slit_motions = has_open_slit(mesh) ? section.slit_motions : fe_modal::SlitMotions::none;
-  options.certify = false;
+  options.check = false;
   options.rigid_parts.clear();
   options.interfaces.clear();
   options.sign_interface.clear();

@@ -128,9 +128,9 @@ HtmlTable mode_table_of(const fe_modal::ModalBody& body) {
 std::string modes_html(const Results& results) {
   if (!results.modes) return note("There are no modes in this folder yet.");
   const fe_modal::ModalBody& body = *results.modes;
-  std::string html = "<dl>\n<dt>Completeness</dt><dd>" + html_text(body.certificate);
-  if (body.certificate == "not certified") {
-    html += ". <code>flexneck modes --certify</code> proves that no mode is missing";
+  std::string html = "<dl>\n<dt>Completeness</dt><dd>" + html_text(body.completeness);
+  if (body.completeness == "not checked") {
+    html += ". <code>flexneck modes --check</code> checks that no mode is missing";
   }
   html += "</dd>\n<dt>Orthogonality</dt><dd>largest entry of |ΨᵀMΨ − I|: " +
           fmt::format("{:.1e}", body.orthogonality) + "</dd>\n<dt>Solver</dt><dd>" +

@@ -39,7 +39,7 @@ constexpr std::array<PageSection, 14> kSections = {
      {"sweep", "Parameters varied", "Parameters varied", "sweep"},
      {"fit", "Fit", "Parameters fitted to targets", "fit"},
      {"figures", "Figures", "The paper's figures", "figures"},
-     {"modes", "Modes", "Modes and their certificates", "modes"},
+     {"modes", "Modes", "Modes and their checks", "modes"},
      {"sensitivities", "Sensitivities", "What each input does", "sensitivities"},
      {"remarks", "The paper", "Where the paper contradicts itself or is silent", "remarks"},
      {"inputs", "Inputs", "Inputs and their origin", "parameters"},

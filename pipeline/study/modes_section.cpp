@@ -23,8 +23,8 @@ constexpr Key kModesKeys[] = {
     Key::count("count", "10", "Number of elastic modes", {.range = at_least(1)}),
     Key::text("formulation", "mixed_pressure",
               "Formulation of the elements: mixed_pressure, displacement or reduced"),
-    Key::flag("certify", "false",
-              "Whether to prove that no mode is missing, and to estimate the error of the mesh",
+    Key::flag("check", "false",
+              "Whether to check that no mode is missing, and to estimate the error of the mesh",
               {.changes_results = false}),
     Key::text("basis", "normal", "Which vectors the basis of a body is made of",
               {.choices = [] { return fe_modal::basis_names(); }}),
@@ -101,7 +101,7 @@ ModesSection read_modes(const StudyTable& table) {
   ModesSection modes;
   modes.count = table.count("count");
   modes.formulation = read_formulation(table);
-  modes.certify = table.flag("certify");
+  modes.check = table.flag("check");
   modes.basis = static_cast<fe_modal::BasisKind>(table.choice("basis"));
   modes.rigid_interfaces = table.texts("rigid_interfaces");
   modes.basis_interfaces = table.texts("basis_interfaces");

@@ -49,7 +49,7 @@ struct ModesSection {
   bool stress_stiffening = false;             ///< geometric stiffness of the modes under unit loads
   std::vector<std::string> rigid_interfaces;  ///< whose nodes are tied to move rigidly
   std::vector<std::string> basis_interfaces;  ///< whose static shapes join the basis; empty: all
-  bool certify = false;  ///< prove that no mode is missing, estimate the error of the mesh
+  bool check = false;  ///< check that no mode is missing, estimate the error of the mesh
   std::vector<std::string> fixed;  ///< node sets fixed in all directions
   std::map<std::string, std::array<bool, 3>> fixed_directions;  ///< others, in some of x, y, z
   bool deck_supports = true;             ///< supports that the structure's file gives hold

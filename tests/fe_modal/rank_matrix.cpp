@@ -151,13 +151,13 @@ double deviation(const mesher::Mesh& mesh, const Cell& cell, const Truth& truth,
   options.solver = solver;
   options.ranks = ranks;
   options.basis = BasisKind::residual;
-  options.certify = true;
+  options.check = true;
   options.fixed_set = "bottom";
   if (cell.has_direction) options.fixed_directions = {{"top", {false, true, false}}};
   options.interfaces = {{"tip", "top", kTip, cell.has_coupling}};
   options.attachments = {kHead};
   const ModalBody body = analyse_modes(mesh, options, {});
-  if (!body.certificate.starts_with("certified")) return 2;
+  if (!body.completeness.starts_with("checked")) return 2;
   if (body.mode_count() <= kModes) return 3;
   if (!ranks.is_first()) return 0;
   options.ranks = Ranks();

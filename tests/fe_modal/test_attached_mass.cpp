@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -20,6 +22,15 @@ Eigen::Matrix3d full_inertia() {
   Eigen::Matrix3d inertia;
   inertia << 0.020, 0.002, -0.001, 0.002, 0.024, 0.003, -0.001, 0.003, 0.018;
   return inertia;
+}
+
+/// How often PETSc or SLEPc has logged an event.
+int calls_of(const char* event) {
+  PetscLogEvent id = -1;
+  PetscEventPerfInfo info{};
+  require(PetscLogEventGetId(event, &id), "asking for an event");
+  require(PetscLogEventGetPerfInfo(0, id, &info), "asking for an event");
+  return info.count;
 }
 
 }  // namespace
@@ -84,6 +95,30 @@ TEST_CASE("frequencies with a body attached agree with a dense solution") {
     CHECK(((found - expected).array() / expected.array()).abs().maxCoeff() < kTolerance);
     CHECK(found[0] < body.frequencies_Hz[0]);
   }
+}
+
+TEST_CASE("modes with a body attached are SLEPc's, by the one factor that PETSc makes") {
+  const mesher::Mesh mesh =
+      testing::box({2, 1, 3}, {0.1, 0.08, 0.2}, {"rubber", 8.3e6, 0.49, 950}).make();
+  ModalOptions options;
+  options.mode_count = 4;
+  options.fixed_set = "bottom";
+  options.interfaces = {{"tip", "top", {0, 0, 0.2}}};
+  options.attachments = {{"head", "tip", 4.5, {0.03, 0.01, 0.25}, full_inertia()}};
+  require(PetscLogDefaultBegin(), "counting events");
+  const auto counts = [] {
+    return std::array<int, 4>{calls_of("EPSSolve"), calls_of("MatCholFctrNum"),
+                              calls_of("MatSolve"), calls_of("MatMatSolve")};
+  };
+  const std::array<int, 4> before = counts();
+  const ModalBody body = analyse_modes(mesh, options, {});
+  std::array<int, 4> calls = counts();
+  for (std::size_t k = 0; k < calls.size(); ++k) calls[k] -= before[k];
+  CHECK(calls[0] == 4);  // modes, with the head attached, and beside both what may be missing
+  CHECK(calls[1] == 1);
+  CAPTURE(body.solver);
+  CHECK_THAT(body.solver, Catch::EndsWith("; " + std::to_string(calls[2]) + " solves, " +
+                                          std::to_string(calls[3]) + " of blocks"));
 }
 
 TEST_CASE("a heavy body on a light cantilever swings as the beam's two tip springs tell") {

@@ -13,11 +13,11 @@
 namespace flexneck::fe_modal {
 namespace {
 
-ModalOptions fixed_at_bottom(int mode_count, bool certify) {
+ModalOptions fixed_at_bottom(int mode_count, bool check) {
   ModalOptions options;
   options.fixed_set = "bottom";
   options.mode_count = mode_count;
-  options.certify = certify;
+  options.check = check;
   return options;
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("the mesh's error is estimated one to five times: bending and twist of
 TEST_CASE("rigid-body motions of a free body have no error, its elastic modes have one") {
   ModalOptions options;
   options.mode_count = 8;
-  options.certify = true;
+  options.check = true;
   const ModalBody body =
       analyse_modes(testing::box({1, 1, 4}, {0.1, 0.1, 0.4}, kSteel).make(), options, {});
   for (std::size_t k = 0; k < 6; ++k) CHECK(body.modes[k].mesh_error->error == 0);
@@ -102,7 +102,7 @@ TEST_CASE("rigid-body motions of a free body have no error, its elastic modes ha
   }
 }
 
-TEST_CASE("without --certify nothing is estimated") {
+TEST_CASE("without --check nothing is estimated") {
   const ModalBody body = analyse_modes(testing::box({1, 1, 2}, {0.1, 0.1, 0.3}, kSteel).make(),
                                        fixed_at_bottom(2, false), {});
   CHECK_FALSE(body.modes.front().mesh_error.has_value());

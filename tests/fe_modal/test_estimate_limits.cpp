@@ -31,12 +31,12 @@ TEST_CASE("errors are an indication alone above the aspect ratios for which they
   // Against eight elements in place of each.
   ModalOptions options = fixed("bottom");
   options.mode_count = 8;
-  options.certify = true;
+  options.check = true;
   const ModalBody body = analyse_modes(beam, options, {});
   CHECK_FALSE(body.mesh_error_limits.empty());
   const mesher::Mesh fine = testing::with_kind(
       testing::box({4, 4, 32}, {0.01, 0.01, 0.8}, kSteel).make(), mesher::ElementKind::hex20);
-  options.certify = false;
+  options.check = false;
   const double truth = analyse_modes(fine, options, {}).frequencies_Hz[7];
   const double error = body.frequencies_Hz[7] / truth - 1;
   CHECK(body.modes[7].mesh_error->error > 0.7 * error);

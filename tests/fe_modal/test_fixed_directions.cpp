@@ -75,7 +75,7 @@ Eigen::MatrixXd rows_and_columns(Mat matrix, const std::vector<Eigen::Index>& ke
 TEST_CASE("with fixed directions the modes are those of the matrices without them") {
   const mesher::Mesh mesh = block_with_left();
   ModalOptions options = on_rollers(BasisKind::normal, 6);
-  options.certify = true;
+  options.check = true;
   const ModalBody body = analyse_modes(mesh, options, {});
   const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
   const std::vector<Eigen::Index> kept = free_directions(mesh, options);
@@ -88,7 +88,7 @@ TEST_CASE("with fixed directions the modes are those of the matrices without the
   CHECK((body.frequencies_Hz.array() / expected.array() - 1).abs().maxCoeff() < kSame);
   CHECK(body.orthogonality < kSame);
   CHECK(body.boundary == "fixed: yz of bottom, x of left");
-  CHECK_THAT(body.certificate, Contains("certified: no mode is missing"));
+  CHECK_THAT(body.completeness, Contains("checked: no mode is missing"));
   for (std::size_t l = 0; l < body.shapes.size(); ++l) {
     CHECK(body.modes[l].residual < kSame);
     REQUIRE(body.modes[l].mesh_error);
@@ -121,7 +121,7 @@ TEST_CASE(
   const mesher::Mesh mesh = block();
   ModalOptions options = on_rollers(BasisKind::normal, 6);
   options.fixed_directions = {{"bottom", {false, true, true}}};
-  options.certify = true;
+  options.check = true;
   const ModalBody body = analyse_modes(mesh, options, {});
   CHECK(body.boundary == "fixed: yz of bottom; slides along x");
   const SystemMatrices system = assemble(mesh, DofMap(mesh, {}));
@@ -135,7 +135,7 @@ TEST_CASE(
   CHECK(body.frequencies_Hz[0] == 0);
   CHECK(body.modes[0].kind == kRigidMode);
   CHECK((body.frequencies_Hz.tail(5).array() / expected.array() - 1).abs().maxCoeff() < kSame);
-  CHECK_THAT(body.certificate, Contains("certified: no mode is missing"));
+  CHECK_THAT(body.completeness, Contains("checked: no mode is missing"));
   options.basis = BasisKind::residual;
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
                     Contains("this is a body that slides along x; take 'inertia-relief'"));

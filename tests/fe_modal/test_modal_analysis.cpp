@@ -170,7 +170,7 @@ TEST_CASE("the fixed interface does not move, and shapes are zero where nodes ar
     }
   }
   CHECK(body.boundary == "fixed: bottom");
-  CHECK(body.certificate == "not certified");
+  CHECK(body.completeness == "not checked");
   CHECK(body.nodes_m.cols() == static_cast<Eigen::Index>(mesh.nodes.size()));
 }
 

@@ -33,7 +33,7 @@ TEST_CASE("selected modes are those of a body that never had the others") {
   CHECK(part.shapes == shapes);
   CHECK(part.nodes_m == whole.body.nodes_m);
   CHECK(part.boundary == whole.body.boundary);
-  CHECK(part.certificate == whole.body.certificate);
+  CHECK(part.completeness == whole.body.completeness);
   CHECK(part.interface("tip").translation.col(0) == whole.body.interface("tip").translation.col(3));
   CHECK(part.interface("side").rotation.col(1) == whole.body.interface("side").rotation.col(1));
   CHECK(part.invariants.mass == expected.mass);

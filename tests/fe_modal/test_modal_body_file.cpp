@@ -101,7 +101,7 @@ ModalBodyFile free_sample() {
   }
   body.frequencies_Hz = Eigen::VectorXd::Zero(kMotions);
   body.boundary = "free";
-  body.certificate = "not certified";
+  body.completeness = "not checked";
   body.invariants = testing::invariants_of_points(points.masses_kg, body.nodes_m, body.shapes);
   file.provenance.program = "flexneck test";
   return file;
@@ -120,7 +120,7 @@ TEST_CASE("a modal body comes back from its file bit by bit") {
   CHECK(found.nodes_m == expected.nodes_m);
   CHECK(found.shapes == expected.shapes);
   CHECK(found.boundary == expected.boundary);
-  CHECK(found.certificate == expected.certificate);
+  CHECK(found.completeness == expected.completeness);
   CHECK(found.orthogonality == expected.orthogonality);
   REQUIRE(found.modes.size() == expected.modes.size());
   for (std::size_t k = 0; k < found.modes.size(); ++k) {

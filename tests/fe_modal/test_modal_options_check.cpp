@@ -158,15 +158,15 @@ TEST_CASE("what an analysis takes is estimated within a fifth of what was measur
   CHECK(memory_needs(1e5, 1000).assembling > memory_needs(1e5, 10).assembling + 8e5 * 1000);
 }
 
-TEST_CASE("the finer mesh of a certificate is refused where it does not fit") {
+TEST_CASE("the finer mesh of a check is refused where it does not fit") {
   // Half of what is free: eight times the degrees of freedom take eight times as much besides.
   const double per_dof = memory_needs(1e6, 10).assembling / 1e6;
   mesher::Mesh mesh;
   mesh.nodes.resize(static_cast<std::size_t>(available_memory() / (2 * 3 * per_dof)));
   ModalOptions options;
   CHECK_NOTHROW(check_memory(mesh, options));
-  options.certify = true;
-  CHECK_THROWS_WITH(check_memory(mesh, options), Catch::Contains("leave out modes.certify"));
+  options.check = true;
+  CHECK_THROWS_WITH(check_memory(mesh, options), Catch::Contains("leave out modes.check"));
 }
 
 }  // namespace flexneck::fe_modal

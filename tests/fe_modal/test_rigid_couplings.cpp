@@ -111,7 +111,7 @@ TEST_CASE("a free body with a rigid interface has six rigid motions and the cons
   const mesher::Mesh mesh = block({2, 2, 4});
   ModalOptions options;
   options.mode_count = 10;
-  options.certify = true;
+  options.check = true;
   options.interfaces = {{"tip", "top", kTip, true}, {"root", "bottom", kRoot}};
   const ModalBody body = analyse_modes(mesh, options, {});
   const Dense model = dense_with_rigid_tip(mesh, DofMap(mesh, {}));
@@ -121,7 +121,7 @@ TEST_CASE("a free body with a rigid interface has six rigid motions and the cons
   CHECK(body.frequencies_Hz.head(6).maxCoeff() == 0);
   CHECK((body.frequencies_Hz.tail(4).array() / expected.array() - 1).abs().maxCoeff() < kSame);
   // Inertia counts as many with the couplings, and the finer mesh has the same modes.
-  CHECK_THAT(body.certificate, Contains("certified: no mode is missing"));
+  CHECK_THAT(body.completeness, Contains("checked: no mode is missing"));
   for (std::size_t l = 6; l < 10; ++l) {
     REQUIRE(body.modes[l].mesh_error);
     CHECK(body.modes[l].mesh_error->mac > 0.9);

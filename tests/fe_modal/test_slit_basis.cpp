@@ -210,8 +210,8 @@ TEST_CASE("slits that open and close are refused where they cannot be") {
   options.mode_count = 2;
   refused(slit_block(false), options, "with no modes");
   options.basis = BasisKind::residual;
-  options.certify = true;
-  refused(slit_block(false), options, "certificate");
+  options.check = true;
+  refused(slit_block(false), options, "completeness");
   options = options_with(SlitMotions::openings);
   options.interfaces.front().is_rigid = true;
   refused(slit_block(false), options, "no rigid interface");

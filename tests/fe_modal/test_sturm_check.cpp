@@ -64,11 +64,13 @@ TEST_CASE("a mode withheld is missed, wherever it stood") {
   }
 }
 
-TEST_CASE("a certificate is true of the modes that the body has, whatever the count cuts") {
+TEST_CASE(
+    "what is said of completeness is true of the modes that the body has, whatever the count "
+    "cuts") {
   const mesher::Mesh mesh =
       testing::box({1, 1, 3}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
   ModalOptions options;
-  options.certify = true;
+  options.check = true;
   for (const bool fixed : {true, false}) {
     options.fixed_set = fixed ? "bottom" : "";
     const DofMap dof_map = dof_map_of(mesh, options);
@@ -83,27 +85,27 @@ TEST_CASE("a certificate is true of the modes that the body has, whatever the co
       std::vector<std::string> warnings;
       const auto warn = [&](const std::string& line) { warnings.push_back(line); };
       const ModalBody body = analyse_modes(mesh, options, {}, nullptr, warn);
-      INFO("fixed " << fixed << ", " << count << " modes: " << body.certificate);
+      INFO("fixed " << fixed << ", " << count << " modes: " << body.completeness);
       REQUIRE(body.frequencies_Hz.size() == count);
       const std::string claim = "no mode is missing below ";
-      const std::size_t at = body.certificate.find(claim);
+      const std::size_t at = body.completeness.find(claim);
       if (at != std::string::npos) {
-        const double below_Hz = std::stod(body.certificate.substr(at + claim.size()));
+        const double below_Hz = std::stod(body.completeness.substr(at + claim.size()));
         CHECK((body.frequencies_Hz.array() < below_Hz).count() ==
               (truth_Hz.array() < below_Hz).count());
       }
       const bool cuts = fixed ? truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6)
                               : count < 6 || truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6);
-      CHECK(cuts == (body.certificate.find("the count cuts the ") != std::string::npos));
+      CHECK(cuts == (body.completeness.find("the count cuts the ") != std::string::npos));
       CHECK(warnings.size() == (cuts ? 1 : 0));
-      CHECK(body.certificate.starts_with(at == std::string::npos ? "not certified" : "certified"));
+      CHECK(body.completeness.starts_with(at == std::string::npos ? "not checked" : "checked"));
       // The first pair, and rigid-body motions, have no complete modes below them.
       CHECK((at == std::string::npos) == (fixed ? count == 1 : count < 6));
     }
   }
 }
 
-TEST_CASE("without a certificate, too, a count that cuts a cluster is warned about") {
+TEST_CASE("without the check, too, a count that cuts a cluster is warned about") {
   const mesher::Mesh mesh =
       testing::box({1, 1, 3}, {0.05, 0.05, 0.3}, {"steel", 2.1e11, 0.3, 7850}).make();
   const auto warnings_of = [&](int count, const std::string& fixed, Solver solver) {
@@ -114,7 +116,7 @@ TEST_CASE("without a certificate, too, a count that cuts a cluster is warned abo
     std::string lines;
     const ModalBody body =
         analyse_modes(mesh, options, {}, nullptr, [&](const std::string& line) { lines += line; });
-    CHECK(body.certificate == "not certified");
+    CHECK(body.completeness == "not checked");
     return lines;
   };
   for (const Solver solver : {Solver::cholmod, Solver::mumps}) {
@@ -127,15 +129,15 @@ TEST_CASE("without a certificate, too, a count that cuts a cluster is warned abo
   }
 }
 
-TEST_CASE("all modes that a body has are found and certified as all") {
+TEST_CASE("all modes that a body has are found and told as all") {
   const mesher::Mesh mesh =
       testing::box({1, 1, 1}, {0.05, 0.06, 0.07}, {"steel", 2.1e11, 0.3, 7850}).make();
   ModalOptions options;
   options.fixed_set = "bottom";
-  options.certify = true;
+  options.check = true;
   options.mode_count = 54;
   const ModalBody body = analyse_modes(mesh, options, {});
-  CHECK(body.certificate == "certified: all modes that there are");
+  CHECK(body.completeness == "checked: all modes that there are");
   // Of the modes within the element, too, a finer mesh has the shape or has it not.
   for (const ModeRecord& mode : body.modes) {
     REQUIRE(mode.mesh_error);

@@ -162,7 +162,7 @@ def write_modes(path):
         file.create_dataset("mode_names", data=["swing x", "swing y"], dtype=TEXT)
         file.create_dataset("basis/kind", data=["normal", "normal"], dtype=TEXT)
         file["basis"].attrs["boundary"] = "fixed: base"
-        file["certificate"].attrs["status"] = "not certified"
+        file["certificate"].attrs["status"] = "not checked"
 
 
 class ForeignFiles(unittest.TestCase):

@@ -27,14 +27,14 @@ const std::string kCoarse = std::string(testing::kCoarseNeck) + " --set pendulum
 
 }  // namespace
 
-TEST_CASE("modes --certify proves that no mode is missing and estimates the mesh's error") {
+TEST_CASE("modes --check checks that no mode is missing and estimates the mesh's error") {
   const TemporaryFolder folder;
   const std::string out = " -o " + folder.path().string() + kCoarse;
   REQUIRE(run_flexneck("mesh -q" + out).exit_code == 0);
-  const CommandOutcome outcome = run_flexneck("modes -v --certify" + out);
+  const CommandOutcome outcome = run_flexneck("modes -v --check" + out);
   INFO(outcome.text);
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.text, Contains("certified: no mode is missing below") &&
+  CHECK_THAT(outcome.text, Contains("checked: no mode is missing below") &&
                                Contains("indicated error %") && Contains("seconds: read ") &&
                                Contains("factorise "));
   const fe_modal::ModalBody body = fe_modal::read_modal_body(folder / "modes.h5").body;

@@ -182,7 +182,7 @@ TEST_CASE(
                           (folder / "out").string() + ", too"));
   CHECK_THAT(modes(""), Contains("Solving for 5 modes") && !Contains("alone"));
   CHECK_THAT(modes(study), Contains("For this command alone: ") && Contains("cantilever.toml"));
-  CHECK_THAT(modes("--certify"), Contains("alone: --set modes.certify=true"));
+  CHECK_THAT(modes("--check"), Contains("alone: --set modes.check=true"));
   CHECK_THAT(modes("--set modes.count=3 --keep"), !Contains("alone"));
   CHECK_THAT(modes("--set modes.count=3"), Contains("Solving for 3 modes") && !Contains("alone"));
   CHECK_THAT(modes(""), Contains("Solving for 3 modes"));

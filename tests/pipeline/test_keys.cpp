@@ -157,7 +157,7 @@ TEST_CASE("a value counts for the results that its section is used by, whatever 
   CHECK(user("substructures.piece.disc.parts") == UsedBy::modes);
   CHECK(user("body.head.mass") == UsedBy::all_experiments);
   CHECK(user("case.flexion-5.5.duration") == UsedBy::named_experiments);
-  CHECK_FALSE(find_dotted_key(study_keys(), "modes.certify").key->details.changes_results);
+  CHECK_FALSE(find_dotted_key(study_keys(), "modes.check").key->details.changes_results);
   CHECK(find_dotted_key(study_keys(), "modes.count").key->details.changes_results);
   CHECK(find_dotted_key(study_keys(), "modes.counts").key == nullptr);
   CHECK(find_dotted_key(study_keys(), "case.flexion.durations").key == nullptr);

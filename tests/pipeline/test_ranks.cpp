@@ -91,7 +91,7 @@ TEST_CASE("ranks that are asked for different things say so in one line, and all
   const std::string rank = "-n 1 " + testing::flexneck_program() + " ";
   const std::string modes = "modes -q" + out;
   for (const std::string& other :
-       {modes + " --set modes.count=3", modes + " --set modes.certify=true",
+       {modes + " --set modes.count=3", modes + " --set modes.check=true",
         modes + " --set modes.basis=residual", modes + " --solver mumps", "mesh -q" + out,
         "info" + folder.path().string(), modes + " --nonsense", std::string("--help")}) {
     INFO(other);

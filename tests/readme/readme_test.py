@@ -30,7 +30,7 @@ LEFT_OUT = {
     r"^parallel ": "GNU parallel is no package of ours",
 }
 # What only --whole runs.
-SLOW = r"qualif|\bfit (pipeline|six|weight|head_)|fits/|lab-fit|--sensitivity|modes -v --certify|modes --certify -o"
+SLOW = r"qualif|\bfit (pipeline|six|weight|head_)|fits/|lab-fit|--sensitivity|modes -v --check|modes --check -o"
 COARSE = ["mesh.quadrant=2", "mesh.inner_ring=2", "mesh.outer_ring=1", "mesh.rubber_layers=1",
           "geometry.bolt_patch_radius='0.4 in'"]
 FEW = ["cases=['flexion-20','flexion-60','flexion-80','flexion-120','flexion']", "pendulum.duration='0.2 s'",

@@ -155,7 +155,7 @@ fe_modal::ModalBody make_beam_body(const Beam& beam) {
   fe_modal::ModalBody body;
   body.nodes_m = points;
   body.boundary = "fixed: base";
-  body.certificate = "closed form";
+  body.completeness = "closed form";
   body.frequencies_Hz.resize(count);
   const Eigen::Matrix3Xd none = Eigen::Matrix3Xd::Zero(3, count);
   fe_modal::Interface top{"top", {0, 0, beam.length_m}, none, none};

@@ -181,7 +181,7 @@ PointMassBody make_point_mass_body(unsigned seed, int mode_count, int point_coun
     body.modes.push_back({"mode " + std::to_string(l + 1), "normal", {}, 0.0});
   }
   body.boundary = "free points on a moving frame";
-  body.certificate = "not certified";
+  body.completeness = "not checked";
   body.invariants = invariants_of_points(result.masses_kg, body.nodes_m, body.shapes);
 
   const Eigen::Matrix3Xd none = Eigen::Matrix3Xd::Zero(3, mode_count);

@@ -140,7 +140,7 @@ void build(const std::string& path, const std::vector<std::string>& names,
   const Numbers frequencies = given(arrays, "frequencies", {m});
   body.frequencies_Hz = Eigen::Map<const Eigen::VectorXd>(frequencies.data(), m);
   body.boundary = "as given";
-  body.certificate = "not certified";
+  body.completeness = "not checked";
   const Numbers nodes = Numbers::ensure(arrays["nodes"]);
   const py::ssize_t n = nodes ? nodes.size() / 3 : 0;
   body.nodes_m = columns(given(arrays, "nodes", {n, 3}));
@@ -172,7 +172,7 @@ void bind_body(py::module_& module) {
                              })
       .def_property_readonly("modes", modes)
       .def_readonly("boundary", &ModalBody::boundary)
-      .def_readonly("certificate", &ModalBody::certificate)
+      .def_readonly("completeness", &ModalBody::completeness)
       .def_readonly("solver", &ModalBody::solver)
       .def_property_readonly("nodes",
                              [](const py::object& self) {

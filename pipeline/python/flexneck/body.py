@@ -147,9 +147,9 @@ class ModalBody:
         return str(self._data.boundary)
 
     @property
-    def certificate(self) -> str:
-        """Whether it was proved that no mode is missing."""
-        return str(self._data.certificate)
+    def completeness(self) -> str:
+        """What was checked of whether a mode is missing."""
+        return str(self._data.completeness)
 
     def pendulum(self, case: str) -> Run:
         """Runs a case of the head/neck pendulum, as `flexneck pendulum --case` does.

@@ -135,7 +135,7 @@ class Mesh:
         count: of elastic modes; none: what the study says.
         sensitivity: derivatives by all dimensions and material constants, too, in the file
             sensitivities.json of the folder.
-        settings: more values of the study's [modes], such as {"modes.certify": True}.
+        settings: more values of the study's [modes], such as {"modes.check": True}.
         """
         study, folder = self._require("modes")
         more = dict(settings or {})

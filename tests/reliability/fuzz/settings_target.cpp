@@ -41,7 +41,7 @@ constexpr Key kSolverKeys[] = {
 constexpr Key kModesKeys[] = {
     Key::count("count", "3", ""),
     Key::texts("held", "-", ""),
-    Key::flag("certify", "false", ""),
+    Key::flag("check", "false", ""),
     Key::numbers("*", "", ""),
 };
 constexpr Key kBodyKeys[] = {
