@@ -25,7 +25,7 @@ constexpr Key kModesKeys[] = {
               "Formulation of the elements: mixed_pressure, displacement or reduced"),
     Key::flag("check", "false",
               "Whether to check that no mode is missing, and to estimate the error of the mesh",
-              {.changes_results = false}),
+              {.formerly = "certify", .changes_results = false}),
     Key::text("basis", "normal", "Which vectors the basis of a body is made of",
               {.choices = [] { return fe_modal::basis_names(); }}),
     Key::texts("rigid_interfaces", kNone, "Interfaces whose nodes move as a rigid body"),
