@@ -17,21 +17,14 @@ std::string chosen_kernels() {
   return name == nullptr ? "" : name();
 }
 
-/// Of OpenBLAS: none, its own or OpenMP's; none of another BLAS.
-int kind_of_threads() {
-  const auto kind = find<int()>("openblas_get_parallel");
-  return kind == nullptr ? 0 : kind();
-}
-
 }  // namespace
 
 void call_blas_alone() {
-  constexpr int kOwnThreads = 1;
-  const bool is_of_process = kind_of_threads() == kOwnThreads;
-  if (const auto set_number =
-          find<void(int)>(is_of_process ? "openblas_set_num_threads" : "omp_set_num_threads")) {
-    set_number(1);
-  }
+  for (const char* set_number : {"openblas_set_num_threads", "omp_set_num_threads"})
+    if (const auto set = find<void(int)>(set_number)) set(1);
+  // CHOLMOD asks for four threads wherever it asks for any, whatever the number of processors:
+  // where no level of OpenMP is active it gets one.
+  if (const auto set_levels = find<void(int)>("omp_set_max_active_levels")) set_levels(0);
 }
 
 std::string blas_version() {

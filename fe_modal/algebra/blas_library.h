@@ -5,9 +5,9 @@
 
 namespace flexneck::fe_modal {
 
-/// What the calling thread asks of the BLAS it does alone: between the thousands of small products
-/// of a factorisation threads wait for one another, and sums would come in another order for each
-/// number of them. A session begins with it.
+/// What the calling thread asks of the BLAS and of OpenMP it does alone: between the thousands of
+/// small products of a factorisation threads wait for one another, and sums would come in another
+/// order for each number of them. A session begins with it.
 void call_blas_alone();
 
 /// "OpenBLAS 0.3.21, SkylakeX", by which results differ in rounding; "unknown" of another BLAS.

@@ -26,7 +26,6 @@ LEFT_OUT = {
     r"^sh (pipeline|tests)/run\.sh": "installs packages, builds",
     r"^python3 tests/(reliability|mutation)/": "a campaign of hours",
     r"^cmake ": "builds",
-    r"^/usr/bin/time|^mpirun .*/usr/bin/time": "a million degrees of freedom",
     r"^parallel ": "GNU parallel is no package of ours",
 }
 # What only --whole runs.
