@@ -7,7 +7,7 @@
 
 namespace flexneck::fe_modal {
 
-/// That of the ranks; of a process alone its own.
+/// World communicator, or self in a serial run.
 inline MPI_Comm communicator(const Ranks& ranks) {
   return ranks.are_many() ? MPI_COMM_WORLD : MPI_COMM_SELF;
 }

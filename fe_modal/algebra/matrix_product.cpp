@@ -59,11 +59,4 @@ Eigen::VectorXd column_products(const Ranks& ranks, const MatrixView& a, const M
   return result;
 }
 
-Eigen::VectorXd column_scales(const Ranks& ranks, const Eigen::MatrixXd& columns) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(columns.cols());
-  if (columns.rows() > 0) largest = columns.cwiseAbs().colwise().maxCoeff().transpose();
-  ranks.max(largest);
-  return (largest.array() > 0).select(largest, 1.0);
-}
-
 }  // namespace flexneck::fe_modal

@@ -25,15 +25,4 @@ Eigen::MatrixXd inner_products(const Ranks& ranks, const MatrixView& a, const Ma
 /// Each column of a with that of b, over the rows of all ranks. Collective.
 Eigen::VectorXd column_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b);
 
-/// Largest entry of each column on all ranks, 1 where all are zero.
-Eigen::VectorXd column_scales(const Ranks& ranks, const Eigen::MatrixXd& columns);
-/// action(columns), a linear one in single precision, which knows numbers only down to 1e-38: on
-/// columns whose largest entries are 1.
-template <typename Action>
-Eigen::MatrixXd with_unit_columns(const Ranks& ranks, const Eigen::MatrixXd& columns,
-                                  const Action& action) {
-  const Eigen::VectorXd scales = column_scales(ranks, columns);
-  return action(columns * scales.cwiseInverse().asDiagonal()) * scales.asDiagonal();
-}
-
 }  // namespace flexneck::fe_modal

@@ -103,12 +103,6 @@ double Ranks::sum(double value) const {
   return sums(0, 0);
 }
 
-void Ranks::max(Eigen::Ref<Eigen::VectorXd> values) const {
-  if (!are_many()) return;
-  require_mpi(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()),
-                            MPI_DOUBLE, MPI_MAX, communicator(*this)));
-}
-
 std::uint64_t Ranks::of_first(std::uint64_t value) const {
   if (!are_many()) return value;
   MPI_Request request = MPI_REQUEST_NULL;

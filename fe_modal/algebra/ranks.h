@@ -30,8 +30,6 @@ class Ranks {
   /// Collective: replaces the values by their sums over all ranks, the same bits on each.
   void sum(Eigen::Ref<Eigen::MatrixXd> values) const;
   double sum(double value) const;
-  /// Collective: replaces each value by the largest of all ranks.
-  void max(Eigen::Ref<Eigen::VectorXd> values) const;
   /// Collective: the value of the first rank.
   std::uint64_t of_first(std::uint64_t value) const;
   /// Collective: runs `work` on every rank, and then all or none of them go on: what one of them

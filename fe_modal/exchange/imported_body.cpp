@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fe_modal/algebra/petsc_choices.h"
 #include "fe_modal/reduction/invariants.h"
 #include "fe_modal/reduction/mode_conventions.h"
 #include "fe_modal/reduction/mode_naming.h"
@@ -52,8 +53,9 @@ NodalMass nodal_mass_of(const UpperMatrix& mass) {
 
 class ImportedSystem : public ModalSystem {
  public:
-  explicit ImportedSystem(const ImportedBody& body)
-      : stiffness_(wrap(body.stiffness)),
+  ImportedSystem(const ImportedBody& body, Solver solver)
+      : solver_(solver),
+        stiffness_(wrap(body.stiffness)),
         mass_(wrap(body.mass)),
         nodal_mass_(nodal_mass_of(body.mass)) {}
 
@@ -61,10 +63,11 @@ class ImportedSystem : public ModalSystem {
   Mat mass() const override { return mass_.get(); }
   const NodalMass& nodal_mass() const { return nodal_mass_; }
   const Ranks& ranks() const override { return alone_; }
-  Solver solver() const override { return Solver::automatic; }
+  Solver solver() const override { return solver_; }
 
  private:
   Ranks alone_;
+  Solver solver_;
   MatHandle stiffness_;
   MatHandle mass_;
   NodalMass nodal_mass_;
@@ -119,18 +122,20 @@ void check(const ImportedBody& body) {
   }
 }
 
-ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool check_modes,
+ModalBody analyse_matrices(const ImportedBody& input, const ModalOptions& options,
                            const Progress& progress, const Progress& warn) {
+  const PetscChoices choices(options.petsc_options);
   check(input);
+  const int mode_count = options.mode_count;
   if (mode_count < 1 || mode_count > input.stiffness.rows()) {
     throw InputError("the number of modes must lie between 1 and the " +
                      std::to_string(input.stiffness.rows()) + " degrees of freedom, found " +
                      std::to_string(mode_count));
   }
   if (progress) progress("factorising the stiffness that was given");
-  const ImportedSystem system(input);
+  const ImportedSystem system(input, options.solver);
   const std::unique_ptr<const LinearSolver> inverse = shift_inverse(system, 0);
-  auto [pairs, completeness] = lowest_modes(system, *inverse, mode_count, {}, check_modes, warn);
+  auto [pairs, completeness] = lowest_modes(system, *inverse, mode_count, {}, options.check, warn);
   check_eigenvalues(pairs.values, 0);
   apply_conventions(pairs, DofLayout(input.nodes_m.cols()));
 
@@ -154,6 +159,7 @@ ModalBody analyse_matrices(const ImportedBody& input, int mode_count, bool check
   body.orthogonality = (body.invariants.Maa - Eigen::MatrixXd::Identity(mode_count, mode_count))
                            .cwiseAbs()
                            .maxCoeff();
+  choices.require_used();
   return body;
 }
 

@@ -4,6 +4,7 @@
 #include "fe_modal/algebra/nodal_mass.h"
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/exchange/matrix_file.h"
+#include "fe_modal/system/modal_options.h"
 #include "geometry/foundation/progress.h"
 
 namespace flexneck::fe_modal {
@@ -24,11 +25,12 @@ UpperMatrix expand_mass(const NodalMass& nodal);
 void check(const ImportedBody& body);
 
 /// Normal modes of a body that is fixed, with its invariants; it has no interfaces.
+/// @param options their number, the check, the solver and options of PETSc: all else is of meshes
 /// @param warn takes a line if the number of modes cuts a cluster of equal frequencies; may be
 /// empty
 /// @throws InputError as check(), or for more modes than degrees of freedom.
 /// @throws ComputationError if the stiffness is not positive definite, or the eigensolver fails.
-ModalBody analyse_matrices(const ImportedBody& body, int mode_count, bool check_modes,
+ModalBody analyse_matrices(const ImportedBody& body, const ModalOptions& options,
                            const Progress& progress, const Progress& warn = {});
 
 }  // namespace flexneck::fe_modal

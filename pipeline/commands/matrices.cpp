@@ -24,8 +24,8 @@ bool modes_of_matrices(const CommandInput& input) {
                                         fe_modal::read_positions(files.nodes)};
   fe_modal::ModalBodyFile file;
   file.body =
-      fe_modal::analyse_matrices(matrices, input.study.modes.count, input.study.modes.check,
-                                 input.console.detail(), input.console.warnings("modes.h5"));
+      fe_modal::analyse_matrices(matrices, options_of_solution(input.study), input.console.detail(),
+                                 input.console.warnings("modes.h5"));
   file.provenance = provenance_of(input.study, {"matrices.", "modes."});
   const std::vector<InputFile> inputs = input_files(reads.files());
   file.provenance.inputs.insert(file.provenance.inputs.end(), inputs.begin(), inputs.end());

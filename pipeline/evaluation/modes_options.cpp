@@ -93,18 +93,23 @@ fe_modal::FormulationChoice formulation_of(const Study& study) {
   return choice;
 }
 
-fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
+fe_modal::ModalOptions options_of_solution(const Study& study) {
   fe_modal::ModalOptions options;
   options.mode_count = study.modes.count;
+  options.check = study.modes.check;
+  options.solver = study.modes.solver;
+  options.petsc_options = study.modes.petsc_options;
+  return options;
+}
+
+fe_modal::ModalOptions modes_options(const Study& study, mesher::Mesh& mesh) {
+  fe_modal::ModalOptions options = options_of_solution(study);
   options.formulation = formulation_of(study);
   options.basis = study.modes.basis;
   options.basis_interfaces = study.modes.basis_interfaces;
   options.slit_motions = study.modes.slit_motions;
   options.geometric_stiffness = study.modes.stress_stiffening;
   if (study.modes.prestress) options.prestress = study.loads;
-  options.check = study.modes.check;
-  options.solver = study.modes.solver;
-  options.petsc_options = study.modes.petsc_options;
   options.rigid_parts = study.modes.rigid_parts;
   options.fixed_directions = study.modes.fixed_directions;
   options.length_m = mesher::bounding_box(mesh).extent_m().maxCoeff();

@@ -8,6 +8,9 @@
 
 namespace flexneck::pipeline {
 
+/// What is solved for and how, of a mesh or of matrices.
+fe_modal::ModalOptions options_of_solution(const Study& study);
+
 /// What `flexneck modes` computes: [modes] and [[interface]]. An interface on a set that is fixed
 /// is the fixed interface. If several sets are fixed, their union joins the mesh as the node set
 /// "fixed". Signs follow the first other interface.

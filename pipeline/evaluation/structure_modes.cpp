@@ -75,7 +75,9 @@ fe_modal::ModalBody solved_matrices(const Study& study) {
   const fe_modal::ImportedBody matrices{fe_modal::read_matrix(files.stiffness),
                                         fe_modal::read_matrix(files.mass),
                                         fe_modal::read_positions(files.nodes)};
-  return fe_modal::analyse_matrices(matrices, study.modes.count, false, {}, {});
+  fe_modal::ModalOptions options = options_of_solution(study);
+  options.check = false;
+  return fe_modal::analyse_matrices(matrices, options, {}, {});
 }
 
 fe_modal::ModalBody without_shapes(fe_modal::ModalBody body) {

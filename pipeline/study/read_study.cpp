@@ -78,7 +78,8 @@ void refuse_keys_of_meshes(const StudyTable& root) {
   root.refuse_given({"substructures"}, why);
   const StudyTable modes = root.table("modes");
   for (const std::string& key : modes.keys())
-    if (key != "count" && key != "check" && key != "solver") modes.refuse_given({key}, why);
+    if (key != "count" && key != "check" && key != "solver" && key != "petsc_options")
+      modes.refuse_given({key}, why);
 }
 
 /// Names that one part of the study uses and another must define.

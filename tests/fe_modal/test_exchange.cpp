@@ -37,10 +37,11 @@ TEST_CASE("matrices that went out and came back have the frequencies of the mesh
     write_matrix(folder / ("K" + ending), out.stiffness);
     write_matrix(folder / ("M" + ending), out.mass);
     write_positions(folder / ("nodes" + ending), out.nodes_m);
-    const ModalBody body = analyse_matrices(
-        {read_matrix(folder / ("K" + ending)), read_matrix(folder / ("M" + ending)),
-         read_positions(folder / ("nodes" + ending))},
-        5, true, {});
+    const ImportedBody in{read_matrix(folder / ("K" + ending)),
+                          read_matrix(folder / ("M" + ending)),
+                          read_positions(folder / ("nodes" + ending))};
+    options.check = true;
+    const ModalBody body = analyse_matrices(in, options, {});
     CHECK(body.frequencies_Hz.isApprox(truth.frequencies_Hz, 1e-9));
     CHECK(body.completeness.starts_with("checked"));
     CHECK(body.orthogonality < 1e-9);
@@ -51,6 +52,18 @@ TEST_CASE("matrices that went out and came back have the frequencies of the mesh
   }
 }
 
+TEST_CASE("matrices are solved by the package and the options of PETSc that are asked for") {
+  ModalOptions options;
+  options.mode_count = 3;
+  CHECK_THAT(analyse_matrices(matrices(column()), options, {}).solver,
+             Catch::StartsWith("CHOLMOD"));
+  options.solver = Solver::mumps;
+  options.petsc_options = "-st_mat_mumps_icntl_14 50";
+  CHECK_THAT(analyse_matrices(matrices(column()), options, {}).solver, Catch::StartsWith("MUMPS"));
+  options.solver = Solver::cholmod;  // which does not ask for it
+  CHECK_THROWS_AS(analyse_matrices(matrices(column()), options, {}), InputError);
+}
+
 TEST_CASE("matrices that do not belong together are refused") {
   ImportedBody fewer_nodes = matrices(column());
   fewer_nodes.nodes_m.conservativeResize(Eigen::NoChange, 3);
@@ -58,7 +71,9 @@ TEST_CASE("matrices that do not belong together are refused") {
   ImportedBody uneven = matrices(column());
   uneven.mass.coeffRef(0, 0) *= 1.001;
   CHECK_THROWS_AS(check(uneven), InputError);
-  CHECK_THROWS_AS(analyse_matrices(matrices(column()), 100000, false, {}), InputError);
+  ModalOptions options;
+  options.mode_count = 100000;
+  CHECK_THROWS_AS(analyse_matrices(matrices(column()), options, {}), InputError);
 }
 
 }  // namespace flexneck::fe_modal
