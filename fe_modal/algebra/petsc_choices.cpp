@@ -18,6 +18,8 @@ bool is_name(const std::string& word) {
 }
 
 void check_name(const std::string& word) {
+  if (word == "-st_pc_factor_mat_solver_type")
+    throw InputError("the option " + word + " of PETSc may not be chosen: modes.solver does that");
   const std::vector<std::string> prefixes = petsc_choice_prefixes();
   std::string all;
   for (const std::string& prefix : prefixes) {

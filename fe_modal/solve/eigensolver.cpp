@@ -179,6 +179,22 @@ void insert(const EigenPairs& one, EigenPairs& pairs) {
   pairs.vectors.col(place) = one.vectors.col(0);
 }
 
+/// Rayleigh's quotients of K - shift M itself, where iterations may have ended early.
+void check_quotients(Mat mass, const LinearSolver& inverse, const EigenPairs& pairs) {
+  constexpr double kSameQuotient = 1e-6;
+  const Ranks& ranks = inverse.ranks();
+  const Eigen::MatrixXd& shapes = pairs.vectors;
+  const Eigen::ArrayXd energies =
+      column_products(ranks, shapes, block_product(inverse.matrix(), shapes));
+  const Eigen::ArrayXd masses = column_products(ranks, shapes, block_product(mass, shapes));
+  const Eigen::ArrayXd expected = (pairs.values.array() - inverse.shift()) * masses;
+  if (((energies - expected).abs() <= kSameQuotient * expected.abs()).all()) return;
+  throw ComputationError(
+      "the eigenvalues found are not those of the stiffness: what is solved with is not its "
+      "inverse; change modes.petsc_options");
+}
+
+/// The lowest pairs beside the known ones, of which none is missing.
 EigenPairs lowest(Mat mass, const LinearSolver& inverse, Eigen::Index count,
                   const Accuracy& accuracy, const Eigen::MatrixXd& known) {
   std::uint64_t number = 0;
@@ -197,6 +213,7 @@ EigenPairs lowest(Mat mass, const LinearSolver& inverse, Eigen::Index count,
     if (next.values.size() == 0) throw NotConverged("the eigensolver lost a mode");
     insert(next, pairs);
   }
+  if (inverse.iterates()) check_quotients(mass, inverse, pairs);
   return pairs;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/petsc_session.h"
@@ -130,6 +131,12 @@ void LinearSolver::check_memory() const {
     throw InputError("the factor of the stiffness has " + rounded_text(info.nz_used, 4) +
                      " entries, and CHOLMOD takes at most 2147483647: take the solver mumps");
   require_memory(kFactorising, sizeof(double) * info.nz_used, kWayOut);
+}
+
+bool LinearSolver::iterates() const {
+  KSPType type = nullptr;
+  require(KSPGetType(ksp_.get(), &type), kMaking);
+  return std::string_view(type) != KSPPREONLY && std::string_view(type) != KSPNONE;
 }
 
 void LinearSolver::factorise() {

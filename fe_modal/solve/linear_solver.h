@@ -36,6 +36,8 @@ class LinearSolver {
   Mat matrix() const { return matrix_.get(); }
   /// For an EPS, which must take another before it is destroyed: it resets its own.
   KSP ksp() const { return ksp_.get(); }
+  /// Whether a user has chosen a method that iterates with the factor, and may end early.
+  bool iterates() const;
   /// Entries of the factor.
   double nonzeros() const { return nonzeros_; }
   /// For each column, (own dofs, k).

@@ -45,4 +45,14 @@ TEST_CASE("options of PETSc that change what is solved, or that nothing asks for
   CHECK_THROWS_WITH(modes_with("-eps_ncvv 40"), Contains("nothing asked for"));
 }
 
+TEST_CASE(
+    "options by which something else is solved than the stiffness are not obeyed in silence") {
+  // Half of K^-1 has eigenvalues twice those of K.
+  CHECK_THROWS_WITH(modes_with("-st_ksp_type richardson -st_ksp_richardson_scale 0.5 "
+                               "-st_ksp_norm_type none -st_ksp_max_it 1"),
+                    Catch::Contains("change modes.petsc_options"));
+  CHECK_THROWS_WITH(modes_with("-st_pc_factor_mat_solver_type mumps"),
+                    Catch::Contains("modes.solver does that"));
+}
+
 }  // namespace flexneck::fe_modal
