@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <petscoptions.h>
+#include <petscsys.h>
 
 namespace flexneck::fe_modal {
 
