@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -13,6 +14,7 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;  ///< (dofs, m), x^T M x = 1
   /// The eigenvalue above the last, less exactly; infinite if there is none or it is not known.
   double next = std::numeric_limits<double>::infinity();
+  std::string search = {};  ///< what SLEPc says of how they were found
 };
 
 }  // namespace flexneck::fe_modal

@@ -134,6 +134,8 @@ std::map<std::string, std::string> library_versions() {
   };
   return {
       {"BLAS", blas_version()},
+      {"MUMPS", join(PETSC_PKG_MUMPS_VERSION_MAJOR, PETSC_PKG_MUMPS_VERSION_MINOR,
+                     PETSC_PKG_MUMPS_VERSION_SUBMINOR)},
       {"PETSc", join(PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
       {"SLEPc", join(SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
       {"SuiteSparse", join(PETSC_PKG_SUITESPARSE_VERSION_MAJOR, PETSC_PKG_SUITESPARSE_VERSION_MINOR,

@@ -33,13 +33,11 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Rounding may let a mechanism through the factorisation: its lowest eigenvalues tell.
-void check_no_mechanism(const AssembledSystem& system, const Eigen::VectorXd& values) {
-  const mesher::Mesh& mesh = system.model().mesh();
+/// Rounding may let a mechanism through the factorisation: its lowest mode tells.
+void check_no_mechanism(const AssembledSystem& system, const EigenPairs& pairs) {
   const Eigen::Index rigid = system.model().rigid().count();
-  if (values.size() <= rigid) return;
-  if (values[rigid] > strainless_share(mesh) * eigenvalue_scale(mesh)) return;
-  if (const auto motions = describe_mechanism(system, rigid == 0)) refuse_mechanism(*motions);
+  if (pairs.values.size() <= rigid) return;
+  if (are_strainless(system, pairs.vectors.col(rigid))[0]) refuse_mechanism(system, rigid == 0);
 }
 
 std::vector<Interface> reduce_interfaces(const ModalOptions& options,
@@ -131,7 +129,8 @@ struct Analysis {
 CheckedModes normal_modes(const Analysis& of) {
   CheckedModes modes = lowest_modes(of.system, of.inverse, of.options().mode_count,
                                     of.system.rigid_modes(), of.options().check, of.warn);
-  check_no_mechanism(of.system, modes.pairs.values);
+  of.report(modes.pairs.search);
+  check_no_mechanism(of.system, modes.pairs);
   check_eigenvalues(modes.pairs.values, of.inverse.shift());
   warn_of_rigid_cut(modes.pairs.values.size(), of.model.rigid().count(), of.warn);
   return modes;
@@ -146,6 +145,8 @@ Basis reduced_basis(const Analysis& of) {
   if (options.basis == BasisKind::craig_bampton) {
     const auto solve = [&](Mat mass, Eigen::Index count) {
       EigenPairs pairs = lowest_eigenpairs(mass, of.inverse, count);
+      of.report(pairs.search);
+      check_no_mechanism(of.system, pairs);
       warn_of_cut(pairs, of.inverse.shift(), of.warn);
       return pairs;
     };

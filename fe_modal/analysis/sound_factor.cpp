@@ -6,8 +6,21 @@
 
 namespace flexneck::fe_modal {
 
-void refuse_mechanism(const std::string& motions) {
-  throw InputError("the body is a mechanism: " + motions + "; fix it or bond it to its neighbour");
+namespace {
+
+void refuse_named_motions(const AssembledSystem& system, bool is_fixed) {
+  if (const auto motions = describe_mechanism(system, is_fixed))
+    throw InputError("the body is a mechanism: " + *motions +
+                     "; fix it or bond it to its neighbour");
+}
+
+}  // namespace
+
+void refuse_mechanism(const AssembledSystem& system, bool is_fixed) {
+  refuse_named_motions(system, is_fixed);
+  throw ComputationError(
+      "the body is a mechanism, or so nearly that rounding hides how its softest motion strains "
+      "it: hold it in more places, or make it less slender");
 }
 
 std::unique_ptr<const LinearSolver> factorise_or_refuse(const AssembledSystem& system,
@@ -15,8 +28,7 @@ std::unique_ptr<const LinearSolver> factorise_or_refuse(const AssembledSystem& s
   try {
     return shift_inverse(system, shift);
   } catch (const NotDefinite&) {
-    const auto motions = shift == 0 ? describe_mechanism(system, true) : std::nullopt;
-    if (motions) refuse_mechanism(*motions);
+    if (shift == 0) refuse_named_motions(system, true);
     throw;
   }
 }

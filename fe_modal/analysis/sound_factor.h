@@ -2,15 +2,15 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "fe_modal/solve/assembled_system.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
 
-/// @throws InputError always: the body is a mechanism with these motions.
-[[noreturn]] void refuse_mechanism(const std::string& motions);
+/// @throws InputError that names the parts that move without strain, and how.
+/// @throws ComputationError where there are none that move as rigid bodies.
+[[noreturn]] void refuse_mechanism(const AssembledSystem& system, bool is_fixed);
 
 /// (K - shift M)^-1. A stiffness that is not definite is that of a mechanism, or of elements that
 /// are none.

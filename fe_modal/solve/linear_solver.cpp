@@ -33,6 +33,7 @@ constexpr int kMoreWorkspace = 100;
 // Values of INFOG(1) in the user's guide of MUMPS.
 constexpr PetscInt kSingular = -10;
 constexpr PetscInt kNoMemory = -13;
+constexpr PetscInt kBeyondLimit = -19;  // that ICNTL(23) sets
 constexpr PetscInt kNotDefinite = -40;
 
 bool wants_more_workspace(PetscInt status) {
@@ -154,7 +155,7 @@ void LinearSolver::factorise() {
   if (status == kNotDefinite || status == kSingular || infog(factor(), kNegativePivots) > 0)
     throw_not_definite();
   if (status >= 0) return;
-  if (status == kNoMemory || wants_more_workspace(status))
+  if (status == kNoMemory || status == kBeyondLimit || wants_more_workspace(status))
     throw OutOfMemory("factorising the stiffness: memory does not suffice for MUMPS; " +
                       std::string(kWayOut));
   throw ComputationError("MUMPS failed while factorising the stiffness: error " +

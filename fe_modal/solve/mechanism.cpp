@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/solve/eigensolver.h"
 #include "fe_modal/system/rigid_average.h"
 #include "geometry/foundation/output_file.h"
@@ -26,12 +29,13 @@ constexpr double kNone = 1e-3;
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
-Eigen::MatrixXd strainless_fields(const AssembledSystem& system, double scale, double strainless) {
-  const std::unique_ptr<const LinearSolver> inverse = shift_inverse(system, -scale);
+Eigen::MatrixXd strainless_fields(const AssembledSystem& system) {
+  const std::unique_ptr<const LinearSolver> inverse =
+      shift_inverse(system, -eigenvalue_scale(system.model().mesh()));
   const DofMap& dof_map = system.fields().dof_map();
   const Eigen::Index dofs = dof_map.dof_count() - dof_map.dependent_count();
   const EigenPairs pairs = lowest_eigenpairs(system.mass(), *inverse, std::min(kMaxMotions, dofs));
-  const Eigen::Index count = (pairs.values.array() < strainless * scale).count();
+  const Eigen::Index count = are_strainless(system, pairs.vectors).count();
   Eigen::MatrixXd fields(3 * system.fields().node_count(), count);
   const auto expanded = system.fields().expand(pairs.vectors.leftCols(count));
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -151,17 +155,28 @@ double eigenvalue_scale(const mesher::Mesh& mesh) {
   return slowest / mesher::bounding_box(mesh).extent_m().squaredNorm();
 }
 
-double strainless_share(const mesher::Mesh& mesh) {
-  constexpr double kOnSprings = 1e-12;
-  return mesh.connections.springs.empty() ? kStrainless : kOnSprings;
+Eigen::Array<bool, Eigen::Dynamic, 1> are_strainless(const ModalSystem& system,
+                                                     const Eigen::MatrixXd& motions) {
+  constexpr const char* kAsking = "looking for motions without strain";
+  constexpr double kLost = 10 * std::numeric_limits<double>::epsilon();
+  VecHandle diagonal;
+  require(MatCreateVecs(system.stiffness(), diagonal.out(), nullptr), kAsking);
+  require(MatGetDiagonal(system.stiffness(), diagonal.get()), kAsking);
+  const Eigen::MatrixXd forces = block_product(system.stiffness(), motions);
+  const Eigen::ArrayXd energies = column_products(system.ranks(), motions, forces);
+  const double* entries = nullptr;
+  require(VecGetArrayRead(diagonal.get(), &entries), kAsking);
+  const Eigen::MatrixXd alone =
+      Eigen::Map<const Eigen::VectorXd>(entries, motions.rows()).asDiagonal() * motions;
+  require(VecRestoreArrayRead(diagonal.get(), &entries), kAsking);
+  return energies <= kLost * column_products(system.ranks(), motions, alone).array();
 }
 
 std::optional<std::string> describe_mechanism(const AssembledSystem& system, bool is_fixed) {
   const mesher::Mesh& mesh = system.model().mesh();
   const double length_m = mesher::bounding_box(mesh).extent_m().norm();
   const std::vector<Part> parts = rigid_parts_of(mesh);
-  Eigen::MatrixXd fields =
-      strainless_fields(system, eigenvalue_scale(mesh), strainless_share(mesh));
+  Eigen::MatrixXd fields = strainless_fields(system);
   if (!is_fixed && fields.cols() > 0) fields = without_motion_as_a_whole(parts, fields, length_m);
   std::string text;
   for (const Part& part : parts) {

@@ -18,10 +18,11 @@ inline double shift_of(const Model& model) {
   return model.rigid().count() == 0 ? 0 : -eigenvalue_scale(model.mesh());
 }
 
-/// Eigenvalues below this share of the scale belong to motions without strain.
-inline constexpr double kStrainless = 1e-6;
-/// The same of a mesh: on springs a body may move as softly as they are.
-double strainless_share(const mesher::Mesh& mesh);
+/// Whether x^T K x of each column is lost in the rounding of the entries that it is summed from,
+/// eps sum K_ii x_i^2: of motions without strain it is 0.1 of that, of a hinge of 5 nodes that are
+/// off its axis by 1e-6 of its length 100 times as much. Collective.
+Eigen::Array<bool, Eigen::Dynamic, 1> are_strainless(const ModalSystem& system,
+                                                     const Eigen::MatrixXd& motions);
 
 /// Which parts move without strain, and how, e.g. "part 'pin' turns freely about z through (0, 0,
 /// 0.1) m". Of a body that keeps rigid motions these do not count: the heaviest part stands still.

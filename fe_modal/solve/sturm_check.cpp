@@ -79,7 +79,8 @@ std::string completeness_of(const Eigen::VectorXd& values, Eigen::Index count, d
 EigenPairs with_rigid(const Eigen::MatrixXd& rigid, const EigenPairs& elastic) {
   if (rigid.cols() == 0) return elastic;
   EigenPairs all{Eigen::VectorXd::Zero(rigid.cols() + elastic.values.size()),
-                 Eigen::MatrixXd(rigid.rows(), rigid.cols() + elastic.values.size()), elastic.next};
+                 Eigen::MatrixXd(rigid.rows(), rigid.cols() + elastic.values.size()), elastic.next,
+                 elastic.search};
   all.values.tail(elastic.values.size()) = elastic.values;
   all.vectors.leftCols(rigid.cols()) = rigid;
   all.vectors.rightCols(elastic.values.size()) = elastic.vectors;
@@ -143,7 +144,8 @@ CheckedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse
       if (!checked) continue;
       completeness = *checked;
     }
-    EigenPairs lowest{pairs.values.head(count), pairs.vectors.leftCols(count), pairs.next};
+    EigenPairs lowest{pairs.values.head(count), pairs.vectors.leftCols(count), pairs.next,
+                      pairs.search};
     if (pairs.values.size() > count) lowest.next = pairs.values[count];
     warn_of_cut(lowest, inverse.shift(), warn);
     return {std::move(lowest), completeness};

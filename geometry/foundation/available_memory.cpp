@@ -95,12 +95,15 @@ std::string memory_text(double bytes) {
   return rounded_text(bytes / kGigabyte, 3) + " GB";
 }
 
-OutOfMemory out_of_memory(const std::string& doing, const std::string& advice) {
+double peak_memory() {
   constexpr double kKilobyte = 1024;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return OutOfMemory("memory runs out while " + doing + ": " +
-                     memory_text(kKilobyte * static_cast<double>(usage.ru_maxrss)) +
+  return kKilobyte * static_cast<double>(usage.ru_maxrss);
+}
+
+OutOfMemory out_of_memory(const std::string& doing, const std::string& advice) {
+  return OutOfMemory("memory runs out while " + doing + ": " + memory_text(peak_memory()) +
                      " are taken, " + memory_text(available_memory()) + " are free; " + advice);
 }
 

@@ -21,6 +21,9 @@ class OutOfMemory : public ComputationError {
 /// @param root of /proc and /sys; another one serves tests
 double available_memory(const std::filesystem::path& root = "/");
 
+/// The most that this process has had, bytes.
+double peak_memory();
+
 /// "12.3 GB"
 std::string memory_text(double bytes);
 

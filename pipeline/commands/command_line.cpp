@@ -54,7 +54,7 @@ void add_modes_settings(CLI::App& app, CommandLine& line) {
   app.add_flag_function(
       "--check",
       [&line](std::int64_t /*times*/) { line.settings.emplace_back("modes.check=true"); },
-      "Prove that no mode is missing, estimate the mesh's error");
+      "Check that no mode is missing, estimate the mesh's error");
   add_setting(app, line, "--solver", "NAME", "modes.solver", "cholmod in one process, or mumps");
 }
 

@@ -41,9 +41,9 @@ std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptio
                     "Poisson's ratio of '{}' is {:.15g}, too near 1/2 for so slender a "
                     "body; each nine less makes a tenth of the error",
                     nearest->name, nearest->poissons_ratio)
-              : "the body is so slender that what it resists in bending is small beside what its "
-                "elements resist in stretching; model a shorter or thicker one, or take a beam's "
-                "or plate's theory";
+              : "the body is so slender, or held so loosely, that what resists its softest motion "
+                "is small beside what its elements resist; model a shorter or thicker one, hold it "
+                "in more places, or take a beam's or plate's theory";
   if (!(error < kWrong)) throw ComputationError(line);
   return line;
 }

@@ -1,15 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
+#include "fe_modal/algebra/petsc_choices.h"
 #include "fe_modal/solve/linear_solver.h"
 #include "fe_modal/system/assembly.h"
 #include "fe_modal/system/elimination_order.h"
+#include "geometry/foundation/available_memory.h"
 #include "tests/fe_modal/dense.h"
 #include "tests/support/block_mesh.h"
 #include "tests/support/dense_solvers.h"
 #include "tests/support/element_choices.h"
 
 namespace flexneck::fe_modal {
+namespace {
+
+/// While it lives the process may take so much more memory alone.
+class AddressLimit {
+ public:
+  explicit AddressLimit(double more_bytes) {
+    std::ifstream statm("/proc/self/statm");
+    double pages = 0;
+    statm >> pages;
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur =
+        static_cast<rlim_t>(pages * static_cast<double>(sysconf(_SC_PAGESIZE)) + more_bytes);
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~AddressLimit() { setrlimit(RLIMIT_AS, &before_); }
+  AddressLimit(const AddressLimit&) = delete;
+  AddressLimit& operator=(const AddressLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+}  // namespace
 
 TEST_CASE("CHOLMOD and MUMPS solve as a dense matrix does, whatever order the rows have") {
   const mesher::Mesh mesh = testing::box({2, 2, 3}, {0.1, 0.1, 0.3}, kSteel).make();
@@ -43,6 +73,28 @@ TEST_CASE("nested dissection of nodes leaves fewer entries than the numbering of
   const double in_bad_order = LinearSolver(assemble(mesh, bad).stiffness.get(), 0).nonzeros();
   dof_map.renumber(elimination_order_of(mesh, dof_map, {}));
   CHECK(entries() * 1.3 < in_bad_order);
+}
+
+TEST_CASE("a factor that memory does not hold is refused by its symbolic part, with a way out") {
+  const mesher::Mesh mesh = testing::box({6, 6, 8}, {0.1, 0.1, 0.3}, kSteel).make();
+  DofMap dof_map(mesh, mesh.node_set("bottom").nodes);
+  dof_map.renumber(elimination_order_of(mesh, dof_map, {}));
+  const SystemMatrices system = assemble(mesh, dof_map);
+  const double entries = LinearSolver(system.stiffness.get(), 0).nonzeros();
+  for (const Solver solver : {Solver::cholmod, Solver::mumps}) {
+    const AddressLimit limit(0.9 * sizeof(double) * entries);
+    CHECK_THROWS_WITH(LinearSolver(system.stiffness.get(), 0, {}, solver),
+                      Catch::StartsWith("factorising the stiffness takes about ") &&
+                          Catch::Contains("out of core"));
+  }
+  CHECK_NOTHROW(LinearSolver(system.stiffness.get(), 0));
+}
+
+TEST_CASE("a limit of MUMPS's memory that does not hold the factor is told as such") {
+  const mesher::Mesh mesh = testing::box({4, 4, 4}, {0.1, 0.1, 0.3}, kSteel).make();
+  const SystemMatrices system = assemble(mesh, DofMap(mesh, mesh.node_set("bottom").nodes));
+  const PetscChoices choices("-st_mat_mumps_icntl_23 1");  // MB
+  CHECK_THROWS_AS(LinearSolver(system.stiffness.get(), 0, {}, Solver::mumps), OutOfMemory);
 }
 
 TEST_CASE("a matrix that is not positive definite is told from one that cannot be solved") {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -60,6 +62,31 @@ TEST_CASE("a part that hangs by a point, or by nothing, is named") {
       Contains("part 'pin' moves freely in 3 ways"));
   CHECK_THAT(refusal(post_and_pin([](const Eigen::Vector3d&) { return false; }), "bottom"),
              Contains("part 'pin' is not fixed: it moves freely in every way"));
+}
+
+TEST_CASE("nodes a little off the axis of a hinge hold the body, as the square of their distance") {
+  // As in a file with rounded coordinates.
+  const auto frequency_Hz = [](double off_axis_m) {
+    testing::BlockMesh box =
+        testing::box({2, 1, 2}, {0.1, 0.02, 0.2}, {"steel", 2.1e11, 0.3, 7850});
+    mesher::Mesh mesh = box.make();
+    mesher::NodeSet held{"held", {}};
+    for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+      std::array<double, 3>& position = mesh.nodes[node];
+      if (position[1] > -0.009 || position[2] > 1e-9) continue;  // the edge along x
+      position[2] += off_axis_m * (held.nodes.size() % 2 == 0 ? 1 : -1);
+      held.nodes.push_back(static_cast<std::int32_t>(node));
+    }
+    mesh.node_sets.push_back(held);
+    ModalOptions options;
+    options.fixed_set = "held";
+    options.mode_count = 4;
+    return analyse_modes(mesh, options, {}).frequencies_Hz[0];
+  };
+  CHECK(frequency_Hz(0) == 0);
+  const double reference = frequency_Hz(1e-5) / 1e-5;
+  CHECK(frequency_Hz(1e-6) / 1e-6 == Approx(reference).epsilon(1e-3));
+  CHECK(frequency_Hz(5e-7) / 5e-7 == Approx(reference).epsilon(1e-3));
 }
 
 TEST_CASE("parts that hang together are no mechanism") {

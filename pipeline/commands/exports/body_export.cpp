@@ -42,7 +42,7 @@ std::string lost(const fe_modal::ModalBody& body, const Losses& losses) {
                   [](const auto& interface) { return interface.response.has_value(); }),
       "static responses of interfaces");
   add(list, !body.attached.empty(), "frequencies with attached bodies");
-  add(list, true, "certificates, provenance");
+  add(list, true, "checks of completeness, provenance");
   return list;
 }
 
