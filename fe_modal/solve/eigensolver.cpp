@@ -100,7 +100,7 @@ class Search {
   EigenPairs solve(Eigen::Index count, const Accuracy& accuracy, const Eigen::MatrixXd& start) {
     const Eigen::Index size = size_of(operators_[0]);
     const auto vectors = static_cast<PetscInt>(std::min(size, 2 * count + accuracy.more_vectors));
-    require(EPSSetDimensions(eps(), static_cast<PetscInt>(count), vectors, PETSC_DEFAULT),
+    require(EPSSetDimensions(eps(), static_cast<PetscInt>(count), vectors, PETSC_DETERMINE),
             kSearching);
     require(EPSSetTolerances(eps(), accuracy.residual, kRestarts), kSearching);
     const VecHandle first = column_vector(start, 0, inverse_.ranks());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+// Plain names mean the structures of HDF5 1.10 in later versions, too.
+#define H5_USE_110_API
 #include <hdf5.h>
 #include <string>
 #include <utility>

@@ -78,6 +78,10 @@ herr_t truncate(H5FD_t* file, hid_t /*transfer*/, hbool_t /*closing*/) {
 
 H5FD_class_t driver() {
   H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION  // since HDF5 1.14
+  driver.version = H5FD_CLASS_VERSION;
+  driver.value = H5_VFD_RESERVED;  // the first number that is none of the library's own drivers
+#endif
   driver.name = "flexneck output";
   driver.maxaddr = static_cast<haddr_t>(1) << 62U;
   driver.fc_degree = H5F_CLOSE_STRONG;
