@@ -12,7 +12,7 @@ find_package(Eigen3 3.4 REQUIRED)
 find_package(Gmsh REQUIRED)
 find_package(METIS REQUIRED)
 find_package(UDUNITS2 REQUIRED)
-find_package(Boost 1.74 REQUIRED)  # headers only: Sobol' sequences, special functions
+find_package(Boost 1.74 REQUIRED CONFIG)  # headers only: Sobol' sequences, special functions
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)
