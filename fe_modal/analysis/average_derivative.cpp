@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "mesher/mesh/positions.h"
 
 namespace flexneck::fe_modal {
@@ -22,12 +24,14 @@ Eigen::MatrixXd average_derivative(const mesher::Mesh& mesh, const mesher::FaceS
                                    const Displacements& fields) {
   constexpr double kStep = 1e-3;  // of the region's extent
   const mesher::NodeSet nodes = mesher::nodes_of(faces);
-  const Eigen::Matrix3Xd positions = mesher::positions_of(mesh, nodes.nodes);
-  const double extent =
-      (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).maxCoeff();
+  const auto positions = mesher::positions_of(mesh);
+  Eigen::AlignedBox3d region;
   double fastest = 0;
-  for (const std::int32_t node : nodes.nodes)
+  for (const std::int32_t node : nodes.nodes) {
+    region.extend(positions.col(node));
     fastest = std::max(fastest, velocity.col(node).norm());
+  }
+  const double extent = region.sizes().maxCoeff();
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(fields.size()));
   if (fastest == 0) return derivative;
 
