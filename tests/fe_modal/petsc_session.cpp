@@ -15,7 +15,7 @@ namespace {
 /// PETSc is there while tests run.
 class SessionOfRun : public Catch::TestEventListenerBase {
  public:
-  using TestEventListenerBase::TestEventListenerBase;
+  using Catch::TestEventListenerBase::TestEventListenerBase;
   void testRunStarting(const Catch::TestRunInfo&) override {
     setenv("PETSC_OPTIONS", "-mat_cholmod_nmethods 2", 1);
     session_.emplace();
