@@ -33,7 +33,7 @@ using flexneck::fe_modal::RankOutcome;
 using flexneck::fe_modal::Ranks;
 using flexneck::fe_modal::RankSession;
 
-/// For want of memory for more words.
+/// Message if there is not enough memory to compose another.
 constexpr const char* kNoMemory =
     "memory runs out: give the command more, or take a coarser mesh or a smaller model";
 constexpr int kVerificationFailed = 1;
@@ -50,8 +50,8 @@ std::string doing_of(const CommandLine& line) {
                                  : "running 'flexneck " + line.command->name + "'";
 }
 
-/// Of the exception that is being handled.
-/// @param doing for want of memory, what ran out of it
+/// Exit code and message for the exception being handled.
+/// @param doing activity that ran out of memory, for that message
 Failure failure(const std::string& doing) {
   try {
     throw;
@@ -86,7 +86,7 @@ int exit_code_of(const CommandLine& line) {
   }
 }
 
-/// Refuses ranks that were given different commands.
+/// Fails if the ranks were given different commands.
 void require_same_command(const std::vector<std::string>& words, const Ranks& ranks) {
   std::string text;
   for (std::size_t k = 1; k < words.size(); ++k) text += (k > 1 ? " " : "") + words[k];
@@ -99,7 +99,7 @@ void require_same_command(const std::vector<std::string>& words, const Ranks& ra
   });
 }
 
-/// Of a rank among many, of which the first one speaks.
+/// Runs the command on one rank of several, of which only the first prints.
 RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks) {
   try {
     require_same_command(words, ranks);
@@ -116,7 +116,7 @@ RankOutcome outcome_of(const std::vector<std::string>& words, const Ranks& ranks
   }
 }
 
-/// None of a command line that is refused.
+/// The parsed command line; none if it is refused.
 std::optional<CommandLine> parsed(const std::vector<std::string>& words) {
   try {
     return parse_command_line(words);
@@ -125,8 +125,8 @@ std::optional<CommandLine> parsed(const std::vector<std::string>& words) {
   }
 }
 
-/// The command line of a sweep on several processes, which are its shards, each by itself; none for
-/// other commands, nor for what ranks together refuse in one line.
+/// The command line of a sweep on several processes, each of which computes one shard by itself;
+/// none for other commands, and none for errors that the ranks report together in one line.
 std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) {
   const std::optional<Shard> shard = shard_of_process();
   if (!shard) return {};
@@ -138,7 +138,7 @@ std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) 
         "mpirun was given several command lines: the parts of a sweep take the same "
         "one, with one -n");
   if (!line->shares.shard.empty()) {
-    if (shard->index > 1) std::_Exit(kUnusableInput);  // one line is enough
+    if (shard->index > 1) std::_Exit(kUnusableInput);  // one message is enough
     throw InputError("--shard: expected none under mpirun, whose processes are the parts");
   }
   line->shares.shard = fmt::format("{}/{}", shard->index, shard->count);
@@ -163,7 +163,7 @@ void tell_without_console(const char* text) noexcept {
   std::fprintf(stderr, "flexneck: %s\n", text);
 }
 
-/// Of the exception that is being handled. There may be no memory for more than a line.
+/// Reports the exception being handled; there may be no memory for more than a line.
 int told_without_console() noexcept {
   try {
     const Failure found = failure("starting or ending the command");
@@ -181,7 +181,7 @@ int told_without_console() noexcept {
   std::_Exit(kComputationFailed);
 }
 
-/// Of what is thrown where a library or a thread lets nothing through.
+/// Handles exceptions that a library or a thread does not let through.
 [[noreturn]] void terminate() {
   if (!std::current_exception()) end_by_library();
   const int code = told_without_console();
@@ -191,7 +191,7 @@ int told_without_console() noexcept {
 
 bool has_ended = false;
 
-/// MPI ends a process in which it cannot start, with the code of a failed verification.
+/// Exit handler: if MPI cannot start, it ends the process with the code of a failed verification.
 void refuse_end_by_library() {
   if (!has_ended) end_by_library();
 }

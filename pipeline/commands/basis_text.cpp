@@ -15,7 +15,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// Frequencies of a loaded structure that are worth a column.
+/// Maximum number of frequencies of a loaded structure that are tabulated.
 constexpr Eigen::Index kLoadedFrequencies = 3;
 
 std::string cumulative_table(const fe_modal::ModalBody& body, const Eigen::MatrixXd& percent,
@@ -30,7 +30,7 @@ std::string cumulative_table(const fe_modal::ModalBody& body, const Eigen::Matri
   return text_table(rows);
 }
 
-/// "5.201 +4.4 %" for each frequency.
+/// Appends a cell such as "5.201 +4.4 %" for each frequency.
 void add_compared(const Eigen::VectorXd& found, const Eigen::VectorXd& exact,
                   std::vector<std::string>& row) {
   for (Eigen::Index k = 0; k < std::min(kLoadedFrequencies, exact.size()); ++k) {

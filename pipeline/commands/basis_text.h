@@ -7,12 +7,12 @@
 
 namespace flexneck::pipeline {
 
-/// Whether there are modes enough: tables of the inertia and of each interface's static compliance
-/// that the modes hold.
+/// Tables by which the number of modes is judged: the inertia, and the static compliance of each
+/// interface, that the modes represent.
 std::string basis_text(const fe_modal::ModalBody& body);
 
-/// For each attached body its frequencies.
-/// @param with_counts and a table of those that fewer modes would give
+/// Table of the frequencies of each attached body.
+/// @param with_counts appends a table of the frequencies that fewer modes would give
 std::string loaded_text(const fe_modal::ModalBody& body, bool with_counts);
 
 }  // namespace flexneck::pipeline

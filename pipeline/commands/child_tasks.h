@@ -7,7 +7,7 @@
 
 namespace flexneck::pipeline {
 
-/// All that this program does as a child of itself.
+/// Tasks that this program runs in a child process of itself.
 const std::vector<ChildTask>& child_tasks();
 
 }  // namespace flexneck::pipeline

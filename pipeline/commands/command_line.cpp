@@ -17,7 +17,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// An option that stands for a value of the study.
+/// Adds an option that stands for a value of the study.
 void add_setting(CLI::App& app, CommandLine& line, const char* name, const char* label,
                  const std::string& key, const std::string& help) {
   app.add_option_function<std::string>(
@@ -58,7 +58,7 @@ void add_modes_settings(CLI::App& app, CommandLine& line) {
   add_setting(app, line, "--solver", "NAME", "modes.solver", "cholmod in one process, or mumps");
 }
 
-/// Names in a list, as TOML has it.
+/// List of the names in TOML syntax.
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
@@ -195,7 +195,7 @@ std::string owners_of(const std::string& option) {
   return owners;
 }
 
-/// " (did you mean '--set'?)" of the first word that is no option of the command.
+/// Text " (did you mean '--set'?)" for the first word that is no option of the command.
 std::string near_option(const Command& command, const std::vector<std::string>& words) {
   std::vector<std::string> names;
   for (const OptionText& option : options_of(command))
@@ -236,7 +236,7 @@ void parse_options(const std::vector<std::string>& words, CommandLine& line) {
   }
 }
 
-/// Before the command there may be -q or -v.
+/// Index of the command in the words; the flags -q and -v may precede it.
 std::size_t place_of_command(const std::vector<std::string>& words) {
   constexpr std::array<std::string_view, 4> kFlags = {"-q", "--quiet", "-v", "--verbose"};
   const auto found = std::find_if(words.begin(), words.end(), [&](const std::string& word) {

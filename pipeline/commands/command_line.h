@@ -17,17 +17,17 @@ inline constexpr const char* kExitCodes =
 /// An option as the help of its command shows it.
 struct OptionText {
   std::vector<std::string> names;  ///< "-o", "--out"
-  std::string label;               ///< of its value; empty of a flag
+  std::string label;               ///< name of its value; empty for a flag
   std::string help;
 };
 
 /// All options of a command, in the order of its help.
 std::vector<OptionText> options_of(const Command& command);
 
-/// What the user asks for: a command, and the options that it has.
+/// A parsed command line: the command, and the values of its options.
 struct CommandLine {
-  std::string text;    ///< as given
-  std::string answer;  ///< to print, in place of a command: the help, the version, …
+  std::string text;    ///< the command line as given
+  std::string answer;  ///< text to print instead of running a command: the help, the version, …
   const Command* command = nullptr;
   std::vector<std::string> files;
   std::filesystem::path folder = "out";
@@ -44,7 +44,7 @@ struct CommandLine {
   NeckLoadChoice neck_loads;
   WorkShares shares;
 
-  /// Whether anything goes into the folder.
+  /// True if the command writes to the folder of results.
   bool writes() const { return command->writes_results && !show && !folder.empty(); }
   bool locks() const { return writes() && command->locks; }
   Verbosity verbosity() const {
@@ -52,7 +52,7 @@ struct CommandLine {
   }
 };
 
-/// The command comes first; without one it is `run`.
+/// Parses a command line. The command comes first; without one it is `run`.
 /// @param words the arguments of main, the program's name included
 /// @throws InputError for a command that does not exist, or an option that the command has not.
 CommandLine parse_command_line(const std::vector<std::string>& words);

@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// A line of text as troff takes it: hyphens that stay hyphens, no word that it would obey.
+/// Escapes a line for troff: hyphens stay hyphens, and no leading character is taken for a request.
 std::string troff(const std::string& text) {
   std::string line = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
   for (const char c : text) {

@@ -5,12 +5,12 @@
 
 namespace flexneck::pipeline {
 
-/// `flexneck --man`: the manual page in troff, of section 1, made of the table of commands and of
-/// their options.
+/// Manual page in troff, section 1, for `flexneck --man`, made from the table of commands and their
+/// options.
 std::string man_page();
 
-/// `flexneck --bash-completion`: what bash completes by, from the same tables and the names of the
-/// shipped studies and models.
+/// Completion script for bash, for `flexneck --bash-completion`, made from the same tables and the
+/// names of the shipped studies and models.
 std::string bash_completion();
 
 }  // namespace flexneck::pipeline

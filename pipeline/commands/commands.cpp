@@ -5,7 +5,7 @@ namespace flexneck::pipeline {
 
 void warn_of_replaced(const CommandInput& input, const std::filesystem::path& file,
                       const FileFormat& format, const Provenance& now) {
-  if (input.is_run) return;  // which makes anew what follows
+  if (input.is_run) return;  // `run` recomputes the later stages itself
   const std::string warning = replaced_values(file, format, now);
   if (!warning.empty()) input.console.warning(warning);
 }

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The folder's own name, or all of its path where another one has the same.
+/// Name of the folder, or its whole path if another folder has the same name.
 std::string label_of(const fs::path& folder, const std::vector<fs::path>& folders) {
   const auto name = [](const fs::path& path) {
     return fs::weakly_canonical(path).filename().string();
@@ -26,8 +26,8 @@ std::string label_of(const fs::path& folder, const std::vector<fs::path>& folder
   return same > 1 ? folder.lexically_normal().generic_string() : name(folder);
 }
 
-/// The study that made a folder, which tells the scene of its bodies; empty where it cannot be read
-/// any more.
+/// The study that made a folder, which gives the scene its bodies; empty if it can no longer be
+/// read.
 Study study_of(const fs::path& folder) {
   const std::optional<StudyChoice> choice = remembered_study(folder);
   if (!choice) return {};
@@ -38,7 +38,7 @@ Study study_of(const fs::path& folder) {
   }
 }
 
-/// The first rows of a table; all when verbose.
+/// Prints the first rows of a table; all rows when verbose.
 void show(const Console& console, ResultTable table) {
   constexpr std::size_t kMaxRows = 12;
   const std::size_t rows = table.rows.size();
@@ -59,7 +59,7 @@ bool compare_command(const FileInput& input) {
     if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
   std::vector<ComparedStudy> studies;
   for (const fs::path& folder : input.files) {
-    // Without a study of its own: a folder is what it is, not to be measured by today's values.
+    // Read without a study: a folder is compared as it was made, not with today's values.
     studies.push_back(
         {label_of(folder, input.files), read_results(folder, Study()), study_of(folder), folder});
     const Results& results = studies.back().results;

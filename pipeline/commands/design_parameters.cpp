@@ -19,23 +19,24 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Of the value, to either side. gmsh puts nodes where they belong to some 1e-11 m, which the
-/// quotient magnifies; of the neck's dimensions the largest error of a velocity is 1e-6 of it from
-/// 1e-3 to 1e-2.
+/// Step to either side, as a fraction of the dimension's value. gmsh places nodes to within some
+/// 1e-11 m, an error that the quotient magnifies; for the neck's dimensions the largest relative
+/// error of a velocity is 1e-6 for steps from 1e-3 to 1e-2.
 constexpr double kStep = 2e-3;
-/// Nodes that move less by a change of a parameter by its value, over the size of the body, stand.
+/// Displacement of the nodes, over the size of the body, for a change of a parameter by its own
+/// value, below which the parameter counts as moving no node.
 constexpr double kStandstill = 1e-7;
 
-/// A number that the script draws with.
+/// A number from which the script builds its geometry.
 struct Dimension {
   std::string key;
   std::string unit;         ///< "m", or "1" for a pure number
   double value = 0;         ///< in that unit
-  double setting_unit = 1;  ///< of what is set: a number in the script's own unit, or in m
-  std::string suffix;       ///< of what is set: " m", or empty
+  double setting_unit = 1;  ///< value of a setting of 1: the script's own length unit, in m, or 1
+  std::string suffix;       ///< unit appended to the setting: " m", or empty
 };
 
-/// Whether a value is written as a number without a unit.
+/// True if a value is written as a number without a unit.
 bool is_pure(const std::string& text) {
   return text.find_first_not_of("0123456789.+-eE_") == std::string::npos;
 }
@@ -63,13 +64,13 @@ std::vector<Dimension> dimensions_of(const Study& study) {
   return all;
 }
 
-/// Meshes of a study with other values of one dimension.
+/// Meshes of a study for other values of one dimension.
 class MovedMeshes {
  public:
   MovedMeshes(const Study& study, const mesher::Mesh& mesh, const Console& console, int& runs)
       : study_(study), mesh_(mesh), console_(console), runs_(runs) {}
 
-  /// None where the study or the script refuses the value, or the topology is another one.
+  /// Mesh for each value; none where the study or the script refuses it or the topology differs.
   std::vector<std::optional<mesher::Mesh>> at(const Dimension& dimension,
                                               const std::vector<double>& values) {
     std::vector<std::optional<Study>> moved;
@@ -86,7 +87,7 @@ class MovedMeshes {
       if (moved[k]) meshes[k] = fitting(std::move(*next++));
     return meshes;
   }
-  /// Why the first of them that was refused was; empty if none was.
+  /// Reason of the first refusal; empty if no mesh was refused.
   const std::string& refusal() const { return refusal_; }
 
  private:
@@ -101,7 +102,7 @@ class MovedMeshes {
     }
   }
 
-  /// The mesh if its topology is that of the study's.
+  /// Returns the mesh if it has the same topology as the study's mesh.
   std::optional<mesher::Mesh> fitting(MeshOutcome outcome) {
     if (!outcome.mesh) return refused(outcome.refusal);
     try {
@@ -124,8 +125,8 @@ class MovedMeshes {
   std::string refusal_;
 };
 
-/// By central differences; where there is no mesh on one side, as below zero or where a number of
-/// divisions jumps, by two steps to the other, which is of second order too.
+/// Node velocities by central differences; if there is no mesh on one side, as below zero or where
+/// a number of divisions jumps, by two steps to the other side, which is also of second order.
 Eigen::Matrix3Xd velocity_of(const Dimension& dimension, const mesher::Mesh& mesh,
                              MovedMeshes& moved) {
   const double size_m = mesher::bounding_box(mesh).extent_m().maxCoeff();
@@ -142,7 +143,7 @@ Eigen::Matrix3Xd velocity_of(const Dimension& dimension, const mesher::Mesh& mes
          mesher::node_velocity(mesh, mesh, *far, 2 * side);
 }
 
-/// Whether the script is given anything else: choices of nodes are made after it.
+/// True if the dimension is a constant of the script; choices of nodes are made after the script.
 bool reaches_script(const Dimension& dimension, const Study& study) {
   if (study.neck() == nullptr) return true;
   const auto& script = std::get<mesher::ScriptMeshOptions>(study.structure->source);

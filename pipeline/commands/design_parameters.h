@@ -15,22 +15,22 @@ namespace flexneck::pipeline {
 struct LeftOutParameter {
   std::string key;
   std::string why;
-  bool is_choice = false;  ///< it is there to choose nodes, so that nothing is amiss
+  bool is_choice = false;  ///< the dimension only selects nodes, so leaving it out needs no warning
 };
 
-/// What a study makes its structure from, as far as there are derivatives by it.
+/// Parameters of a study's structure by which there are derivatives.
 struct StudyParameters {
-  /// By their keys: the neck's dimensions or the script's constants, then the constants of the
-  /// materials.
+  /// Parameters named by their keys: the neck's dimensions or the script's constants, then the
+  /// constants of the materials.
   std::vector<fe_modal::DesignParameter> parameters;
   std::vector<LeftOutParameter> left_out;
   int script_runs = 0;
 };
 
-/// Runs the script a little below and above each of its numbers, for how the nodes move. Left out
-/// is what moves no node, such as a choice of nodes, and what changes the topology, such as a
-/// number of divisions. A mesh from a file has materials only.
-/// @param mesh of the study
+/// Runs the script with each of its numbers a little lower and higher to find the velocities of the
+/// nodes. Parameters that move no node, such as a choice of nodes, and those that change the
+/// topology, such as a number of divisions, are left out. A mesh from a file has materials only.
+/// @param mesh mesh of the study
 StudyParameters design_parameters(const Study& study, const mesher::Mesh& mesh,
                                   const Console& console);
 

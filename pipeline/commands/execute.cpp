@@ -27,12 +27,12 @@ bool holds_results(const std::filesystem::path& path) {
   return std::filesystem::exists(folder.mesh()) || std::filesystem::exists(folder.modes());
 }
 
-/// The study of a command that goes on in a folder without naming one is the folder's.
+/// Chooses the study; without a named one, a command that continues in a folder takes the folder's.
 StudyChoice choose_study(const CommandLine& line, const Console& console) {
   StudyChoice choice;
   if (!line.files.empty()) choice.study = named_file(line.files.front());
   choice.settings = line.settings;
-  // The folder remembers which one; an empty name stands for that of most commands.
+  // The folder remembers its study; an empty name stands for the default study of most commands.
   if (line.files.empty() && line.command->built_in != built_in_study)
     choice.study = line.command->built_in();
   if (line.command->begins || !line.files.empty()) return choice;
@@ -61,7 +61,8 @@ Study read_named(const StudyChoice& choice) {
   }
 }
 
-/// On every rank. @throws InputError on all if one cannot read it, or reads another one.
+/// Reads the study on every rank. @throws InputError on all ranks if one cannot read it or reads
+/// other values.
 Study read_together(const CommandLine& line, const Console& console, const Ranks& ranks,
                     StudyChoice& choice) {
   std::optional<Study> study;
@@ -84,7 +85,8 @@ Study read_together(const CommandLine& line, const Console& console, const Ranks
   return std::move(*study);
 }
 
-/// A folder keeps what it was begun with; what else a command was given holds for that one alone.
+/// Remembers the study if the command starts the folder, --keep is given or the folder knows none;
+/// otherwise the study and settings hold for this command alone.
 void remember(const CommandLine& line, const Console& console, const StudyChoice& choice) {
   const std::optional<StudyChoice> kept = remembered_study(line.folder);
   if (kept && same(*kept, choice)) return;
@@ -102,7 +104,7 @@ bool works_on_files(const CommandLine& line) {
   return line.command->run == nullptr || exports_file(line.files, line.target);
 }
 
-/// Does the command. @param take_lock is called once its arguments are known to be right
+/// Runs the command. @param take_lock is called once the arguments are known to be right
 bool do_command(const CommandLine& line, const Console& console, Ranks ranks,
                 const std::function<void()>& take_lock) {
   const Command& command = *line.command;

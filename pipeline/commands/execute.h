@@ -6,10 +6,10 @@
 
 namespace flexneck::pipeline {
 
-/// Does what a command line asks for: reads the study that it names or that its folder remembers,
-/// keeps the folder for this command alone, runs the command, and has the folder remember.
-/// @param ranks  that mpirun has started
-/// @return whether no verification failed
+/// Executes a command line: reads the study that it names or that its folder remembers, locks the
+/// folder for this command, runs the command, and makes the folder remember the study.
+/// @param ranks  the ranks that mpirun has started
+/// @return true unless a verification failed
 /// @throws InputError, ComputationError as the command does.
 /// @pre line.command
 bool execute(const CommandLine& line, const Console& console, const fe_modal::Ranks& ranks = {});

@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// ".msh (the mesh for gmsh), …"
+/// List of the formats offered: ".msh (the mesh for gmsh), …"
 template <class Wanted>
 std::string offered(const Wanted& wanted) {
   std::string text;

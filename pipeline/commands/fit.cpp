@@ -25,7 +25,7 @@ Provenance provenance_of_fit(const Study& study, const FitJob& job) {
   return provenance;
 }
 
-/// What fits a terminal; with --verbose all tables as they are.
+/// Prints shortened tables that fit a terminal; with --verbose all tables in full.
 void show(const CommandInput& input, const std::vector<ResultTable>& tables) {
   for (ResultTable table : tables) {
     const bool is_shown = table.name == "fit parameters" || table.name == "fit targets" ||
@@ -42,7 +42,7 @@ void show(const CommandInput& input, const std::vector<ResultTable>& tables) {
   }
 }
 
-/// A line for each family that is as good as the best.
+/// Prints a line for each family that is as good as the best.
 void show_families(const CommandInput& input, const StudyFit& fit, const FitResult& result) {
   for (std::size_t k = 0; k < result.families.size(); ++k) {
     const Family& family = result.families[k];
@@ -57,7 +57,7 @@ void show_families(const CommandInput& input, const StudyFit& fit, const FitResu
   }
 }
 
-/// Pictures of an earlier fit, which may have had other targets.
+/// Removes pictures of an earlier fit, which may have had other targets.
 void remove_former(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> former;
   for (const std::filesystem::directory_entry& each : std::filesystem::directory_iterator(folder))
@@ -66,7 +66,7 @@ void remove_former(const std::filesystem::path& folder) {
   for (const std::filesystem::path& each : former) std::filesystem::remove(each);
 }
 
-/// A fit is one without pictures, too.
+/// Draws the pictures; the fit is valid without them, too.
 void draw(const CommandInput& input, StudyFit& fit, const FitResult& result) {
   try {
     const std::vector<std::string> names = draw_fit(fit, result, input.folder.path());

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a file is made from: program, files, libraries and values.
+/// Text of a file's provenance: program, files, libraries and values.
 std::string provenance_text(const Provenance& provenance) {
   if (provenance.program.empty()) return "\nMade by another program, which it does not name";
   std::string text =
@@ -94,7 +94,7 @@ std::string describe_history(const fs::path& path) {
   return text + provenance_text(file.provenance);
 }
 
-/// Rows and columns of a table of a sweep.
+/// Text with the rows and columns of a sweep's table.
 std::string describe_sweep(const fs::path& path) {
   const Hdf5Reader file(path, kSweepFormat);
   std::string text;
@@ -124,7 +124,8 @@ std::string describe_verification(const fs::path& path) {
   return printed(file.table) + "\n" + provenance_text(file.provenance);
 }
 
-/// Of an HDF5 file, with whether its bytes are as flexneck wrote them.
+/// Text with the format of an HDF5 file, and whether its bytes are unchanged since flexneck wrote
+/// it.
 std::string described_format(const fs::path& path, const std::string& format) {
   if (format.empty()) return {};
   return format + (trust_of(path) == Trust::verified

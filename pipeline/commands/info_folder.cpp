@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What files are whose format their ending tells.
+/// File extension that tells the format, and a description of such a file.
 struct Ending {
   std::string_view ending, what;
 };
@@ -34,7 +34,7 @@ constexpr std::array<Ending, 7> kEndings = {{{".csv", "curves or a table as text
                                              {".xdmf", "for ParaView"},
                                              {".toml", "study or model"}}};
 
-/// Empty of a file that is none of ours.
+/// Description of a file; empty for a file of another program.
 std::string what_is(const fs::path& path) {
   if (path.extension() == ".h5") {
     try {
@@ -48,7 +48,7 @@ std::string what_is(const fs::path& path) {
   return {};
 }
 
-/// Files of one row: "pendulum-*.h5" for those of many cases.
+/// Files that share one row: "pendulum-*.h5" for the files of many cases.
 struct Group {
   std::vector<fs::path> files;
   std::uintmax_t bytes = 0;

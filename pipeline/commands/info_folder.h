@@ -6,9 +6,9 @@
 
 namespace flexneck::pipeline {
 
-/// What a folder of results holds: the study that it remembers, its verdict where it was verified,
-/// and a line for each file, or for each kind where there are many, as of runs.
-/// @throws InputError if there is nothing of flexneck's in it.
+/// Describes a folder of results: the study that it remembers, its verdict if it was verified, and
+/// a line for each file, or for each kind where there are many, as of runs.
+/// @throws InputError if the folder holds nothing of flexneck.
 std::string folder_text(const std::filesystem::path& folder);
 
 }  // namespace flexneck::pipeline

@@ -44,6 +44,7 @@ const Key& key_named(std::span<const Key> keys, const std::string& name) {
   return found != nullptr ? *found : keys[find_name(names, name, "key")];
 }
 
+/// Reference of a kind of file, a table or a key.
 /// @param path  "study", "study.case" or "study.case.duration"
 std::string reference_of(const std::string& path) {
   std::vector<std::string> formats_names;

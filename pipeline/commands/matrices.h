@@ -5,7 +5,7 @@
 
 namespace flexneck::pipeline {
 
-/// `flexneck modes` of a study with [matrices].
+/// Runs `flexneck modes` for a study with [matrices].
 /// @pre input.study.matrices
 bool modes_of_matrices(const CommandInput& input);
 

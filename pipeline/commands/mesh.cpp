@@ -18,7 +18,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Known of the neck only.
+/// Exact volumes of the parts, which are known for the neck only.
 ExactVolumes exact_volumes(const StructureSection& structure) {
   ExactVolumes volumes;
   if (!structure.neck) return volumes;
@@ -26,8 +26,8 @@ ExactVolumes exact_volumes(const StructureSection& structure) {
   return volumes;
 }
 
-/// Within a twentieth of what the mesher makes: the nodes of one element alone, and those that its
-/// neighbours do not share on the surface.
+/// Estimated number of nodes, within a twentieth of the mesher's: the nodes per element in the
+/// bulk, plus those at the surface that no neighbouring element shares.
 double estimated_nodes(const NeckSection& neck, mesher::ElementKind element) {
   const double elements = geometry::hexahedra(neck.divisions);
   const double surface = std::pow(elements, 2.0 / 3);
@@ -45,12 +45,12 @@ double estimated_nodes(const NeckSection& neck, mesher::ElementKind element) {
 
 double estimated_bytes(double nodes) {
   constexpr double kProgram = 0.1e9;
-  constexpr double kBytesPerNode = 400;  // measured from 9 000 to 200 000 nodes
+  constexpr double kBytesPerNode = 400;  // measured with 9 000 to 200 000 nodes
   return kProgram + kBytesPerNode * nodes;
 }
 
-/// ": about 8.8e+03 nodes, 0.104 GB", which is known of the neck before it is meshed.
-/// @throws InputError where that is more than there is
+/// Text ": about 8.8e+03 nodes, 0.104 GB" for the neck, whose size is known before it is meshed.
+/// @throws InputError if that is more than the available memory
 std::string required_text(const StructureSection& structure) {
   if (!structure.neck) return {};
   const auto& script = std::get<mesher::ScriptMeshOptions>(structure.source);

@@ -34,7 +34,7 @@ std::string parts_table(const mesher::MeshSummary& summary, const ExactVolumes& 
   return text_table(rows, {0, 1, 2});
 }
 
-/// Adds what the study asks for; returns a line for each partition.
+/// Adds the partitions and the order that the study asks for; returns a line for each partition.
 std::string add_orders(const MeshOrders& orders, mesher::MeshFile& file) {
   std::string lines;
   for (const int count : orders.partitions) {

@@ -12,11 +12,11 @@ namespace flexneck::pipeline {
 /// Exact volumes of parts, m^3, where closed forms are known.
 using ExactVolumes = std::map<std::string, double>;
 
-/// Size and mass of a mesh, and a table of its parts with their quality.
+/// Text with the size and mass of a mesh, and a table of its parts with their quality.
 std::string mesh_text(const mesher::Mesh& mesh, const ExactVolumes& exact, bool with_parts);
 
-/// What every mesh command does with its mesh: adds the partitions and the order that the study
-/// asks for, writes mesh.h5 and its view, and prints the table of its parts with their quality.
+/// Completes every mesh command: adds the partitions and the order that the study asks for, writes
+/// mesh.h5 and its view, and prints the table of its parts with their quality.
 void finish_mesh(const CommandInput& input, mesher::MeshFile file, const ExactVolumes& exact);
 
 }  // namespace flexneck::pipeline

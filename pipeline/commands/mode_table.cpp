@@ -10,7 +10,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// What --check adds to a row of the table.
+/// Cells that --check adds to a row of the table.
 std::vector<std::string> mesh_error_cells(const fe_modal::MeshError& estimate) {
   return {fmt::format("{:.3f}", estimate.refined_Hz),
           estimate.error < 1 ? fmt::format("{:.3f}", 100 * estimate.error) : "not found again",

@@ -7,8 +7,8 @@
 
 namespace flexneck::pipeline {
 
-/// A row for each mode: kind, frequency, residual, and what --check has found.
-/// @param with_shares of the kinetic energy too, where they are known
+/// Table with a row for each mode: kind, frequency, residual, and the results of --check.
+/// @param with_shares adds the fractions of the kinetic energy, where they are known
 std::string mode_table(const fe_modal::ModalBody& body, bool with_shares);
 
 }  // namespace flexneck::pipeline

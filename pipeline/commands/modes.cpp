@@ -30,13 +30,13 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// The neck's paper weighs in pounds.
+/// Mass as text: in pounds for the neck, as in its paper.
 std::string mass_text(const Study& study, double mass_kg) {
   return study.neck() != nullptr ? fmt::format("{:.3f} lb", mass_kg * factor_from_si("kg", "lb"))
                                  : fmt::format("{:.4g} kg", mass_kg);
 }
 
-/// The folder's mesh, the same on all ranks.
+/// Reads the folder's mesh, the same on all ranks.
 mesher::MeshFile read_mesh_together(const CommandInput& input) {
   const std::filesystem::path path = input.folder.mesh();
   if (!input.ranks.are_many()) return read_mesh(path);
@@ -53,7 +53,7 @@ mesher::MeshFile read_mesh_together(const CommandInput& input) {
   return mesh;
 }
 
-/// Tells the analysis what stands in the mesh file for it.
+/// Passes the partitions and the order of the mesh file to the analysis.
 void share_work(const CommandInput& input, const mesher::MeshFile& mesh,
                 fe_modal::ModalOptions& options) {
   options.ranks = input.ranks;
@@ -70,7 +70,7 @@ Provenance provenance_of_modes(const CommandInput& input) {
   return provenance;
 }
 
-/// Solves and writes the file, and what ParaView opens.
+/// Solves and writes the file of modes, and the view for ParaView.
 fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
                           const fe_modal::ModalOptions& options, const std::filesystem::path& path,
                           StepTimes& times, fe_modal::AnalysisFields* fields = nullptr) {
@@ -89,7 +89,7 @@ fe_modal::ModalBody solve(const CommandInput& input, const mesher::Mesh& mesh,
   return file.body;
 }
 
-/// The modes that the static test is made of, where a material has a modulus of its own there.
+/// Solves for the modes that the static test needs, if a material has a separate static modulus.
 void solve_static(const CommandInput& input, const mesher::Mesh& mesh,
                   fe_modal::ModalOptions options) {
   if (!input.study.has_static_moduli()) {
@@ -143,12 +143,14 @@ bool modes_command(const CommandInput& input) {
       mode_table(body, whole), loaded_text(body, whole)));
   if (!body.prestress.empty()) input.console.result("Prestress: " + body.prestress);
   input.console.table(basis_text(body));
-  if (writes(input)) std::filesystem::remove(input.folder.sensitivities());  // of other modes
+  // Removed, since the file would describe other modes.
+  if (writes(input)) std::filesystem::remove(input.folder.sensitivities());
   if (input.sensitivity && writes(input))
     write_sensitivities(input, mesh.mesh, options, body, fields, provenance_of_modes(input));
   solve_static(input, mesh.mesh, options);
   write_substructures(input, mesh.mesh, options, provenance_of_modes(input));
-  // Of the same values, and PETSc starts once in a process. The first rank alone does it.
+  // The stresses have the same values, and PETSc starts once in a process. The first rank alone
+  // computes them.
   if (input.is_run && writes(input) && !input.study.loads.empty())
     write_stresses(input, std::move(mesh));
   return true;

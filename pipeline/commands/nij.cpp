@@ -20,14 +20,15 @@ namespace {
 
 constexpr double kEqualIntervals = 1e-4;  ///< relative; times are written with few digits
 
-/// Channels of a test have files, and times, of their own.
+/// Fails unless both curves have the same times: each channel of a test has its own file and times.
 void require_times_of(const Curve& force, const Curve& other) {
   if (other.time_s.size() == force.time_s.size() && other.time_s == force.time_s) return;
   throw InputError(other.label() + ": expected the times of " + force.label() +
                    ", found others; record both together");
 }
 
-/// Between samples. @throws InputError unless it is the same everywhere: a filter needs that.
+/// Interval between samples, s. @throws InputError unless it is constant, which the filter
+/// requires.
 double interval_of(const Curve& curve) {
   const Eigen::VectorXd& times_s = curve.time_s;
   const Eigen::Index count = times_s.size();
@@ -43,7 +44,7 @@ double interval_of(const Curve& curve) {
   return interval_s;
 }
 
-/// In SI units.
+/// Loads of the neck in SI units.
 struct NeckLoads {
   Curve force, moment;
   std::optional<Curve> shear;
@@ -61,7 +62,8 @@ NeckLoads read_loads(const FileInput& input) {
   return loads;
 }
 
-/// Each load by CFC 600 before they are put together, since of a test some may have passed it.
+/// Loads at the condyles. Each load is filtered by CFC 600 before they are combined, since some
+/// channels of a test may have been filtered already.
 CondyleLoads at_condyles(const NeckLoads& loads, double arm_m) {
   constexpr multibody::ChannelClass kClass = multibody::ChannelClass::cfc600;
   const double interval_s = interval_of(loads.force);
@@ -78,7 +80,7 @@ CondyleLoads at_condyles(const NeckLoads& loads, double arm_m) {
   return at;
 }
 
-/// Each file once.
+/// The input files, each once.
 std::vector<InputFile> inputs_of(const NeckLoads& loads) {
   std::vector<InputFile> files;
   const auto add = [&](const Curve& curve) {

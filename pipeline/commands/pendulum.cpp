@@ -28,7 +28,7 @@ PendulumResult result_from_file(const CommandInput& input, const CaseSection& ex
   return pendulum_result(study, experiment, file.history.time_s, file.channels);
 }
 
-/// The figures of a case's run, and those that take no run.
+/// The figures from a case's run, and those that need no run.
 PendulumEntry entry_of(const CommandInput& input, const CaseSection& experiment,
                        const PendulumResults& known, const NeckModes& modes) {
   const Study& study = modes.study;
@@ -85,7 +85,7 @@ void write_pendulum_tables(const CommandInput& input, const PendulumResults& kno
   Provenance provenance = experiment_provenance(input.study, CaseSection::Kind::pendulum);
   provenance.inputs.insert(provenance.inputs.end(), modes.files.begin(), modes.files.end());
   write_tables(input.folder.file("pendulum.json"), tables, provenance);
-  // Apart from the others, which are the same bytes in every run.
+  // Timings are in a file of their own, since the other files have the same bytes in every run.
   write_tables(input.folder.file("timing.json"), measured, provenance);
   write_spectrum(input);
   tables.insert(tables.end(), measured.begin(), measured.end());

@@ -14,22 +14,23 @@
 
 namespace flexneck::pipeline {
 
-/// The study's cases of the pendulum, variants too, in its order.
+/// The study's cases of the pendulum, including variants, in its order.
 std::vector<const CaseSection*> pendulum_cases(const Study& study);
 
 struct NeckModes {
   fe_modal::ModalBody body;
   std::vector<InputFile> files;
-  Study study;  ///< with its pieces in the cases that have them as sections
+  Study study;  ///< with its submeshes attached in the cases that have them as sections
 };
 
+/// Reads the modes of the neck.
 /// @throws InputError if they are missing or were made with other values than the study has now.
 NeckModes read_neck_modes(const CommandInput& input);
 
-/// By the name of the case.
+/// Results keyed by the name of the case.
 using PendulumResults = std::map<std::string, PendulumResult>;
 
-/// The tables of all cases of the pendulum.
+/// Writes the tables of all cases of the pendulum.
 /// @param known results of cases that this process has just run; the others are read from the
 /// cases' files, whose hash takes time
 /// @throws InputError if such a file is missing, stems from other values or is incomplete.
@@ -42,7 +43,7 @@ class PendulumCases {
   /// Waits for the next case and writes its files. @throws std::logic_error if there is none,
   /// ComputationError if the run has ended early, with what there is of it in the files.
   void write_next();
-  /// Of the cases that have been written.
+  /// Results of the cases that have been written.
   const PendulumResults& results() const { return results_; }
 
  private:
@@ -51,10 +52,11 @@ class PendulumCases {
 
   const CommandInput& input_;
   NeckModes modes_;
-  std::vector<const CaseSection*> cases_;  ///< of modes_.study
+  std::vector<const CaseSection*> cases_;  ///< pointers into modes_.study
   std::size_t written_ = 0;
   PendulumResults results_;
-  std::deque<std::future<PendulumRun>> running_;  ///< last: they end before what they read
+  /// Runs being computed. Declared last: its tasks end before the data that they read.
+  std::deque<std::future<PendulumRun>> running_;
 };
 
 }  // namespace flexneck::pipeline

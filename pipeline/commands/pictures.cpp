@@ -18,7 +18,7 @@ constexpr int kHeight = 620;
 constexpr int kModeWidth = 270;
 constexpr int kModeHeight = 330;
 constexpr int kModeColumns = 5;
-/// Largest displacement of a mode shape as it is drawn, over the size of the body.
+/// Maximum displacement of a drawn mode shape, over the size of the body.
 constexpr double kModeAmplitude = 0.12;
 
 std::vector<mesher::LegendEntry> legend_of(const mesher::Mesh& mesh) {

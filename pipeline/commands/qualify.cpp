@@ -18,7 +18,7 @@ void require_regulation(const Study& study) {
                      ": expected a [[test]] of a regulation to judge the neck by, found none");
 }
 
-/// "certification-flexion: synthetic; …": of the decelerations of the cases that are judged.
+/// Origins of the decelerations of the judged cases: "certification-flexion: synthetic; …".
 std::string pulse_origins(const Study& study) {
   std::string text;
   for (const TestSection& test : study.tests) {
@@ -40,7 +40,7 @@ bool qualify_command(const CommandInput& input) {
   require_regulation(input.study);
   const bool passed = run_command(input);
   if (!writes(input)) return passed;
-  // With --verbose the run has shown them.
+  // With --verbose the run has already shown these tables.
   if (!input.console.is_verbose())
     for (const ResultTable& table : read_tables(input.folder.file("verdicts.json")).tables)
       if (table.name == kVerdictFigures) input.console.result("\n" + printed(table));

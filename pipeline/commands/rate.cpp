@@ -27,7 +27,7 @@ std::optional<double> time_of(const std::string& option, const std::string& text
   }
 }
 
-/// The computed curve in the unit of the reference.
+/// The reference and the computed curve, the latter converted to the unit of the reference.
 struct CurvesOfOneUnit {
   Curve reference, computed;
 };
@@ -54,8 +54,8 @@ CurvesOfOneUnit read_curves(const FileInput& input) {
   return curves;
 }
 
-/// Without the path, so that a result does not depend on where it was made; with the folder's own
-/// name where the files have the same.
+/// Label of a curve without its path, so that a result does not depend on where it was made; with
+/// the name of the folder if both files have the same name.
 std::string label_in_table(Curve curve, const Curve& other) {
   const fs::path path = fs::weakly_canonical(curve.file);
   const bool is_same = path.filename() == fs::path(other.file).filename();
@@ -65,7 +65,7 @@ std::string label_in_table(Curve curve, const Curve& other) {
 
 std::string six_digits(double value) { return fmt::format("{:.6f}", value); }
 
-/// "late by 0.7 ms, correlation 0.99977"
+/// Text such as "late by 0.7 ms, correlation 0.99977".
 std::string shift_text(Eigen::Index shift, double interval_s, double correlation) {
   const double time_ms = 1e3 * interval_s * static_cast<double>(std::abs(shift));
   const std::string text =
@@ -96,6 +96,7 @@ ResultTable iso_table(const ResampledPair& pair) {
           {}};
 }
 
+/// Table of the CORA rating.
 /// @param is_asked  whether the interval is the user's, not CORA's own
 ResultTable cora_table(const ResampledPair& pair, bool is_asked) {
   const CoraParameters p;
@@ -127,7 +128,7 @@ ResultTable cora_table(const ResampledPair& pair, bool is_asked) {
       {}};
 }
 
-/// Of each part: it must not be the same name twice.
+/// The input files, each prefixed by its role, since no name may occur twice.
 std::vector<InputFile> inputs_of(const CurvesOfOneUnit& curves) {
   const auto file = [](const std::string& part, const Curve& curve) -> InputFile {
     return {part + "/" + curve.source.filename().string(), hash_of_file(curve.source.string())};
@@ -135,14 +136,14 @@ std::vector<InputFile> inputs_of(const CurvesOfOneUnit& curves) {
   return {file("reference", curves.reference), file("computed", curves.computed)};
 }
 
-/// ", CFC 600 by its code", of a channel of ISO-MME.
+/// Text ", CFC 600 by its code" for a channel of ISO-MME.
 std::string filter_text(const Curve& curve) {
   if (!curve.filter) return {};
   return ", " + std::string(curve.filter->text.empty() ? "unfiltered" : curve.filter->text) +
          " by its code";
 }
 
-/// Ratings compare curves as they are.
+/// Warns of different filters, since ratings compare the curves unfiltered.
 void warn_of_filters(const FileInput& input, const CurvesOfOneUnit& curves) {
   const auto& reference = curves.reference.filter;
   const auto& computed = curves.computed.filter;

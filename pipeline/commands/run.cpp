@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "published 12, inferred 5, …"
+/// Number of inputs of each origin: "published 12, inferred 5, …"
 std::string origin_counts(const Study& study) {
   std::string text;
   for (std::size_t i = 0; i < kOriginNames.size(); ++i) {
@@ -33,7 +33,7 @@ std::string origin_counts(const Study& study) {
   return text;
 }
 
-/// What is not synthetic, each with its origin; empty if all is.
+/// Table of the inputs that are not synthetic, each with its origin; empty if all are.
 std::string origin_table(const Study& study) {
   std::vector<std::vector<std::string>> rows = {{"input", "value", "origin"}};
   for (const Parameter& parameter : study.parameters) {
@@ -45,8 +45,8 @@ std::string origin_table(const Study& study) {
 
 constexpr const char* kModesStage = "modes";
 
-/// A stage of `run`. A command that throws has not made it; one that returns false has, only its
-/// verification failed.
+/// A stage of `run`. A command that throws has not completed the stage; one that returns false has,
+/// but its verification failed.
 struct Stage {
   std::string name;
   Provenance from;
@@ -54,8 +54,8 @@ struct Stage {
   std::function<bool(const CommandInput&)> command;
 };
 
-/// On many ranks the first one makes all stages; the others wait until it comes to the modes, which
-/// all make together, if they are due.
+/// Synchronises many ranks: the first one makes all stages; the others wait until it reaches the
+/// modes, which all compute together, if they are due.
 class ModesGate {
  public:
   explicit ModesGate(const fe_modal::Ranks& ranks) : ranks_(ranks) {}
@@ -63,9 +63,9 @@ class ModesGate {
   ModesGate(const ModesGate&) = delete;
   ModesGate& operator=(const ModesGate&) = delete;
 
-  /// Of the first rank, before it makes the modes.
+  /// Called by the first rank before it computes the modes.
   void open() { tell(kDue); }
-  /// Of the others. @return whether modes are to be made
+  /// Called by the other ranks. @return true if the modes are to be computed
   static bool wait(const fe_modal::Ranks& ranks) { return ranks.of_first(kNotDue) == kDue; }
 
  private:
@@ -81,7 +81,8 @@ class ModesGate {
   bool has_told_ = false;
 };
 
-/// Less the study's own files: they change with every value, which do not all matter to a stage.
+/// Removes the study's own files from a provenance: they change with every value, and not every
+/// value matters to a stage.
 Provenance without_studies(Provenance provenance, const Study& study) {
   for (const InputFile& file : study.files) std::erase(provenance.inputs, file);
   return provenance;
@@ -92,7 +93,7 @@ bool has_cases(const Study& study, CaseSection::Kind kind) {
                      [&](const CaseSection& experiment) { return experiment.kind == kind; });
 }
 
-/// Up to the experiments that are one stage.
+/// Stages before those of the single cases.
 std::vector<Stage> stages_before_cases(const Study& study) {
   if (study.matrices) return {{kModesStage, provenance_of(study), {}, modes_command}};
   std::vector<Stage> stages = {{"mesh", mesh_provenance(study), {}, mesh_command},
@@ -109,8 +110,8 @@ std::vector<Stage> stages_before_cases(const Study& study) {
 
 std::string stage_of(const CaseSection& experiment) { return "pendulum-" + experiment.name; }
 
-/// What follows once every case of the pendulum was run.
-/// @param known results of those that were run just now
+/// Stages that follow once every case of the pendulum has been run.
+/// @param known results of the cases that were just run
 std::vector<Stage> stages_after_cases(const Study& study, const PendulumResults& known) {
   const Provenance everything = verdict_provenance(study);
   std::vector<std::string> runs = {"modes"};
@@ -145,7 +146,7 @@ void print_kept(const CommandInput& input, const std::string& stage) {
   show_tables(input, read_tables(tables).tables);
 }
 
-/// Kept results may still not be what they seem: their warnings are told again.
+/// Repeats the warnings of kept results, since they still apply.
 void warn_again(const CommandInput& input, const Stages& records, const std::string& stage) {
   for (const std::string& line : records.warnings(stage)) input.console.warning(line);
 }
@@ -162,9 +163,9 @@ void make(const CommandInput& input, Stages& records, const Stage& stage, ModesG
   print_kept(input, stage.name);
 }
 
-/// Each case of the pendulum is a stage. Which of them are due is found before the first one is
-/// made, so that they can be computed ahead of their turn.
-/// @return results of those that were made
+/// Runs the cases of the pendulum, each of which is a stage. The stages that are due are determined
+/// before the first is made, so that they can be computed ahead of their turn.
+/// @return results of the cases that were run
 PendulumResults make_cases(const CommandInput& input, Stages& records) {
   const std::vector<const CaseSection*> all = pendulum_cases(input.study);
   const auto from = [&](const CaseSection& experiment) {

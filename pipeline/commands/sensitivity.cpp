@@ -15,7 +15,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// What could have had a derivative is a warning.
+/// Prints the parameters left out, those that might have had a derivative as warnings.
 void show_left_out(const Console& console, const std::vector<LeftOutParameter>& left_out) {
   for (const LeftOutParameter& each : left_out) {
     const std::string line = each.key + " is left out: " + each.why;

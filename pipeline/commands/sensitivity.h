@@ -7,14 +7,14 @@
 
 namespace flexneck::pipeline {
 
-/// What `modes --sensitivity` cannot be asked for together with.
-/// @throws InputError with the key that it does not go with.
+/// Fails if the study asks for something that `modes --sensitivity` cannot be combined with.
+/// @throws InputError naming the conflicting key.
 void check_sensitivity(const Study& study);
 
-/// Derivatives of what `modes` has found, by all dimensions and material constants:
-/// sensitivities.json, and a table.
-/// @param fields of the same solution as the body
-/// @param provenance of the modes
+/// Computes the derivatives of the modes by all dimensions and material constants; writes
+/// sensitivities.json and prints a table.
+/// @param fields fields of the same solution as the body
+/// @param provenance provenance of the modes
 void write_sensitivities(const CommandInput& input, const mesher::Mesh& mesh,
                          const fe_modal::ModalOptions& options, const fe_modal::ModalBody& body,
                          const fe_modal::AnalysisFields& fields, Provenance provenance);

@@ -18,7 +18,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// Value and origin of a key as the study has them.
+/// Value and origin of a key in the study.
 std::array<std::string, 2> value_and_origin(const Study& study, const std::string& key) {
   const auto found =
       std::find_if(study.parameters.begin(), study.parameters.end(),

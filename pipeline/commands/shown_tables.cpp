@@ -12,7 +12,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// A column of a table, the first of that name, and what a line calls it.
+/// A column of a table, the first of that name, and its title in the short table.
 struct ShortColumn {
   std::string_view name;
   std::string_view shown;
@@ -52,7 +52,7 @@ constexpr std::array<ShortColumn, 7> kLimits = {{{"test", "test"},
                                                  {"unit", ""},
                                                  {"verdict", ""}}};
 
-/// Tables that are not here need --verbose.
+/// A table that is printed in short form; other tables need --verbose.
 struct ShortTable {
   std::string_view name;
   std::span<const ShortColumn> columns;
@@ -63,7 +63,7 @@ constexpr std::array<ShortTable, 5> kShortTables = {{{"static tests", kStatic},
                                                      {"measured curves", kMeasured},
                                                      {"measured limits", kLimits}}};
 
-/// A variant of a case has a line of its own with --verbose only.
+/// True if the case is a variant, which gets a line only with --verbose.
 bool is_variant(const Study& study, const std::string& name) {
   return std::any_of(study.cases.begin(), study.cases.end(), [&](const CaseSection& each) {
     return each.name == name && !each.variant_of.empty();

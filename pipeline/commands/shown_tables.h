@@ -9,10 +9,11 @@
 
 namespace flexneck::pipeline {
 
-/// Prints a line for each case; with --verbose all tables as they are.
+/// Prints a line for each case; with --verbose all tables in full.
 void show_tables(const CommandInput& input, const std::vector<ResultTable>& tables);
 
-/// Prints the figures that have a verdict, and how many have none; with --verbose all of them.
+/// Prints the figures that have a verdict, and the number of those without; with --verbose all
+/// figures.
 void show_verification(const CommandInput& input, const VerificationTable& table);
 
 }  // namespace flexneck::pipeline

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Eigen::Index kBlockNumbers = 1 << 22;  ///< of outputs that memory holds at once
+constexpr Eigen::Index kBlockNumbers = 1 << 22;  ///< numbers of output that memory holds at once
 
 ModelFile read(const fs::path& path, const std::vector<std::string>& settings) {
   try {
@@ -36,7 +36,7 @@ ModelFile read(const fs::path& path, const std::vector<std::string>& settings) {
   }
 }
 
-/// What the model gets wrong that only its computation shows.
+/// Runs a computation and prefixes the model's file to the input errors that only it detects.
 template <class Compute>
 auto named(const ModelFile& file, const Compute& compute) {
   try {
@@ -46,8 +46,9 @@ auto named(const ModelFile& file, const Compute& compute) {
   }
 }
 
-/// @param output takes the blocks of outputs but the last
-/// @return the last one
+/// Runs the model.
+/// @param output takes all blocks of outputs except the last
+/// @return the last block
 multibody::History run(const ModelFile& file, const multibody::OutputOptions& output) {
   return named(file, [&] {
     if (file.analysis == ModelFile::Analysis::quasi_static)
@@ -76,7 +77,7 @@ std::optional<multibody::CampbellDiagram> campbell(const ModelFile& file) {
   return named(file, [&] { return multibody::campbell_diagram(file.model, file.rates_rad_s); });
 }
 
-/// Where the results of a model go.
+/// Names of the files with a model's results.
 struct ResultPaths {
   std::string name;
   fs::path history, table;

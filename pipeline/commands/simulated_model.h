@@ -9,18 +9,17 @@
 
 namespace flexneck::pipeline {
 
-/// What `simulate` does with a model that has been read: files in input.folder, a summary on the
-/// console. @throws as simulate_command().
+/// Runs a model for `simulate`: writes files in input.folder and a summary on the console. @throws
+/// as simulate_command().
 void simulate_model(const ModelFile& file, const FileInput& input);
 
 struct SimulatedModel {
-  multibody::HistoryFile results;  ///< as `simulate` writes them
-  std::string problem;             ///< why the run ended early; empty as a rule
+  multibody::HistoryFile results;  ///< results as `simulate` writes them
+  std::string problem;             ///< reason why the run ended early; usually empty
 };
 
-/// The same run, kept in memory.
-/// @throws InputError for what is wrong with the model, and for one that asks for a Campbell
-/// diagram.
+/// Runs the model like simulate_model(), and keeps the results in memory.
+/// @throws InputError for an error in the model, or if it asks for a Campbell diagram.
 SimulatedModel simulated(const ModelFile& file);
 
 }  // namespace flexneck::pipeline

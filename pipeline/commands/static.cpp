@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The neck's pieces from their files, to be compared with it; none if the study cuts it into none,
-/// if a test has them as sections already, or slits that only sections keep shut, or if the tests
-/// have moduli of their own, with which the pieces were not made.
+/// Reads the neck's submeshes from their files, to compare their chain with the neck; none if the
+/// study defines none, if a test has them as sections already, if slits are kept shut only by
+/// sections, or if the tests have moduli of their own, with which the submeshes were not made.
 std::vector<ChainLink> read_links(const CommandInput& input, Provenance& provenance) {
   std::vector<ChainLink> links;
   const Study& study = input.study;
@@ -56,7 +56,7 @@ StaticTestSignals write(const CommandInput& input, const CaseSection& experiment
   return signals;
 }
 
-/// What is left of a run that ends early, too.
+/// History of the run, or the part computed before it ended early.
 template <class Run>
 multibody::History history_of(const Run& run) {
   try {

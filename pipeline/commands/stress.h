@@ -6,8 +6,8 @@
 
 namespace flexneck::pipeline {
 
-/// The linear static step under the study's [[load]]: stress.h5, stress.xdmf and its figures on the
-/// console.
+/// Solves the linear static step under the study's [[load]]; writes stress.h5 and stress.xdmf and
+/// prints its figures.
 /// @pre a fe_modal::PetscSession
 /// @throws as fe_modal::analyse_static() does.
 void write_stresses(const CommandInput& input, mesher::MeshFile mesh);

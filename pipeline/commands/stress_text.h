@@ -7,8 +7,8 @@
 
 namespace flexneck::pipeline {
 
-/// The loads, the resultants of loads and reactions, the largest displacement, and for each
-/// material the largest stress at its nodes.
+/// Text with the loads, the resultants of loads and reactions, the largest displacement, and for
+/// each material the largest stress at its nodes.
 std::string stress_text(const fe_modal::StaticSolution& solution);
 
 }  // namespace flexneck::pipeline

@@ -11,17 +11,17 @@
 namespace flexneck::pipeline {
 
 /// Analyses the study's substructures, if it has any, writes a file of modes for each into the
-/// results' folder and prints what they are.
-/// @param provenance of the whole
+/// folder of results and prints a summary.
+/// @param provenance provenance of the whole structure's modes
 void write_substructures(const CommandInput& input, const mesher::Mesh& mesh,
                          const fe_modal::ModalOptions& whole, const Provenance& provenance);
 
-/// The modes of the study's pieces from their files, which are appended to `files`.
+/// Reads the modes of the study's submeshes from their files, which are appended to `files`.
 /// @throws InputError if one is missing or was made with other values than the study has now.
 Pieces read_pieces(const CommandInput& input, std::vector<InputFile>& files);
 
-/// The study with the stiffness of its pieces in those cases that have them as sections; unchanged
-/// if none has. @throws as read_pieces() and attach_pieces() do.
+/// Returns the study with the stiffness of its submeshes in those cases that have them as sections;
+/// unchanged if no case has. @throws as read_pieces() and attach_pieces() do.
 Study with_pieces(const CommandInput& input, std::vector<InputFile>& files);
 
 }  // namespace flexneck::pipeline

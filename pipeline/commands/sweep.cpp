@@ -21,7 +21,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// "2/8" @throws InputError if it is no part of a whole.
+/// Parses "2/8". @throws InputError if it is not a valid part of a whole.
 std::optional<Shard> shard_from(const std::string& text) {
   if (text.empty()) return {};
   Shard shard;
@@ -51,7 +51,7 @@ Provenance provenance_of_sweep(const Study& study, const SweepJob& job) {
   return provenance;
 }
 
-/// Pictures and bands of an earlier sweep, which may have had other outputs.
+/// Removes pictures and bands of an earlier sweep, which may have had other outputs.
 void remove_former(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> former;
   for (const std::filesystem::directory_entry& each : std::filesystem::directory_iterator(folder)) {
@@ -80,7 +80,7 @@ std::vector<Eigen::MatrixXd> write_bands(const CommandInput& input, const SweepJ
   return bands;
 }
 
-/// A sweep is one without pictures, too.
+/// Draws the pictures; the sweep is valid without them, too.
 void draw(const CommandInput& input, const SweepPictures& pictures) {
   try {
     const std::vector<std::string> names = draw_sweep(pictures, input.folder.path());
@@ -92,7 +92,7 @@ void draw(const CommandInput& input, const SweepPictures& pictures) {
   }
 }
 
-/// Some of a table's columns, without its notes.
+/// Copy of a table with some of its columns and without its notes.
 ResultTable shortened(const ResultTable& table, const std::vector<std::size_t>& columns) {
   ResultTable brief{table.name, table.title, {}, {}, {}};
   for (const std::size_t k : columns) brief.columns.push_back(table.columns[k]);
@@ -103,7 +103,7 @@ ResultTable shortened(const ResultTable& table, const std::vector<std::size_t>& 
   return brief;
 }
 
-/// What fits a terminal; with --verbose the tables as they are.
+/// Prints shortened tables that fit a terminal; with --verbose the tables in full.
 void show(const CommandInput& input, const std::vector<ResultTable>& tables) {
   static const std::map<std::string, std::vector<std::size_t>> kShort = {
       {"percentiles", {0, 1, 6, 8, 10}}, {"sobol indices", {0, 1, 2, 5}}};
@@ -114,7 +114,7 @@ void show(const CommandInput& input, const std::vector<ResultTable>& tables) {
   }
 }
 
-/// Refuses a sweep that never produces one of its outputs.
+/// Fails for a sweep that never produces one of its outputs.
 void require_outputs(const SweepJob& job, const SweepTable& table) {
   if (table.failed == 0) return;
   const auto most =
@@ -128,7 +128,8 @@ void require_outputs(const SweepJob& job, const SweepTable& table) {
     throw ComputationError("curve '" + job.curves().front().name + "': " + why);
 }
 
-/// By one process: several shards may find themselves the last ones.
+/// Assembles the sweep's table in one process, under a lock: several shards may each find that they
+/// are the last.
 void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& sweep) {
   std::optional<FolderLock> lock;
   try {
@@ -156,8 +157,8 @@ void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& s
   require_outputs(job, table);
 }
 
-/// Rows are missing though this process has done all of its own: those of other parts, or those
-/// whose files have changed, of which no table is made.
+/// Handles rows that are missing although this process has computed all of its own: rows of other
+/// parts, which are awaited, or rows whose files have changed, of which no table is made.
 void refuse_or_wait(const CommandInput& input, const SweepJob& job, const Shard& shard,
                     const SweepRows& sweep) {
   const std::vector<std::string> outdated = job.outdated(shard);

@@ -15,7 +15,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// The run of a case, if it has been made of the study's values.
+/// Reads the run of a case, if it exists and was made with the study's values.
 std::optional<multibody::HistoryFile> run_of(const CommandInput& input,
                                              const std::string& experiment) {
   const Study& study = input.study;
@@ -58,7 +58,7 @@ bool has_tests(const Study& study) { return !study.tests.empty() || !study.measu
 
 namespace {
 
-/// Tables of the tests with measured data that there are.
+/// Tables of the tests with measured data, for which runs may be missing.
 std::vector<ResultTable> measured_tables(const CommandInput& input) {
   std::vector<MeasuredRun> runs;
   for (const MeasuredTest& test : input.study.measured)

@@ -5,12 +5,12 @@
 
 namespace flexneck::pipeline {
 
-/// Judges the study's tests by the runs of their cases, shows the verdicts and writes
-/// verdicts.json. A case that has not been run is told.
+/// Judges the study's tests by the runs of their cases, prints the verdicts and writes
+/// verdicts.json. Cases that have not been run are reported.
 /// @throws InputError if a run stems from other values or is incomplete.
 void write_verdicts(const CommandInput& input);
 
-/// Whether a study has tests of regulations or with measured data.
+/// Returns whether a study has tests of regulations or tests with measured data.
 bool has_tests(const Study& study);
 
 }  // namespace flexneck::pipeline

@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Linearised motions are computed here; a run is read if it is there.
+/// Evidence of a case: linearised motions are computed here; a run is read if it exists.
 PendulumEvidence evidence_of(const CommandInput& input, const Study& study,
                              const CaseSection& experiment, const fe_modal::ModalBody& body) {
   PendulumEvidence evidence;
@@ -30,7 +30,8 @@ PendulumEvidence evidence_of(const CommandInput& input, const Study& study,
   return evidence;
 }
 
-/// @return whether what is judged agrees
+/// Compares the computed results with the published ones.
+/// @return true if all judged figures agree
 bool compare_with_published(const CommandInput& input) {
   const FilesRead reads;
   const Reference reference = read_reference(input.study.verification);
@@ -47,7 +48,8 @@ bool compare_with_published(const CommandInput& input) {
   std::vector<PendulumEvidence> pendulum;
   for (const CaseSection& experiment : study.cases) {
     if (experiment.kind != CaseSection::Kind::pendulum || !experiment.variant_of.empty()) continue;
-    if (experiment.direction == CaseSection::Direction::oblique) continue;  // nothing is published
+    // No values are published for this direction.
+    if (experiment.direction == CaseSection::Direction::oblique) continue;
     pendulum.push_back(evidence_of(input, study, experiment, modes.body));
   }
   const VerificationTable table = verify(input.study, modes.body, pendulum, reference);
@@ -72,7 +74,7 @@ bool verify_command(const CommandInput& input) {
                      "[[test]]");
   }
   const bool passed = study.verification.empty() || compare_with_published(input);
-  // A neck that fails a certification is a result of the study, no error of the program.
+  // A neck that fails a certification is a result of the study, not an error of the program.
   if (has_tests(study)) write_verdicts(input);
   return passed;
 }

@@ -21,7 +21,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// What a user's file made long is shortened in the middle.
+/// Shortens a line in the middle, since names in a user's file may be very long.
 std::string shortened(std::string line) {
   constexpr std::size_t kLongest = 4000;
   constexpr std::size_t kKept = kLongest / 2;
@@ -43,7 +43,8 @@ std::string one_line(const std::string& text) { return shortened(printable(text)
 void prepare_process() {
   for (int stream = 0; stream <= 2; ++stream) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest number that is free
+    // open() takes the lowest free descriptor.
+    ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
   }
   clean_up_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);
@@ -71,7 +72,7 @@ Console::Console(Receiver receiver, std::function<void()> checkpoint)
       receiver_(std::move(receiver)),
       checkpoint_(std::move(checkpoint)) {}
 
-/// @return whether there is a receiver, which then has it
+/// Passes a message to the receiver. @return true if there is a receiver
 bool Console::hand_on(Message kind, const std::string& text) const {
   if (receiver_) receiver_(kind, text);
   return receiver_ != nullptr;

@@ -9,8 +9,8 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr std::size_t kGap = 2;         ///< before each column
-constexpr std::size_t kTextWidth = 48;  ///< of a column of texts in a table that is too wide
+constexpr std::size_t kGap = 2;         ///< spaces before each column
+constexpr std::size_t kTextWidth = 48;  ///< width of a text column in a table that is too wide
 
 using Cells = std::vector<std::string>;
 using Columns = std::vector<std::size_t>;
@@ -19,7 +19,7 @@ bool contains(const Columns& columns, std::size_t column) {
   return std::find(columns.begin(), columns.end(), column) != columns.end();
 }
 
-/// A row whose cells take several lines each.
+/// A row whose cells may have several lines each.
 using Row = std::vector<Cells>;
 
 Row row_of(const Cells& cells, const Columns& left, bool is_wrapped) {
@@ -46,7 +46,7 @@ bool fits_console(const std::vector<std::size_t>& widths) {
   return total <= kConsoleColumns;
 }
 
-/// Columns in groups that fit the console, each behind the first column.
+/// Groups of columns that fit the console, each group behind the first column.
 std::vector<Columns> blocks_of(const std::vector<std::size_t>& widths) {
   std::vector<Columns> blocks = {{}};
   std::size_t total = 0;

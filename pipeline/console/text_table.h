@@ -6,10 +6,10 @@
 
 namespace flexneck::pipeline {
 
-/// Rows of text set in columns: the first column to the left, the others to the right unless named
-/// in `left`. The first row is the head and gets a line below it. In a table that is wider than the
-/// console, texts to the left take several lines, and columns that still do not fit follow below,
-/// each time behind the first one. No line break at the end.
+/// Sets rows of text in columns: the first column aligned left, the others right unless named in
+/// `left`. The first row is the head and is underlined. If the table is wider than the console,
+/// left-aligned texts are wrapped, and columns that still do not fit follow below, repeating the
+/// first column. No line break at the end.
 std::string text_table(const std::vector<std::vector<std::string>>& rows,
                        const std::vector<std::size_t>& left = {0});
 

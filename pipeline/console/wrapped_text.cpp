@@ -10,7 +10,7 @@ namespace {
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// Takes as many characters off the beginning of a word as fit.
+/// Removes and returns as many characters from the start of a word as fit.
 std::string taken(std::string& word, std::size_t width) {
   std::size_t end = 0;
   for (std::size_t shown = 0; end < word.size() && (continues(word[end]) || shown < width); ++end)

@@ -7,17 +7,17 @@
 
 namespace flexneck::pipeline {
 
-/// That a line of a table or a text on standard output has at most.
+/// Maximum width of tables and texts on standard output.
 inline constexpr std::size_t kConsoleColumns = 100;
 
-/// Characters as they appear: the continuation bytes of UTF-8 take no room.
+/// Number of visible characters: the continuation bytes of UTF-8 take no room.
 std::size_t width_of(const std::string& text);
 
-/// The lines of a text, which is broken only where it is wider: between words, and within words
-/// that are wider by themselves; one line at least.
+/// Splits a text into lines of at most `width`: between words, and within words that are wider;
+/// returns at least one line.
 std::vector<std::string> wrapped_lines(const std::string& text, std::size_t width);
 
-/// The same behind a margin, to the width of the console; every line ends in a line break.
+/// Text wrapped to the width of the console behind a margin; every line ends in a line break.
 std::string wrapped(const std::string& text, const std::string& margin);
 
 }  // namespace flexneck::pipeline

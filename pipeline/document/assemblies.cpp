@@ -31,7 +31,7 @@ constexpr Key kAssemblyKeys[] = {
     Key::table("variables", "Values in place of those of that file's [variables]", kVariablesKeys),
 };
 
-/// Takes out of the settings those whose keys begin in a way.
+/// Removes and returns the settings whose keys begin with `beginning`.
 std::vector<std::string> taken(std::vector<std::string>& settings, const std::string& beginning) {
   const auto others = std::stable_partition(
       settings.begin(), settings.end(),
@@ -59,7 +59,7 @@ class Reading {
     for (const std::string& setting : taken(settings_, "assembly."))
       throw InputError("--set " + setting + ": there is no assembly of that name");
     for (const std::string& setting : settings_) apply_setting(root, setting);
-    // What the settings say may be of an earlier version, or made of variables, too.
+    // Settings may use names of an earlier version, or variables, too.
     use_current_names(root, keys_, "", content_.warnings);
     variables.substitute(root);
     record(variables);
@@ -67,7 +67,7 @@ class Reading {
   }
 
  private:
-  /// The file with what it includes; it stays open until close().
+  /// Parses a file with its includes; it counts as open until close().
   toml::table file(const DocumentSource& source) {
     std::vector<InputFile> read;
     toml::table table = parse_with_includes(source, read, [&](toml::table& each) {
@@ -88,7 +88,7 @@ class Reading {
     for (Parameter& each : variables.parameters()) content_.parameters.push_back(std::move(each));
   }
 
-  /// Replaces the assemblies of a file by what they consist of.
+  /// Replaces the assemblies of a file by their content.
   void expand(toml::table& holder, const std::string& prefix, Variables& scope) {
     toml::node* const node = holder.get("assembly");
     if (node == nullptr) return;
@@ -112,8 +112,8 @@ class Reading {
     }
   }
 
-  /// The content of an assembly's file, under the names that it has there.
-  /// @param name  with the prefixes of the assemblies that it belongs to
+  /// Content of an assembly's file, with the names used in that file.
+  /// @param name  with the prefixes of the enclosing assemblies
   toml::table instance(toml::table& assembly, const std::string& name) {
     const std::string key = "assembly." + name;
     check_keys(assembly, key);
@@ -159,7 +159,7 @@ class Reading {
     }
   }
 
-  /// From the folder of the file that names it, or a shipped one.
+  /// Path of an assembly's file: relative to the file that names it, or a shipped file.
   static fs::path path_of(toml::table& assembly, const std::string& key) {
     const std::string name = text(assembly, "file", key);
     const toml::source_path_ptr& from = text_node(assembly, "file")->source().path;
@@ -167,7 +167,7 @@ class Reading {
     try {
       return named_file(name, folder);
     } catch (const InputError&) {
-      return folder / name;  // which is refused where it is opened
+      return folder / name;  // refused when it is opened
     }
   }
 
@@ -202,8 +202,8 @@ class Reading {
   std::span<const Key> keys_;
   std::vector<std::string> settings_;  ///< not applied yet
   DocumentContent content_;
-  std::vector<fs::path> open_;  ///< the file that is read and those whose assembly it is
-  std::size_t count_ = 0;       ///< of files read
+  std::vector<fs::path> open_;  ///< the file being read and the files whose assembly it is
+  std::size_t count_ = 0;       ///< number of files read
 };
 
 }  // namespace

@@ -14,23 +14,23 @@
 
 namespace flexneck::pipeline {
 
-/// The tables [variables] and [[assembly]], which studies and models have alike.
+/// Keys of the tables [variables] and [[assembly]], which studies and models share.
 Key variables_key();
 Key assembly_key();
 
-/// A document with everything that belongs to it, and what reading it has told.
+/// A document with everything that belongs to it, and the warnings from reading it.
 struct DocumentContent {
   toml::table root;
-  std::vector<InputFile> files;       ///< each once
+  std::vector<InputFile> files;       ///< each file once
   std::vector<Parameter> parameters;  ///< the variables and the files of the assemblies
   std::vector<std::string> warnings;
 };
 
-/// Reads a document: a file with what it includes, the settings of the command line, the values of
-/// its variables in the place of their names, and the files of its assemblies, whose tables stand
-/// among its own under names with the prefix "<assembly>:".
+/// Reads a document: a file with its includes, the settings of the command line, the values of its
+/// variables in place of their names, and the files of its assemblies, whose tables are added to
+/// its own under names with the prefix "<assembly>:".
 /// @param settings    "dotted.key=value"; variables.NAME and assembly.NAME.variables.NAME, too
-/// @param keys  of the format; what earlier versions called otherwise gets its name of today
+/// @param keys  keys of the format; names of earlier versions are replaced by current names
 /// @throws InputError with file, line, column and dotted key
 DocumentContent read_document(const DocumentSource& source,
                               const std::vector<std::string>& settings, std::span<const Key> keys);

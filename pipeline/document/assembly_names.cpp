@@ -21,10 +21,10 @@ struct Reference {
   Thing thing;
 };
 
-/// A section that an assembly may have: what its tables give a name to and what they refer to.
+/// A section that an assembly may have, the thing that its tables name, and their references.
 struct Section {
   std::string_view name;
-  Thing named;  ///< what others refer to by its "name"; none if nothing does
+  Thing named;  ///< the kind of thing that its "name" identifies; none if no table refers to it
   std::vector<Reference> references;
 };
 
@@ -55,7 +55,7 @@ const std::vector<Section>& sections() {
   return kSections;
 }
 
-/// The tables of a section; null if there is none.
+/// Tables of a section; null if there is none.
 toml::array* tables_of(toml::table& content, std::string_view section) {
   toml::node* const node = content.get(section);
   if (node == nullptr) return nullptr;
@@ -70,7 +70,7 @@ void for_each_table(toml::table& content, const Section& section, const Visit& v
     for (toml::node& node : *tables) visit(*node.as_table());
 }
 
-/// New names by those in the file.
+/// New names keyed by the names in the file.
 class Names {
  public:
   Names(toml::table& content, std::string prefix) : prefix_(std::move(prefix)) {
@@ -83,10 +83,10 @@ class Names {
     }
   }
 
-  /// Prefixes the name that a table gives. Markers come before what refers to them.
+  /// Prefixes a table's name. Markers come before the tables that refer to them.
   void rename(toml::table& table, const Section& section) {
     toml::value<std::string>* const name = text_node(table, "name");
-    if (name == nullptr) return;  // The reader asks for it.
+    if (name == nullptr) return;  // The reader reports the missing name.
     if (section.named == Thing::marker) {
       const auto* const body = text_node(table, "body");
       if (body == nullptr || names_[Thing::body].contains(body->get())) return;
@@ -107,7 +107,7 @@ class Names {
   }
 
  private:
-  /// Whether "body.marker" is on a body of the file; interfaces are markers that no table gives.
+  /// True if "body.marker" is on a body of the file; interfaces are markers without a table.
   bool is_on_body(const std::string& marker) {
     for (std::size_t dot = marker.find('.'); dot != std::string::npos;
          dot = marker.find('.', dot + 1))

@@ -9,13 +9,13 @@
 
 namespace flexneck::pipeline {
 
-/// "CFC 60" to "CFC 1000": the choices of a key for a filter.
+/// Names "CFC 60" to "CFC 1000": the choices of a key for a filter.
 std::vector<std::string> channel_class_names();
 
-/// The class that such a key chooses.
+/// Reads the class that a key for a filter chooses.
 multibody::ChannelClass read_channel_class(const StudyTable& table, const std::string& key);
 
-/// "CFC 600"
+/// Name such as "CFC 600".
 std::string name_of(multibody::ChannelClass channel_class);
 
 }  // namespace flexneck::pipeline

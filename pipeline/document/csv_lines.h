@@ -9,32 +9,32 @@
 
 namespace flexneck::pipeline {
 
-/// Without blanks and tabs at either end.
+/// Text without leading and trailing blanks and tabs.
 std::string_view trimmed(std::string_view text);
 
-/// "name [unit]" of a line of names. The unit is missing where there are no brackets at the end.
+/// Column name "name [unit]". The unit is empty if there are no brackets at the end.
 struct CsvHeader {
   std::string name, unit;
 };
 CsvHeader csv_header(const std::string& cell);
 
-/// Lines of a CSV file that count, one after the other; all have as many cells as the first. Commas
-/// stand between cells, a cell with commas stands in double quotes, decimals have a point, lines
-/// end in LF or CRLF. Empty lines and those that begin with # count for nothing.
+/// Data lines of a CSV file, one after the other; all have as many cells as the first. Cells are
+/// separated by commas, a cell with commas is in double quotes, decimals have a point, lines end in
+/// LF or CRLF. Empty lines and lines that begin with # are skipped.
 class CsvLines {
  public:
   /// @throws InputError if the file cannot be read or is no text (read_text()).
   explicit CsvLines(const std::filesystem::path& path);
 
-  /// Cells of the next line, without quotes; false at the end of the file.
+  /// Reads the cells of the next line, without quotes; false at the end of the file.
   /// @throws InputError for another number of cells and for a quote that does not end.
   bool next(std::vector<std::string>& cells);
 
-  /// A cell as a number, times a factor.
-  /// @throws InputError if it is none, or not finite.
+  /// Converts a cell to a number and multiplies it by a factor.
+  /// @throws InputError if it is not a finite number.
   double number(const std::string& cell, double factor) const;
 
-  /// @throws InputError with the file and the line that was read last.
+  /// @throws InputError with the file and the last line read.
   [[noreturn]] void refuse(const std::string& problem) const;
 
   static constexpr const char* kMarks = "; commas stand between cells, and decimals have a point";
@@ -48,10 +48,10 @@ class CsvLines {
   std::size_t columns_ = 0;
 };
 
-/// Place of a column among those of the line of names, of which the first is what the others are
-/// over. Without a name the only other one.
-/// @param how  the name is given, for the message: "with the key 'column'"
-/// @throws InputError if there is no such column, or several.
+/// Index of a column in the line of names, whose first column is the abscissa of the others.
+/// Without a name it is the only other column.
+/// @param how  how the name is given, for the message: "with the key 'column'"
+/// @throws InputError if no column fits, or several do.
 std::size_t csv_column(const CsvLines& file, const std::vector<std::string>& names,
                        const std::string& column, const std::string& how);
 

@@ -24,7 +24,7 @@ bool is_number(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// The columns that are read.
+/// Columns to read.
 struct Columns {
   double time_to_s = 1;
   std::size_t index = 1;

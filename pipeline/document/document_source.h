@@ -9,10 +9,10 @@
 
 namespace flexneck::pipeline {
 
-/// Where a document's TOML comes from: a file, or a text that stands for one of this path, from
-/// whose folder it names others. A path alone is a file.
+/// Source of a document's TOML: a file, or a text that stands for a file of this path and refers to
+/// others relative to its folder. A path alone is a file.
 struct DocumentSource {
-  // Converts: as a rule a document is a file.
+  // Implicit, since a document usually is a file.
   template <std::convertible_to<std::filesystem::path> File>
   DocumentSource(const File& file) : path(file) {}
   DocumentSource(std::filesystem::path stands_for, std::string toml)

@@ -41,12 +41,12 @@ class Renaming {
                        "', which is there too; leave one out");
     }
     warn(*node, dotted, was, key.name);
-    // Moved: a copy would lose its line and column.
+    // Moved, since a copy would lose its line and column.
     node->visit([&](auto& value) { table.insert_or_assign(key.name, std::move(value)); });
     table.erase(was);
   }
 
-  /// A text by itself, or with its origin beside it.
+  /// Renames a text, plain or labelled with its origin.
   void rename_text(toml::node& node, const Key& key, const std::string& path) {
     if (key.details.former_texts.empty()) return;
     toml::node* const inner = node.is_table() ? node.as_table()->get("value") : &node;
@@ -74,7 +74,7 @@ class Renaming {
   std::vector<std::string>& warnings_;
 };
 
-/// Row of a name that a key has now or had before.
+/// Row of a key by its current or former name.
 const Key* find_any(std::span<const Key> keys, std::string_view name) {
   for (const Key& key : keys)
     if (!key.details.formerly.empty() && key.details.formerly == name) return &key;
@@ -97,7 +97,7 @@ std::string current_name(const std::string& dotted, std::span<const Key> keys) {
   if (dot == std::string::npos) return name;
   std::string rest = dotted.substr(dot + 1);
   if (key->type == KeyType::table) return name + "." + current_name(rest, key->keys);
-  // The name of an element may have dots itself; its keys are at the end.
+  // An element's name may contain dots; its keys are at the end.
   const std::size_t last = rest.rfind('.');
   if (last == std::string::npos) return name + "." + rest;
   return name + "." + rest.substr(0, last + 1) + current_name(rest.substr(last + 1), key->keys);

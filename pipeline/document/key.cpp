@@ -83,7 +83,7 @@ const Key* find_key(std::span<const Key> keys, std::string_view name) {
 
 namespace {
 
-/// Names of elements and of tables that the file chooses may have dots themselves.
+/// Finds a key below a table. Names of elements and user-named tables may contain dots.
 DottedKey find_below(const Key& table, std::string_view rest) {
   const std::span<const Key> keys = table.keys;
   if (table.type == KeyType::table) return find_dotted_key(keys, rest);

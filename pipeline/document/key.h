@@ -30,29 +30,30 @@ enum class KeyType {
   tables,
 };
 
-/// The numbers that are allowed.
+/// Range of the allowed numbers.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool has_low = true;  ///< otherwise only what is above `low`
+  bool has_low = true;  ///< true if `low` itself is allowed
 
   bool contains(double value) const;
-  /// "a positive value", "a value of at least 1", "a value from 0 to 1"; empty for any.
+  /// Text such as "a positive value", "a value of at least 1", "a value from 0 to 1"; empty for
+  /// any.
   std::string text() const;
 };
 inline constexpr Range kPositive = {.low = 0, .has_low = false};
 constexpr Range at_least(double low) { return {.low = low}; }
 
-/// Which results of a study a value takes part in.
+/// Results of a study that depend on a value.
 enum class UsedBy {
-  table,  ///< those that the table of the key is used by
-  mesh,   ///< the mesh, and so all the rest
+  table,  ///< the results that depend on the key's table
+  mesh,   ///< the mesh, and so all results
   modes,  ///< the modes, and so all experiments
   all_experiments,
-  named_experiments,  ///< those that name the table, as a case names its pulse
+  named_experiments,  ///< the experiments that name the table, as a case names its pulse
 };
 
-/// A text that an earlier version had for another.
+/// A text of an earlier version and its current form.
 struct FormerText {
   std::string_view was;
   std::string_view is;
@@ -60,33 +61,32 @@ struct FormerText {
 
 struct KeyDetails {
   Range range = {};
-  std::size_t size = 0;                             ///< of a list; 0: any
-  std::vector<std::string> (*choices)() = nullptr;  ///< the texts that are allowed; none: all
-  Origin origin = Origin::synthetic;                ///< of the fallback
+  std::size_t size = 0;                             ///< length of a list; 0: any
+  std::vector<std::string> (*choices)() = nullptr;  ///< the allowed texts; none: all
+  Origin origin = Origin::synthetic;                ///< origin of the fallback
   std::string_view formerly = {};                   ///< name of the key in earlier versions
   std::span<const FormerText> former_texts = {};
   UsedBy used_by = UsedBy::table;
-  bool changes_results = true;  ///< not so: how they are computed, or what is stored beside them
+  bool changes_results = true;  ///< false if it concerns the computation or additional data only
 };
 
-/// What stands for a fallback where a key must be there, and where nothing holds without it: a
-/// reader asks by has() first, and texts are empty.
+/// Fallback of a key that is mandatory, and of a key without default: for the latter a reader asks
+/// has() first, and texts are empty.
 inline constexpr std::string_view kRequired;
 inline constexpr std::string_view kNone = "-";
 
-/// A key that files of a format may have: the one place that says what it is. Readers take type,
-/// unit, fallback and range from here, and the reference of all keys is made of it.
+/// A key that files of a format may have, and its only definition: readers take type, unit,
+/// fallback and range from here, and the reference of all keys is generated from it.
 struct Key {
-  std::string_view name = {};  ///< "*": any name, which the file chooses
+  std::string_view name = {};  ///< "*" stands for any name, chosen by the file
   KeyType type = KeyType::text;
-  /// Of quantities, in SI; " | " stands between those of kinds that measure different things.
+  /// SI unit of a quantity; " | " separates the units of kinds with different dimensions.
   std::string_view unit = {};
-  /// What holds where the key is not there, as a file would say it, but numbers without their SI
-  /// unit; kRequired or kNone.
+  /// Value of an absent key, written as in a file but without the SI unit; kRequired or kNone.
   std::string_view fallback = {};
-  std::string_view what = {};  ///< for the reference, without a full stop
+  std::string_view what = {};  ///< description for the reference, without a full stop
   KeyDetails details = {};
-  std::span<const Key> keys = {};  ///< of a table
+  std::span<const Key> keys = {};  ///< keys of a table
 
   using Text = std::string_view;
 
@@ -140,29 +140,30 @@ struct Key {
   }
 };
 
-/// Whether a reader may ask for a key of a type as for another: a list of numbers as for a number,
-/// where both are allowed.
+/// Returns whether a key of one type may be read as another: a key of type one_or_numbers serves as
+/// a number and as a list of numbers.
 bool serves_as(KeyType type, KeyType asked);
 
-/// "text", "quantity", "list of 3 quantities", …
+/// Description of a key's type: "text", "quantity", "list of 3 quantities", …
 std::string type_text(const Key& key);
 
-/// The row of a key; null if there is none.
+/// Row of a key; null if there is none.
 const Key* find_key(std::span<const Key> keys, std::string_view name);
 
-/// A key of any depth by its dotted name, with the names of tables in it: "case.flexion-60.arm".
+/// A key at any depth found by its dotted name, which includes names of tables:
+/// "case.flexion-60.arm".
 struct DottedKey {
   const Key* key = nullptr;  ///< null if there is none
   UsedBy used_by = UsedBy::table;
 };
 DottedKey find_dotted_key(std::span<const Key> keys, std::string_view dotted);
 
-/// The tables of a format that have a key, as "[modes]" or "[[case]]", each by its shortest names.
+/// Tables of a format that have a key, as "[modes]" or "[[case]]", each by its shortest names.
 /// @param is_table  whether the key itself is a table
 std::vector<std::string> tables_with_key(std::span<const Key> format, std::string_view name,
                                          bool is_table);
 
-/// Keys that several tables share, behind those of one.
+/// Keys of one table followed by keys that several tables share.
 template <std::size_t N, std::size_t M>
 constexpr std::array<Key, N + M> joined(const std::array<Key, N>& own,
                                         const std::array<Key, M>& shared) {

@@ -21,7 +21,7 @@ std::string shown_name(const Key& key) {
   return key.name == "*" ? "<name>" : std::string(key.name);
 }
 
-/// Type, unit, default and what is allowed.
+/// Type, unit, default and allowed values of a key, as text.
 std::string kind_text(const Key& key) {
   std::string text = type_text(key);
   if (!key.unit.empty()) text += " in " + std::string(key.unit);

@@ -8,15 +8,15 @@
 
 namespace flexneck::pipeline {
 
-/// The tables of a format, a line each with what they are.
+/// Tables of a format, one line each with a description.
 std::string tables_text(std::span<const Key> keys);
 
-/// A table and all its keys, those of the tables in it too: type, unit, default, what is allowed
-/// and what it means. Lines have at most 100 columns.
-/// @param path  name of the table as messages give it: "geometry.materials"
+/// Describes a table and all its keys, including those of its sub-tables: type, unit, default,
+/// allowed values and meaning. Lines have at most 100 columns.
+/// @param path  name of the table in messages: "geometry.materials"
 std::string table_text(const std::string& path, const Key& table);
 
-/// One key, as above.
+/// Describes one key in the same form.
 std::string key_text(const Key& key);
 
 }  // namespace flexneck::pipeline

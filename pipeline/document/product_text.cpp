@@ -25,7 +25,7 @@ std::string_view without_leading_spaces(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
 }
 
-/// Takes one thing after the other from the beginning of a text.
+/// Parser that consumes a product from the beginning of a text.
 class Factors {
  public:
   explicit Factors(std::string_view text) : text_(text), rest_(without_leading_spaces(text)) {}

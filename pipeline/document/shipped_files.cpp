@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kFolder = "share/flexneck";
 constexpr const char* kEnding = ".toml";
 
-/// Where the studies and models are that have names of their own.
+/// Folders of the studies and models that can be named without a path.
 constexpr std::array<const char*, 4> kNamedFolders = {"pipeline/studies", "pipeline/studies/fits",
                                                       "pipeline/models", "geometry/examples"};
 
@@ -44,7 +44,7 @@ const std::map<std::string, fs::path>& named_files() {
   return files;
 }
 
-/// A folder of results may have the name of its study.
+/// True for anything but a folder, as a folder of results may have the name of its study.
 bool is_file(const fs::path& path) {
   std::error_code none;
   const fs::file_status status = fs::status(path, none);
@@ -77,7 +77,7 @@ fs::path named_file(const fs::path& name, const fs::path& folder) {
   const std::string stem = name.extension() == kEnding ? name.stem().string() : name.string();
   const auto shipped = named_files().find(stem);
   if (shipped != named_files().end()) return shipped->second;
-  // A folder, or what cannot be looked at: the reader says what is wrong with it.
+  // A folder or an unreadable file: the reader reports the problem.
   std::error_code none;
   if (fs::status(here, none).type() != fs::file_type::not_found) return here;
   throw InputError(here.string() + ": no such file, and no shipped study or model '" + stem + "'" +

@@ -25,7 +25,7 @@ struct StudyDocument::Impl {
 
 namespace {
 
-/// The unit of a quantity whose kinds measure different things is chosen by the reader.
+/// Unit of a quantity; the reader chooses it where kinds with different dimensions share the key.
 std::string unit_in(const Key& row, const std::string& wanted) {
   std::string_view rest = row.unit;
   if (wanted.empty() && rest.find('|') == std::string_view::npos) return std::string(rest);
@@ -175,7 +175,7 @@ std::vector<StudyTable> StudyTable::tables(const std::string& key) const {
   const std::span<const Key> rows = node_->row(key, KeyType::tables).keys;
   const toml::node* const node = node_->find(key);
   if (node == nullptr) return result;
-  // Of a file that has none of what it includes: test = []
+  // `test = []` in a file removes the tables of the files that it includes.
   if (node->is_array() && node->as_array()->empty()) return result;
   if (!node->is_array_of_tables()) refuse(key, "expected tables [[" + node_->dotted(key) + "]]");
   std::map<std::string, int> seen;
@@ -185,7 +185,8 @@ std::vector<StudyTable> StudyTable::tables(const std::string& key) const {
     child->keys = rows;
     child->table = element.as_table();
     std::string name = (*child->table)["name"].value_or(std::to_string(result.size() + 1));
-    // Such as markers of different bodies: none of their values may be lost among the parameters.
+    // Markers of different bodies, say, may share a name: none of their values may be lost among
+    // the parameters.
     if (const int count = ++seen[name]; count > 1) name += "#" + std::to_string(count);
     child->path = node_->dotted(key) + "." + name;
     result.emplace_back(std::move(child));
@@ -244,13 +245,13 @@ StudyTable StudyDocument::root() const {
   node->table = &impl_->content.root;
   node->keys = impl_->keys;
   impl_->records.format = impl_->keys;
-  // Shares the ownership of the document: a table may outlive it.
+  // Shares ownership of the document, since a table may outlive it.
   node->records = std::shared_ptr<StudyRecords>(impl_, &impl_->records);
   return StudyTable(std::move(node));
 }
 
 void StudyDocument::set(const std::string& setting) {
-  std::vector<std::string> told;  // when the document was read
+  std::vector<std::string> told;  // discarded: these warnings were given when the document was read
   apply_setting(impl_->content.root, with_current_names(setting, impl_->keys, told));
   impl_->records = {impl_->keys, impl_->content.parameters, {}};
 }

@@ -13,10 +13,9 @@
 
 namespace flexneck::pipeline {
 
-/// One table of a study. What a key means stands in the format's table of keys (key.h): a getter
-/// checks type, unit and range, returns the fallback of a key that is not there, and remembers that
-/// the key is known, so that finish() can refuse the keys that nobody asked for. A value is written
-/// plainly or, with its origin, as { value = …, origin = "published", note = "…" }. All members
+/// One table of a study. The format's table of keys (key.h) defines what a key means: a getter
+/// checks type, unit and range, returns the fallback of an absent key, and records that the key is
+/// known, so that finish() can refuse the keys that no getter asked for. A value is written
 /// throw InputError with file, line, column, dotted key, what was expected and what was found; and
 /// std::logic_error where a reader asks for a key that is not in the table of keys, or for another
 /// type.
@@ -29,50 +28,50 @@ class StudyTable {
   /// True if the value is a text in quotes.
   bool is_text(const std::string& key) const;
   std::string text(const std::string& key) const;
-  /// @param fallback  of a key for which it depends on others
+  /// @param fallback  for a key whose fallback depends on others
   std::string text_or(const std::string& key, const std::string& fallback) const;
-  /// Position of a text among the choices of its key.
+  /// Index of a text among the choices of its key.
   std::size_t choice(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
   bool flag(const std::string& key) const;
-  /// A whole number.
+  /// Integer value.
   int count(const std::string& key) const;
   int count_or(const std::string& key, int fallback) const;
 
   /// A pure number, written without a unit.
   double number(const std::string& key) const;
   double number_or(const std::string& key, double fallback) const;
-  /// A list of them; `size` 0 means that of the key's row.
+  /// List of pure numbers; `size` 0 means the size in the key's row.
   std::vector<double> numbers(const std::string& key, std::size_t size = 0) const;
   /// True if the value is a list.
   bool is_list(const std::string& key) const;
 
   /// A dimensional number such as "0.4 in", returned in SI units.
-  /// @param unit  of those of the key; may be empty if it has one
+  /// @param unit  one of the key's units; may be empty if there is only one
   double quantity(const std::string& key, const std::string& unit = {}) const;
   std::vector<double> quantities(const std::string& key, std::size_t size = 0,
                                  const std::string& unit = {}) const;
-  /// The path that a key names, from the folder of the file that holds the key.
+  /// Path that a key names, relative to the folder of the file that holds the key.
   std::filesystem::path file(const std::string& key) const;
 
-  /// A sub-table; an absent one is empty.
+  /// Sub-table; empty if absent.
   StudyTable table(const std::string& key) const;
-  /// An array of tables; an absent one is empty.
+  /// Array of tables; empty if absent.
   std::vector<StudyTable> tables(const std::string& key) const;
   std::vector<std::string> keys() const;
-  /// This table with what another has besides: its own keys win. Parameters keep the names of the
-  /// table that they stand in.
+  /// This table with the keys of another added: its own keys win. Parameters keep the names of the
+  /// table that they are in.
   StudyTable over(const StudyTable& below) const;
-  /// Folder of the file that holds the key, for paths given relative to it.
+  /// Folder of the file that holds the key, to resolve relative paths.
   std::filesystem::path folder_of(const std::string& key) const;
 
-  /// Refuses keys that no getter has asked for, with the nearest known one.
+  /// Refuses keys that no getter has asked for, and suggests the nearest known key.
   void finish() const;
-  /// "<file>:<line>:<column>: <dotted key>: <problem>"
+  /// Throws "<file>:<line>:<column>: <dotted key>: <problem>".
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const;
-  /// Refuses the first of these keys that is there, as one that does not go with the others.
+  /// Refuses the first of these keys that is present, as one that conflicts with the others.
   void refuse_given(const std::vector<std::string>& keys, const std::string& problem) const;
-  /// What the keys of this table may be.
+  /// Rows of the keys that this table may have.
   std::span<const Key> key_rows() const;
 
  private:
@@ -91,18 +90,18 @@ class StudyDocument {
                 std::span<const Key> keys);
 
   StudyTable root() const;
-  /// Puts another value in the place of one, as a setting does, without reading the files again.
-  /// What has been read so far is forgotten: parameters and defaults begin anew. Tables that were
-  /// handed out end with this.
-  /// @param setting  neither of variables nor made of them, which took their places for good
+  /// Replaces a value, as a setting does, without reading the files again. Records of reading are
+  /// reset: parameters and defaults start anew. Tables handed out before become invalid.
+  /// @param setting  neither a variable nor a value made of variables, which were substituted for
+  /// good
   void set(const std::string& setting);
   /// The files read, in the order of inclusion, with the hash of their contents.
   const std::vector<InputFile>& files() const;
-  /// What the files say in words of an earlier version, a line each.
+  /// Uses of an earlier version's names in the files, one line each.
   const std::vector<std::string>& warnings() const;
   /// Every value read through the tables so far, in the order of reading.
   const std::vector<Parameter>& parameters() const;
-  /// The values that the getters with a fallback have returned for keys that are not there.
+  /// Fallback values that the getters have returned for absent keys.
   const std::vector<Parameter>& defaults() const;
 
  private:

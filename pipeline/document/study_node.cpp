@@ -46,7 +46,7 @@ const toml::node* StudyTable::Node::find(const std::string& key) {
   const toml::node* const inherited = below ? below->find(key) : nullptr;
   const toml::node* const own = table == nullptr ? nullptr : table->get(key);
   if (own == nullptr) return inherited;
-  // Over another table an empty list takes the key away.
+  // In a table over another one an empty list removes the key.
   const bool is_emptied = inherited != nullptr && own->is_array() && own->as_array()->empty();
   return is_emptied ? nullptr : own;
 }
@@ -78,7 +78,7 @@ std::string StudyTable::Node::misspelt(const std::string& key) const {
 
 namespace {
 
-/// "a, b or c"
+/// Text such as "a, b or c".
 std::string alternatives(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -132,7 +132,7 @@ void add_new(std::vector<Parameter>& list, Parameter parameter) {
   if (std::none_of(list.begin(), list.end(), same)) list.push_back(std::move(parameter));
 }
 
-/// As the user would write it, without quotes and brackets.
+/// Text of a value as the user would write it, without quotes and brackets.
 std::string text_of(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return *text;
   if (const auto number = node.value_exact<double>()) return exact_text(*number);
@@ -182,7 +182,7 @@ void StudyTable::Node::record_default(const std::string& key, const std::string&
 
 bool StudyTable::Node::falls_back(const std::string& key, const Key& row, const std::string& unit) {
   if (row.fallback == kRequired || find(key) != nullptr) return false;
-  // Only texts can be none.
+  // Only texts can be empty.
   const bool is_text = row.type == KeyType::text || row.type == KeyType::texts;
   if (row.fallback == kNone && !is_text) return false;
   const bool is_number =

@@ -14,47 +14,47 @@
 
 namespace flexneck::pipeline {
 
-/// What the tables of a document have been asked for.
+/// Record of the values read from the tables of a document.
 struct StudyRecords {
-  std::span<const Key> format;        ///< of the whole document
-  std::vector<Parameter> parameters;  ///< read
-  std::vector<Parameter> defaults;    ///< asked for, but not there
+  std::span<const Key> format;        ///< keys of the whole document
+  std::vector<Parameter> parameters;  ///< values read
+  std::vector<Parameter> defaults;    ///< fallbacks of absent keys
 };
 
 /// The number that a row of the table of keys has as its fallback, in SI units.
 double fallback_number(std::string_view text);
 
-/// A table as it stands in the file: finds values, in the tables below it too, and records them.
+/// A table of the file: finds values, also in the tables below it, and records them.
 struct StudyTable::Node {
   const toml::table* table = nullptr;  ///< kept alive by the owner of `records`; null if absent
   std::shared_ptr<StudyRecords> records;
   std::string path;
-  std::span<const Key> keys;  ///< what there may be
+  std::span<const Key> keys;  ///< the keys allowed in the table
   std::vector<std::string> known;
-  std::shared_ptr<Node> below;  ///< asked for keys that are not here; may be null
+  std::shared_ptr<Node> below;  ///< table asked for keys that this one lacks; may be null
 
   std::string dotted(const std::string& key) const;
-  /// What a key is. @throws std::logic_error if there is no such row or it is of another type.
+  /// Row of a key. @throws std::logic_error if there is no such row or it is of another type.
   const Key& row(const std::string& key) const;
   const Key& row(const std::string& key, KeyType type) const;
-  /// The node of a key, labels and all; null if there is none.
+  /// Node of a key, labels included; null if there is none.
   const toml::node* find(const std::string& key);
-  /// The node that a key is found in; this one if it is nowhere.
+  /// The layer that holds a key; this one if none does.
   const Node& holder(const std::string& key) const;
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const;
 
-  /// The value of a key, out of its { value, origin, note } where it has one; notes the parameter.
+  /// The value of a key, unwrapped from { value, origin, note } if labelled; records the parameter.
   const toml::node& value(const std::string& key);
-  /// @param fallback  of the key's row, or one that depends on other keys
+  /// @param fallback  fallback in the key's row, or one that depends on other keys
   void record_default(const std::string& key, const std::string& fallback);
-  /// True for a key that is not there and has a fallback, which is recorded.
+  /// True for an absent key that has a fallback, which is recorded.
   bool falls_back(const std::string& key, const Key& row, const std::string& unit = {});
 
   double number_of(const toml::node& node, const std::string& key) const;
   double quantity_of(const toml::node& node, const std::string& key,
                      const std::string& si_unit) const;
   void require_within(const std::string& key, const Range& range, double value) const;
-  /// @param size  0 means that of the row
+  /// @param size  0 means the size in the row
   const toml::array& array(const std::string& key, std::size_t size);
 
   template <typename T>
@@ -64,9 +64,9 @@ struct StudyTable::Node {
     return *found;
   }
 
-  /// "; is 'x' meant to be it?" of a key that is there and that nobody has asked for.
+  /// Suggestion "; is 'x' meant to be it?" if a key that nobody asked for resembles this one.
   std::string misspelt(const std::string& key) const;
-  /// What is wrong with a key that is there and that nobody has asked for.
+  /// Error text for a present key that nobody has asked for.
   std::string unknown(const std::string& key) const;
   void record(const std::string& key, const toml::node& value, const toml::table* labels);
 };

@@ -10,7 +10,7 @@
 namespace flexneck::pipeline {
 
 Eigen::Vector3d unit_vector(const StudyTable& table, const std::string& key);
-/// Three quantities.
+/// Reads a vector of three quantities.
 Eigen::Vector3d quantity_vector(const StudyTable& table, const std::string& key);
 
 }  // namespace flexneck::pipeline

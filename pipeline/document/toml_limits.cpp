@@ -12,14 +12,15 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Place behind the three quotes that end a text. Up to two more before them belong to the text.
+/// Index behind the three quotes that end a text. Up to two more quotes before them belong to it.
 std::size_t behind_long(std::string_view text, std::size_t quotes) {
   std::size_t end = quotes + 3;
   while (end < quotes + 5 && end < text.size() && text[end] == text[quotes]) ++end;
   return end;
 }
 
-/// Place behind a text in quotes that begins at a place; the end of all if it has no end.
+/// Index behind the quoted text that begins at an index; the end of the input if it is
+/// unterminated.
 std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
   const char quote = text[begin];
   const std::string triple(3, quote);
@@ -54,7 +55,7 @@ void check_node(const std::string& key, const toml::node& node) {
 
 void check_nesting(const std::string& text, const std::string& place) {
   std::size_t brackets = 0;
-  std::size_t dots = 0;  // since the last thing that no key goes across
+  std::size_t dots = 0;  // count since the last character that a key cannot contain
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
     if (c == '"' || c == '\'') {

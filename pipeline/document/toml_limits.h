@@ -8,16 +8,17 @@
 
 namespace flexneck::pipeline {
 
-inline constexpr std::size_t kMaxNested = 32;  ///< brackets within brackets, parts of a dotted key
+/// Maximum of nested brackets, or parts of a dotted key.
+inline constexpr std::size_t kMaxNested = 32;
 
-/// Refuses what nests deeper than kMaxNested before it is parsed: each level takes stack in the
+/// Refuses text nested deeper than kMaxNested before it is parsed: each level takes stack in the
 /// parser, in every walk over its tables and when they are destroyed.
-/// @param place  what stands before the line in the message, such as the file's name
+/// @param place  prefix of the line number in the message, such as the file's name
 /// @throws InputError
 void check_nesting(const std::string& text, const std::string& place);
 
 /// Refuses keys and texts with control characters (geometry/foundation/printable.h), which escapes
-/// such as "\n" make: no terminal, picture or page that shows them should obey them.
+/// such as "\n" produce: they must not control a terminal, picture or page.
 /// @throws InputError
 void check_texts(const toml::table& table);
 

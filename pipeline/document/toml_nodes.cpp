@@ -41,7 +41,7 @@ std::vector<std::string> keys_of(const toml::table& table) {
 }
 
 void set_source(toml::node& node, const toml::source_region& source) {
-  // The library sets it in its parser only; the node itself is not const.
+  // The library sets the source in its parser only; the node itself is not const.
   const_cast<toml::source_region&>(node.source()) = source;
 }
 

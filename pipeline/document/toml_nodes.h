@@ -15,7 +15,7 @@ namespace flexneck::pipeline {
 [[noreturn]] void refuse_at(const toml::node& node, const std::string& key,
                             const std::string& problem);
 
-/// Calls make() and puts place and key in front of what it refuses.
+/// Calls make() and prefixes location and key to its input errors.
 template <class Make>
 auto at_node(const toml::node& node, const std::string& key, const Make& make) {
   try {
@@ -28,12 +28,12 @@ auto at_node(const toml::node& node, const std::string& key, const Make& make) {
 /// True for { value = … } with or without an origin and a note.
 bool is_labelled(const toml::table& table);
 
-/// The text of a key, out of its { value = … } where it has one; null if it is none.
+/// Text of a key, unwrapped from { value = … } if labelled; null if it is not a text.
 toml::value<std::string>* text_node(toml::table& table, const std::string& key);
 
-/// "path.key", or the key alone where the path is empty.
+/// Joins "path.key", or returns the key alone if the path is empty.
 std::string dotted(const std::string& path, const std::string& key);
-/// The path of an element of an array of tables: by its name, or by its number from 1.
+/// Path of an element of an array of tables: by its name, or by its number from 1.
 std::string element_path(const std::string& path, const toml::table& element, std::size_t index);
 
 std::vector<std::string> keys_of(const toml::table& table);
@@ -41,7 +41,7 @@ std::vector<std::string> keys_of(const toml::table& table);
 /// Gives a new node the file, line and column of the one that it replaces.
 void set_source(toml::node& node, const toml::source_region& source);
 
-/// The table that a key holds, out of its tree; empty if there is none.
+/// Removes and returns the table that a key holds; empty if there is none.
 /// @throws InputError if the key holds something else.
 toml::table taken_table(toml::table& tree, const std::string& key, const std::string& path);
 

@@ -17,12 +17,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMaxBytes = 4U << 20U;  ///< of a file; long lists belong into CSV files
+/// Maximum size of a file; long lists belong in CSV files.
+constexpr std::size_t kMaxBytes = 4U << 20U;
 
 void merge(toml::table& base, toml::table&& over);
 
-/// The element of an array of tables that another one stands for: of the same name and, where both
-/// say it, on the same body, as markers are.
+/// The element of an array of tables that `over` overrides: the one of the same name and, where
+/// both give it, the same body, as for markers.
 toml::table* counterpart(toml::array& array, const toml::table& over) {
   const auto text = [](const toml::table& table, const char* key) {
     const toml::node* node = table.get(key);
@@ -40,7 +41,7 @@ toml::table* counterpart(toml::array& array, const toml::table& over) {
   return nullptr;
 }
 
-/// Keys that a table takes away from the one that it stands over, by an empty list.
+/// Keys that a table removes from the one below it, by an empty list.
 std::vector<std::string> emptied_keys(const toml::table& over) {
   std::vector<std::string> keys;
   for (const auto& [key, node] : over)
@@ -48,7 +49,7 @@ std::vector<std::string> emptied_keys(const toml::table& over) {
   return keys;
 }
 
-/// Whether the tables of an array can be told apart by their names.
+/// True if the tables of an array can be told apart by their names.
 bool has_names(const toml::array& array) {
   return array.is_array_of_tables() &&
          std::all_of(array.begin(), array.end(),
@@ -71,10 +72,10 @@ void merge(toml::array& base, toml::array&& over) {
   }
 }
 
-/// Moves what `over` holds into `base`: tables are merged key by key, lists of tables with names by
-/// these, and everything else is replaced. An empty list of tables replaces all of them; in a table
-/// with a name an empty list takes the key away. Nodes are moved because a copy would lose its line
-/// and column.
+/// Moves the content of `over` into `base`: tables are merged key by key, lists of tables with
+/// names element by element, and everything else is replaced. An empty list of tables replaces all
+/// of them; in a table with a name an empty list removes the key. Nodes are moved because a copy
+/// would lose its line and column.
 void merge(toml::table& base, toml::table&& over) {
   for (auto&& [name, node] : over) {
     const std::string key(name.str());
@@ -105,7 +106,7 @@ toml::table parse(const fs::path& path, const std::string& text) {
   }
 }
 
-/// Reads a file and what it includes.
+/// Reads a file and its includes.
 class Reading {
  public:
   Reading(std::vector<InputFile>& files, const Preparation& prepare)
@@ -127,7 +128,7 @@ class Reading {
       }
       own.erase("include");
     }
-    // A table by itself keeps its place in the file, for messages on keys that it lacks.
+    // A single table keeps its place in the file, for messages about missing keys.
     if (table.empty()) {
       table = std::move(own);
     } else {
@@ -156,11 +157,12 @@ class Reading {
 
   std::vector<InputFile>& files_;
   const Preparation& prepare_;
-  std::vector<fs::path> open_;  ///< the file that is read and those that include it
+  std::vector<fs::path> open_;  ///< the file being read and the files that include it
   std::size_t count_ = 0;
 };
 
-/// The value as TOML if it parses as such, else as a plain string: shells strip quotes.
+/// Assigns the value as TOML if it parses as such, else as a plain string, since shells strip
+/// quotes.
 void assign(toml::table& table, const std::string& key, const std::string& text) {
   try {
     toml::table parsed = toml::parse("value = " + text);
@@ -171,7 +173,7 @@ void assign(toml::table& table, const std::string& key, const std::string& text)
   }
 }
 
-/// The element of an array of tables whose name is given.
+/// The element of an array of tables with a given name.
 toml::table* element_named(toml::array& array, const std::string& name) {
   for (toml::node& node : array) {
     toml::table* const table = node.as_table();
@@ -223,7 +225,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
     }
     table = next;
   }
-  // The old origin and note do not hold for a new value.
+  // The old origin and note are not valid for a new value.
   assign(*table, path.back(), setting.substr(equals + 1));
 }
 

@@ -14,23 +14,24 @@
 
 namespace flexneck::pipeline {
 
-inline constexpr std::size_t kMaxFiles = 100;       ///< included, or of assemblies
-inline constexpr std::size_t kDeepestInclude = 16;  ///< files within one another
+/// Maximum number of includes and files of assemblies.
+inline constexpr std::size_t kMaxFiles = 100;
+inline constexpr std::size_t kDeepestInclude = 16;  ///< maximum depth of nested includes
 
-/// What is done to the table of each file before the one that includes it is put over it.
+/// Transformation of each file's table before the including file is merged over it.
 using Preparation = std::function<void(toml::table&)>;
 
-/// Parses a file and everything it includes into one table. The files read are appended to `files`.
+/// Parses a file and its includes into one table. The files read are appended to `files`.
 toml::table parse_with_includes(const DocumentSource& source, std::vector<InputFile>& files,
                                 const Preparation& prepare);
 
 /// Applies one "dotted.key=value" from the command line.
 void apply_setting(toml::table& root, const std::string& setting);
 
-/// The node as TOML has it, whatever the locale.
+/// Text of the node in TOML syntax, independent of the locale.
 std::string toml_text(const toml::node& node);
 
-/// "<file>:<line>:<column>: ", or "command line: " for what no file holds.
+/// Location "<file>:<line>:<column>: ", or "command line: " for a node of no file.
 std::string location_of(const toml::node& node);
 
 }  // namespace flexneck::pipeline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values of variables put in the place of the products that name them.
+// Replaces products of variables by their values.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr double kMaxWhole = 9007199254740992;  ///< doubles are whole numbers up to 2^53
+constexpr double kMaxWhole = 9007199254740992;  ///< range of exact integers
 
 bool is_product(const toml::node& node) {
   const toml::value<std::string>* const text = node.as_string();
@@ -27,7 +27,7 @@ bool has_products(const toml::array& list) {
   });
 }
 
-/// An element that names no variable has no origin, except for nothing at all.
+/// Label of an element that names no variable: synthetic, or none for zero.
 std::optional<Label> label_of_plain(const toml::node& element) {
   double number = element.value_or(1.0);
   if (const toml::value<std::string>* const text = element.as_string())
@@ -35,7 +35,7 @@ std::optional<Label> label_of_plain(const toml::node& element) {
   return number == 0 ? std::optional<Label>() : Label();
 }
 
-/// Calls use() with the node that a value makes, placed where another stands.
+/// Calls use() with a node for a value, at the source position of another node.
 template <class Use>
 void with_node(const VariableValue& value, const toml::source_region& source, const Use& use) {
   const auto place = [&](auto&& node) {
@@ -55,7 +55,7 @@ void insert_label(toml::table& labels, const Label& label) {
   if (!label.note.empty() && !labels.contains("note")) labels.insert("note", label.note);
 }
 
-/// Puts an origin to a value that stands plainly. Without one it counts as synthetic anyway.
+/// Adds an origin to a plain value. Without one it counts as synthetic anyway.
 void wrap(toml::table& table, const std::string& key, const Label& label) {
   if (label.origin == Origin::synthetic && label.note.empty()) return;
   toml::node& value = *table.get(key);

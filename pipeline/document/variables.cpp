@@ -20,7 +20,7 @@ std::string text_of(const VariableValue& value) {
   return exact_text(value.number) + (value.unit.empty() ? "" : " " + value.unit);
 }
 
-/// The origin and the note that a value is labelled with.
+/// Origin and note of a labelled value.
 Label label_of(const toml::table& labels, const std::string& key) {
   Label label;
   if (const toml::node* const origin = labels.get("origin")) {
@@ -129,7 +129,7 @@ const VariableValue& Variables::named(const std::string& name, const toml::node&
 VariableValue Variables::product_value(const ProductText& product, const toml::node& at,
                                        const std::string& key) {
   VariableValue value{product.number, product.is_whole, product.unit, {}};
-  // A number with its unit is a datum, and one that has no origin.
+  // A product with a unit contains a datum, which has no origin.
   if (!product.unit.empty()) value.label = Label();
   for (const std::string& name : product.names) {
     const VariableValue& factor = named(name, at, key);

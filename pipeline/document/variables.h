@@ -19,40 +19,40 @@ struct Label {
   std::string note;
 };
 
-/// What a variable or a product of variables comes to.
+/// Value of a variable or of a product of variables.
 struct VariableValue {
   double number = 0;
   bool is_whole = false;
   std::string unit;            ///< empty for a pure number
-  std::optional<Label> label;  ///< none for a plain 1 or -1, which is a sign and no datum
+  std::optional<Label> label;  ///< none for a plain 1 or -1, which is a sign and not a datum
 };
 
-/// The label of what is made of two things, of which one or both may have none.
+/// Label of a combination of two values, either of which may have none.
 std::optional<Label> weaker(std::optional<Label> a, std::optional<Label> b);
 
-/// The table [variables] of a file with what it includes. All members throw InputError with file,
-/// line, column and dotted key.
+/// The table [variables] of a file with its includes. All members throw InputError with file, line,
+/// column and dotted key.
 class Variables {
  public:
   /// @param table  name = number, quantity or product, plainly or as { value, origin, note }
-  /// @param path   of the table in messages and parameters, such as "variables"
+  /// @param path   path of the table in messages and parameters, such as "variables"
   Variables(toml::table&& table, std::string path);
 
-  /// Puts their values in the place of all products of variables (product_text.h) in a tree. A
-  /// value without an origin of its own gets the weakest one of what it is made of. Lines and
-  /// columns stay those of the product.
+  /// Replaces all products of variables (product_text.h) in a tree by their values. A value without
+  /// an origin of its own gets the weakest origin of its factors. Lines and columns remain those of
+  /// the product.
   void substitute(toml::table& tree);
-  /// Refuses a variable that nothing has used.
+  /// Refuses an unused variable.
   void finish() const;
   /// The variables as parameters of the document.
   std::vector<Parameter> parameters() const;
 
  private:
   struct Variable {
-    std::optional<VariableValue> value;  ///< none until it is asked for
+    std::optional<VariableValue> value;  ///< none until it is requested
     bool is_used = false;
   };
-  /// Of some text in a tree: what stands in its place, if it is a product.
+  /// Replacement of a text in a tree, if it is a product.
   struct Replacement {
     bool is_replaced = false;
     std::optional<Label> label;
@@ -73,7 +73,7 @@ class Variables {
   toml::table table_;
   std::string path_;
   std::map<std::string, Variable> variables_;
-  std::vector<std::string> open_;  ///< the variable that is evaluated and those that name it
+  std::vector<std::string> open_;  ///< the variable being evaluated and those that name it
 };
 
 }  // namespace flexneck::pipeline

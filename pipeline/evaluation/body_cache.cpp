@@ -39,7 +39,7 @@ void BodyCache::Last<Thing>::keep(const std::string& key, Thing thing, const Fil
 }
 
 BodyCache::~BodyCache() {
-  solvers_.run([this] { session_.reset(); });  // where it was begun
+  solvers_.run([this] { session_.reset(); });  // on the thread that started the session
 }
 
 void BodyCache::start() {
@@ -61,7 +61,7 @@ BodyCache::Body BodyCache::body(const Study& study, BodyUse use) {
   if (found) return found;
   start();
   solvers_.run([&] {
-    found = known(key);  // another thread may have asked for the same
+    found = known(key);  // another thread may have computed the same body meanwhile
     if (found) return;
     const FilesRead reads;
     found = std::make_shared<const fe_modal::ModalBody>(without_shapes(solved(study, use)));

@@ -23,11 +23,11 @@
 
 namespace flexneck::pipeline {
 
-/// Meshes and modes of studies that differ in some values, each computed once for all that have
-/// the values it is made from in common. One at a time is computed, on a thread of its own, since
-/// gmsh and PETSc serve one. The last kBodies bodies and kPieces sets of pieces, without shapes,
-/// and kMeshes meshes are kept. For any number of threads. One at a time in a process, as
-/// fe_modal::PetscSession.
+/// Meshes and modes of studies that differ in some values, each computed once for all studies that
+/// share the values it depends on. They are computed one at a time, on a thread of their own, since
+/// gmsh and PETSc allow only one. The last kBodies bodies and kPieces sets of submeshes, without
+/// shapes, and kMeshes meshes are kept. Safe for any number of threads. At most one cache in a
+/// process, like fe_modal::PetscSession.
 class BodyCache {
  public:
   using Body = std::shared_ptr<const fe_modal::ModalBody>;
@@ -35,7 +35,7 @@ class BodyCache {
   static constexpr std::size_t kPieces = 200;   ///< about 100 kB each
   static constexpr std::size_t kMeshes = 4;
 
-  /// @param console  for what meshing tells; outlives this
+  /// @param console  takes the messages of meshing; outlives this
   explicit BodyCache(const Console& console) : console_(console) {}
   ~BodyCache();
   BodyCache(const BodyCache&) = delete;
@@ -49,24 +49,24 @@ class BodyCache {
   /// @throws as substructures_of() and fe_modal::analyse_modes() do.
   StructurePieces pieces(const Study& study);
 
-  /// Figures of the modes with their derivatives, on the thread of the solvers; nothing is kept but
-  /// the mesh. @throws as flexneck::pipeline::modes_slopes() does.
+  /// Computes figures of the modes with their derivatives, on the thread of the solvers; only the
+  /// mesh is kept. @throws as flexneck::pipeline::modes_slopes() does.
   FigureSlopes slopes(const Study& study, BodyUse use, const std::vector<MovedStudy>& moved,
                       const std::vector<std::string>& figures);
 
-  /// Starts PETSc, which changes variables of the environment: before other threads begin.
+  /// Starts PETSc, which changes environment variables: call it before other threads begin.
   void start();
 
-  /// How often modes were computed.
+  /// Number of modal analyses so far.
   std::size_t solved_count() const;
 
  private:
-  /// The last few things by their keys, with the files that were read for them.
+  /// The most recently used things by their keys, with the files that were read for them.
   template <class Thing>
   class Last {
    public:
     explicit Last(std::size_t count) : count_(count) {}
-    /// Whoever finds one depends on these files: they are noted as read.
+    /// Finds a thing and records its files as read, since the caller depends on them.
     const Thing* find(const std::string& key);
     void keep(const std::string& key, Thing thing, const FilesRead& reads);
 
@@ -78,23 +78,23 @@ class BodyCache {
     };
     using Entries = std::list<Entry>;
     std::size_t count_;
-    Entries entries_;  ///< the one used last first
+    Entries entries_;  ///< most recently used first
     std::map<std::string, typename Entries::iterator> places_;
   };
 
   Body known(const std::string& key);
-  /// On the thread of the solvers, both.
+  /// Called on the thread of the solvers only, as is solved().
   const mesher::Mesh& mesh_of(const Study& study);
   fe_modal::ModalBody solved(const Study& study, BodyUse use);
 
   const Console& console_;
-  mutable std::mutex mutex_;  ///< of the bodies
+  mutable std::mutex mutex_;  ///< guards bodies_ and solved_
   Last<Body> bodies_{kBodies};
   std::size_t solved_ = 0;
-  Last<StructurePieces> pieces_{kPieces};          ///< of the thread of the solvers
-  Last<mesher::Mesh> meshes_{kMeshes};             ///< of the thread of the solvers
-  std::optional<fe_modal::PetscSession> session_;  ///< likewise
-  SerialThread solvers_;                           ///< last: it uses the others
+  Last<StructurePieces> pieces_{kPieces};          ///< used on the thread of the solvers only
+  Last<mesher::Mesh> meshes_{kMeshes};             ///< used on the thread of the solvers only
+  std::optional<fe_modal::PetscSession> session_;  ///< used on the thread of the solvers only
+  SerialThread solvers_;  ///< declared last: its work uses the other members
 };
 
 }  // namespace flexneck::pipeline

@@ -25,7 +25,7 @@ bool is_unfiltered(const std::string& channel) {
   return has_channel(unfiltered_channels({}), channel);
 }
 
-/// Runs of the pendulum that were wanted, each once.
+/// Runs of the pendulum that are wanted, each computed once.
 class Experiments {
  public:
   Experiments(const Study& study, BodyCache& bodies, const WantedOutputs& wanted)
@@ -71,7 +71,7 @@ class Experiments {
     return body_;
   }
 
-  /// Of a case whose bodies are all rigid nothing is computed.
+  /// Modes for a case; none are computed if all its bodies are rigid.
   const fe_modal::ModalBody& body_of(const CaseSection& experiment) {
     static const fe_modal::ModalBody kNone;
     const bool is_rigid = experiment.model.of_structure.empty();
@@ -139,7 +139,7 @@ class Experiments {
   const Study& study_;
   BodyCache& bodies_;
   BodyCache::Body body_;
-  std::map<std::string, bool> is_filtered_;  ///< cases whose filtered channels are wanted
+  std::map<std::string, bool> is_filtered_;  ///< true for cases whose filtered channels are wanted
   std::map<std::string, PendulumRun> runs_;
   std::map<std::string, PendulumResult> results_;
   std::map<std::string, multibody::SystemMode> modes_;
@@ -234,7 +234,7 @@ Study Evaluator::study(const std::vector<std::string>& settings) {
     }
   }
   if (!reader) reader = std::make_unique<StudyReader>(choice_.study, choice_.settings);
-  Study found = reader->read(settings);  // a reader that throws goes
+  Study found = reader->read(settings);  // a reader that throws is discarded
   const std::scoped_lock lock(mutex_);
   has_study_changed_ = has_study_changed_ || found.files != base_.files;
   idle_readers_.push_back(std::move(reader));

@@ -21,7 +21,7 @@ constexpr std::string_view kFrequencyOf = "frequency.";
 constexpr std::string_view kFrequencyByRank = "frequency_by_rank.";
 constexpr std::string_view kStiffnessOf = "static_stiffness.";
 
-/// The load and the motion of a stiffness "Fx/ux at top", force (3) and moment (3).
+/// Index of the load of a stiffness such as "Fx/ux at top": forces 0 to 2, moments 3 to 5.
 std::size_t load_of(const std::string& stiffness) {
   const std::string here = stiffness.substr(std::min(stiffness.find(" at "), stiffness.size()));
   std::vector<std::string> names;
@@ -41,10 +41,10 @@ double static_stiffness(const fe_modal::ModalBody& body, const std::string& name
   return 1 / at.response->compliance(load, load);
 }
 
-/// "bending 2"
+/// Kind and rank of a mode, such as "bending 2".
 struct ModeRank {
   std::string kind;
-  std::size_t rank = 0;  ///< from 1
+  std::size_t rank = 0;  ///< rank counted from 1
 };
 
 ModeRank mode_rank(const std::string& text) {
@@ -59,7 +59,7 @@ ModeRank mode_rank(const std::string& text) {
   return found;
 }
 
-/// A row of a list of figures; the list is the one place that says which there are.
+/// Row of a list of figures; the list is the only definition of the available figures.
 template <class Result>
 struct Row {
   std::string name;
@@ -156,7 +156,7 @@ std::string with_underscores(std::string name) {
 
 constexpr const char* kInside = "figures_inside";
 
-/// As the rules name them, of a head that does not move.
+/// Figures with the names of the rules, evaluated for a head at rest.
 std::vector<JudgedFigure> figures_at_rest(const CertificationTest& test) {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(3);
   return judged_response(test, {Eigen::VectorXd::LinSpaced(3, 0, 1), rest, rest});

@@ -12,7 +12,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// The name of the one fixed set, or of the union of several, which joins the mesh.
+/// Name of the single fixed set, or of the union of several, which is added to the mesh.
 std::string fixed_set(const std::vector<std::string>& fixed, mesher::Mesh& mesh) {
   if (fixed.empty()) return {};
   if (fixed.size() == 1) return mesh.node_set(fixed.front()).name;
@@ -28,7 +28,8 @@ std::string fixed_set(const std::vector<std::string>& fixed, mesher::Mesh& mesh)
   return all.name;
 }
 
-/// @throws InputError if an interface that is not fixed has no face set to move with.
+/// Fails if an interface that is not fixed has no face set.
+/// @throws InputError
 void require_face_set(const mesher::Mesh& mesh, const InterfaceSection& interface) {
   try {
     static_cast<void>(mesh.face_set(interface.set));

@@ -29,7 +29,7 @@ constexpr std::array<fe_modal::MaterialConstant, 3> kConstantKinds = {
     fe_modal::MaterialConstant::youngs_modulus, fe_modal::MaterialConstant::poissons_ratio,
     fe_modal::MaterialConstant::density};
 
-/// What the modes are made from besides the mesh.
+/// Text of the values on which the modes depend besides those of the mesh.
 std::string text_beside_mesh(const Study& study) {
   std::vector<std::string> of_mesh;
   for (const Parameter& each : mesh_values(study)) of_mesh.push_back(each.key);
@@ -52,7 +52,7 @@ std::vector<mesher::Mesh> meshes_of(const std::vector<MovedStudy>& moved, const 
   return meshes;
 }
 
-/// First those of the nodes for each number, then all constants of all materials.
+/// Parameters: first the motion of the nodes for each number, then all constants of all materials.
 std::vector<fe_modal::DesignParameter> design_parameters(const mesher::Mesh& mesh,
                                                          const std::vector<mesher::Mesh>& others,
                                                          const std::vector<MovedStudy>& moved) {
@@ -67,7 +67,7 @@ std::vector<fe_modal::DesignParameter> design_parameters(const mesher::Mesh& mes
   return parameters;
 }
 
-/// By the numbers: through the nodes, and through the materials that they change.
+/// Derivatives by the numbers: through the nodes, and through the materials that they change.
 MatrixXd by_numbers(const MatrixXd& by_parameters, const mesher::Mesh& mesh,
                     const std::vector<mesher::Mesh>& others, const std::vector<MovedStudy>& moved) {
   const auto count = static_cast<Index>(moved.size());
@@ -84,7 +84,7 @@ MatrixXd by_numbers(const MatrixXd& by_parameters, const mesher::Mesh& mesh,
   return found;
 }
 
-/// Row of a frequency: its own, or that of the mean of the nearly equal ones it is among.
+/// Row of a frequency: its own, or the row of the mean of a nearly equal group that it belongs to.
 Index row_of_frequency(const fe_modal::Sensitivities& found, const std::string& name,
                        bool is_attached) {
   Index mean = -1;
@@ -146,9 +146,9 @@ FigureSlopes modes_slopes(const Study& study, const mesher::Mesh& mesh, BodyUse 
   fe_modal::AnalysisFields fields;
   const fe_modal::ModalBody body =
       fe_modal::analyse_modes(solved, options, {}, nullptr, {}, &fields);
-  static_cast<void>(rounding_remark(solved, options, body));  // refuses what is wrong
+  static_cast<void>(rounding_remark(solved, options, body));  // throws if the result is wrong
   if (std::none_of(figures.begin(), figures.end(), is_stiffness_figure))
-    fields.responses.clear();  // whose derivatives nobody asks for
+    fields.responses.clear();  // their derivatives are not needed
   const std::vector<mesher::Mesh> others = meshes_of(moved, console);
   const fe_modal::Sensitivities found = fe_modal::sensitivities(
       solved, options, body, fields, design_parameters(solved, others, moved));

@@ -13,35 +13,34 @@
 
 namespace flexneck::pipeline {
 
-/// A study with one number moved a little.
+/// A study with one number slightly changed.
 struct MovedStudy {
   Study study;
-  double width = 0;  ///< by how much, with its sign
+  double width = 0;  ///< signed change of the number
 };
 
-/// Figures of the modes and their derivatives by the numbers that are moved.
+/// Figures of the modes and their derivatives by the changed numbers.
 struct FigureSlopes {
   Eigen::VectorXd values;       ///< (n) SI
   Eigen::MatrixXd derivatives;  ///< (n, p)
 };
 
-/// Whether two studies differ, as far as modes go, in what the mesh is made from alone: in
-/// dimensions or material constants. Derivatives by what changes nothing else are known in closed
-/// form.
+/// Returns whether two studies differ, as far as modes go, only in values of the mesh: dimensions
+/// or material constants. Derivatives by such values are known in closed form.
 bool differ_in_mesh_only(const Study& a, const Study& b);
 
-/// Whether derivatives of the modes of a study are known in closed form at all: of a mesh, solved
-/// directly, with a basis that has eigenvectors.
+/// Returns whether derivatives of a study's modes are known in closed form at all: for a mesh,
+/// solved directly, with a basis that has eigenvectors.
 bool has_modes_slopes(const Study& study);
 
-/// By fe_modal::sensitivities(): one solution, and how nodes and materials change with each number,
-/// which is the quotient of the differences between two meshes. A mode of a nearly equal pair has
-/// its own derivative where the pair is uncoupled, else that of the pair's mean.
-/// @param mesh     of the study
-/// @param moved    differ from it in the mesh only
-/// @param figures  of the modes, as modes_figure() has them
+/// Derivatives by fe_modal::sensitivities(): from one solution and the rates at which nodes and
+/// materials change with each number, found as difference quotients between two meshes. A mode of a
+/// nearly equal pair has its own derivative if the pair is uncoupled, else that of the pair's mean.
+/// @param mesh     mesh of the study
+/// @param moved    studies that differ from it in the mesh only
+/// @param figures  names of figures of the modes, as for modes_figure()
 /// @pre a fe_modal::PetscSession
-/// @throws InputError where a mesh of another topology comes out, and as modes_figure() does.
+/// @throws InputError if a changed mesh has another topology, and as modes_figure() does.
 FigureSlopes modes_slopes(const Study& study, const mesher::Mesh& mesh, BodyUse use,
                           const std::vector<MovedStudy>& moved,
                           const std::vector<std::string>& figures, const Console& console);

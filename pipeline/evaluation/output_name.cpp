@@ -36,7 +36,7 @@ std::vector<std::string> owners_of(Of of, const Study& study) {
   return {};
 }
 
-/// Names of cases and of modes may have dots themselves.
+/// Splits off the name of the case or test. Names of cases and of modes may contain dots.
 void split_owner(const std::string& rest, const Study& study, OutputName& output) {
   const std::vector<std::string> owners = owners_of(output.of, study);
   for (const std::string& owner : owners) {
@@ -54,7 +54,7 @@ void split_owner(const std::string& rest, const Study& study, OutputName& output
   throw InputError("expected a figure after the name of the case");
 }
 
-/// Of what changes results; with empty lines between the stages.
+/// Text of the parameters that change results, with an empty line at the end of each stage.
 std::string text_of(const std::vector<Parameter>& parameters) {
   std::string text;
   for (const Parameter& each : parameters) {

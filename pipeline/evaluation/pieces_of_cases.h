@@ -6,11 +6,12 @@
 
 namespace flexneck::pipeline {
 
-/// Whether a case has pieces of the structure as sections.
+/// True if a case has submeshes of the structure as sections.
 bool has_cases_of_pieces(const Study& study);
 bool has_cases_of_pieces(const Study& study, CaseSection::Kind kind);
 
-/// The study with their stiffness. @throws InputError as attach_pieces() does, with the case.
+/// The study with the submeshes' stiffness. @throws InputError as attach_pieces() does, with the
+/// case.
 Study with_pieces(Study study, const Pieces& pieces);
 
 }  // namespace flexneck::pipeline

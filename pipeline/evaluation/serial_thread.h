@@ -10,16 +10,16 @@
 
 namespace flexneck::pipeline {
 
-/// A thread that does what others hand it, one piece of work after another: for gmsh, PETSc and
-/// MPI, which want to be called from one thread only.
+/// A thread that runs the work it is given, one piece after another: for gmsh, PETSc and MPI, which
+/// must be called from one thread only.
 class SerialThread {
  public:
   SerialThread();
-  ~SerialThread();  ///< does what is waiting first
+  ~SerialThread();  ///< finishes the waiting work first
   SerialThread(const SerialThread&) = delete;
   SerialThread& operator=(const SerialThread&) = delete;
 
-  /// Waits until the work is done. Files that it reads count as read by the thread that waits.
+  /// Runs work and waits for it. Files that it reads count as read by the calling thread.
   /// @throws what the work throws.
   void run(const std::function<void()>& work);
 
@@ -30,7 +30,7 @@ class SerialThread {
   std::condition_variable changed_;
   std::deque<std::packaged_task<void()>> waiting_;
   bool is_ending_ = false;
-  std::thread thread_;  ///< last: it uses the others
+  std::thread thread_;  ///< declared last: it uses the other members
 };
 
 }  // namespace flexneck::pipeline

@@ -33,7 +33,7 @@ std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptio
                                         [](const mesher::Material& a, const mesher::Material& b) {
                                           return a.poissons_ratio < b.poissons_ratio;
                                         });
-  // K has the bulk modulus beside the shear modulus: ten times it at a ratio of 0.45.
+  // K contains the bulk and the shear modulus; their ratio is ten at a Poisson's ratio of 0.45.
   constexpr double kNearlyIncompressible = 0.45;
   std::string line = fmt::format("rounding moves the first frequency by {:.1e} of it: ", error);
   line += nearest->poissons_ratio > kNearlyIncompressible
@@ -55,7 +55,7 @@ fe_modal::ModalBody modes_of_mesh(const Study& study, mesher::Mesh mesh, BodyUse
   if (use == BodyUse::static_tests)
     mesh = with_static_moduli(std::move(mesh), study.material_models());
   fe_modal::ModalBody body = fe_modal::analyse_modes(mesh, options, {});
-  static_cast<void>(rounding_remark(mesh, options, body));  // refuses what is wrong
+  static_cast<void>(rounding_remark(mesh, options, body));  // throws if the result is wrong
   return body;
 }
 

@@ -28,7 +28,7 @@ class Builder {
  private:
   mesher::Connections& connections() { return mesh_.connections; }
 
-  /// Of a node set, or of a face set.
+  /// Nodes of a node set, or of a face set.
   std::vector<std::int32_t> nodes_of(const std::string& set) const {
     const auto is_among = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), set) != names.end();
@@ -158,7 +158,7 @@ class Builder {
 
   const ModesConnections& given_;
   mesher::Mesh& mesh_;
-  std::map<std::string, std::int32_t> points_;  ///< of couplings, by name
+  std::map<std::string, std::int32_t> points_;  ///< reference points of couplings, by name
 };
 
 }  // namespace

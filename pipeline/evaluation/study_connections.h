@@ -6,9 +6,9 @@
 
 namespace flexneck::pipeline {
 
-/// Adds what [modes] holds, joins and loads the structure with to the mesh's connections. With
-/// modes.deck_supports = false the supports that the mesh has from its file go.
-/// @throws InputError naming the key, with the nearest set where one is unknown.
+/// Adds the supports, couplings and loads of [modes] to the mesh's connections. With
+/// modes.deck_supports = false the supports from the mesh's file are removed.
+/// @throws InputError naming the key, with the nearest set if one is unknown.
 void add_study_connections(const Study& study, mesher::Mesh& mesh);
 
 }  // namespace flexneck::pipeline

@@ -39,7 +39,7 @@ Eigen::Vector3d middle_of(const mesher::Mesh& mesh, const mesher::FaceSet& faces
   return mesher::positions_of(mesh, mesher::nodes_of(faces).nodes).rowwise().mean();
 }
 
-/// The whole's interfaces on the piece.
+/// Interfaces of the whole structure that lie on the submesh.
 std::vector<fe_modal::InterfaceDefinition> interfaces_on(const mesher::Mesh& piece,
                                                          const mesher::Mesh& whole,
                                                          const fe_modal::ModalOptions& options) {
@@ -57,7 +57,7 @@ std::vector<fe_modal::InterfaceDefinition> interfaces_on(const mesher::Mesh& pie
   return result;
 }
 
-/// Holds a piece at its cut with the first of the earlier pieces that it touches.
+/// Fixes a submesh at its cut with the first of the earlier submeshes that it touches.
 void hold_at_earlier(const std::vector<std::string>& names, std::size_t piece,
                      const mesher::Mesh& mesh, fe_modal::ModalOptions& options) {
   for (std::size_t earlier = 0; earlier < piece; ++earlier) {

@@ -14,7 +14,7 @@ BendingPlane bending_plane(CaseSection::Direction direction, double oblique_angl
   if (direction == Direction::oblique)
     tip = {std::cos(oblique_angle_rad), std::sin(oblique_angle_rad), 0};
   const Vector3d axis = Vector3d::UnitZ().cross(tip);
-  // SAE J211 has y to the right: Fy is positive against the tip, Fx along it.
+  // In SAE J211 y points right: Fy is positive against the tip direction, Fx along it.
   const Vector3d shear = lateral ? Vector3d(-tip) : tip;
   return {direction == Direction::extension ? Vector3d(-tip) : tip, tip, axis, shear, -axis};
 }
@@ -40,7 +40,7 @@ Eigen::VectorXd relative_rotation(const multibody::MarkerHistory& marker,
   for (Eigen::Index k = 0; k < angles.size(); ++k) {
     const Eigen::AngleAxisd turn(rotation_at(reference, k).conjugate() * rotation_at(marker, k));
     const double angle = turn.angle() * turn.axis().dot(plane.axis);
-    // Counted on beyond half a turn.
+    // The angle is continued beyond half a turn.
     const double before = k > 0 ? angles[k - 1] : 0;
     angles[k] = before + std::remainder(angle - before, 2 * std::numbers::pi);
   }

@@ -11,22 +11,23 @@ namespace flexneck::pipeline {
 
 /// The plane in which a case bends the neck, in neck axes (x forward, y left, z to the head).
 struct BendingPlane {
-  Eigen::Vector3d motion;  ///< way the arm moves or the load pushes
-  Eigen::Vector3d tip;     ///< way the head tips when the rotation is positive: +x or +y
-  Eigen::Vector3d axis;    ///< of that rotation, z cross tip
-  /// Of a load of the lower body on the upper one, what the channels of SAE J211 have of it: Fx and
-  /// My, Fy and Mx, or of an oblique plane what Fx and My would be if x were the tip.
+  Eigen::Vector3d motion;  ///< direction in which the arm moves or the load pushes
+  Eigen::Vector3d tip;     ///< direction in which the head tips for a positive rotation: +x or +y
+  Eigen::Vector3d axis;    ///< axis of that rotation, z cross tip
+  /// Axes of the channels of SAE J211 for a load of the lower body on the upper one: Fx and My, or
+  /// Fy and Mx; in an oblique plane those that Fx and My would have if x were the tip direction.
   Eigen::Vector3d shear, moment;
 };
 
-/// @param oblique_angle_rad  of an oblique direction, from +x towards +y
+/// Plane of a direction.
+/// @param oblique_angle_rad  angle of an oblique direction, from +x towards +y
 BendingPlane bending_plane(CaseSection::Direction direction, double oblique_angle_rad = 0);
 BendingPlane bending_plane(const CaseSection& experiment);
 
 /// Rotation of a marker at output time k, marker to world.
 Eigen::Quaterniond rotation_at(const multibody::MarkerHistory& marker, Eigen::Index k);
 
-/// Angle about an axis that a rotation keeps, rad in (-pi, pi].
+/// Angle of a rotation's component about an axis, rad in (-pi, pi].
 double turn_about(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& axis);
 
 /// Rotation of one marker against another about the plane's axis (the component of the rotation

@@ -15,7 +15,7 @@ using multibody::Model;
 
 namespace {
 
-/// The rigid neck in place of the deformable one.
+/// Replaces the deformable neck by the rigid one.
 void replace_neck(CaseSection::Direction direction, Model& model) {
   const std::size_t neck = deformable_body(model);
   put_rigid_neck(

@@ -7,13 +7,13 @@
 
 namespace flexneck::pipeline {
 
-/// The model of a case with the modes of the structure, its bodies placed so that the joints close
-/// in the undeformed state, at rest. The body that a pendulum moves has no motion yet.
-/// @throws InputError for modes that do not exist, a body that no joint reaches, and places and
+/// The model of a case with the modes of the structure, at rest; its bodies are placed so that the
+/// joints close in the undeformed state. The body that a pendulum moves has no motion yet.
+/// @throws InputError for modes that do not exist, a body that no joint reaches, and positions and
 /// velocities that contradict each other or a start at rest.
 multibody::Model case_model(const CaseSection& experiment, const fe_modal::ModalBody& structure);
 
-/// The one deformable body of a model. @throws InputError if there is none, or another.
+/// Index of the only deformable body of a model. @throws InputError unless there is exactly one.
 std::size_t deformable_body(const multibody::Model& model);
 
 }  // namespace flexneck::pipeline

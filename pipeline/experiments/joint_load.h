@@ -6,16 +6,16 @@
 
 namespace flexneck::pipeline {
 
-/// All that the lower body of a joint exerts on the upper one, in the axes of marker i: the
-/// reaction, which a history holds, and what the springs, dampers and stops on a pin's angle do,
+/// Total load of a joint's lower body on the upper one, in the axes of marker i: the reaction,
+/// which a history holds, and the loads of springs, dampers and stops on a revolute joint's angle,
 /// which it does not (multibody/CONVENTIONS.md, signs).
 struct JointLoad {
   Eigen::Matrix3Xd force_N;
   Eigen::Matrix3Xd moment_Nm;  ///< about marker j's origin
 };
 
-/// @param history  of the model's run
-/// @param joint    among the model's joints
+/// @param history  the model's run
+/// @param joint    index among the model's joints
 JointLoad joint_load(const multibody::Model& model, const multibody::History& history,
                      std::size_t joint);
 

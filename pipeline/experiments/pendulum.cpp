@@ -23,8 +23,8 @@ using multibody::Model;
 
 namespace {
 
-/// The arm's motion of a case.
-/// @param to_world  of the arm's axes, which are the neck's
+/// Prescribed motion of a case's arm.
+/// @param to_world  rotation from the arm's axes, which are the neck's
 multibody::PrescribedBody arm_motion(const CaseSection& experiment, const FittedPulse& pulse,
                                      const Eigen::Quaterniond& to_world) {
   const Eigen::Vector3d along = to_world * bending_plane(experiment).motion;
@@ -35,7 +35,7 @@ multibody::PrescribedBody arm_motion(const CaseSection& experiment, const Fitted
     prescribed.acceleration_m_s2 = pulse.acceleration();
     return prescribed;
   }
-  // The pivot is above: w x (0, 0, -r) points along the motion.
+  // The pivot is above the accelerometer: w x (0, 0, -r) points along the motion.
   const double radius = experiment.accelerometer_distance_m;
   prescribed.turn.axis = along.cross(Eigen::Vector3d::UnitZ());
   prescribed.turn.point_m = {0, 0, experiment.pivot_distance_m};
@@ -44,7 +44,7 @@ multibody::PrescribedBody arm_motion(const CaseSection& experiment, const Fitted
   return prescribed;
 }
 
-/// Processor time of this thread, s.
+/// Processor time of the calling thread, s.
 double processor_time() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -75,7 +75,7 @@ Model pendulum_model(const Study& study, const CaseSection& experiment,
 
 namespace {
 
-/// Under a rotating arm everything turns with it at the start.
+/// Model ready to run; with a rotating arm all bodies start with the arm's rotation.
 Model prepared_model(const Study& study, const CaseSection& experiment,
                      const fe_modal::ModalBody& body) {
   Model model = pendulum_model(study, experiment, body);
@@ -91,7 +91,7 @@ History simulate_case(const Model& model, const Study& study, const CaseSection&
              : multibody::simulate_from_equilibrium(model, study.solver, output);
 }
 
-/// The history of as many outputs as there are.
+/// History of the run, shorter if it ended early.
 History history_of(const Model& model, const Study& study, const CaseSection& experiment,
                    const multibody::OutputOptions& output) {
   try {
@@ -183,8 +183,8 @@ bool is_fore_aft(const fe_modal::ModeRecord& mode) {
   return fore_aft + axial > lateral + twist;
 }
 
-/// Leaves a body only those modes that move in a plane through its axis. The neck is symmetric
-/// about its x-z plane, so the others take no part.
+/// Keeps only those modes of a body that move in, or across, the plane through its axis. The neck
+/// is symmetric about its x-z plane, so the other modes do not take part.
 void keep_modes(bool fore_aft, multibody::DeformableBody& body) {
   std::vector<std::string> names;
   std::vector<Eigen::Index> kept;
@@ -201,7 +201,8 @@ void keep_modes(bool fore_aft, multibody::DeformableBody& body) {
   if (body.gaps.count() > 0) body.gaps.coupling = body.gaps.coupling(Eigen::all, kept).eval();
 }
 
-/// Fixes the pins that turn across the plane of a case, and takes their springs away.
+/// Fixes the revolute joints whose axes are normal to that of the case's plane, and removes their
+/// springs.
 void fix_pins_across(const BendingPlane& plane, Model& model) {
   constexpr double kAcross = 1e-9;
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
@@ -215,7 +216,7 @@ void fix_pins_across(const BendingPlane& plane, Model& model) {
   }
 }
 
-/// The case's model in its plane, its arm at rest.
+/// The case's model restricted to its plane, its arm at rest.
 Model model_in_plane(const Study& study, CaseSection experiment, const fe_modal::ModalBody& body) {
   experiment.arm = CaseSection::Arm::translating;
   Model model = pendulum_model(study, experiment, body);
@@ -239,8 +240,8 @@ multibody::SystemMode first_system_mode(const Study& study, const CaseSection& e
     throw InputError("case." + experiment.name +
                      ": none of the modes chosen moves in the plane of the case");
   }
-  // About a kink the mean stiffness is not symmetric, by which an oscillation may grow, but nothing
-  // falls over.
+  // At a kink the mean stiffness is not symmetric, so that an oscillation may grow although the
+  // equilibrium is stable; only a non-oscillating instability means that the neck falls over.
   const bool falls_over = modes.front().damped_frequency_Hz == 0;
   if (modes.front().is_unstable() && (modes.front().kink.empty() || falls_over)) {
     throw ComputationError("case." + experiment.name +

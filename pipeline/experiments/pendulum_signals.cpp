@@ -42,7 +42,8 @@ const MarkerHistory& marker_i(const Model& model, const History& history, std::s
   return history.marker(model.markers[model.joints[joint].marker_i].name);
 }
 
-/// Moments about another point, which is at the given place from marker j, axes of marker i.
+/// Moves the reference point of the moments to a point given relative to marker j, in axes of
+/// marker i.
 void refer_to(const Eigen::Matrix3Xd& point_from_j_m, JointLoad& load) {
   for (Index k = 0; k < load.moment_Nm.cols(); ++k) {
     const Vector3d r = point_from_j_m.col(k);
@@ -73,7 +74,7 @@ void add_head(const Model& model, const History& history, const BendingPlane& pl
   const MarkerHistory& top = marker_i(model, history, joint);
   JointLoad load = joint_load(model, history, joint);
   signals.occipital_moment = load.moment_Nm.transpose() * plane.moment;
-  // The cell turns with the head.
+  // The load cell rotates with the head.
   for (Index k = 0; k < load.force_N.cols(); ++k) {
     const Eigen::Quaterniond to_head = rotation_at(head, k).conjugate() * rotation_at(top, k);
     load.force_N.col(k) = to_head * Vector3d(load.force_N.col(k));
@@ -154,8 +155,8 @@ std::vector<Channel> pendulum_channels(const VectorXd& time_s, const PendulumSig
                                 experiment.moment.arm_m, experiment.direction),
               filter_text(experiment.moment));
   std::vector<Channel> channels = unfiltered_channels(signals);
-  channels.insert(channels.begin() + 3, acceleration);  // beside the unfiltered one
-  channels.insert(channels.begin() + 6, moment);        // beside the other moments
+  channels.insert(channels.begin() + 3, acceleration);  // next to the unfiltered acceleration
+  channels.insert(channels.begin() + 6, moment);        // next to the other moments
   return channels;
 }
 

@@ -57,7 +57,7 @@ ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& ent
 
 namespace {
 
-/// Which figures are linearised at a kink; empty if none.
+/// Note that lists the figures linearised at a kink; empty if there are none.
 std::string kink_note(const std::vector<PendulumEntry>& entries) {
   std::string cases;
   std::string first;

@@ -11,21 +11,21 @@
 
 namespace flexneck::pipeline {
 
-/// What is known of a case once it was run.
+/// Data of a case after its run.
 struct PendulumEntry {
   CaseSection experiment;
   FittedPulse pulse;
   PendulumResult result;
   multibody::SystemMode hanging, weightless;  ///< small motions with and without gravity
-  std::optional<IntegrationCost> cost;        ///< where a rigid neck is compared
+  std::optional<IntegrationCost> cost;        ///< present if the case is compared with a rigid neck
 };
 
-/// "peaks": largest rotations, acceleration and moments with their times.
+/// Table "peaks": largest rotations, acceleration and moments with their times.
 ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& entries);
-/// "oscillations": frequency and damping of small motions and of the run.
+/// Table "oscillations": frequency and damping of small motions and of the run.
 ResultTable oscillation_table(const std::vector<PendulumEntry>& entries);
 
-/// A figure that may not be there, times a factor.
+/// Text of an optional figure, times a factor.
 std::string text_of(const std::optional<double>& value, const char* format, double factor = 1);
 
 }  // namespace flexneck::pipeline

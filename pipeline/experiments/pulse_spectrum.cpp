@@ -16,7 +16,7 @@ struct Moments {
 };
 
 Moments moments(Complex z) {
-  // Below this the closed form loses more to cancellation than the series leaves out.
+  // For smaller |z| the closed form loses more to cancellation than the truncated series.
   constexpr double kSmall = 1e-3;
   if (std::abs(z) < kSmall)
     return {1.0 - z / 2.0 + z * z / 6.0 - z * z * z / 24.0,

@@ -20,7 +20,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// The length of a point pendulum that a velocity implies; none without a drop angle.
+/// Length of the point pendulum that a velocity implies; none without a drop angle.
 std::optional<double> implied_length(const CaseSection& experiment) {
   if (!experiment.drop_angle_rad) return {};
   return drop_length(experiment.impact_velocity_m_s, *experiment.drop_angle_rad);
@@ -30,13 +30,13 @@ std::string in_inches(double length_m) {
   return fmt::format("{:.2f}", length_m * factor_from_si("m", "in"));
 }
 
-/// To a hundredth of an inch, which is what velocities of three digits tell of a length.
+/// Length rounded to a hundredth of an inch, the accuracy that a velocity of three digits implies.
 double rounded(double length_m) {
   const double hundredths = 100 * factor_from_si("m", "in");
   return std::round(length_m * hundredths) / hundredths;
 }
 
-/// Lengths that velocities which are given imply.
+/// Lengths implied by the velocities that are given.
 std::set<double> lengths_given(const std::vector<PendulumEntry>& entries) {
   std::set<double> lengths_m;
   for (const PendulumEntry& entry : entries)
@@ -45,7 +45,7 @@ std::set<double> lengths_given(const std::vector<PendulumEntry>& entries) {
   return lengths_m;
 }
 
-/// Variants whose pulse is that of the case they are made of need no line of their own.
+/// False for a variant with the pulse of its base case, which needs no line of its own.
 bool has_own_pulse(const PendulumEntry& entry, const std::vector<PendulumEntry>& entries) {
   return std::none_of(entries.begin(), entries.end(), [&](const PendulumEntry& base) {
     return base.experiment.name == entry.experiment.variant_of &&
@@ -97,7 +97,7 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
                                                         {"largest", "gn"},
                                                         {"ends", "ms"}})
     table.columns.push_back({name, unit});
-  std::set<std::string> used;  // as shown: each is told once
+  std::set<std::string> used;  // lengths as printed: each is listed once
   for (const PendulumEntry& entry : entries) {
     if (!has_own_pulse(entry, entries)) continue;
     const CaseSection& experiment = entry.experiment;
@@ -198,7 +198,7 @@ double share_left(const PulseSection& pulse, double frequency_Hz) {
   return at(frequency_Hz) / at(0);
 }
 
-/// Names of the structure's modes that a body of a case has. One whose slits open takes them all.
+/// Names of the structure's modes that bodies of a case use. A body whose slits open uses all.
 std::set<std::string> used_modes(const std::vector<PendulumEntry>& entries,
                                  const fe_modal::ModalBody& body) {
   const std::vector<std::string> all = names_of(body.modes);

@@ -9,21 +9,21 @@
 
 namespace flexneck::pipeline {
 
-/// "velocities": drop angles, velocities, the effective lengths that they imply, and what is done
-/// to the pulse.
+/// Table "velocities": drop angles, velocities, the effective lengths that they imply, and the
+/// scaling of the pulse.
 ResultTable velocity_table(const std::vector<PendulumEntry>& entries);
 
-/// A line for each pulse that is scaled to take the arm's velocity.
+/// Lines, one for each pulse that is scaled to remove the arm's velocity.
 std::vector<std::string> scaling_lines(const std::vector<PendulumEntry>& entries);
-/// Warnings: pulses whose area is not the velocity and that are used as they are.
+/// Warnings about pulses that are used unscaled although their area differs from the velocity.
 std::vector<std::string> pulse_warnings(const std::vector<PendulumEntry>& entries);
 
-/// "pulse spectrum": share of each pulse's area that is left in its Fourier transform at the
-/// frequencies of the system and of the neck's modes.
+/// Table "pulse spectrum": normalised spectrum of each pulse, its Fourier transform over its area,
+/// at the frequencies of the system and of the neck's modes.
 ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>& entries,
                            const fe_modal::ModalBody& body);
 
-/// The same shares at evenly spaced frequencies, a channel for each pulse.
+/// The normalised spectra at evenly spaced frequencies, a channel for each pulse.
 std::vector<multibody::Channel> spectrum_curves(const Study& study,
                                                 const Eigen::VectorXd& frequencies_Hz);
 

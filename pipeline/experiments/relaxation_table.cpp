@@ -19,7 +19,7 @@ using multibody::Section;
 
 constexpr std::array kFrequencies_Hz = {0.5, 1., 2., 5., 10., 20., 50., 100., 200.};
 
-/// Stiffness against bending, slits shut, over that of quick motions.
+/// Complex bending stiffness, slits shut, over the instantaneous stiffness.
 std::complex<double> bending_ratio(const Section& section, double frequency_Hz) {
   constexpr Eigen::Index kBending = 4;
   double quick = section.stiffness(kBending, kBending);
@@ -33,10 +33,10 @@ std::complex<double> bending_ratio(const Section& section, double frequency_Hz) 
   return sum / quick;
 }
 
-/// Sections that relax alike.
+/// Sections with the same relaxation.
 struct Alike {
   std::vector<std::string> names;
-  std::vector<std::vector<std::string>> cells;  ///< of each frequency
+  std::vector<std::vector<std::string>> cells;  ///< one row for each frequency
   Relaxation relaxation;
 
   bool is_like(const Alike& other) const {

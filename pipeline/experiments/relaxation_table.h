@@ -11,12 +11,12 @@
 
 namespace flexneck::pipeline {
 
-/// "relaxation": storage modulus and loss factor against frequency of the sections that relax in
-/// the pendulum's cases, what their branches were fitted to and where they stand for the rubber. No
-/// rows where nothing relaxes.
-/// @param study  its sections with their stiffness
+/// Table "relaxation": storage modulus and loss factor against frequency of the sections that relax
+/// in the pendulum's cases, the data that their branches were fitted to, and the materials that
+/// they represent. No rows if nothing relaxes.
+/// @param study  the study, its sections with their stiffness
 ResultTable relaxation_table(const Study& study);
-/// The same of a model's sections that relax.
+/// Table of the relaxing sections of a model.
 ResultTable relaxation_table(const multibody::Model& model,
                              const std::map<std::size_t, Relaxation>& relaxations);
 

@@ -26,7 +26,7 @@ multibody::RigidBody rigid_body_of(const fe_modal::InertiaInvariants& invariants
   return rigid;
 }
 
-/// Linear, the same both ways.
+/// Linear spring, the same in both directions, with a damper.
 multibody::Resistance spring_and_damper(double stiffness, double damping_time_s) {
   multibody::Resistance resistance;
   resistance.positive.curve = resistance.negative.curve = multibody::LoadCurve::cubic(stiffness);
@@ -34,7 +34,7 @@ multibody::Resistance spring_and_damper(double stiffness, double damping_time_s)
   return resistance;
 }
 
-/// How the top answers in the plane, and the damping of the first mode there.
+/// Compliances of the top in the plane, and the damping of the first mode there.
 struct PlaneCompliance {
   double uF = 0, uM = 0, tM = 0;
   double damping_time_s = 0;
@@ -51,7 +51,7 @@ PlaneCompliance compliance(const multibody::DeformableBody& neck, const BendingP
     sum.uF += u * u;
     sum.uM += u * t;
     sum.tM += t * t;
-    // The first mode of the plane is the most compliant one.
+    // The first mode in the plane is the most compliant one.
     if (u * u <= largest) continue;
     largest = u * u;
     sum.damping_time_s = 2 * neck.damping_ratio[k] / omega;

@@ -23,7 +23,7 @@ std::vector<Index> kept(Index count, int every) {
 }  // namespace
 
 int samples_per_output(double output_interval_s) {
-  constexpr double kRounding = 1e-9;  // 0.5 ms is five tenths of a millisecond, not six
+  constexpr double kRounding = 1e-9;  // so that 0.5 ms has five intervals of 0.1 ms, not six
   return std::max(
       1, static_cast<int>(std::ceil(output_interval_s / kSamplingInterval_s * (1 - kRounding))));
 }
@@ -37,7 +37,7 @@ History thinned(const History& history, int every) {
   History result = history;
   multibody::visit_arrays(result, [&]<class Array>(Array& values) {
     if ((multibody::kIsOnePerTime<Array> ? values.size() : values.cols()) == 0) return;
-    // Swapped in: where there is no memory, a matrix that Eigen resizes frees its values twice.
+    // Swapped: if memory runs out, a matrix that Eigen resizes frees its values twice.
     Array fewer;
     if constexpr (multibody::kIsOnePerTime<Array>)
       fewer = values(indices);

@@ -17,7 +17,7 @@ using multibody::Section;
 
 constexpr Eigen::Index kBending = 4;
 
-/// Of quick motions, slits shut, N m/rad.
+/// Instantaneous bending stiffness, slits shut, N m/rad.
 double bending_stiffness(const Section& section) {
   double sum = section.stiffness(kBending, kBending);
   for (const Section::Branch& branch : section.branches)

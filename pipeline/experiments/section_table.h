@@ -6,9 +6,9 @@
 
 namespace flexneck::pipeline {
 
-/// "sections": of the sections in the pendulum's cases the stiffness against bending, whether it is
-/// constant or follows a curve, and what their slits do. No rows where there are none.
-/// @param study  its sections with their stiffness
+/// Table "sections": bending stiffness of the sections in the pendulum's cases, constant or by a
+/// curve, and the effect of their slits. No rows if there are no sections.
+/// @param study  the study, its sections with their stiffness
 ResultTable section_table(const Study& study);
 
 }  // namespace flexneck::pipeline

@@ -12,7 +12,7 @@ using multibody::Model;
 
 namespace {
 
-/// The ends of the neck keep their names.
+/// Name of a link's marker: the ends of the neck keep the neck's names.
 std::string marker_name(const std::string& neck, const std::string& link,
                         const std::string& interface) {
   return (interface == "base" || interface == "top" ? neck : link) + "." + interface;
@@ -42,7 +42,8 @@ void add_joint(const std::string& name, const std::string& lower, const std::str
   model.joints.push_back(joint);
 }
 
-/// A chain has no place for springs, or for bodies beside the neck and what it stands on.
+/// Fails if the case has springs, or bodies other than the neck and its support, which a chain does
+/// not model.
 void require_neck_alone(const CaseSection& experiment) {
   const Model& model = experiment.model.model;
   std::size_t forces = 0;

@@ -10,17 +10,17 @@
 
 namespace flexneck::pipeline {
 
-/// A piece of the neck as a body of its own.
+/// A submesh of the neck as a separate body.
 struct ChainLink {
   std::string name;
   fe_modal::ModalBody body;
 };
 
-/// The static test of a case with the neck as a chain of its substructures, each joined to the one
-/// before it: a body that is linear in its own frame turns by a part of the neck's rotation only.
-/// Markers, joint and force have the names that the case's model gives them.
+/// The static test of a case with the neck as a chain of its substructures, each joined to the
+/// previous one: a body that is linear in its own frame then rotates by only a part of the neck's
+/// rotation. Markers, joint and force have the names of the case's model.
 /// @param links  from the base up: interfaces "base" on the first, "top" on the last, and
-///               "to_<other>" where two meet
+/// "to_<other>" where two meet
 /// @throws InputError if an interface is missing, or if the case has more than the neck and forces.
 multibody::Model static_chain_model(const CaseSection& experiment,
                                     const std::vector<ChainLink>& links);

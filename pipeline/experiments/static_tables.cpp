@@ -35,14 +35,14 @@ multibody::TimeTable over_time(const Eigen::VectorXd& time_s, const Eigen::Vecto
           multibody::TimeTable::Outside::constant};
 }
 
-/// The first sample at which a signal passes a bound in size, if it does.
+/// Index of the first sample whose magnitude exceeds a bound, if any.
 std::optional<Index> passes(const Eigen::VectorXd& signal, double bound) {
   for (Index k = 0; k < signal.size(); ++k)
     if (std::abs(signal[k]) > bound) return k;
   return {};
 }
 
-/// Where a linear body stops making sense, from its own motion.
+/// Note on the load from which a linear body stretches too much, judged by its own motion.
 std::string stretch_note(const StaticEntry& entry) {
   constexpr double kStretch = 0.01;
   const StaticTestSignals& signals = entry.ramp;

@@ -9,22 +9,22 @@
 
 namespace flexneck::pipeline {
 
-/// What is known of a static test once it was run.
+/// Data of a static test after its run.
 struct StaticEntry {
   CaseSection experiment;
   StaticTestSignals ramp;                  ///< moving
-  StaticTestSignals settled;               ///< at rest
-  std::optional<StaticTestSignals> chain;  ///< at rest, the neck as a chain of bodies
+  StaticTestSignals settled;               ///< static solutions
+  std::optional<StaticTestSignals> chain;  ///< static solutions with the neck as a chain of bodies
 };
 
-/// "static tests": the end of the ramp and the stiffness at its beginning and end.
-/// @param has_own_moduli  whether the neck has moduli of its own in static tests
+/// Table "static tests": the end of the ramp and the stiffness at its beginning and end.
+/// @param has_own_moduli  whether the neck has separate moduli for static tests
 ResultTable static_table(const std::vector<StaticEntry>& entries, bool has_own_moduli);
 
-/// "ramp against statics": by how much the moving neck lags.
+/// Table "ramp against statics": lag of the moving neck behind the static solution.
 ResultTable ramp_table(const std::vector<StaticEntry>& entries);
 
-/// "linear against chain": where there is a chain; else without rows.
+/// Table "linear against chain"; without rows if there is no chain.
 ResultTable chain_table(const std::vector<StaticEntry>& entries);
 
 }  // namespace flexneck::pipeline

@@ -29,7 +29,7 @@ StaticTestSignals static_test_signals(const multibody::Model& model,
 
 namespace {
 
-/// Slope of the moment over the rotation between two samples.
+/// Slope of moment over rotation between two samples.
 double stiffness(const StaticTestSignals& signals, Eigen::Index from, Eigen::Index to) {
   return (signals.base_moment[to] - signals.base_moment[from]) /
          (signals.rotation[to] - signals.rotation[from]);

@@ -8,19 +8,21 @@
 namespace flexneck::pipeline {
 
 /// Curves over time of the static neck tester: base clamped by the joint "clamp", no gravity, a
-/// force at the joint point that keeps its direction in space.
+/// force at the joint point with a constant direction in space.
 struct StaticTestSignals {
   Eigen::VectorXd time_s;
-  Eigen::VectorXd load;         ///< of the forces of the model, along their directions, N
-  Eigen::VectorXd rotation;     ///< of the top against the base, rad, forward (or +y) positive
+  Eigen::VectorXd load;  ///< loads of the model's forces, along their directions, N
+  /// Rotation of the top relative to the base, rad, forward (or +y) positive.
+  Eigen::VectorXd rotation;
   Eigen::VectorXd base_moment;  ///< N m, SAE J211 sign of the channel (My or Mx)
-  Eigen::VectorXd deflection;   ///< of the joint point, m
-  /// Distance of the joint point from the base over that at rest, less one. A neck keeps its length
-  /// nearly; a linear body's top moves along a straight line.
+  Eigen::VectorXd deflection;   ///< deflection of the joint point, m
+  /// Distance of the joint point from the base over its value at rest, minus one: the spurious
+  /// elongation. A neck nearly keeps its length; a linear body's top moves along a straight line.
   Eigen::VectorXd stretch;
 };
 
-/// @param model  that was run
+/// Evaluates a run.
+/// @param model  the model that was run
 StaticTestSignals static_test_signals(const multibody::Model& model,
                                       const multibody::History& history,
                                       const CaseSection& experiment);
@@ -32,7 +34,7 @@ multibody::History settled_static_test(const Study& study, const CaseSection& ex
 /// The channels of a static test's file, SI units.
 std::vector<multibody::Channel> static_test_channels(const StaticTestSignals& signals);
 
-/// End of the ramp and slopes of the moment over the rotation.
+/// End of the ramp and slopes of moment over rotation.
 struct StaticTestResult {
   double rotation = 0;           ///< rad
   double base_moment = 0;        ///< N m

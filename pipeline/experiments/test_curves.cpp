@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The pendulum moves freely before the impact, which the filter is to know.
+/// Time of free motion before the impact, needed by the filter.
 constexpr double kBefore_s = 0.05;
 constexpr double kAfter_s = 0.05;
 constexpr double kInterval_s = 1e-4;

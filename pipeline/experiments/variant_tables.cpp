@@ -26,7 +26,7 @@ const PendulumEntry& base_of(const std::vector<PendulumEntry>& entries,
   });
 }
 
-/// In the order in which they come first.
+/// Names of the variants in order of first appearance.
 std::vector<std::string> variant_names(const std::vector<PendulumEntry>& entries) {
   std::vector<std::string> names;
   for (const PendulumEntry& entry : entries) {
@@ -37,7 +37,7 @@ std::vector<std::string> variant_names(const std::vector<PendulumEntry>& entries
   return names;
 }
 
-/// A figure of a case, shown beside that of the case it is made of.
+/// A figure of a case, shown beside that of its base case.
 struct CaseFigure {
   const char* name;
   const char* unit;
@@ -76,7 +76,7 @@ std::vector<CaseFigure> case_figures() {
   };
 }
 
-/// The pin that the head nods on, if the case's model has one in place of a fixed joint.
+/// The revolute joint on which the head nods, if the case's model has one instead of a fixed joint.
 const multibody::Joint* head_pin(const CaseSection& experiment) {
   const multibody::Model& model = experiment.model.model;
   for (const multibody::Joint& joint : model.joints)
@@ -85,7 +85,7 @@ const multibody::Joint* head_pin(const CaseSection& experiment) {
   return nullptr;
 }
 
-/// What a variant is, from what it does.
+/// Title of a variant's table, from the changes that it makes.
 std::string title_of(const CaseSection& experiment, const CaseSection& base) {
   const std::string variant = "Variant '" + experiment.variant + "'";
   if (experiment.impact_velocity_m_s != base.impact_velocity_m_s)
@@ -101,7 +101,7 @@ std::string title_of(const CaseSection& experiment, const CaseSection& base) {
   return variant + " beside the cases it is made of";
 }
 
-/// Of the key where it counts: the variant's, else that of its case, else what all cases have.
+/// Origin of the pivot's distance: by the variant, else by its base case, else by all cases.
 std::string pivot_origin(const Study& study, const CaseSection& experiment) {
   const std::string key = "pivot_distance";
   for (const std::string& table :
@@ -140,7 +140,7 @@ std::vector<std::string> notes_of(const Study& study, const CaseSection& experim
   return notes;
 }
 
-/// The table of a variant: each figure of its cases, then of those that they are made of.
+/// Table of a variant: each figure of its cases, next to that of their base cases.
 ResultTable variant_table(const Study& study, const std::string& name,
                           const std::vector<PendulumEntry>& entries) {
   const std::vector<CaseFigure> figures = case_figures();
@@ -178,7 +178,7 @@ std::vector<ResultTable> variant_tables(const Study& study,
 
 namespace {
 
-/// N m/rad between an angle of a thousandth and none.
+/// Secant stiffness at an angle of 0.001 rad, N m/rad.
 double small_stiffness(const multibody::ResistanceSide& side) {
   constexpr double kSmall = 1e-3;
   return side.load(kSmall) / kSmall;

@@ -17,7 +17,7 @@ std::string verdict_word(const JudgedTest& test) {
   return test.verdict->passed() ? "pass" : "FAIL";
 }
 
-/// "met", or which conditions are not: "velocity outside", "pulse outside".
+/// Text "met", or the conditions that are not: "velocity outside", "pulse outside".
 std::string conditions_text(const Verdict& verdict) {
   std::string outside;
   for (const JudgedFigure& figure : verdict.unmet_conditions()) {
@@ -44,7 +44,7 @@ std::vector<std::string> row_of(const JudgedTest& test) {
   return row;
 }
 
-/// Each once.
+/// Appends a note unless it is present.
 void add_note(std::vector<std::string>& notes, const std::string& note) {
   if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
 }

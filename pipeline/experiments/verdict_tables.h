@@ -11,10 +11,10 @@
 
 namespace flexneck::pipeline {
 
-/// Name of the table of all figures.
+/// Name of the table with all figures.
 inline constexpr const char* kVerdictFigures = "verdict figures";
 
-/// A test of the study with what it says of its case.
+/// A test of the study with its judgement of the case.
 struct JudgedTest {
   enum class Status {
     judged,
@@ -23,20 +23,21 @@ struct JudgedTest {
   };
   TestSection test;
   Status status = Status::not_run;
-  std::optional<Verdict> verdict = {};  ///< where it is judged
-  std::string moment_difference = {};   ///< where the case forms its moment otherwise than the test
+  std::optional<Verdict> verdict = {};  ///< present if the test is judged
+  /// The difference, if the case and the test define the moment differently.
+  std::string moment_difference = {};
 };
 
-/// Whether the test's regulation is for the dummy of the study.
+/// Returns whether the test's regulation is for the dummy of the study.
 bool applies(const TestSection& test, const Study& study);
 
-/// A text each: conditions of tests that are not met, with where and how much, and moments that are
-/// formed otherwise.
+/// Warnings: conditions of tests that are not met, with the place and the amount, and moments that
+/// are defined differently.
 std::vector<std::string> verdict_warnings(const std::vector<JudgedTest>& tests);
 
-/// "verdicts": a line for each test.
+/// Table "verdicts": a line for each test.
 ResultTable verdict_table(const std::vector<JudgedTest>& tests, const Study& study);
-/// "verdict figures": each figure and each condition with its limits.
+/// Table "verdict figures": each figure and each condition with its limits.
 ResultTable verdict_figure_table(const std::vector<JudgedTest>& tests);
 
 }  // namespace flexneck::pipeline

@@ -22,7 +22,7 @@ VectorXd at_times(const Curve& curve, const VectorXd& times_s) {
   return times_s.unaryExpr([&](double time_s) { return table.value(time_s); });
 }
 
-/// The values of a curve of the target at its points, SI.
+/// Values of a target's curve at its points, SI.
 VectorXd wanted_values(const FitTarget& target, const Curve& curve, const std::string& si_unit) {
   return at_key(target.table, "curve",
                 [&] { return at_times(in_unit(curve, si_unit), times_of_points(*target.curve)); });
@@ -67,7 +67,7 @@ VectorXd observables_of_curve(const FitCurve& wanted, const Curve& computed) {
 std::vector<FitTerm> curve_terms(const FitTarget& target, const std::string& si_unit) {
   if (target.curve->corridor) return terms_of_corridor(target, si_unit);
   if (!target.curve->rating) return terms_of_values(target, si_unit);
-  // For what is wrong with its unit.
+  // Throws if the curve's unit is wrong.
   static_cast<void>(wanted_values(target, target.curve->target, si_unit));
   return {target.is_window() ? window_term(target, "1") : value_term(target, "1")};
 }

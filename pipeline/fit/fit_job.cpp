@@ -29,7 +29,7 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFolder = "fit-rows";
 
-/// As a row: chi-squared, evaluations, whether it has converged, the place, the observables.
+/// Row of a minimum: chi-squared, evaluations, convergence, the place, the observables.
 VectorXd row_of(const Minimum& minimum, Index observables) {
   VectorXd row(3 + minimum.place.size() + observables);
   row << minimum.chi_squared, minimum.evaluations, minimum.has_converged ? 1 : 0, minimum.place,
@@ -49,7 +49,7 @@ Minimum minimum_of(const RowResult& row, Index parameters) {
   return minimum;
 }
 
-/// Points of a profile at most, on a fixed number of places: a walk and a search to either side.
+/// Maximum number of points in the row of a profile: a walk and a search to either side.
 constexpr Index kProfilePoints = 64;
 
 double or_unknown(const std::optional<double>& value) { return value.value_or(kUnknown); }
@@ -57,7 +57,7 @@ std::optional<double> known(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// As a row: both ends, the points, then a better minimum, chi-squared and place.
+/// Row of a profile: both ends, the points, then a better minimum's chi-squared and place.
 VectorXd row_of(const Profile& profile, Index parameters) {
   VectorXd row = VectorXd::Constant(3 + 2 * kProfilePoints + parameters, kUnknown);
   row[0] = or_unknown(profile.low);
@@ -136,7 +136,7 @@ std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) c
     } catch (const FitStopped&) {
       throw;
     } catch (const std::bad_alloc&) {
-      throw;  // is no matter of the row
+      throw;  // concerns the whole process, not the row
     } catch (const std::exception& error) {
       row.problem = error.what();
       row.figures = VectorXd::Constant(step.figures, kUnknown);
@@ -159,7 +159,7 @@ std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) c
 }
 
 std::vector<VectorXd> FitJob::starts() const {
-  constexpr int kTries = 100;  // for each start
+  constexpr int kTries = 100;  // per start
   const int count = fit_.section().starts;
   const auto dimensions = static_cast<int>(fit_.objective().parameter_count());
   const auto seed = static_cast<std::uint64_t>(fit_.section().seed);

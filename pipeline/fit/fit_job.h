@@ -20,69 +20,70 @@
 
 namespace flexneck::pipeline {
 
-/// The points of the prior that were tried.
+/// The points of the prior that were evaluated.
 struct HistoryMatch {
-  Eigen::MatrixXd places;              ///< (p, m) in the unit cube
-  std::vector<std::vector<bool>> met;  ///< of each, by target; empty where the model failed
-  Share all;                           ///< that meet all targets but those held out
-  std::vector<Share> by_target;        ///< as targets_of() has them
+  Eigen::MatrixXd places;  ///< (p, m) in the unit cube
+  /// One list of targets met for each point; empty if the model failed.
+  std::vector<std::vector<bool>> met;
+  Share all;                     ///< share of points that meet all targets except those held out
+  std::vector<Share> by_target;  ///< in the order of targets_of()
   std::uint64_t failed = 0;
 
-  /// Whether a point meets all targets but those held out.
+  /// For each point, true if it meets all targets except those held out.
   std::vector<bool> is_match;
 };
 
-/// What became of a fit.
+/// Results of a fit.
 struct FitResult {
-  std::vector<Minimum> minima;  ///< one for each start
+  std::vector<Minimum> minima;  ///< one per start
   std::vector<Family> families;
-  Identifiability known;          ///< about the best
-  std::vector<Profile> profiles;  ///< one for each parameter, or none
-  HistoryMatch history;           ///< without points if none were asked for
+  Identifiability known;          ///< at the best minimum
+  std::vector<Profile> profiles;  ///< one per parameter, or none
+  HistoryMatch history;           ///< without points if history matching is not asked for
 
   const Minimum& best() const { return families.front().best; }
 };
 
 /// The steps of a fit in a folder of results: fits from all starts, profiles, history matching.
-/// What is done is kept in fit-rows/ and need not be done again; the result is the same for any
+/// Finished rows are kept in fit-rows/ and are not computed again; the result is the same for any
 /// number of threads and interruptions.
 class FitJob {
  public:
   /// @param fit      outlives this
   /// @param targets  files that the fit's targets were read from
-  /// @param stopped  by the user
+  /// @param stopped  set when the user stops the fit
   FitJob(StudyFit& fit, std::filesystem::path results, std::vector<FileRead> targets,
          unsigned threads, const std::atomic<bool>* stopped);
 
-  /// The files that the rows are made from, once all are there.
+  /// The files that the rows depend on, once all rows exist.
   std::vector<FileRead> files() const { return files_now_->files(); }
 
-  /// @param tell  takes a line now and then about what is left
-  /// @throws FitStopped once what was asked for in between is kept; ComputationError if no start
-  /// has come to an end, or rows cannot be written.
+  /// @param tell  takes a line now and then about the remaining work
+  /// @throws FitStopped after the user's stop, once finished rows are kept; ComputationError if no
+  /// start has converged, or rows cannot be written.
   FitResult run(const Progress& tell);
 
-  /// Where rows are kept.
+  /// Folder in which rows are kept.
   static std::filesystem::path folder(const std::filesystem::path& results);
 
  private:
   struct Step {
-    std::string name;  ///< of the file
-    std::string what;  ///< for the user
+    std::string name;  ///< name of the file
+    std::string what;  ///< description for the user
     std::uint64_t count = 0;
     Eigen::Index figures = 0;
     std::function<RowResult(std::uint64_t)> compute;
   };
   std::vector<RowResult> rows_of(const Step& step, const Progress& tell) const;
-  /// The study's own, then Sobol' points that the study does not refuse.
+  /// The study's own start, then Sobol' points that the study accepts.
   std::vector<Eigen::VectorXd> starts() const;
-  /// Where least squares begin: at the start, or where a global search from it has ended.
+  /// First place of least squares: the start, or the end of a global search from it.
   Eigen::VectorXd first_place(const Eigen::VectorXd& start, std::uint64_t number);
   std::vector<Minimum> fit_all(const Progress& tell);
   std::vector<Profile> all_profiles(const FitResult& result, const Progress& tell);
   HistoryMatch history(const Progress& tell);
   FitSearch search() const;
-  /// @throws InputError if a file is not as it was for the rows before.
+  /// @throws InputError if a file has changed since the earlier rows.
   void require_one_state(const RowResult& row) const;
 
   StudyFit& fit_;

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Where a parameter is moved to: one step to either side, or one and two to one side.
+/// Two steps of a parameter: one to each side, or one and two to the same side at a bound.
 std::pair<double, double> steps_of(const FitRange& range, double at, double step) {
   if (at - step < range.from) return {step, 2 * step};
   if (at + step > range.to) return {-step, -2 * step};
@@ -45,7 +45,7 @@ bool FitTerm::is_met(double observed, double deviations) const {
 std::function<ModelSlopes(const VectorXd&)> central_differences(
     std::function<VectorXd(const VectorXd&)> values, std::vector<FitRange> ranges,
     unsigned threads) {
-  constexpr double kStep = 1e-3;  // of the range
+  constexpr double kStep = 1e-3;  // fraction of the range
   return [values = std::move(values), ranges = std::move(ranges), threads](const VectorXd& at) {
     const Index count = at.size();
     std::vector<VectorXd> found(static_cast<std::size_t>(2 * count + 1));
@@ -67,7 +67,7 @@ std::function<ModelSlopes(const VectorXd&)> central_differences(
       const auto [one, other] = moved_steps(k);
       const VectorXd by_one = found[static_cast<std::size_t>(2 * k + 1)] - found.front();
       const VectorXd by_other = found[static_cast<std::size_t>(2 * k + 2)] - found.front();
-      // The slope of the parabola through the three.
+      // The slope of the parabola through the three points.
       slopes.derivatives.col(k) =
           (by_one * (other / one) - by_other * (one / other)) / (other - one);
     }

@@ -23,12 +23,12 @@ using Eigen::Index;
 
 namespace {
 
-constexpr int kPanels = 3;  ///< side by side
+constexpr int kPanels = 3;  ///< number of panels side by side
 
-/// Pictures on their way: one script for all.
+/// Pictures being drawn: one script for all.
 class Drawing {
  public:
-  /// @param start  observables where the first fit began
+  /// @param start  observables at the start of the first fit
   Drawing(const StudyFit& fit, const FitResult& result, Eigen::VectorXd start)
       : fit_(fit), result_(result), start_(std::move(start)) {}
 
@@ -66,7 +66,7 @@ class Drawing {
   void add_profiles() {
     if (result_.profiles.empty()) return;
     const auto count = static_cast<int>(result_.profiles.size());
-    std::string csv;  // a block for each parameter
+    std::string csv;  // one block per parameter
     for (std::size_t k = 0; k < result_.profiles.size(); ++k) {
       const FitRange& range = fit_.objective().ranges()[k];
       for (const Profile::Point& point : result_.profiles[k].points)
@@ -87,7 +87,8 @@ class Drawing {
     const HistoryMatch& history = result_.history;
     const auto count = static_cast<std::size_t>(history.places.rows());
     if (history.places.cols() == 0 || count < 2) return;
-    constexpr Index kMostPoints = 1500;  // of those that miss: a page holds them for each pair
+    // Maximum number of non-matching points: a page holds them for each pair.
+    constexpr Index kMostPoints = 1500;
     std::string csv;
     Index missed = 0;
     for (Index k = 0; k < history.places.cols(); ++k) {
@@ -121,7 +122,7 @@ class Drawing {
     }
   }
 
-  /// @return the names of the pictures, which are then in the folder
+  /// @return the names of the pictures written to the folder
   std::vector<std::string> draw(const fs::path& folder) const {
     write_text(files_.path() / "fit.gnuplot", script_, Durability::none);
     run_gnuplot(files_.path(), "fit.gnuplot");
@@ -185,7 +186,7 @@ class Drawing {
   std::vector<std::string> names_;
 };
 
-/// Not a number each at a start where the model fails.
+/// Observables at the start; NaN if the model fails there.
 Eigen::VectorXd observables_at_start(StudyFit& fit) {
   const auto none = [&] {
     return Eigen::VectorXd::Constant(static_cast<Index>(fit.objective().terms().size()),

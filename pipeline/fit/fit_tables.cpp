@@ -59,7 +59,7 @@ std::string error_text(double value, double wanted) {
   return wanted == 0 ? "-" : fmt::format("{:+.3f}", 100 * (value / wanted - 1));
 }
 
-/// Of a curve, all points together.
+/// Row of a target; all points of a curve share one row.
 std::vector<std::string> target_row(const ShownTarget& shown, const FitObjective& objective,
                                     const VectorXd& values, std::size_t first, std::size_t count) {
   const FitTerm& term = objective.terms()[first];
@@ -253,7 +253,7 @@ std::vector<FittedParameter> fitted_parameters(const FitObjective& objective,
     } else {
       found.low = found.value - kTwoSided * found.deviation;
       found.high = found.value + kTwoSided * found.deviation;
-      // Beyond the bounds it tells nothing.
+      // Beyond the parameter's bounds the interval is open.
       if (found.low < range.from) found.low = -kOpen;
       if (found.high > range.to) found.high = kOpen;
     }

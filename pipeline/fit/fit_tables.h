@@ -9,19 +9,19 @@
 
 namespace flexneck::pipeline {
 
-/// "fit parameters", whose first note is the verdict; "fit choices", "fit targets", "fit families",
-/// "fit directions", "fit correlations", "fit contributions", "fit history", as far as there are
-/// such; and "fit failures".
+/// Tables "fit parameters", whose first note is the verdict; "fit choices", "fit targets", "fit
+/// families", "fit directions", "fit correlations", "fit contributions", "fit history", as far as
+/// they apply; and "fit failures".
 std::vector<ResultTable> fit_tables(const StudyFit& fit, const FitResult& result);
 
-/// The choices that were made with the targets in sight, or that the study states none.
+/// Text of the choices made with knowledge of the targets, or that the study states none.
 std::string choices_text(const FitSection& section);
 
-/// The parameters of a fit with their intervals of 95 %, in their own units.
+/// Parameter of a fit with its 95 % interval, in its own unit.
 struct FittedParameter {
   double value = 0;
-  double deviation = 0;  ///< by the linear theory; may be infinite
-  double low = 0;        ///< by profile likelihood where there is one; infinite beyond the bounds
+  double deviation = 0;  ///< deviation by the linear theory; may be infinite
+  double low = 0;        ///< bound by profile likelihood if computed; infinite beyond the bounds
   double high = 0;
   bool is_by_profile = false;
 };

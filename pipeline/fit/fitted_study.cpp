@@ -31,7 +31,7 @@ std::vector<std::string> parts_of(const std::string& dotted) {
   return parts;
 }
 
-/// The element of that name, which is made if there is none.
+/// The element with this name, created if there is none.
 toml::table& element_named(toml::array& array, const std::string& name) {
   for (toml::node& node : array)
     if ((*node.as_table())["name"].value_or(std::string()) == name) return *node.as_table();
@@ -39,8 +39,9 @@ toml::table& element_named(toml::array& array, const std::string& name) {
   return *array.back().as_table();
 }
 
-/// Makes the tables that a dotted key stands in, an element of a list of tables by its name.
-/// @return the innermost, which has the last part of the key
+/// Creates the tables that contain a dotted key; an element of a list of tables is found by its
+/// name.
+/// @return the innermost table, which has the last part of the key
 toml::table& table_for(toml::table& root, const std::vector<std::string>& parts) {
   toml::table* table = &root;
   std::span<const Key> keys = study_keys();
@@ -59,7 +60,7 @@ toml::table& table_for(toml::table& root, const std::vector<std::string>& parts)
   return *table;
 }
 
-/// As --set takes it.
+/// Applies a setting as --set does.
 void put_setting(toml::table& root, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   const std::vector<std::string> parts = parts_of(setting.substr(0, equals));
@@ -93,18 +94,19 @@ void put_fitted(toml::table& root, const FitParameter& parameter, const FittedPa
   table_for(root, parts).insert_or_assign(parts.back(), std::move(labelled));
 }
 
-/// What verification calls the figure that a target is; empty if it has none.
+/// Name of a target's figure in the verification; empty if it has none.
 std::string verified_name(const StudyFit& fit, const FitTarget& target) {
   if (target.output.empty()) return {};
   const OutputName output = output_name(target.output, fit.evaluator().base());
   if (output.figure == kSystemFrequency) return kSystemFrequencyRow;
   if (output.of != OutputName::Of::modes) return {};
   if (output.figure == kMass) return kWeightRow;
-  return output.figure.substr(output.figure.find('.') + 1);  // "bending 1", or a mode's name
+  // The name of a mode, such as "bending 1".
+  return output.figure.substr(output.figure.find('.') + 1);
 }
 
-/// States what the neck is fitted to now, if the fit has changed it; what it was fitted to before
-/// no longer holds.
+/// States the figures that the neck is fitted to, if the fit has changed the neck; the former
+/// statement no longer holds then.
 void put_fitted_to(toml::table& root, const StudyFit& fit, const Study& fitted) {
   const Study& base = fit.evaluator().base();
   if (fitted.neck() == nullptr ||

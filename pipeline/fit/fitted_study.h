@@ -8,12 +8,12 @@
 
 namespace flexneck::pipeline {
 
-/// A study file that includes the one that was fitted and sets the fitted values, each of origin
-/// "calibrated" with its interval in its note, and what the command line has set besides. Where the
-/// fit has changed the neck, it states what that is fitted to (NeckSection::fitted_to). Comments
-/// at its head tell the verdict, the program, the inputs and what was chosen with the targets in
-/// sight.
-/// @param folder  that it will stand in
+/// Text of a study file that includes the fitted one and sets the fitted values, each of origin
+/// "calibrated" with its interval in its note, and the other settings of the command line. If the
+/// fit has changed the neck, the file states what the neck is fitted to (NeckSection::fitted_to).
+/// Comments at its head give the verdict, the program, the inputs and the choices made with
+/// knowledge of the targets.
+/// @param folder  the folder that the file will be in
 std::string fitted_study(StudyFit& fit, const FitResult& result,
                          const std::filesystem::path& folder);
 

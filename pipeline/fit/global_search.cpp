@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What NLopt calls.
+/// Data of the function that NLopt calls.
 struct Searched {
   const FitObjective& objective;
   const std::function<VectorXd(const VectorXd&)>& values;
@@ -34,7 +34,7 @@ struct Searched {
 VectorXd best_of_search(const FitObjective& objective,
                         const std::function<VectorXd(const VectorXd&)>& values,
                         const VectorXd& start, const GlobalSearch& search) {
-  constexpr double kSmall = 1e-3;  // of the cube's edge
+  constexpr double kSmall = 1e-3;  // fraction of the cube's edge
   Searched searched{objective, values, search.is_stopped};
   nlopt::opt method(nlopt::GN_CRS2_LM, static_cast<unsigned>(start.size()));
   method.set_lower_bounds(0.0);
@@ -42,7 +42,7 @@ VectorXd best_of_search(const FitObjective& objective,
   method.set_maxeval(search.evaluations);
   method.set_xtol_abs(kSmall);
   method.set_min_objective(Searched::chi_squared, &searched);
-  nlopt::srand(search.seed);  // of this thread alone
+  nlopt::srand(search.seed);  // affects this thread only
   std::vector<double> best(start.begin(), start.end());
   double least = 0;
   try {

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 Share share_of(std::uint64_t count, std::uint64_t of) {
   Share share{count, of};
   if (of == 0) return share;
-  constexpr double kOutside = 0.025;  // on either side
+  constexpr double kOutside = 0.025;  // probability on either side
   using Binomial = boost::math::binomial_distribution<>;
   const auto trials = static_cast<double>(of);
   const auto successes = static_cast<double>(count);
@@ -29,7 +29,7 @@ Share share_of(std::uint64_t count, std::uint64_t of) {
 }
 
 VectorXd prior_point(const FitObjective& objective, std::uint64_t seed, std::uint64_t number) {
-  constexpr std::uint64_t kPriors = 5ULL << 32U;  // what the numbers are for
+  constexpr std::uint64_t kPriors = 5ULL << 32U;  // reserves a range of random numbers for priors
   VectorXd point(objective.parameter_count());
   for (Index k = 0; k < point.size(); ++k) {
     const double unit =

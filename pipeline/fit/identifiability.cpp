@@ -21,10 +21,10 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// The inverse of an information matrix; a parameter that takes part in a direction about which
-/// nothing is said has an infinite variance.
+/// Inverse of an information matrix; a parameter with a component along a direction without
+/// information has an infinite variance.
 MatrixXd inverse_of(const MatrixXd& information) {
-  constexpr double kNothing = 1e-12;  // of the largest eigenvalue
+  constexpr double kNothing = 1e-12;  // fraction of the largest eigenvalue
   constexpr double kPart = 1e-6;
   const auto [values, vectors] = symmetric_pairs(information);
   const double largest = values.cwiseAbs().maxCoeff();
@@ -75,7 +75,7 @@ Identifiability identifiability(const FitObjective& objective, const MatrixXd& j
   found.covariance = inverse_of(information);
   found.correlations = correlations_of(found.covariance);
 
-  std::vector<MatrixXd> shares;  // of the information
+  std::vector<MatrixXd> shares;  // parts of the information, one per target
   for (Index row = 0; row < fitted; ++row) {
     const std::string& target =
         objective.terms()[objective.fitted()[static_cast<std::size_t>(row)]].target;

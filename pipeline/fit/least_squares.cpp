@@ -18,13 +18,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The free variables x, about pi instead of 0 so that MINPACK's first step, a share of their norm,
-/// is the same wherever the start is.
+/// Free variables x, centred at pi instead of 0 so that MINPACK's first step, a fraction of their
+/// norm, is the same for every start.
 double place_of(double x) { return 0.5 * (1 + std::sin(x - std::numbers::pi)); }
 double variable_of(double place) { return std::asin(2 * place - 1) + std::numbers::pi; }
 double slope_at(double x) { return 0.5 * std::cos(x - std::numbers::pi); }
 
-/// What MINPACK calls.
+/// Functor that MINPACK calls.
 class Functor : public Eigen::DenseFunctor<double> {
  public:
   Functor(const FitObjective& objective, VectorXd start, const FitSearch& search)
@@ -89,7 +89,7 @@ class Functor : public Eigen::DenseFunctor<double> {
   const FitSearch& search_;
   std::vector<Index> free_;
   int evaluations_ = 0;
-  std::string problem_;  ///< of the last place that failed
+  std::string problem_;  ///< problem at the last place that failed
 };
 
 using Status = Eigen::LevenbergMarquardtSpace::Status;
@@ -101,16 +101,17 @@ bool has_converged(Status status) {
          status == FtolTooSmall || status == XtolTooSmall || status == GtolTooSmall;
 }
 
-/// Runs it to its end. @return whether that is a minimum
+/// Runs the minimisation to its end. @return true if that is a minimum
 bool minimise(Functor& functor, VectorXd& x, const FitSearch& search) {
-  constexpr double kTolerance = 1e-4;       // of the sum of squares
-  constexpr double kPlaceTolerance = 1e-6;  // of the norm of the variables
-  constexpr double kFirstStep = 0.1;        // of the norm of the variables, some pi each
+  constexpr double kTolerance = 1e-4;       // relative to the sum of squares
+  constexpr double kPlaceTolerance = 1e-6;  // relative to the norm of the variables
+  // Fraction of the norm of the variables, which are about pi each.
+  constexpr double kFirstStep = 0.1;
   Eigen::LevenbergMarquardt<Functor> method(functor);
   method.setFtol(kTolerance);
   method.setXtol(kPlaceTolerance);
   method.setFactor(kFirstStep);
-  method.setMaxfev(10L * search.steps);  // a step may take several
+  method.setMaxfev(10L * search.steps);  // a step may take several evaluations
   method.setExternalScaling(true);
   method.diag() = VectorXd::Ones(x.size());
   Status status = method.minimizeInit(x);

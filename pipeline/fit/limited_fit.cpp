@@ -12,15 +12,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kFirstDeviation = 0.1;  ///< of the smoothing
-constexpr double kInset = 1e-3;          ///< of the smoothing: where a multiplier ends counts as in
+constexpr double kFirstDeviation = 0.1;  ///< fraction of the smoothing
+/// Fraction of the smoothing by which the edges are moved inwards: the limit of the iteration, on
+/// the moved edge, then lies inside the window.
+constexpr double kInset = 1e-3;
 
-/// A window that must hold.
+/// A window that is a constraint.
 class Limit {
  public:
   Limit(const FitTerm& term, std::size_t place) : term_(term), place_(place) {}
 
-  /// In place of it, as a window that counts.
+  /// The window as an ordinary term, with its edges shifted.
   FitTerm counted(double deviation) const {
     FitTerm term = term_;
     term.must_hold = false;
@@ -28,18 +30,18 @@ class Limit {
     term.window = FitTerm::Window{low() + low_shift_, high() - high_shift_};
     return term;
   }
-  /// Takes the multipliers that an observable calls for.
+  /// Updates the multipliers for the observables.
   void move(const VectorXd& values) {
     low_shift_ = std::max(0.0, low_shift_ + low() - value(values));
     high_shift_ = std::max(0.0, high_shift_ + value(values) - high());
   }
-  /// What they are with other deviations: the multiplier is the shift by their square.
+  /// Converts the shifts to another deviation: the multiplier is the shift over its square.
   void rescale(double ratio) {
     low_shift_ *= ratio * ratio;
     high_shift_ *= ratio * ratio;
   }
   bool is_met(const VectorXd& values) const { return term_.is_met(value(values), 0); }
-  /// How far an edge is from one that has a multiplier or is violated, in smoothings.
+  /// Complementarity error, in smoothings: distance from an edge with a multiplier or a violation.
   double slack(const VectorXd& values) const {
     return std::max(std::abs(std::min(low_shift_, value(values) - low())),
                     std::abs(std::min(high_shift_, high() - value(values)))) /
@@ -82,7 +84,7 @@ FitObjective with_limits_as_windows(const FitObjective& objective) {
 Minimum least_squares_within_limits(const FitObjective& objective, const VectorXd& start,
                                     const FitSearch& search) {
   constexpr int kMostRounds = 12;
-  constexpr double kSharper = 0.5;  // the deviation of each round by that of the one before
+  constexpr double kSharper = 0.5;  // factor on the deviation from one round to the next
   std::vector<Limit> limits = limits_of(objective);
   Minimum found;
   found.place = start;

@@ -23,7 +23,7 @@ VectorXd ObservedTargets::observables(Evaluator& evaluator,
   VectorXd values(static_cast<Index>(rows_.size()));
   Index next = 0;
   Index figure = 0;
-  std::size_t place = 0;  // of a curve
+  std::size_t place = 0;  // row within a curve
   for (const FitTarget* const target : targets_) {
     if (!target->curve) {
       values[next++] = found.figures[figure++];

@@ -11,22 +11,22 @@
 
 namespace flexneck::pipeline {
 
-/// Some targets of a fit with the outputs that they are read off.
+/// Some targets of a fit with the outputs that give their observables.
 class ObservedTargets {
  public:
   /// @param target  outlives this
-  /// @param first   of its observables among those of all targets
-  /// @param count   of them
+  /// @param first   index of its first observable among those of all targets
+  /// @param count   number of its observables
   void add(const FitTarget& target, const OutputName& output, Eigen::Index first,
            Eigen::Index count);
 
   bool is_empty() const { return targets_.empty(); }
   const WantedOutputs& wanted() const { return wanted_; }
-  /// Where their observables are among those of all targets.
+  /// Indices of their observables among those of all targets.
   const std::vector<Eigen::Index>& rows() const { return rows_; }
 
-  /// SI; of a curve its values at its points, or its rating.
-  /// @throws as Evaluator::evaluate() does, and ComputationError for a figure that there is not.
+  /// Observables in SI units; for a curve its values at its points, or its rating.
+  /// @throws as Evaluator::evaluate() does, and ComputationError for a figure that is missing.
   Eigen::VectorXd observables(Evaluator& evaluator, const std::vector<std::string>& settings) const;
 
  private:

@@ -37,7 +37,7 @@ VectorXd ParameterExpressions::values(const VectorXd& parameters) const {
   const VectorXd named = parameters(places_);
   VectorXd values(static_cast<Index>(texts_.size()));
   for (std::size_t k = 0; k < texts_.size(); ++k) {
-    // Read anew, since one that is read holds its variables, and threads share this.
+    // Parsed anew, since a parsed expression holds its variables, and threads share this object.
     const double value = Expression(texts_[k], names_)({named.data(), names_.size()});
     if (!std::isfinite(value))
       throw ComputationError("\"" + texts_[k] + "\" is no number for these parameters");

@@ -13,8 +13,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kClose = 0.02;  ///< of chi-squared at the end of the interval
-constexpr int kMostPoints = 12;  ///< on either side
+/// Relative tolerance of the increase of chi-squared at the end of the interval.
+constexpr double kClose = 0.02;
+constexpr int kMostPoints = 12;  ///< maximum number on either side
 
 class Walk {
  public:
@@ -30,8 +31,9 @@ class Walk {
     search_.is_held[static_cast<std::size_t>(parameter)] = true;
   }
 
-  /// @param step  the first one, with its sign
-  /// @return where chi-squared is more by 3.84
+  /// Walks to one side.
+  /// @param step  the first step, with its sign
+  /// @return the place where chi-squared has increased by 3.84
   std::optional<double> operator()(double step) {
     others_ = minimum_.place;
     const double bound = step > 0 ? 1 : 0;
@@ -64,8 +66,8 @@ class Walk {
     return found.chi_squared - minimum_.chi_squared;
   }
 
-  /// Of the root of the excess, which grows like a square, by regula falsi with bisection where the
-  /// outer place has failed.
+  /// Finds the end of the interval for the root of the excess, which is quadratic, by regula falsi,
+  /// and by bisection if the outer place has failed.
   double between(double inner, double inner_excess, double outer, double outer_excess) {
     const auto root = [](double excess) { return std::sqrt(std::max(excess, 0.0)); };
     for (int k = 0; k < kMostPoints; ++k) {
@@ -87,7 +89,7 @@ class Walk {
   FitSearch search_;
   Profile& profile_;
   double more_;
-  VectorXd others_;  ///< where they were last
+  VectorXd others_;  ///< last values of the other parameters
 };
 
 }  // namespace

@@ -195,7 +195,7 @@ VectorXd StudyFit::observables(const VectorXd& parameters) {
 }
 
 StudyFit::Moved StudyFit::moved(const VectorXd& parameters, double direction) const {
-  constexpr double kStep = 1e-3;  // of the range
+  constexpr double kStep = 1e-3;  // fraction of the range
   Moved all;
   for (Index k = 0; k < parameters.size(); ++k) {
     const FitRange& range = objective_->ranges()[static_cast<std::size_t>(k)];
@@ -216,7 +216,7 @@ void StudyFit::look_for_closed_slopes() {
   try {
     has_closed_slopes_ = evaluator_.has_slopes(settings(at), others, of_modes_.wanted());
   } catch (const InputError&) {
-    has_closed_slopes_ = false;  // the first fit tells what is wrong
+    has_closed_slopes_ = false;  // the first fit reports the error
   }
 }
 
@@ -227,7 +227,7 @@ std::string StudyFit::slopes_text() const {
 }
 
 void StudyFit::check_produced() {
-  // The solution at the start is that of the first fit, too.
+  // The first fit needs the solution at the start, too.
   if (has_closed_slopes_ && closed_slopes(objective_->parameters(start_))) return;
   evaluator_.require_produced(all_.wanted());
 }
@@ -239,7 +239,7 @@ std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {
       if (place == parameters) return known;
   }
   std::optional<ModelSlopes> found;
-  // To the other side where the study or the mesh refuses one.
+  // The other direction is tried if the study or the mesh refuses one.
   for (const double direction : {1.0, -1.0}) {
     try {
       FigureSlopes slopes =
@@ -250,7 +250,7 @@ std::optional<ModelSlopes> StudyFit::closed_slopes(const VectorXd& parameters) {
       continue;
     }
   }
-  if (!found) return std::nullopt;  // as of a mesh of another topology
+  if (!found) return std::nullopt;  // for instance if the mesh has another topology
   constexpr std::size_t kKept = 64;
   const std::scoped_lock lock(mutex_);
   if (known_.size() == kKept) known_.erase(known_.begin());
@@ -263,7 +263,7 @@ ModelSlopes StudyFit::slopes(const VectorXd& parameters) {
       has_closed_slopes_ ? closed_slopes(parameters) : std::nullopt;
   if (!closed) return differences_(parameters);
   const auto terms = static_cast<Index>(objective_->terms().size());
-  // What is held out takes no part, and needs no slopes.
+  // Terms that are held out need no slopes.
   ModelSlopes all{VectorXd::Zero(terms), MatrixXd::Zero(terms, parameters.size())};
   const auto put = [&](const ModelSlopes& some, const auto& of) {
     all.values(of.rows()) = some.values;
@@ -276,7 +276,7 @@ ModelSlopes StudyFit::slopes(const VectorXd& parameters) {
 }
 
 VectorXd StudyFit::values(const VectorXd& parameters) {
-  // Of the modes alone: a fit asks for slopes at the same place next.
+  // All targets are of the modes: the fit asks for slopes at the same place next.
   if (has_closed_slopes_ && of_modes_.rows().size() == all_.rows().size()) {
     if (const std::optional<ModelSlopes> found = closed_slopes(parameters)) {
       VectorXd all(static_cast<Index>(objective_->terms().size()));

@@ -19,26 +19,26 @@
 
 namespace flexneck::pipeline {
 
-/// A target as people read it.
+/// A target with its text for readers.
 struct ShownTarget {
   std::string name;
   std::string output;
-  std::string unit;   ///< that the study gave it in; "1" for a pure number
-  double factor = 1;  ///< from SI to that
+  std::string unit;   ///< unit in which the study gives it; "1" for a pure number
+  double factor = 1;  ///< factor from SI to that unit
   std::string wanted;
   Origin origin = Origin::synthetic;
 };
 
 /// The fit of a study: its targets as terms, its free keys as parameters, its results as the model.
-/// Observables are figures in SI units, of a curve its values at the points as which it counts, or
-/// its rating.
+/// Observables are figures in SI units, for a curve its values at the points at which it is
+/// compared, or its rating.
 class StudyFit {
  public:
-  /// Finds outputs, units and the start, and refuses what cannot be fitted.
+  /// Finds outputs, units and the start; fails for a study that cannot be fitted.
   /// @param evaluator  outlives this
-  /// @param threads    that evaluate the model for one slope
-  /// @throws InputError with file and key, as Evaluator::wanted(), require_produced() and
-  /// check_varied() do, too.
+  /// @param threads    number of threads that evaluate the model for one slope
+  /// @throws InputError with file and key, also as Evaluator::wanted(), require_produced() and
+  /// check_varied() do.
   StudyFit(Evaluator& evaluator, FitSection section, unsigned threads);
   StudyFit(const StudyFit&) = delete;
   StudyFit& operator=(const StudyFit&) = delete;
@@ -46,22 +46,23 @@ class StudyFit {
   const FitSection& section() const { return section_; }
   const Evaluator& evaluator() const { return evaluator_; }
   const FitObjective& objective() const { return *objective_; }
-  /// One for each target of the section, in its order.
+  /// Shown targets, one for each target of the section, in its order.
   const std::vector<ShownTarget>& targets() const { return targets_; }
-  /// Where the first fit begins, in the unit cube.
+  /// Start of the first fit, in the unit cube.
   const Eigen::VectorXd& start() const { return start_; }
 
-  /// "key=value" for each parameter.
+  /// Settings "key=value", one for each parameter.
   std::vector<std::string> settings(const Eigen::VectorXd& parameters) const;
-  /// The study with these values. @throws InputError as read_study() does.
+  /// Reads the study with these values. @throws InputError as read_study() does.
   Study study(const Eigen::VectorXd& parameters) { return evaluator_.study(settings(parameters)); }
-  /// Whether the study with these values is one that can be read, such as of a neck whose parts
-  /// fit.
+  /// Returns whether the study with these values is valid; it is not if, say, the neck's parts do
+  /// not fit.
   bool is_accepted(const Eigen::VectorXd& parameters);
-  /// Observables without slopes. @throws InputError or ComputationError where there are none.
+  /// Computes observables without slopes. @throws InputError or ComputationError if the model
+  /// fails.
   Eigen::VectorXd observables(const Eigen::VectorXd& parameters);
-  /// How slopes are found: "in closed form", those of targets of the modes alone; "by differences",
-  /// or some so and some so.
+  /// Text on the derivatives: "in closed form" if all targets are of the modes; "by differences";
+  /// or a mixture.
   std::string slopes_text() const;
   void start_solvers() { evaluator_.start(); }
 
@@ -70,18 +71,18 @@ class StudyFit {
   std::vector<FitRange> ranges() const;
   void find_start();
   void check_parameters() const;
-  /// Of all targets, and the outputs they need.
+  /// Terms of all targets; collects the outputs that they need.
   std::vector<FitTerm> terms();
   void add_figure_terms(const FitTarget& target, std::vector<FitTerm>& terms);
   void add_curve_terms(const FitTarget& target, std::vector<FitTerm>& terms);
   void add_expression_term(const FitTarget& target, std::vector<FitTerm>& terms);
-  /// @param first  row of its observables, that of its first term
+  /// @param first  row of its first observable, which is that of its first term
   void add_observed(const FitTarget& target, const OutputName& output, std::size_t first,
                     std::size_t count);
 
   using Moved = std::vector<std::pair<std::vector<std::string>, double>>;
-  /// Settings with each parameter moved a little, and by how much.
-  /// @param direction  1 or -1; the other one at a bound
+  /// Settings with each parameter slightly changed, and the changes.
+  /// @param direction  1 or -1; reversed at a bound
   Moved moved(const Eigen::VectorXd& parameters, double direction) const;
   void look_for_closed_slopes();
   void check_produced();
@@ -93,7 +94,7 @@ class StudyFit {
   FitSection section_;
   ObservedTargets all_;
   ObservedTargets of_modes_;  ///< figures of the modes, which may have closed slopes
-  ObservedTargets others_;    ///< that are fitted
+  ObservedTargets others_;    ///< fitted targets of other outputs
   ParameterExpressions expressions_;
   std::vector<ShownTarget> targets_;
   std::optional<FitObjective> objective_;
@@ -101,11 +102,11 @@ class StudyFit {
   std::function<ModelSlopes(const Eigen::VectorXd&)> differences_of_others_;
   std::function<ModelSlopes(const Eigen::VectorXd&)> differences_of_expressions_;
   Eigen::VectorXd start_;
-  bool has_closed_slopes_ = false;  ///< of the modes
+  bool has_closed_slopes_ = false;  ///< for the targets of the modes
 
   std::mutex mutex_;
-  /// Closed slopes of the modes at the last few places: a fit asks for a place's values first, for
-  /// which all of the solution is needed already.
+  /// Closed slopes of the modes at the last few places: a fit asks for the values at a place first,
+  /// which already need the whole solution.
   std::vector<std::pair<Eigen::VectorXd, ModelSlopes>> known_;
 };
 

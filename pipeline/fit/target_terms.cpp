@@ -11,7 +11,7 @@
 
 namespace flexneck::pipeline {
 
-/// A text such as "36.1 Hz" in SI; a pure number where the output is one.
+/// Value in SI of a text such as "36.1 Hz"; a pure number if the output is one.
 double number_of(const FitTarget& target, const char* key, const std::string& text,
                  const std::string& si_unit) {
   try {
@@ -25,7 +25,7 @@ double number_of(const FitTarget& target, const char* key, const std::string& te
   }
 }
 
-/// The unit of such a text, and the factor to it from SI.
+/// Unit of such a text, and the factor to it from SI.
 std::pair<std::string, double> unit_of_text(const std::string& text, const std::string& si_unit) {
   if (si_unit == "1") return {"1", 1};
   const std::string unit = parse_product(text).unit;

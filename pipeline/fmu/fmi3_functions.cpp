@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions of an FMU's shared object that do something (the others: fmi3_not_offered.cpp).
+// Functions of an FMU's shared object with an effect (the others: fmi3_not_offered.cpp).
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -25,7 +25,7 @@ std::string text_of_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The archived model, whose bytes the token is the hash of.
+/// Reads the archived model; the token is the hash of its bytes.
 FmuModel model_in(const std::string& resources, const std::string& token) {
   const std::string path =
       resources + (resources.empty() || resources.back() == '/' ? "" : "/") + "model.bin";

@@ -10,27 +10,27 @@
 #include "pipeline/fmu/fmi3_interface.h"
 #include "pipeline/fmu/fmu_instance.h"
 
-/// Of functions of the interface: nothing else of the shared object is seen from outside.
+/// Marks functions of the interface, the only visible symbols of the shared object.
 #define FLEXNECK_FMI extern "C" __attribute__((visibility("default")))
 
 namespace flexneck::pipeline {
 
-/// What a handle of the interface points to.
+/// Object behind a handle of the interface.
 struct Fmi3Instance {
-  FmuModel model;  ///< as it was read, for a reset
+  FmuModel model;  ///< model as read, for a reset
   std::unique_ptr<FmuInstance> run;
   fmi3InstanceEnvironment environment = nullptr;
   fmi3LogMessageCallback log = nullptr;
   fmi3IntermediateUpdateCallback update = nullptr;
   bool may_return_early = false;
-  std::string token;  ///< of the model
+  std::string token;  ///< instantiation token of the model
 
   fmi3Status tell(fmi3Status status, const char* message) const {
     if (log != nullptr) log(environment, status, "error", message);
     return status;
   }
 
-  /// Tells the importer of a time that was reached. @return whether it wants the step to go on
+  /// Reports a reached time to the importer. @return true if the step is to continue
   bool goes_on(double time_s) const {
     if (update == nullptr) return true;
     fmi3Boolean is_asked_to_return = false;
@@ -41,7 +41,7 @@ struct Fmi3Instance {
   }
 };
 
-/// An array of the importer. @throws InputError for a null pointer that should have values.
+/// An array of the importer. @throws InputError for a null pointer with a count above zero.
 template <class T>
 std::span<T> values_at(T* values, std::size_t count) {
   if (values == nullptr && count > 0)
@@ -50,8 +50,8 @@ std::span<T> values_at(T* values, std::size_t count) {
   return {values, count};
 }
 
-/// Does something with an instance. What is thrown never leaves the shared object.
-/// @param not_computed  status where a run cannot go on
+/// Runs an action on an instance; no exception leaves the shared object.
+/// @param not_computed  status if a run cannot continue
 template <class Do>
 fmi3Status guarded(fmi3Instance instance, const Do& action, fmi3Status not_computed = fmi3Error) {
   if (instance == nullptr) return fmi3Error;

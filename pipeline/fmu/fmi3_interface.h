@@ -60,7 +60,7 @@ using fmi3FreeInstanceTYPE = void(fmi3Instance);
 using fmi3EnterInitializationModeTYPE = fmi3Status(fmi3Instance, fmi3Boolean has_tolerance,
                                                    fmi3Float64 tolerance, fmi3Float64 start,
                                                    fmi3Boolean has_stop, fmi3Float64 stop);
-/// Of those that change the mode of an instance and have no arguments.
+/// Type of functions that change the mode of an instance and have no other arguments.
 using fmi3ModeTYPE = fmi3Status(fmi3Instance);
 using fmi3GetFloat64TYPE = fmi3Status(fmi3Instance, const fmi3ValueReference references[],
                                       std::size_t count, fmi3Float64 values[],

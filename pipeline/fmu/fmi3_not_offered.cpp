@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions of the interface that an FMU must have, but has no variables or capabilities for.
+// Mandatory functions of the interface for which the FMU has no variables or capabilities.
 #include <string>
 
 #include "pipeline/fmu/fmi3_instance.h"

@@ -107,14 +107,14 @@ double FmuInstance::time_s() { return run_ ? run_->time_s() : model_.model.start
 void FmuInstance::advance(double time_s, double length_s, const SteppedRun::GoesOn& goes_on) {
   require(Mode::step);
   SteppedRun& run = this->run();
-  // Importers add up their steps.
+  // Importers accumulate their steps with rounding errors.
   constexpr double kRounding = 1e-9;
   if (std::abs(time_s - run.time_s()) > kRounding * std::max(length_s, std::abs(time_s)))
     throw InputError("a step from " + rounded_text(time_s) + " s, but the time is " +
                      rounded_text(run.time_s()) + " s");
   if (!(length_s > 0 && std::isfinite(length_s)))
     throw InputError("a step must be longer than zero, not " + rounded_text(length_s) + " s");
-  outputs();  // quaternions go on from step to step
+  outputs();  // quaternions continue from the previous step
   run.advance(time_s + length_s, goes_on);
   outputs_are_new_ = false;
   outputs();
@@ -138,7 +138,7 @@ void FmuInstance::set(std::span<const Reference> references, std::span<const dou
       if (has_begun)
         run().set_input(input, values[k]);
       else
-        run_.reset();  // whose start is under its inputs
+        run_.reset();  // its start depends on its inputs
     } else {
       throw InputError(each.name + ": it is neither a parameter nor an input");
     }

@@ -14,27 +14,30 @@
 namespace flexneck::pipeline {
 
 /// An instance of an FMU for co-simulation, behind the functions of the standard. All members throw
-/// InputError for what the importer may not do, ComputationError for a run that cannot go on.
+/// InputError for calls that the importer may not make, ComputationError for a run that cannot
+/// continue.
 class FmuInstance {
  public:
   using Reference = std::uint32_t;
 
   enum class Mode { instantiated, initialization, step, terminated };
 
-  /// What an importer saves and restores.
+  /// State that an importer saves and restores.
   struct State {
     Mode mode = Mode::instantiated;
     double relative_tolerance = 0;
-    std::vector<double> values, inputs;  ///< of parameters, of inputs
+    std::vector<double> values, inputs;  ///< values of the parameters, of the inputs
     std::optional<multibody::SteppedRun::State> run;
-    std::vector<Eigen::VectorXd> last;  ///< of the channels, which quaternions go on from
+    /// Last values of the channels, from which quaternions continue.
+    std::vector<Eigen::VectorXd> last;
   };
 
   explicit FmuInstance(FmuModel model);
 
+  /// Starts the initialization.
   /// @throws InputError unless the run starts at that time.
   void begin_initialization(std::optional<double> relative_tolerance, double time_s);
-  /// From then on parameters stay.
+  /// Ends the initialization; parameters are constant from then on.
   void end_initialization();
   void terminate();
   void advance(double time_s, double length_s, const multibody::SteppedRun::GoesOn& goes_on = {});
@@ -43,26 +46,26 @@ class FmuInstance {
   void set(std::span<const Reference> references, std::span<const double> values);
   void get(std::span<const Reference> references, std::span<double> values);
 
-  /// Sentences on what of the results is not to be trusted, of what was not told before.
+  /// New warnings about results, each returned once.
   std::vector<std::string> new_warnings();
 
   State save() const;
   void restore(const State& state);
-  /// The state's bytes, followed by their hash with the model's token.
+  /// Bytes of the state, followed by their hash with the model's token.
   static std::string bytes_of(State& state, const std::string& token);
-  /// @throws InputError for bytes that are damaged or of another model.
+  /// Reads a state. @throws InputError for bytes that are damaged or of another model.
   static State state_of(std::string_view bytes, const std::string& token);
 
  private:
   void require(Mode needed) const;
   const FmuVariable& variable(Reference reference) const;
   multibody::SteppedRun& run();
-  /// The values of all outputs at the present time.
+  /// Values of all outputs at the current time.
   const std::vector<double>& outputs();
 
   FmuModel model_;
   std::vector<FmuVariable> variables_;
-  std::vector<double*> parameters_;  ///< members of model_
+  std::vector<double*> parameters_;  ///< pointers to members of model_
   Reference first_input_ = 0, first_output_ = 0;
   Mode mode_ = Mode::instantiated;
   std::optional<multibody::SteppedRun> run_;
@@ -70,8 +73,8 @@ class FmuInstance {
   std::vector<Eigen::VectorXd> last_;
   std::vector<double> outputs_;
   bool outputs_are_new_ = false;
-  std::vector<std::string> warnings_;  ///< of the run until now
-  std::size_t told_ = 0;               ///< how many of them
+  std::vector<std::string> warnings_;  ///< warnings of the run so far
+  std::size_t told_ = 0;               ///< number of warnings already returned
 };
 
 }  // namespace flexneck::pipeline

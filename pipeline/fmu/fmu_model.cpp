@@ -34,7 +34,7 @@ void archive(A& all, FmuModel& x) {
 
 namespace {
 
-/// Raised when what is archived changes.
+/// Head of the archive; its version is raised when the content changes.
 constexpr std::string_view kHead = "flexneck FMU model 3\n";
 
 /// Calls visit(name, unit, what, member) for each parameter.
@@ -65,7 +65,7 @@ void each_parameter(Model& model, const Visit& visit) {
                each.coordinate != multibody::JointCoordinate::distance);
 }
 
-/// One output at the start, whose values do not matter.
+/// History with one output at the start, used for its layout only.
 multibody::History layout_of(const Model& model) {
   multibody::OutputOptions one;
   one.begin_time_s = one.end_time_s = model.start.time_s;

@@ -13,21 +13,22 @@
 
 namespace flexneck::pipeline {
 
-/// What an FMU carries: all that its shared object needs to run a model.
+/// Content of an FMU: all that its shared object needs to run a model.
 struct FmuModel {
   multibody::Model model;
   multibody::SolverOptions solver;
   multibody::SteppedRun::Kind kind = multibody::SteppedRun::Kind::motion;
   double end_time_s = 1;
   double interval_s = 1e-3;
-  std::vector<ChannelSpec> channels;  ///< without filters, which need the whole of a run
+  std::vector<ChannelSpec> channels;  ///< without filters, which need the whole run
 };
 
-/// @param formulas  those of the model's function forces, formula_forces_of()
+/// Bytes of a model.
+/// @param formulas  formulas of the model's function forces, formula_forces_of()
 std::string bytes_of(const FmuModel& fmu, std::vector<FormulaForce> formulas);
-/// The instantiation token of a model's bytes, their hash in braces.
+/// The instantiation token of a model's bytes: their hash in braces.
 std::string token_of(const std::string& bytes);
-/// @throws InputError for bytes that are damaged or of another version.
+/// Reads a model. @throws InputError for bytes that are damaged or of another version.
 FmuModel fmu_model_of(std::string_view bytes);
 
 enum class Causality { independent, parameter, input, output };
@@ -38,13 +39,13 @@ struct FmuVariable {
   Causality causality;
   std::string unit;
   std::string what;
-  double start = 0;  ///< of parameters and inputs
+  double start = 0;  ///< start value of parameters and inputs
 };
 
-/// Time; the parameters, which are members of the model; what inputs_of() lists; a component each
-/// of the channels.
+/// All variables: time; the parameters, which are members of the model; the inputs of inputs_of();
+/// one for each component of the channels.
 std::vector<FmuVariable> variables_of(FmuModel& fmu);
-/// The members of the model that parameters are, in their order.
+/// Pointers to the members of the model that are parameters, in their order.
 std::vector<double*> parameters_of(multibody::Model& model);
 
 }  // namespace flexneck::pipeline

@@ -16,7 +16,7 @@ struct Unit {
   std::string_view name;
   std::string_view exponents;  ///< attributes of BaseUnit
 };
-/// Of those that variables have; a root of kg cannot be said.
+/// Units of the variables; a root of kg cannot be expressed.
 constexpr std::array<Unit, 15> kUnits = {{
     {"s", R"(s="1")"},
     {"m", R"(m="1")"},

@@ -8,19 +8,19 @@
 
 namespace flexneck::pipeline {
 
-/// What modelDescription.xml says besides the variables.
+/// Content of modelDescription.xml besides the variables.
 struct FmuDescription {
-  std::string name;        ///< of the model
-  std::string identifier;  ///< of the shared object, a name in C
-  std::string token;       ///< which the shared object gets to see again
-  std::string tool;        ///< that made the FMU
+  std::string name;        ///< name of the model
+  std::string identifier;  ///< name of the shared object, an identifier in C
+  std::string token;       ///< instantiation token, which is passed back to the shared object
+  std::string tool;        ///< name of the program that made the FMU
   std::string about = {};  ///< may be empty
 };
 
-/// The file modelDescription.xml of FMI 3.0, for co-simulation.
+/// Text of the file modelDescription.xml of FMI 3.0, for co-simulation.
 std::string model_description(const FmuDescription& description, FmuModel& fmu);
 
-/// A name in C made of any text.
+/// Converts any text to an identifier in C.
 std::string c_identifier(const std::string& name);
 
 }  // namespace flexneck::pipeline

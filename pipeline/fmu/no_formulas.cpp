@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Of the shared object without muParser, which models without formulas have.
+// Part of the shared object without muParser, for models without formulas.
 #include "geometry/foundation/error.h"
 #include "pipeline/model/formula_force.h"
 

@@ -27,7 +27,7 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown host";
 }
 
-/// Into an empty file. @return false with errno if not all of it could be written
+/// Writes to an empty file. @return false with errno if not all of it could be written
 bool write_all(const FileDescriptor& file, std::string_view text) {
   std::size_t done = 0;
   while (done < text.size()) {
@@ -63,11 +63,11 @@ FolderLock::~FolderLock() { release(); }
 
 void FolderLock::release() noexcept {
   if (is_fixed_) ::unlink(path_.c_str());
-  if (is_made_) ::rmdir(folder_.c_str());  // not if there is anything in it
+  if (is_made_) ::rmdir(folder_.c_str());  // fails if the folder is not empty
 }
 
 void FolderLock::open() {
-  // A command that ends may take the folder with it after it was found.
+  // A command that ends may remove the folder after it was found.
   for (int attempts = 10; !file_ && attempts > 0; --attempts) {
     ResultsFolder(folder_).make();
     if (is_made_) folder_cleanup_ = SignalCleanup(Action::remove_empty_folder, folder_);
@@ -80,7 +80,7 @@ void FolderLock::open() {
 
 void FolderLock::take() {
   const SignalHold hold;
-  // A lock on a file that its last holder has removed meanwhile is worth nothing.
+  // A lock on a file that its last holder has removed meanwhile has no effect.
   do {
     file_.close();
     open();
@@ -99,7 +99,7 @@ void FolderLock::take() {
 std::string FolderLock::holder() const {
   std::array<char, 512> text{};
   std::size_t size = 0;
-  // Whoever holds it is about to sign it.
+  // The holder may not have written its name yet.
   for (int attempts = 100; size == 0 && attempts > 0; --attempts) {
     size = read_at(file_, 0, text, path_);
     if (size == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -10,17 +10,17 @@
 
 namespace flexneck::pipeline {
 
-/// Keeps a folder of results for one command. Others read it meanwhile: each file in it is whole.
-/// The lock is the system's on the file ".flexneck.lock", which says who holds it; it ends with the
-/// process, however that ends.
+/// Locks a folder of results for one command. Others may read it meanwhile: each file in it is
+/// complete. The lock is the system's on the file ".flexneck.lock", which names the holder; it ends
+/// with the process, however that ends.
 class FolderLock {
  public:
-  /// Makes the folder if there is none.
-  /// @param command as the user gave it, for whoever finds the folder locked
-  /// @param warn is told if the file system has no locks; then there is none
+  /// Creates the folder if there is none, and locks it.
+  /// @param command the command as given, shown to others that find the folder locked
+  /// @param warn called if the file system has no locks; then the folder is not locked
   /// @throws InputError if the folder cannot be made or written, or another command holds it.
   FolderLock(std::filesystem::path folder, const std::string& command, const Progress& warn);
-  /// A folder that was made for the lock and got nothing goes, too.
+  /// Unlocks; removes the folder if it was created for the lock and is still empty.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -37,8 +37,8 @@ class FolderLock {
   std::filesystem::path folder_;
   std::filesystem::path path_;
   FileDescriptor file_;
-  bool is_made_ = false;   ///< the folder, by this
-  bool is_fixed_ = false;  ///< the lock, by this
+  bool is_made_ = false;   ///< true if this lock created the folder
+  bool is_fixed_ = false;  ///< true if this object holds the lock
   SignalCleanup lock_cleanup_;
   SignalCleanup folder_cleanup_;
 };

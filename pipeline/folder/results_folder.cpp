@@ -20,8 +20,7 @@ UsedBy used_by(const Parameter& parameter) {
   return find_dotted_key(study_keys(), parameter.key).used_by;
 }
 
-/// Beginnings of the keys that a case names. A variant also has the values of the case it is made
-/// of.
+/// Prefixes of the keys that a case refers to. A variant also has the values of its base case.
 std::vector<std::string> named_by(const CaseSection& experiment) {
   const std::string& own = experiment.variant_of.empty() ? experiment.name : experiment.variant_of;
   std::vector<std::string> prefixes = {
@@ -37,13 +36,13 @@ std::vector<std::string> named_by(const CaseSection& experiment) {
   return prefixes;
 }
 
-/// Values by the names that their keys have now; a folder may be of an earlier version.
+/// Values under the current names of their keys, since a folder may be of an earlier version.
 std::vector<Parameter> with_current_names(std::vector<Parameter> parameters) {
   for (Parameter& each : parameters) each.key = current_name(each.key, study_keys());
   return parameters;
 }
 
-/// What other programs write of their keys may not be in the table.
+/// True if a key changes results; keys of other programs may not be in the table and count.
 bool matters(const std::string& key) {
   const Key* const row = find_dotted_key(study_keys(), key).key;
   return row == nullptr || row->details.changes_results;
@@ -55,7 +54,7 @@ const Parameter* find(const std::vector<Parameter>& parameters, const std::strin
   return found == parameters.end() ? nullptr : &*found;
 }
 
-/// Empty if there is none: then no later stage could have used the file.
+/// Provenance of a file; empty if there is none, since then no later stage could have used it.
 Provenance provenance_in(const fs::path& file, const FileFormat& format) {
   if (!fs::exists(file)) return {};
   try {
@@ -182,8 +181,8 @@ bool names(const Provenance& made_from, const std::string& name) {
                      [&](const InputFile& input) { return input.name == name; });
 }
 
-/// The files as they are that a mesh or modes of matrices are made from; none if they are not made
-/// from the study's, or if a script may read what nobody knows.
+/// Current state of the source files of a mesh or of modes of matrices; none if the result was not
+/// made from the study's, or if a script may read unknown files.
 std::vector<InputFile> sources_now(const Provenance& made_from, const Study& study) {
   FilesRead reads;
   if (study.matrices && names(made_from, study.matrices->stiffness.filename().string())) {
@@ -196,7 +195,7 @@ std::vector<InputFile> sources_now(const Provenance& made_from, const Study& stu
                       : note_read(study.structure->file());
   }
   const std::vector<FileRead> found = reads.files();
-  reads.forget();  // to look at them is no reading
+  reads.forget();  // this check does not count as reading
   return std::any_of(found.begin(), found.end(), is_unknown) ? std::vector<InputFile>()
                                                              : input_files(found);
 }
@@ -234,7 +233,7 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
 
 namespace {
 
-/// Whether the folder of a file holds more than a mesh, with which nothing has to agree.
+/// True if the folder of a file holds more than a mesh, i.e. results that must agree with it.
 bool has_more_than_mesh(const fs::path& file) {
   std::error_code ignored;
   const fs::directory_iterator entries(file.parent_path().empty() ? "." : file.parent_path(),

@@ -11,25 +11,25 @@
 
 namespace flexneck::pipeline {
 
-/// Where a study's files are.
+/// Paths of a study's files of results.
 class ResultsFolder {
  public:
   explicit ResultsFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// @throws InputError if the folder cannot be made.
+  /// Creates the folder. @throws InputError if that fails.
   void make() const;
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path mesh() const { return path_ / "mesh.h5"; }
   std::filesystem::path modes() const { return path_ / "modes.h5"; }
-  /// Modes with the static moduli, where a material has one.
+  /// Modes with the static moduli, if a material has one.
   std::filesystem::path static_modes() const { return path_ / "modes_static.h5"; }
   /// Displacements and stresses of the static step under the study's loads.
   std::filesystem::path stress() const { return path_ / "stress.h5"; }
-  /// Modes of one piece of the structure.
+  /// Modes of one submesh of the structure.
   std::filesystem::path substructure(const std::string& piece) const {
     return path_ / ("substructure_" + piece + ".h5");
   }
-  /// Derivatives of the modes, where they were asked for.
+  /// Derivatives of the modes, if they were asked for.
   std::filesystem::path sensitivities() const { return path_ / "sensitivities.json"; }
   std::filesystem::path mesh_picture() const { return path_ / "mesh.png"; }
   std::filesystem::path modes_picture() const { return path_ / "modes.png"; }
@@ -45,45 +45,45 @@ class ResultsFolder {
   std::filesystem::path path_;
 };
 
-/// What a result was made from: the program, the files read and all values.
+/// Provenance of a result: the program, the files read and all values.
 Provenance provenance_of(const std::vector<InputFile>& files,
                          const std::vector<Parameter>& parameters);
 
-/// What a result of this study was made from: the program, the study's files, and those of its
-/// values whose key begins with one of the prefixes, such as "geometry." (all if there is none).
+/// Provenance of a result of this study: the program, the study's files, and those of its values
+/// whose key begins with one of the prefixes, such as "geometry." (all if there is none).
 Provenance provenance_of(const Study& study, const std::vector<std::string>& prefixes = {});
 
-/// What the study says of [geometry] and [mesh], save what only the solver asks of its materials.
+/// Values of [geometry] and [mesh], except those of the materials that only the solver uses.
 std::vector<Parameter> mesh_values(const Study& study);
-/// What the study says of the mesh and the modes.
-/// @param with_attached  of the attached body, too, for the frequencies with it
+/// Values of the mesh and the modes.
+/// @param with_attached  includes the attached body, for the frequencies with it
 std::vector<Parameter> modes_values(const Study& study, bool with_attached = true);
-/// The values and files of a study that a mesh is made from.
+/// Values and files of a study that its mesh depends on.
 Provenance mesh_provenance(const Study& study);
-/// The same for the modes of a mesh.
+/// Values and files that the modes of a mesh depend on.
 Provenance modes_provenance(const Study& study);
-/// The same for verdicts on all experiments, and for what shows them.
+/// Values and files that verdicts on all experiments depend on, and their display.
 Provenance verdict_provenance(const Study& study);
-/// The same for the experiments of a kind with the modes, all cases.
+/// Values and files that all experiments of a kind depend on, modes included.
 Provenance experiment_provenance(const Study& study, CaseSection::Kind kind);
-/// The same for one case: of sections with a name, only what it uses.
+/// Values and files that one case depends on: of named sections, only those it uses.
 Provenance case_provenance(const Study& study, const CaseSection& experiment);
 
 /// Refuses a file that was made with other values than the study has now, given or by default, or
-/// from files that are others by now: what a mesh or modes of matrices are made from, tables. One
-/// that another program has made is taken as it is.
-/// @param expected the values that it would be made from now; empty if they are not known
+/// from files that have changed since: sources of a mesh or of modes of matrices, and tables. A
+/// file made by another program is accepted.
+/// @param expected the values that it would be made from now; empty if unknown
 /// @throws InputError naming the first value or file that differs, and the command that makes the
 /// file.
 void require_same_inputs(const std::filesystem::path& file, const Provenance& made_from,
                          const Study& study, const std::vector<Parameter>& expected,
                          const std::string& made_by);
 
-/// The name of a file of its folder that a result was made from, if another one is there now; else
-/// empty.
+/// Name of a file in the same folder that a result was made from and that has been replaced since;
+/// else empty.
 std::string replaced_source(const std::filesystem::path& file, const Provenance& made_from);
 
-/// A warning if a file is about to be replaced by one that is made from other values; else empty.
+/// Warning if a file is about to be replaced by one made from other values; else empty.
 std::string replaced_values(const std::filesystem::path& file, const FileFormat& format,
                             const Provenance& now);
 

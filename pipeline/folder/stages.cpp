@@ -98,7 +98,7 @@ std::vector<FileRead> Stages::reads_beside_outputs(const FilesRead& reads,
     std::erase_if(others, [&](const FileRead& file) { return file.path == path; });
   };
   for (const auto& [name, hash] : record.outputs) leave_out(name);
-  // A stage that looks through all files of the folder meets its records, too.
+  // A stage that looks through all files of the folder also finds its records.
   leave_out(kFile);
   leave_out(kRememberedStudy);
   return others;
@@ -106,7 +106,7 @@ std::vector<FileRead> Stages::reads_beside_outputs(const FilesRead& reads,
 
 std::string Stages::hash_of_inputs(const Provenance& from,
                                    const std::vector<std::string>& after) const {
-  // A line break ends each field: names, values and notes have none.
+  // A line break ends each field: names, values and notes contain none.
   std::string text = program_ + '\n';
   for (const InputFile& file : from.inputs) text += file.name + '\n' + file.hash + '\n';
   for (const Parameter& parameter : from.parameters) {
@@ -146,7 +146,7 @@ void Stages::read() {
     }
     records_ = std::move(records);
   } catch (const nlohmann::json::exception&) {
-    // Not a file of ours, or half of one: everything is made again.
+    // The file is damaged or of another program: all stages are made again.
   }
 }
 
@@ -159,7 +159,7 @@ void Stages::write() const {
                              {"reads", json_of(record.reads)},
                              {"warnings", record.warnings}};
   }
-  // A path that is no UTF-8 is none that can be looked at again: its stage is made again.
+  // A path that is not UTF-8 cannot be checked again: its stage is made again.
   const std::string text =
       json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   write_text(folder_ / kFile, text + "\n", Durability::none);

@@ -12,40 +12,41 @@
 
 namespace flexneck::pipeline {
 
-/// Remembers in the file stages.json of a results folder what each stage was made from, which files
-/// it read (geometry/foundation/files_read.h) and which it wrote, by their contents, so that a
-/// stage runs only if one of them has changed, and what it warned of. The file is written anew
-/// after each stage: a run that is stopped goes on where it was.
+/// Records in the file stages.json of a results folder, for each stage, the values it was made
+/// from, the files it read (geometry/foundation/files_read.h) and wrote, by their contents, and its
+/// warnings, so that a stage runs only if one of them has changed. The file is rewritten after each
+/// stage, so that a stopped run continues where it was.
 class Stages {
  public:
-  /// @param redo forgets what was made before
-  /// A file of records that is missing, damaged or of another build of the program counts as none.
+  /// Reads the records. A file of records that is missing, damaged or of another build of the
+  /// program counts as none.
+  /// @param redo ignores earlier records
   Stages(std::filesystem::path folder, bool redo);
 
-  /// Tells whether all that a stage read and wrote the last time is there, unchanged, and was made
-  /// from the same.
-  /// @param from the values and files it depends on, besides what it reads
+  /// Returns whether all files that a stage last read and wrote are present and unchanged, and its
+  /// inputs are the same.
+  /// @param from the values and files it depends on, besides the files it reads
   /// @param after stages whose files it reads, as far as they have been made
   bool is_made(const std::string& stage, const Provenance& from,
                const std::vector<std::string>& after) const;
 
-  /// Runs `work` unless the stage is made. What it reads and what it writes into the folder is
-  /// found by itself; it must read in this thread.
-  /// @return whether it ran
+  /// Runs `work` unless the stage is made. The files that it reads and writes in the folder are
+  /// detected; it must read in this thread.
+  /// @return true if it ran
   /// @throws what `work` throws; the stage counts as not made then
   bool make(const std::string& stage, const Provenance& from, const std::vector<std::string>& after,
             const std::function<void()>& work);
 
-  /// Keeps a warning of the stage that runs.
+  /// Records a warning of the running stage.
   void add_warning(const std::string& line) { told_.push_back(line); }
-  /// The warnings of a stage that is made.
+  /// Warnings of a stage that is made.
   const std::vector<std::string>& warnings(const std::string& stage) const;
 
  private:
   struct Record {
-    std::string inputs;                          ///< hash of what it was made from
-    std::map<std::string, std::string> outputs;  ///< file, from the folder, to hash
-    std::vector<FileRead> reads;                 ///< but for what it has written itself
+    std::string inputs;  ///< hash of the values and files that it was made from
+    std::map<std::string, std::string> outputs;  ///< hash of each file by its name in the folder
+    std::vector<FileRead> reads;                 ///< except the files that it has written itself
     std::vector<std::string> warnings;
   };
 
@@ -56,9 +57,9 @@ class Stages {
   void write() const;
 
   std::filesystem::path folder_;
-  std::string program_;  ///< build id of the running one
+  std::string program_;  ///< build id of the running program
   std::map<std::string, Record> records_;
-  std::vector<std::string> told_;  ///< by the stage that runs
+  std::vector<std::string> told_;  ///< warnings of the running stage
 };
 
 }  // namespace flexneck::pipeline

@@ -10,8 +10,8 @@ using multibody::ChannelClass;
 
 namespace {
 
-/// Classes of ISO 6487 and SAE J211 of 1995, then those of the former editions, which pass the same
-/// frequencies. Of several letters for one text the first is written.
+/// Filter classes of ISO 6487 and SAE J211 of 1995, then those of earlier editions, which pass the
+/// same frequencies. The first of several letters for one text is written.
 constexpr std::array<MmeFilter, 18> kFilters = {{
     {'0', ""},
     {'A', "CFC 1000", ChannelClass::cfc1000},
@@ -37,7 +37,7 @@ struct Dimension {
   std::string_view code, si_unit;
 };
 
-/// Of several for one unit the first is written.
+/// Physical dimensions. The first of several for one unit is written.
 constexpr std::array<Dimension, 19> kDimensions = {{
     {"AA", "rad/s^2"}, {"AC", "m/s^2"},  {"AN", "rad"}, {"AV", "rad/s"}, {"DS", "m"},
     {"DC", "m"},       {"DV", "m"},      {"LE", "m"},   {"EN", "J"},     {"FO", "N"},
@@ -49,7 +49,7 @@ struct UnitName {
   std::string_view mme, ours;
 };
 
-/// Of several for one of ours the first is written.
+/// Names of units. The first of several for one of flexneck's units is written.
 constexpr std::array<UnitName, 13> kUnits = {{
     {"Nm", "N*m"},
     {"m/(s*s)", "m/s^2"},
@@ -102,8 +102,8 @@ std::string_view mme_dimension(std::string_view si_unit) {
 }
 
 std::string unit_from_mme(const std::string& unit, std::string_view code) {
-  // Beside an acceleration a file's g is gravity, as everywhere; said here since a curve's unit
-  // goes on without its dimension.
+  // A file's g is gravity for an acceleration, as everywhere; converted here, since a curve's unit
+  // is later used without its dimension.
   if ((unit == "g" || unit == "G") && mme_si_unit(code) == "m/s^2") return "gn";
   for (const UnitName& each : kUnits)
     if (each.mme == unit) return std::string(each.ours);

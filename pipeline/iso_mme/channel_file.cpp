@@ -39,7 +39,7 @@ std::string read_unit(const DescriptorFile& file, const std::string& code) {
   return unit;
 }
 
-/// Times that are not at equal intervals stand in a channel of their own.
+/// Refuses a channel whose times are not at equal intervals but in a channel of their own.
 void refuse_other_times(const DescriptorFile& file) {
   const DescriptorFile::Line* const line = file.find("Reference channel");
   if (line != nullptr && line->text != "implicit")
@@ -63,7 +63,7 @@ Eigen::VectorXd read_samples(const DescriptorFile& file) {
   return values;
 }
 
-/// Samples must be told apart by their times: an interval may be lost in a large first time.
+/// Fails unless the samples' times differ: an interval may be lost in a large first time.
 void require_times(const DescriptorFile& file, const MmeChannel& channel) {
   const DescriptorFile::Line& line = file.need("Sampling interval");
   if (!(channel.interval_s > 0))

@@ -8,10 +8,10 @@
 
 namespace flexneck::pipeline {
 
-/// "Key                         :value", the key filled up to 28 characters; NOVALUE for none.
+/// Line "Key                         :value", the key padded to 28 characters; NOVALUE for none.
 std::string mme_line(std::string_view key, std::string_view value);
 
-/// The text of a channel's file, whose numbers read back as the same to the last digit.
+/// The text of a channel's file, whose numbers are read back exactly.
 std::string mme_channel_text(const MmeChannel& channel);
 
 }  // namespace flexneck::pipeline

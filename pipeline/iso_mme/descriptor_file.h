@@ -9,19 +9,20 @@
 
 namespace flexneck::pipeline {
 
-/// A text file of ISO/TS 13499: lines "Key   :value", and behind them, from the first line without
-/// a colon on, samples. Keys count without what pads them and without regard to capitals; of a key
-/// that is there several times, such as Comments, the first counts. Empty lines count for nothing.
-/// The text may be ASCII, ISO-8859-1, Windows-1252 or UTF-8.
+/// A text file of ISO/TS 13499: lines "Key   :value", followed, from the first line without a colon
+/// on, by samples. Keys are compared without padding and case; of a key that occurs several times,
+/// such as Comments, the first counts. Empty lines are skipped. The text may be ASCII, ISO-8859-1,
+/// Windows-1252 or UTF-8.
 class DescriptorFile {
  public:
   struct Line {
-    int number = 0;    ///< from 1 on
-    std::string key;   ///< empty of samples
-    std::string text;  ///< value or sample, without blanks around it
+    int number = 0;    ///< counted from 1
+    std::string key;   ///< empty for samples
+    std::string text;  ///< value or sample, without surrounding blanks
   };
 
-  /// @throws InputError if the file cannot be read, is no text, or has a line with a colon and no
+  /// Reads a file.
+  /// @throws InputError if the file cannot be read, is not text, or has a line with a colon and no
   /// key.
   explicit DescriptorFile(std::filesystem::path path);
 
@@ -31,16 +32,16 @@ class DescriptorFile {
 
   /// The line of a key; null if there is none, or it is empty or NOVALUE.
   const Line* find(std::string_view key) const;
-  /// @throws InputError if there is none.
+  /// Line of a key. @throws InputError if there is none.
   const Line& need(std::string_view key) const;
-  /// The value of a key as a number. @throws InputError if it is missing, none, or not finite.
+  /// Value of a key as a number. @throws InputError if it is missing or not a finite number.
   double number(std::string_view key) const;
-  /// Of a line, which is a sample or a value. @throws likewise.
+  /// Number in a line, a sample or a value. @throws InputError if it is not a finite number.
   double number(const Line& line) const;
 
-  /// @throws InputError with file and line.
+  /// Throws InputError with file and line.
   [[noreturn]] void refuse(const Line& line, const std::string& problem) const;
-  /// @throws InputError with the file alone.
+  /// Throws InputError with the file alone.
   [[noreturn]] void refuse(const std::string& problem) const;
 
  private:

@@ -24,12 +24,12 @@ std::string lower(std::string text) {
 
 std::string ending_of(const fs::path& path) { return lower(path.extension().string()); }
 
-/// Three digits or more: the ending of a channel's file.
+/// True for three digits or more: the extension of a channel's file.
 bool is_number_ending(const std::string& ending) {
   return ending.size() > 3 && ending.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
-/// Names in a folder that a predicate takes, in alphabetical order.
+/// Paths in a folder that a predicate accepts, in alphabetical order.
 template <class Takes>
 std::vector<fs::path> entries(const fs::path& folder, const Takes& takes) {
   std::vector<fs::path> found;
@@ -42,7 +42,7 @@ std::vector<fs::path> entries(const fs::path& folder, const Takes& takes) {
   return found;
 }
 
-/// The .mme of a folder that is a test.
+/// The .mme file of a folder with a test.
 fs::path test_in(const fs::path& folder) {
   const auto tests =
       entries(folder, [](const fs::path& path) { return ending_of(path) == ".mme"; });
@@ -77,7 +77,7 @@ struct IndexRow {
   std::string number, code;
 };
 
-/// "Name of channel 001 :11NECKUP00H3MOYB / Neck Upper Moment Y"
+/// Rows of an index, such as "Name of channel 001 :11NECKUP00H3MOYB / Neck Upper Moment Y".
 std::vector<IndexRow> rows_of(const fs::path& path) {
   constexpr std::string_view kKey = "name of channel ";
   const DescriptorFile index(path);

@@ -8,8 +8,8 @@
 
 namespace flexneck::pipeline {
 
-/// Whether a path names a test of ISO/TS 13499 by what is read there: a folder, <test>.mme,
-/// <test>.chn or the file of a channel, <test>.001, capitals or not.
+/// Returns whether a path names a test of ISO/TS 13499: a folder, <test>.mme, <test>.chn or the
+/// file of a channel, <test>.001, in upper or lower case.
 bool names_mme_test(const std::filesystem::path& path);
 
 /// A channel of a test and the file that it is in.
@@ -19,11 +19,10 @@ struct FoundMmeChannel {
 };
 
 /// Reads a channel of the test that a path names; the index <test>.chn is in the folder Channel
-/// beside <test>.mme, or beside it itself.
-/// @param code  of the channel; may be empty if the test has one only, or the path is its file
+/// beside <test>.mme, or directly beside it.
+/// @param code  code of the channel; may be empty if the test has only one, or the path is its file
 /// @throws InputError as read_mme_channel_file() does, for a folder without a test or with several,
-/// an index that does not say which channels there are, and a code that is not there, with the
-/// nearest and all that are.
+/// an index that lists no channels, and a code that is not present, with the nearest and all codes.
 FoundMmeChannel read_mme_channel(const std::filesystem::path& path, const std::string& code);
 
 }  // namespace flexneck::pipeline

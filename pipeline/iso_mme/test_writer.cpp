@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMaxChannels = 999;  ///< of three digits
+constexpr std::size_t kMaxChannels = 999;  ///< numbers of three digits
 
 std::string test_text(const std::string& name, const MmeTest& test) {
   std::string text =
@@ -41,7 +41,7 @@ std::string index_text(const MmeTest& test) {
   return text;
 }
 
-/// Only what an earlier test of that name has left is replaced.
+/// Fails if the folder holds files other than those of an earlier test of that name.
 void require_own(const fs::path& folder, const std::string& name) {
   const auto foreign = [&](const fs::path& in, const fs::path& allowed) {
     for (const auto& entry : fs::directory_iterator(in)) {

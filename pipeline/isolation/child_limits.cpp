@@ -17,10 +17,11 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Of recursion without end, which memory does not limit where the stack has no limit.
+/// Limit of the stack: endless recursion is not limited by memory if the stack is unlimited.
 constexpr rlim_t kStackBytes = 64U << 20U;
 
-/// Libraries' data, stacks and, under a sanitizer, terabytes that are reserved but not used.
+/// Size of the data segment at start: data of libraries, stacks and, under a sanitizer, terabytes
+/// that are reserved but not used.
 std::uint64_t bytes_at_start() {
   std::ifstream file("/proc/self/statm");
   constexpr int kColumn = 6;  // size, resident, shared, text, library, data
@@ -38,7 +39,7 @@ void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard) {
   }
 }
 
-/// What was ignored or blocked in the parent would not end the child.
+/// Resets a signal, since one ignored or blocked in the parent would not end the child.
 void receive(int signal) {
   std::signal(signal, SIG_DFL);
   sigset_t one;
@@ -52,12 +53,12 @@ void receive(int signal) {
 void limit_this_process(const ChildLimits& limits, pid_t parent) {
   if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0)
     throw ComputationError("the system refuses to end a child process together with its parent");
-  if (getppid() != parent) std::_Exit(EXIT_FAILURE);  // it was gone before
+  if (getppid() != parent) std::_Exit(EXIT_FAILURE);  // the parent ended before
   limit(RLIMIT_CORE, 0, 0);
   const rlim_t start = bytes_at_start();
   limit(RLIMIT_DATA, start + limits.memory_bytes,
         start + std::max(limits.memory_bytes, limits.later_memory_bytes));
-  limit(RLIMIT_STACK, kStackBytes, kStackBytes);  // grows by what is called from now on
+  limit(RLIMIT_STACK, kStackBytes, kStackBytes);  // grows with the calls from now on
   receive(SIGXCPU);
   receive(SIGALRM);
   if (limits.processor_s > 0) limit(RLIMIT_CPU, limits.processor_s, RLIM_INFINITY);

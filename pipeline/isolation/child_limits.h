@@ -6,12 +6,13 @@
 
 namespace flexneck::pipeline {
 
-/// What a child process may use.
+/// Resources that a child process may use.
 struct ChildLimits {
-  std::uint64_t memory_bytes = 0;  ///< beyond what the program has when it starts
-  unsigned processor_s = 0;        ///< 0: any time
-  unsigned clock_s = 0;            ///< likewise; ends one that waits, others may use the machine
-  std::uint64_t later_memory_bytes = 0;  ///< once what follows is limited; 0: no more than before
+  std::uint64_t memory_bytes = 0;  ///< in addition to the program's memory at its start
+  unsigned processor_s = 0;        ///< processor time; 0: unlimited
+  /// Elapsed time; 0: unlimited; ends a waiting child, and is long because the machine may be busy.
+  unsigned clock_s = 0;
+  std::uint64_t later_memory_bytes = 0;  ///< limit after limit_what_follows(); 0: unchanged
 };
 
 /// Limits this process, without core dumps, and ends it together with its parent.
@@ -19,12 +20,12 @@ struct ChildLimits {
 /// @throws ComputationError if the system refuses a limit.
 void limit_this_process(const ChildLimits& limits, pid_t parent);
 
-/// For what comes once a file is read: limits the time anew, from now on, and raises the limit of
-/// memory.
-/// @param processor_s  at least 1; on the clock it may take kClockPerProcessor times as long
+/// Limits the time anew, from now on, and raises the limit of memory, for the work after a file is
+/// read.
+/// @param processor_s  at least 1; the elapsed time may be kClockPerProcessor times as long
 void limit_what_follows(unsigned processor_s);
 
-/// The machine may have other work.
+/// Ratio of elapsed time to processor time, since the machine may have other work.
 constexpr unsigned kClockPerProcessor = 20;
 
 }  // namespace flexneck::pipeline

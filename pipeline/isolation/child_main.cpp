@@ -83,7 +83,7 @@ bool is_child(std::span<char*> arguments) {
 void child_main(std::span<char*> arguments, const std::vector<ChildTask>& tasks) {
   const FilesRead reads;
   const int code = exit_code_of(arguments, tasks);
-  // Tells whether the task has succeeded or not: its parent depends on them.
+  // Reported whether the task has succeeded or not: the parent depends on these files.
   for (const FileRead& file : reads.files())
     report(ChildReport::Kind::file_read, file.hash + " " + file.path);
   std::cout.flush();

@@ -9,7 +9,7 @@
 
 namespace flexneck::pipeline {
 
-/// What a child process can do. It throws what is wrong.
+/// A task of a child process. It throws its errors.
 struct ChildTask {
   std::string name;
   void (*run)(const std::vector<std::string>& arguments, const ChildLines& lines);
@@ -19,11 +19,11 @@ struct ChildTask {
 std::vector<std::string> child_arguments(const std::string& task, const ChildLimits& limits,
                                          pid_t parent);
 
-/// Whether the arguments of the program, its name among them, are those of a child.
+/// Returns whether the program's arguments, including its name, are those of a child.
 bool is_child(std::span<char*> arguments);
 
-/// Does the task that the arguments name within the limits that they give, and ends the process:
-/// what libraries do at its end does not count.
+/// Runs the task that the arguments name within the limits that they give, and ends the process, so
+/// that errors of libraries at its end are ignored.
 [[noreturn]] void child_main(std::span<char*> arguments, const std::vector<ChildTask>& tasks);
 
 }  // namespace flexneck::pipeline

@@ -25,7 +25,8 @@ namespace {
 constexpr std::size_t kMaxLine = 1 << 16;
 constexpr int kLook_ms = 20;
 
-/// Variables by which MPI knows its ranks, and that of the folder, which is set anew.
+/// Variables that tell MPI its ranks, and that of the folder for temporary files, which is set
+/// anew.
 constexpr std::array<std::string_view, 5> kNotInherited = {"OMPI_", "PMIX_", "PMI_", "OPAL_",
                                                            "TMPDIR="};
 

@@ -13,7 +13,7 @@
 
 namespace flexneck::pipeline {
 
-/// How a process ended: by itself with an exit code, or by a signal.
+/// End of a process: an exit code, or a signal.
 struct ChildEnd {
   int exit_code = 0;
   int signal = 0;  ///< 0: none
@@ -21,12 +21,12 @@ struct ChildEnd {
   double clock_s = 0;
 };
 
-/// Another program as a process of its own, started by posix_spawn: never by fork, which is not
+/// Another program in a process of its own, started by posix_spawn: never by fork, which is not
 /// allowed once MPI runs. It inherits no files, reads nothing, and does not know that this process
 /// may be one of several under mpirun. It does not outlive this object.
 class ChildProcess {
  public:
-  /// @param temporary  its folder for temporary files, which are found there whatever ends it
+  /// @param temporary  its folder for temporary files, which remain there however it ends
   /// @throws ComputationError if the program cannot be started.
   ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                const std::filesystem::path& temporary);
@@ -36,21 +36,21 @@ class ChildProcess {
 
   using LineReceiver = std::function<void(const std::string& line)>;
 
-  /// Hands out each line of the process's standard output and error, without its end and cut where
-  /// it is very long, until the process ends. Programs that it started and left behind do not
-  /// matter. To be called once.
+  /// Passes on each line of the process's standard output and error, without its line break and
+  /// truncated if very long, until the process ends. Programs that it started and left behind are
+  /// ignored. To be called once.
   ChildEnd wait(const LineReceiver& on_line);
 
  private:
   bool has_output(int timeout_ms) const;
   void read_lines(const LineReceiver& on_line);
 
-  pid_t id_ = -1;  ///< -1: it has ended
+  pid_t id_ = -1;  ///< -1 once it has ended
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   SignalCleanup cleanup_;
-  FileDescriptor output_;  ///< end of the pipe that this process reads
-  bool is_open_ = true;    ///< whether more may come from there
-  std::string unread_;     ///< beginning of a line
+  FileDescriptor output_;  ///< end of the pipe from which this process reads
+  bool is_open_ = true;    ///< false at the end of the output
+  std::string unread_;     ///< beginning of an incomplete line
 };
 
 }  // namespace flexneck::pipeline

@@ -7,7 +7,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr char kMark = '\x1e';  // ASCII's record separator: no library prints it
+constexpr char kMark = '\x1e';  // ASCII's record separator, which no library prints
 constexpr std::string_view kKinds = "dwric";
 
 }  // namespace

@@ -7,15 +7,15 @@
 
 namespace flexneck::pipeline {
 
-/// What a child tells its parent: a line of its standard output, which it shares with whatever
-/// libraries print there.
+/// A report of a child to its parent: a line of its standard output, which it shares with the
+/// output of libraries.
 struct ChildReport {
   enum class Kind : char {
-    detail = 'd',             ///< of progress
-    warning = 'w',            ///< for the user
-    file_read = 'r',          ///< hash and path of a file that it has read
-    input_error = 'i',        ///< why it ends with kChildInputError
-    computation_error = 'c',  ///< why it ends with kChildComputationError
+    detail = 'd',             ///< progress
+    warning = 'w',            ///< warning for the user
+    file_read = 'r',          ///< hash and path of a file that was read
+    input_error = 'i',        ///< error of exit code kChildInputError
+    computation_error = 'c',  ///< error of exit code kChildComputationError
   };
   Kind kind = Kind::detail;
   std::string text;
@@ -25,10 +25,10 @@ inline constexpr int kChildInputError = 2;
 inline constexpr int kChildComputationError = 3;
 inline constexpr int kChildOutOfMemory = 4;
 
-/// With its end.
+/// Line of a report, with its line break.
 std::string line_of(const ChildReport& report);
-/// The report that a line holds, behind what a library may have begun to print; none if it is
-/// another line.
+/// The report in a line, possibly behind text that a library has begun to print; none if the line
+/// holds no report.
 std::optional<ChildReport> report_in(std::string_view line);
 
 }  // namespace flexneck::pipeline

@@ -5,8 +5,8 @@
 
 namespace flexneck::pipeline {
 
-/// The command `flexneck`, which does the tasks of child processes: this program, or what stands as
-/// bin/flexneck or flexneck above the Python module that this is a part of.
+/// Path of the command `flexneck`, which runs the tasks of child processes: this program, or
+/// bin/flexneck or flexneck above the Python module that this code is a part of.
 /// @throws ComputationError if there is none above the module.
 std::filesystem::path command_program();
 

@@ -19,7 +19,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Without the sequences by which a terminal colours.
+/// Line without the escape sequences that colour a terminal's text.
 std::string colourless(const std::string& line) {
   std::string text;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -32,7 +32,7 @@ std::string colourless(const std::string& line) {
   return text;
 }
 
-/// What became of a child that did not say itself why it ended.
+/// Reason why a child ended that reported none.
 std::string death_of(const ChildEnd& end, const ChildLimits& limits) {
   if (end.exit_code == kChildOutOfMemory) {
     const auto in_GB = [](std::uint64_t bytes) {
@@ -51,7 +51,7 @@ std::string death_of(const ChildEnd& end, const ChildLimits& limits) {
   return fmt::format("gives up on it (exit code {})", end.exit_code);
 }
 
-/// What a child has told that decides how the task ends.
+/// Reports of a child that decide how the task ends.
 struct LastWords {
   std::optional<ChildReport> error;
   std::string chatter;

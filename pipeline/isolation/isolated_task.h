@@ -11,27 +11,27 @@
 
 namespace flexneck::pipeline {
 
-/// Where the lines of a child go; each may be empty.
+/// Receivers of a child's lines; each may be empty.
 struct ChildLines {
-  Progress detail;   ///< what it does
-  Progress warning;  ///< for the user
-  Progress chatter;  ///< what libraries print, without its colours
+  Progress detail;   ///< progress
+  Progress warning;  ///< warnings for the user
+  Progress chatter;  ///< output of libraries, without colours
 };
 
-/// A task that a process of its own does, since a library of others may crash, hang or take all
-/// memory over it.
+/// A task run in a process of its own, since a foreign library may crash, hang or use up all
+/// memory.
 struct IsolatedTask {
-  std::string name;                    ///< in the list of child_tasks.h
-  std::vector<std::string> arguments;  ///< of the task
+  std::string name;                    ///< name in the list of child_tasks.h
+  std::vector<std::string> arguments;  ///< arguments of the task
   ChildLimits limits;
-  std::filesystem::path file;  ///< what the library reads, for messages
-  std::string library;         ///< whose name the user knows: "gmsh"
-  std::string advice;          ///< what to do if it cannot: "write it anew"
+  std::filesystem::path file;  ///< file that the library reads, for messages
+  std::string library;         ///< name of the library for the user: "gmsh"
+  std::string advice;          ///< advice to the user if it fails: "write it anew"
   std::filesystem::path program = command_program();
 };
 
 /// Runs a task in a child process: the command, started again.
-/// @param temporary  a folder for what it leaves behind
+/// @param temporary  a folder for the files that it leaves behind
 /// @throws InputError or ComputationError, as the task does; InputError in one line if the child
 /// crashes or exceeds its limits.
 void run_isolated(const IsolatedTask& task, const std::filesystem::path& temporary,

@@ -35,8 +35,8 @@ constexpr std::array<Kind, 4> kKinds = {
         multibody::write_history(to, multibody::read_history(from));
       }}}};
 
-/// Whether the readers may have it here: they refuse what is no file, and what is not what the hash
-/// that it carries says, before HDF5 sees it.
+/// True if this process may read the file: the readers refuse a path that is not a file, and a
+/// content that does not match its hash, before HDF5 sees it.
 bool is_safe(const fs::path& path) {
   std::error_code none;
   return !fs::is_regular_file(path, none) || carried_hash(path).has_value();

@@ -7,8 +7,8 @@
 
 namespace flexneck::pipeline {
 
-/// The actions of a new process on its files before it becomes another program, for posix_spawn().
-/// All members throw ComputationError if there is no memory for it.
+/// File actions of a new process before it becomes another program, for posix_spawn(). All members
+/// throw ComputationError if memory runs out.
 class SpawnActions {
  public:
   SpawnActions();

@@ -18,7 +18,7 @@ html_copy_source = False
 html_show_sourcelink = False
 html_show_copyright = False
 html_permalinks = False
-# Links of the READMEs to files that are no part of the page.
+# READMEs link to files that are not part of the page.
 suppress_warnings = ["myst.xref_missing", "myst.header", "toc.excluded"]
 
 STYLE = """

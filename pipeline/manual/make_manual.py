@@ -71,7 +71,7 @@ def included(sources, path):
     return f"({label_of(path)})=\n{text}\n"
 
 
-# Of the text with equations: which columns of its tables hold some.
+# The text with equations, and the columns of its tables that hold some.
 EQUATIONS = "multibody/equations.md"
 EQUATION_COLUMNS = {"equation", "rows", "right-hand side", "position residual", "unit load", "matrix", "of chi_jl"}
 
@@ -126,7 +126,7 @@ def keys_chapter(flexneck):
         text += f"\n## {found[2]}\n"
         names = re.findall(r"^\[*([a-z_]+)\]*  ", block, re.MULTILINE)[1:]
         about = asked(flexneck, "keys", *(f"{kind}.{name}" for name in names))
-        # A section for each table; lone keys stand between them.
+        # One section for each table; keys outside tables stand between them.
         for part in re.split(r"\n\n(?=\[+\w+\]+ )|\n\n(?=  )|(?<=\n)\n(?=\[+\w+\]+ )", about):
             head, _, rest = part.strip("\n").partition("\n")
             is_table = head.startswith("[")
@@ -166,7 +166,7 @@ def main():
     (source / "commands.md").write_text(commands_chapter(flexneck))
     (source / "keys.md").write_text(keys_chapter(flexneck))
     (source / "validation.md").write_text(validation_chapter(flexneck, source))
-    # For their pictures.
+    # The sources contain the pictures.
     (source / "sources").symlink_to(sources)
     version = re.match(r"flexneck (\S+)", asked(flexneck, "--version"))[1]
     subprocess.run([sphinx, "-q", "-b", "singlehtml", "-D", f"release={version}", source, out / "html"], check=True)

@@ -6,7 +6,7 @@
 
 namespace flexneck::pipeline {
 
-/// How the study's file is read. @pre study.structure is of a file, not of a script
+/// Options for reading the study's file. @pre study.structure is of a file, not of a script
 mesher::ImportOptions import_options_of(const Study& study);
 
 }  // namespace flexneck::pipeline

@@ -28,8 +28,8 @@ namespace {
 
 using mesher::ForeignFormat;
 
-/// The one reads what it can of a damaged shape, and complains of the rest on standard output; the
-/// other meshes it.
+/// Libraries for shapes: OpenCASCADE reads what it can of a damaged shape, and prints complaints
+/// about the rest on standard output; gmsh meshes it.
 constexpr const char* kShapeLibraries = "OpenCASCADE or gmsh";
 
 bool is_deck(const StructureSection& structure) {
@@ -37,7 +37,7 @@ bool is_deck(const StructureSection& structure) {
          mesher::foreign_format_of(structure.file()) == ForeignFormat::inp;
 }
 
-/// What gmsh may take in its process for a number of meshes.
+/// Task for gmsh with its limits for a number of meshes.
 IsolatedTask task_of(const StructureSection& structure, unsigned meshes) {
   IsolatedTask task;
   task.name = "mesh";
@@ -69,7 +69,7 @@ ChildLines lines_to(const Console& console) {
           .chatter = console.detail()};
 }
 
-/// Joins lines as far as they fit one.
+/// Joins lines up to a limited length.
 Progress collector_of(std::string& text) {
   constexpr std::size_t kEnough = 300;
   return [&text](const std::string& line) {

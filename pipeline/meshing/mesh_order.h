@@ -11,7 +11,7 @@
 
 namespace flexneck::pipeline {
 
-/// What flexneck asks of the program flexneck-mesher: studies, and a folder for a mesh of each.
+/// Request to the program flexneck-mesher: studies, and a folder for their meshes.
 struct MeshOrder {
   std::filesystem::path folder;
   std::vector<StudyChoice> studies;
@@ -19,11 +19,11 @@ struct MeshOrder {
 
 MeshOrder mesh_order(const std::filesystem::path& folder, const std::vector<const Study*>& studies);
 
-/// The order as arguments of a task, and back.
+/// Converts a request to arguments of a task, and back.
 std::vector<std::string> arguments_of(const MeshOrder& order);
 MeshOrder order_from(const std::vector<std::string>& arguments);
 
-/// What comes of the study at a place: a mesh file, or the text that refuses its file or script.
+/// Paths of a study's result: a mesh file, or a text with the reason of a refusal.
 std::filesystem::path mesh_result(const MeshOrder& order, std::size_t place);
 std::filesystem::path refusal_result(const MeshOrder& order, std::size_t place);
 

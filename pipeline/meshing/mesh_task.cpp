@@ -27,7 +27,7 @@ namespace {
 
 mesher::Mesh mesh_of_script(const mesher::ScriptMeshOptions& script, const ChildLines& lines) {
   mesher::Mesh mesh = mesher::mesh_script(script, lines.detail, lines.warning);
-  try {  // a script may leave bodies apart, or lay them over one another
+  try {  // a script may leave bodies unconnected or overlapping
     mesher::check_import(mesh, !script.slits.empty());
   } catch (const InputError& error) {
     throw InputError(script.script.string() + ": " + error.what());
@@ -35,11 +35,11 @@ mesher::Mesh mesh_of_script(const mesher::ScriptMeshOptions& script, const Child
   return mesh;
 }
 
-/// What gmsh may take to mesh a shape that is read: ten times as long as it took for bars with
-/// holes, since over some damaged shapes it does not end.
+/// Limits the meshing of a shape that has been read to ten times the time for bars with holes,
+/// since for some damaged shapes it does not end.
 void limit_meshing(const fs::path& shape, double nodes) {
   constexpr double kBase_s = 8;
-  constexpr double kPerMegabyte_s = 60;  // of small faces and edges, which have nodes of their own
+  constexpr double kPerMegabyte_s = 60;  // small faces and edges have nodes of their own
   constexpr double kPerNode_s = 4e-4;
   constexpr double kBytesPerNode = 800;
   if (!std::isfinite(nodes)) {
@@ -63,7 +63,7 @@ mesher::Mesh mesh_of(const Study& study, const ChildLines& lines) {
   return script != nullptr ? mesh_of_script(*script, lines) : mesh_of_file(study, lines);
 }
 
-/// Its parent knows the values that the study's files give.
+/// Reads a study without recording its files, which the parent has recorded.
 Study study_of(const StudyChoice& choice) {
   FilesRead reads;
   Study study = read_study(choice.study, choice.settings);

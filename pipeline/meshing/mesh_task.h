@@ -8,8 +8,8 @@
 
 namespace flexneck::pipeline {
 
-/// The task of the program flexneck-mesher: meshes of studies by gmsh.
-/// @param arguments  of a MeshOrder
+/// Task of the program flexneck-mesher: meshes studies by gmsh.
+/// @param arguments  arguments of a MeshOrder
 /// @throws ComputationError as the mesher does; InputError if a study cannot be read.
 void mesh_task(const std::vector<std::string>& arguments, const ChildLines& lines);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// flexneck-mesher: what flexneck starts to mesh with gmsh.
+// flexneck-mesher: the program that flexneck starts to mesh with gmsh.
 #include <cstdio>
 #include <span>
 

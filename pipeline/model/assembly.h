@@ -15,37 +15,38 @@
 
 namespace flexneck::pipeline {
 
-/// A model while its tables are read, which a model file and the cases of a study have alike.
+/// A model while its tables are read, for model files and for the cases of a study.
 struct Assembly {
-  /// Who says how the bodies of kind "prescribed" move.
+  /// Source of the motion of bodies of kind "prescribed".
   enum class Motion {
-    given,     ///< the body itself
-    optional,  ///< the body, or the case that it is part of
-    by_case    ///< the case; a motion of the body's own is refused
+    given,     ///< the body's own table
+    optional,  ///< the body's table, or the case that it belongs to
+    by_case    ///< the case; a motion in the body's table is refused
   };
 
   multibody::Model model;
-  std::vector<bool> posed, moving;  ///< of each body: whether the file says where, how fast
-  std::vector<JointStart> starts;   ///< of each joint
+  std::vector<bool> posed, moving;  ///< for each body, if the file gives its pose, its velocity
+  std::vector<JointStart> starts;   ///< for each joint
   double end_time_s = 1;
-  double resolution_s = 1e-4;    ///< of expressions of time
-  bool has_expressions = false;  ///< motions or loads by them
+  double resolution_s = 1e-4;    ///< sampling interval of expressions of time, s
+  bool has_expressions = false;  ///< true if expressions give motions or loads
 
   Motion motion = Motion::given;
-  std::vector<std::size_t> prescribed;  ///< bodies of that kind
-  /// Of ground and prescribed bodies whose tables do not say it.
+  std::vector<std::size_t> prescribed;  ///< bodies of kind "prescribed"
+  /// Rotation of ground and prescribed bodies whose tables give none.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
-  /// Names of the interfaces of the structure whose modes deformable bodies have that name no file
-  /// of modes, as those of a study do; none where every body has a file.
+  /// Names of the interfaces of the structure, whose modes deformable bodies without a file of
+  /// modes have, as in a study; none if every body has a file.
   std::optional<std::vector<std::string>> structure;
-  std::map<std::size_t, ModesUse> of_structure;  ///< such bodies: interfaces only until attach()
-  std::vector<PieceUse> of_pieces;  ///< sections without stiffness until attach_pieces()
-  std::map<std::size_t, Relaxation> relaxations;  ///< of sections that relax
-  std::set<std::size_t> lumped;  ///< rigid bodies whose mass is that of the sections at them
+  /// Bodies of the structure: interfaces only until attach().
+  std::map<std::size_t, ModesUse> of_structure;
+  std::vector<PieceUse> of_pieces;  ///< sections that have no stiffness until attach_pieces()
+  std::map<std::size_t, Relaxation> relaxations;  ///< for the sections that relax
+  std::set<std::size_t> lumped;  ///< rigid bodies whose mass is that of the adjacent sections
 };
 
-/// Gives the bodies of the structure its modes.
+/// Gives the structure's modes to the bodies that use them.
 /// @throws InputError as use_modes()
 void attach(const fe_modal::ModalBody& structure, Assembly& assembly);
 

@@ -32,7 +32,7 @@ Quaterniond rotation_at(const MarkerHistory& marker, Index k) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-/// Motion of a frame at one time, world axes.
+/// Motion of a frame at one time, in world axes.
 struct Frame {
   Vector3d p, v, a, w, alpha;
   Quaterniond R;
@@ -47,7 +47,8 @@ Frame frame_at(const MarkerHistory& marker, Index k) {
           rotation_at(marker, k)};
 }
 
-/// The motion of one frame seen from another that moves, still in world axes; R to that frame.
+/// Motion of one frame relative to another, moving one, still in world axes; R rotates to that
+/// frame.
 Frame seen_from(const Frame& frame, const Frame& from) {
   const Vector3d r = frame.p - from.p;
   const Vector3d v = frame.v - from.v - from.w.cross(r);
@@ -66,7 +67,7 @@ Vector3d rotation_vector(const Quaterniond& q) {
   return std::remainder(turn.angle(), 2 * std::numbers::pi) * turn.axis();
 }
 
-/// A vector of a marker's motion in world axes.
+/// Vector of a marker's motion in world axes.
 Vector3d vector_of(Quantity quantity, const Frame& motion) {
   switch (quantity) {
     case Quantity::position:
@@ -84,7 +85,7 @@ Vector3d vector_of(Quantity quantity, const Frame& motion) {
   }
 }
 
-/// Unit of each quantity and the names of its components, but for modal coordinates.
+/// Unit of each quantity and the names of its components, except for modal coordinates.
 struct Layout {
   const char* unit;
   Columns columns;
@@ -125,7 +126,7 @@ Layout layout_of(Quantity quantity) {
   throw ComputationError("no such quantity");
 }
 
-/// Rotation from world axes to those asked for; by default those of the frame it is seen from.
+/// Rotation from world axes to the chosen ones; by default those of the reference frame.
 Quaterniond to_axes(const History& history, const ChannelSpec& spec, Index k) {
   const std::optional<std::size_t> axes = spec.axes ? spec.axes : spec.relative_to;
   return axes ? rotation_at(history.markers[*axes], k).conjugate() : Quaterniond::Identity();
@@ -160,7 +161,7 @@ MatrixXd marker_values(const History& history, const ChannelSpec& spec,
   return values;
 }
 
-/// The reaction is recorded in the axes of marker i, here `relative_to`.
+/// Values of a joint's load. The reaction is recorded in the axes of marker i, here `relative_to`.
 MatrixXd joint_values(const History& history, const ChannelSpec& spec) {
   const multibody::JointHistory& joint = history.joints[spec.source];
   if (spec.quantity == Quantity::load_cell_force) return multibody::sae_j211(joint).topRows<3>();

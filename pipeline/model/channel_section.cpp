@@ -20,7 +20,7 @@ using multibody::Model;
 
 namespace {
 
-/// In the order of Quantity.
+/// Names in the order of Quantity.
 std::vector<std::string> quantities() {
   return {"position", "velocity",         "acceleration",         "rotation_vector", "quaternion",
           "angle",    "angular_velocity", "angular_acceleration", "accelerometer",   "force",
@@ -49,7 +49,7 @@ std::optional<std::size_t> marker_or_none(const StudyTable& table, const std::st
   return reference(table, key, names_of(model.markers), "marker");
 }
 
-/// The axis of a joint or an angle, of one of a marker's axes, in the world at the start.
+/// Axis of a joint or an angle, given in a marker's axes, in the world at the start.
 Eigen::Vector3d in_world(const Model& model, std::optional<std::size_t> marker,
                          const Eigen::Vector3d& axis) {
   if (!marker) return axis;
@@ -57,7 +57,8 @@ Eigen::Vector3d in_world(const Model& model, std::optional<std::size_t> marker,
   return (pose_of(model.bodies[of.body]) * marker_pose(model, of)).rotation * axis;
 }
 
-/// The turn of the joint, if there is one that turns the one body against the other about the axis.
+/// Start angle of the joint that turns one body relative to the other about the axis, if there is
+/// one.
 double start_of(const multibody::MeasuredAngle& angle, const Model& model) {
   const auto body = [&](std::size_t marker) { return model.markers[marker].body; };
   const auto measures_from = [&](std::size_t marker) {
@@ -109,7 +110,7 @@ std::size_t deformable_body(const StudyTable& table, const Model& model) {
 std::optional<ChannelClass> read_filter(const StudyTable& table, double interval_s) {
   if (!table.has("filter")) return std::nullopt;
   const ChannelClass cfc = read_channel_class(table, "filter");
-  try {  // The filter itself knows what it needs.
+  try {  // The filter itself checks its requirements.
     multibody::cfc_filtered(Eigen::Vector2d::Zero(), interval_s, cfc);
   } catch (const InputError& error) {
     table.refuse("filter", error.what());

@@ -7,10 +7,11 @@
 
 namespace flexneck::pipeline {
 
-/// One [[channel]].
-/// @param interval_s  of the output: a filter needs it short enough
-/// @throws InputError with file, line, column and key.
+/// Keys of a [[channel]].
 std::span<const Key> channel_keys();
+/// Reads one [[channel]].
+/// @param interval_s  interval of the output; a filter needs it short enough
+/// @throws InputError with file, line, column and key.
 ChannelSpec read_channel(const StudyTable& table, multibody::Model& model, double interval_s);
 
 }  // namespace flexneck::pipeline

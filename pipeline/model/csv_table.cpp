@@ -18,7 +18,7 @@ struct Header {
   double to_si;
 };
 
-/// "name [unit]"
+/// Parses a column's header "name [unit]".
 Header header_of(const CsvLines& file, const std::string& cell, const std::string& si_unit) {
   const CsvHeader header = csv_header(cell);
   if (header.unit.empty())

@@ -15,14 +15,14 @@
 namespace flexneck::pipeline {
 
 struct Expression::Impl {
-  std::vector<double> values;  ///< of the variables, where the parser finds them
+  std::vector<double> values;  ///< values of the variables, to which the parser points
   mu::Parser parser;
 };
 
 namespace {
 
-/// What muParser takes and a reader would not: "9,81" is 81, "t = 0" sets the time, and "0 < t < 1"
-/// compares a truth with 1.
+/// Checks for input that muParser accepts with a surprising meaning: "9,81" is 81, "t = 0" sets the
+/// time, and "0 < t < 1" compares a truth value with 1.
 class Grammar {
  public:
   explicit Grammar(std::string_view text) : text_(text) {}
@@ -42,7 +42,7 @@ class Grammar {
  private:
   struct Parenthesis {
     bool holds_arguments = false;
-    bool compares = false;  ///< since its beginning or the last thing that ends a comparison
+    bool compares = false;  ///< since its beginning or the last token that ends a comparison
   };
 
   bool follows_name() const {

@@ -10,20 +10,21 @@
 
 namespace flexneck::pipeline {
 
-/// A [[function_force]] as it is written.
+/// A [[function_force]] as written in the file.
 struct FormulaForce {
   std::string name;
-  std::size_t marker_i = 0;  ///< the lower one
-  std::size_t marker_j = 0;  ///< the upper one
+  std::size_t marker_i = 0;  ///< index of the lower marker
+  std::size_t marker_j = 0;  ///< index of the upper marker
   StateExpression::Texts texts;
   std::vector<double> breakpoints_s;
 };
 
-/// @throws InputError for a formula that cannot be read.
+/// Makes the force. @throws InputError for an invalid formula.
 multibody::FunctionForce function_force_of(const FormulaForce& force);
 
-/// The function forces of a model, in their order.
-/// @throws InputError naming one whose load is not of formulas but a function of a program.
+/// Returns the function forces of a model, in their order.
+/// @throws InputError naming a force whose load is not given by formulas but by a function of a
+/// program.
 std::vector<FormulaForce> formula_forces_of(const multibody::Model& model);
 
 }  // namespace flexneck::pipeline

@@ -8,7 +8,7 @@
 
 namespace flexneck::pipeline {
 
-/// All names of kinds, each alias behind the name that it stands for.
+/// Names of all kinds, each alias behind the name that it stands for.
 std::vector<std::string> names_of_kinds(std::span<const multibody::JointKind* const> kinds);
 
 /// The kind of joint that the key `kind` names. @throws InputError with the nearest name.

@@ -50,14 +50,15 @@ constexpr auto kOwnKeys = joined(
     }),
     kRigidBodyKeys);
 
-/// Mass and inertia, which a study would else be told of once its modes are made.
+/// Checks mass and inertia early; in a study they would otherwise be checked only after its modes
+/// are computed.
 void check_alone(const StudyTable& table, const RigidBody& body) {
   multibody::Model alone;
   alone.bodies.push_back({table.text("name"), body, {}});
   at_key(table, "name", [&] { multibody::check(alone); });
 }
 
-/// The inertia's axes may be turned against the body's.
+/// Reads a rigid body; the inertia's axes may be rotated against the body's.
 RigidBody rigid_body(const StudyTable& table, Assembly& assembly) {
   if (table.flag("lumped")) {
     table.refuse_given({"mass", "center", "inertia", "inertia_rotation"},
@@ -98,7 +99,7 @@ void add_interfaces(multibody::Model& model, std::size_t index) {
   }
 }
 
-/// Where the body is and how it moves at the start, as far as the file says.
+/// Reads the body's initial pose and velocity, as far as the file gives them.
 void read_start(const StudyTable& table, bool is_free, Assembly& assembly) {
   multibody::Body& body = assembly.model.bodies.back();
   const bool posed = table.has("position") || table.has("rotation");

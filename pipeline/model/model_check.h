@@ -5,7 +5,8 @@
 
 namespace flexneck::pipeline {
 
-/// @throws InputError for a rigid body that fixed joints tie to two prescribed ones.
+/// Checks the connections of bodies.
+/// @throws InputError for a rigid body that fixed joints couple to two prescribed ones.
 void check_connections(const Assembly& assembly);
 
 }  // namespace flexneck::pipeline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Force elements that resist every motion between two markers.
+// Force elements that resist all six relative motions of two markers.
 #include <cmath>
 
 #include "fe_modal/body/condensed_section.h"
@@ -82,7 +82,7 @@ constexpr auto kSectionKeys = joined(
     }),
     kRelaxationKeys);
 
-/// Nine numbers row by row, or three on the diagonal.
+/// Reads a 3x3 block: nine numbers row by row, or three on the diagonal.
 Eigen::Matrix3d block(const StudyTable& table, const std::string& key, const std::string& unit) {
   if (!table.has(key)) return Eigen::Matrix3d::Zero();
   const std::vector<double> values = table.quantities(key, 0, unit);
@@ -94,6 +94,7 @@ Eigen::Matrix3d block(const StudyTable& table, const std::string& key, const std
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data());
 }
 
+/// Reads a 6x6 matrix.
 /// @param rate  "" for a stiffness, "*s" for a damping
 Matrix6d matrix_of(const StudyTable& table, const std::string& what, const std::string& rate) {
   Matrix6d matrix;
@@ -116,7 +117,7 @@ void read_bushing(const StudyTable& table, Assembly& assembly) {
 
 using SectionStiffness = multibody::Section::Stiffness;
 
-/// Rows of three, one for each gap; none if the key is not there.
+/// Reads rows of three, one for each gap; zero if the key is absent.
 Eigen::MatrixXd gap_rows(const StudyTable& table, const std::string& key, const std::string& unit,
                          Eigen::Index gaps) {
   if (!table.has(key)) return Eigen::MatrixXd::Zero(gaps, 3);
@@ -126,7 +127,7 @@ Eigen::MatrixXd gap_rows(const StudyTable& table, const std::string& key, const 
                                                                                      gaps, 3);
 }
 
-/// The stiffness of the motions with rows and columns of the gaps.
+/// Appends rows and columns of the gaps to the stiffness of the motions.
 SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
   if (!table.has("gap_stiffness")) {
     table.refuse_given({"gap_translation_coupling", "gap_rotation_coupling"},
@@ -160,7 +161,7 @@ fe_modal::CondensedSection condensed(const StudyTable& table, const std::string&
   });
 }
 
-/// What of the stiffness relaxes, and leaves the rest.
+/// The relaxing part of the stiffness.
 SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section& quick,
                                double shares) {
   if (!table.has("slow_modes_file")) return shares * quick.stiffness;
@@ -192,7 +193,8 @@ multibody::SlitFriction read_friction(const StudyTable& table) {
   return {0, coefficient, table.quantity("slit_sliding_time")};
 }
 
-/// The section's stiffness from the source that its table names; of a piece later.
+/// Reads the section's stiffness from the source that its table names; that of a submesh is set
+/// later.
 void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assembly) {
   const std::vector<std::string> own = {
       "length",        "translation_stiffness",    "rotation_stiffness",   "coupling_stiffness",

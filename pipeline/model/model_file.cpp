@@ -109,14 +109,14 @@ void read_output(const StudyTable& root, ModelFile& file) {
   check_names(names_of(output.channels), "channel");
 }
 
-/// What in a file says that its model starts at rest; empty if nothing does.
+/// The key in a file by which its model starts at rest; empty if there is none.
 std::string rest_of(const ModelFile& file) {
   if (file.analysis == ModelFile::Analysis::quasi_static)
     return "[solver] has analysis = \"quasi_static\"";
   return file.start == ModelFile::Start::equilibrium ? "[solver] has start = \"equilibrium\"" : "";
 }
 
-/// The state of another run takes the place of all starts.
+/// Replaces all initial values by the state of another run.
 void restart(const StudyTable& root, ModelFile& file) {
   if (!root.has("restart")) return;
   if (!rest_of(file).empty())
@@ -128,7 +128,7 @@ void restart(const StudyTable& root, ModelFile& file) {
     root.refuse("restart", "expected a time before the end_time of [solver]");
 }
 
-/// What concerns more than one table; these messages name no line.
+/// Completes the model across its tables; these messages name no line.
 void assemble(Assembly& assembly, ModelFile& file) {
   try {
     multibody::check(assembly.model);

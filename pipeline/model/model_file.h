@@ -19,21 +19,21 @@
 
 namespace flexneck::pipeline {
 
-/// [output] and [[channel]]
+/// Content of [output] and [[channel]].
 struct OutputSection {
   double interval_s = 1e-3;
   std::vector<std::string> markers;  ///< whose histories are written
-  std::vector<std::string> joints;   ///< likewise
-  bool states = false;               ///< of all bodies, too, for a restart
+  std::vector<std::string> joints;   ///< names of the joints whose histories are written
+  bool states = false;  ///< whether the states of all bodies are written, too, for a restart
   std::vector<ChannelSpec> channels;
 };
 
-/// Everything that a model file says, in SI units.
+/// Content of a model file, in SI units.
 struct ModelFile {
   /// State at time zero.
   enum class Start {
-    given,       ///< as the bodies are given
-    equilibrium  ///< at rest against the prescribed bodies, moving with them
+    given,       ///< the given poses and velocities of the bodies
+    equilibrium  ///< relative equilibrium with the prescribed bodies, moving with them
   };
 
   enum class Analysis {
@@ -47,24 +47,25 @@ struct ModelFile {
   Analysis analysis = Analysis::motion;
   Start start = Start::given;
   std::optional<multibody::LinearisedAt> linearised_at;
-  std::map<std::size_t, Relaxation> relaxations;  ///< of sections that relax
-  std::vector<double> rates_rad_s;                ///< of a Campbell diagram; empty for none
+  std::map<std::size_t, Relaxation> relaxations;  ///< for the sections that relax
+  std::vector<double> rates_rad_s;                ///< speeds of a Campbell diagram; empty for none
   double end_time_s = 1;
-  bool has_expressions = false;  ///< motions or loads by them, seen at solver.resolution_s
+  /// True if expressions, sampled at solver.resolution_s, give motions or loads.
+  bool has_expressions = false;
   OutputSection output;
 
-  std::vector<InputFile> files;  ///< everything that was read
+  std::vector<InputFile> files;  ///< all files that were read
   std::vector<Parameter> parameters;
-  std::vector<std::string>
-      warnings;  ///< of names of earlier versions, masses that a restart finds changed
+  std::vector<std::string> warnings;  ///< warnings about names of earlier versions, and masses that
+                                      ///< differ from those of a restart
 };
 
 /// The table of keys of model files, by section.
 std::span<const Key> model_keys();
 
-/// Reads a model file (pipeline/models/README.md) and what it names: modes and tables.
-/// @param settings  "dotted.key=value", as read_study()
-/// @throws InputError with file, line, column and key for everything that is not right.
+/// Reads a model file (pipeline/models/README.md) and the files that it names: modes and tables.
+/// @param settings  "dotted.key=value", as for read_study()
+/// @throws InputError with file, line, column and key for any error in the file.
 ModelFile read_model_file(const DocumentSource& source, const std::vector<std::string>& settings);
 
 }  // namespace flexneck::pipeline

@@ -17,7 +17,7 @@ namespace {
 
 std::vector<std::string> outsides() { return {"constant", "zero"}; }
 
-/// A magnitude, or a table of them.
+/// Keys of a load's magnitude, constant or as a table.
 constexpr auto kMagnitudeKeys =
     joined(std::to_array<Key>({
                Key::quantity("magnitude", "N | N*m", kNone, "Magnitude at all times"),
@@ -29,7 +29,7 @@ constexpr auto kMagnitudeKeys =
            }),
            kCsvKeys);
 
-/// Of a force and a torque.
+/// Keys of a force and of a torque.
 constexpr auto kLoadKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the load"),
@@ -64,7 +64,7 @@ constexpr auto kLineForceKeys = joined(
     }),
     kMagnitudeKeys);
 
-/// A load that is the same at all times under the key `constant`, or a table.
+/// Reads a load that is constant, under the key `constant`, or given by a table.
 TimeTable load_over_time(const StudyTable& table, const std::string& constant,
                          const ColumnKeys& keys) {
   const TimeTable::Outside outside =

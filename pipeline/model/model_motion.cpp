@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a prescribed body moves, along a direction and about an axis, and how a motor moves a joint.
+// Motion of a prescribed body, along a direction and about an axis, and of a motor in a joint.
 #include <array>
 
 #include "geometry/foundation/error.h"
@@ -19,7 +19,7 @@ using multibody::TimeTable;
 
 namespace {
 
-/// Names and units of the keys of one coordinate. Its acceleration has the same names in both.
+/// Names and units of the keys of one coordinate. Its acceleration has the same name for both.
 struct MotionKeys {
   std::string value, value_table, value_unit;
   std::string rate;
@@ -29,7 +29,7 @@ const MotionKeys kTravel = {"displacement", "displacement_table", "m", "initial_
 const MotionKeys kDistance = {"distance", "distance_table", "m", "initial_speed", "m/s^2"};
 const MotionKeys kAngle = {"angle", "angle_table", "rad", "initial_rate", "rad/s^2"};
 
-/// Beside those of the coordinate and kCsvKeys.
+/// Keys of a motion besides those of the coordinate and kCsvKeys.
 constexpr auto kMotionKeys = std::to_array<Key>({
     Key::quantities("times", "s", kNone, "Times of a motion given by lists"),
     Key::expression_or_quantities("acceleration", "m/s^2 | rad/s^2", kNone,
@@ -95,7 +95,7 @@ struct Motion {
   SmoothMotion function;
 };
 
-/// The key that gives the motion; one of them may be there. Empty if none is.
+/// The key that gives the motion, of which only one may be present; empty if there is none.
 std::string motion_key(const StudyTable& table, const MotionKeys& keys) {
   const std::array<std::string, 5> all = {"table", "acceleration", "pulse_times", keys.value,
                                           keys.value_table};
@@ -190,7 +190,10 @@ multibody::PrescribedTurn read_turn(const StudyTable& table, const Eigen::Vector
   return turn;
 }
 
-/// What a motor does to where a joint starts and how fast. @param given  in the joint's own table
+/// Sets the initial value and rate of a joint from its motor. @param table  the motor's table, for
+/// messages
+/// @param value  initial value
+/// @param rate  initial rate; given if the joint's own table has it
 void start_at(const JointMotor& motor, const StudyTable& table, std::optional<double>& value,
               std::optional<double>& rate) {
   if (rate)

@@ -15,7 +15,7 @@ namespace flexneck::pipeline {
 /// A kind of table in a model file and in the models of a study.
 struct ModelSection {
   Key key;
-  /// Adds what one table says, and refuses what the table alone shows to be wrong.
+  /// Adds the content of one table, and refuses errors that the table alone reveals.
   void (*read)(const StudyTable& table, Assembly& assembly);
 };
 ModelSection body_section();
@@ -24,23 +24,23 @@ ModelSection joint_section();
 ModelSection motor_section();
 ModelSection bushing_section();
 ModelSection elastic_section();
-std::vector<ModelSection> force_sections();  ///< of each kind of force element
-/// All of them, in the order in which one kind of table may name things of another.
+std::vector<ModelSection> force_sections();  ///< for each kind of force element
+/// All sections, in the order in which one kind of table may refer to another.
 std::vector<ModelSection> model_sections();
 
-/// Position of the thing that a key names. @throws InputError with the nearest name.
+/// Index of the thing that a key names. @throws InputError with the nearest name.
 std::size_t reference(const StudyTable& table, const std::string& key,
                       const std::vector<std::string>& names, const std::string& kind);
 std::size_t marker_named(const StudyTable& table, const std::string& key, const Assembly& assembly);
-/// A rotation vector, axis times angle; none if the key is not there.
+/// Reads a rotation vector, axis times angle; the identity if the key is absent.
 Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& key);
 
-/// The motion that a [[body]] of kind "prescribed" gives, the keys prescribed_body_keys(), unless
+/// Reads the motion of a [[body]] of kind "prescribed", by the keys prescribed_body_keys(), unless
 /// assembly.motion leaves it to a case.
 std::span<const Key> prescribed_body_keys();
 multibody::PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly);
 
-/// Calls make() and puts the key in front of what it refuses.
+/// Calls make() and prefixes the key to its input errors.
 template <class Make>
 auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
   try {
@@ -50,7 +50,7 @@ auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
   }
 }
 
-/// The breakpoints of an expression of time.
+/// Key of the breakpoints of an expression of time.
 inline constexpr Key kBreakpointsKey =
     Key::quantities("breakpoints", "s", kNone,
                     "Of an expression: times, increasing, at which steps end and between which "
@@ -62,7 +62,7 @@ struct ColumnKeys {
   std::string x, x_unit, y, y_unit;
   std::string file = "table";
 };
-/// Two lists under the keys x and y, or a file (csv_table.h).
+/// Reads two lists under the keys x and y, or a file (csv_table.h).
 TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys);
 
 }  // namespace flexneck::pipeline

@@ -12,7 +12,7 @@ fs::path modes_path(const StudyTable& table, const std::string& key) {
   if (fs::exists(path, none)) return path;
   fs::path here = path.lexically_relative(table.folder_of(key));
   if (!here.empty() && fs::exists(here, none)) return here;
-  // One that the command line sets in its place is none that the file knows of.
+  // A file set on the command line is not the one that `made_by` describes.
   if (made_by.empty() || table.folder_of("made_by") != table.folder_of(key)) return path;
   table.refuse(key, path.lexically_normal().string() + ": no such file, nor one here; make " +
                         (here.empty() ? path : here).string() + " with '" + made_by + "'");

@@ -13,9 +13,9 @@ inline constexpr Key kMadeByKey =
               "Command that makes modes_file in the current folder, told where it is missing",
               {.changes_results = false});
 
-/// The file of modes that a key names: from the folder of the file that says so, else, since
-/// commands write there, from the current one. If it is in neither, the first one.
-/// @throws InputError at the key if it is in neither and the table says what makes it.
+/// Path of the modes' file that a key names: in the folder of the file with the key, or else, since
+/// commands write there, in the current folder. If it is in neither, the first path.
+/// @throws InputError at the key if it is in neither and the table names the command that makes it.
 std::filesystem::path modes_path(const StudyTable& table, const std::string& key);
 
 }  // namespace flexneck::pipeline

@@ -13,13 +13,13 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Far above what any body has; a percentage is no ratio.
+/// Range far above that of any body, so that a percentage is refused.
 constexpr KeyDetails kRatio = {.range = {.low = 0, .high = 10}};
 
-// Correction modes stand for what many higher modes give statically, so a damping of their own has
-// no meaning but to let their ringing die out. On the neck with the head (four normal, six residual
-// modes) 0 and 0.05 give the same system damping within 0.3 %, the modes' 0.9 raises it by 4 %; the
-// rate 2 zeta omega stays far from the explicit step's limit.
+// Correction modes represent the static response of many higher modes; their own damping serves
+// only to let their ringing decay. On the neck with the head (four normal, six residual modes) 0
+// and 0.05 give the same system damping within 0.3 %, the modes' 0.9 raises it by 4 %; the rate 2
+// zeta omega stays far from the explicit step's limit.
 constexpr Key kKeys[] = {
     Key::texts("modes", kNone, "Names of the modes that are used; all if the key is not there"),
     Key::one_or_numbers("damping_ratio", kNone, "Damping ratio of all modes, or of each", kRatio),
@@ -48,8 +48,8 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// The ratios given, one number for each mode or one for all, and those of a material whose stress
-/// leads by a time: its damping is its stiffness times that.
+/// Damping ratios: the given ones, one number for each mode or one for all, plus those of a damping
+/// matrix that is the stiffness times damping_time_s.
 Eigen::VectorXd damping_ratios(const ModesUse& use, const fe_modal::ModalBody& modes) {
   Eigen::VectorXd ratios = std::numbers::pi * use.damping_time_s * modes.frequencies_Hz;
   if (!use.damping_ratios.empty()) {
@@ -64,7 +64,7 @@ Eigen::VectorXd damping_ratios(const ModesUse& use, const fe_modal::ModalBody& m
   return ratios;
 }
 
-/// Slits that open and close have gaps, and the modes with all of them shut.
+/// Slits that open and close need gap coordinates, and the modes with all of them shut.
 void use_gaps(const ModesUse& use, const fe_modal::ModalBody& all, const std::string& from,
               multibody::DeformableBody& body) {
   if (use.modes && *use.modes != std::vector<std::string>{"all"})

@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Steps back from x towards the free ones' least squares z, as far as none is negative; those that
-/// end at zero are no longer free.
+/// Steps from x towards the free unknowns' least squares z, as far as none becomes negative;
+/// unknowns that reach zero are no longer free.
 void step_back(const VectorXd& z, std::vector<Index>& free, VectorXd& x) {
   double share = 1;
   for (std::size_t k = 0; k < free.size(); ++k) {
@@ -35,10 +35,10 @@ void step_back(const VectorXd& z, std::vector<Index>& free, VectorXd& x) {
 
 VectorXd nonnegative_least_squares(const MatrixXd& A, const VectorXd& b) {
   const Index n = A.cols();
-  const double none = 1e-13 * A.norm() * b.norm();  // of a gradient
+  const double none = 1e-13 * A.norm() * b.norm();  // threshold for a gradient
   VectorXd x = VectorXd::Zero(n);
   std::vector<Index> free;
-  // Each round has another set of free unknowns and a lesser residual; the bound is for rounding.
+  // Each round has another set of free unknowns and a smaller residual; the bound is for rounding.
   for (Index round = 0; round < 10 * n; ++round) {
     VectorXd gradient = A.transpose() * (b - A * x);
     for (const Index k : free) gradient[k] = 0;

@@ -14,7 +14,7 @@ using multibody::Section;
 
 namespace {
 
-/// Adds a mass at a marker, whose axes are the body's.
+/// Adds a mass at a marker whose axes are parallel to the body's.
 void add_mass(const fe_modal::LumpedMass& mass, const multibody::Marker& marker,
               multibody::RigidBody& body) {
   const auto about = [](double m, const Eigen::Vector3d& r) -> Eigen::Matrix3d {

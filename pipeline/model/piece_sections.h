@@ -15,28 +15,28 @@ namespace flexneck::pipeline {
 
 struct Assembly;
 
-/// How a [[section]] uses a piece of the structure whose modes are known later.
+/// Use of a submesh of the structure by a [[section]], read before its modes are known.
 struct PieceUse {
-  std::size_t section = 0;  ///< among the model's
+  std::size_t section = 0;  ///< index among the model's sections
   std::string piece, base, top;
   Relaxation relaxation;
-  StudyTable table;  ///< that says so; for messages
+  StudyTable table;  ///< the section's table, for messages
 };
 
-/// Modes of the structure's pieces, by their names.
+/// Modes of the structure's submeshes, keyed by name.
 using Pieces = std::map<std::string, fe_modal::ModalBody>;
 
-/// Stiffness and length of a condensed piece become a section's, and its mass, lumped at its ends,
-/// joins the bodies there that have their mass of sections.
-/// @throws InputError at the key for more openings of slits than a section has gaps
+/// Gives a section the stiffness and length of a condensed submesh, and adds the submesh's mass,
+/// lumped at its ends, to the bodies there whose mass is that of sections.
+/// @throws InputError at the key if the slits have more opening coordinates than a section has gaps
 void use_condensed(const fe_modal::CondensedSection& piece, const StudyTable& table,
                    const std::string& key, std::size_t section, Assembly& assembly);
 
-/// Kept where the section has a coefficient of friction.
+/// Sliding coordinates are kept if the section has a coefficient of friction.
 fe_modal::Sliding sliding_of(const multibody::Section& section);
 
-/// Gives the sections that are pieces of the structure their stiffness.
-/// @throws InputError for a piece that is not there or is no section.
+/// Gives the sections that are submeshes of the structure their stiffness.
+/// @throws InputError for a submesh that does not exist or cannot be a section.
 void attach_pieces(const Pieces& pieces, Assembly& assembly);
 
 }  // namespace flexneck::pipeline

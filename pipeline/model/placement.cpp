@@ -59,14 +59,14 @@ BodyMotion motion_of(const Body& body) {
 
 namespace {
 
-/// Of a screw joint; of others zero.
+/// Lead of a screw joint per radian; zero for other joints.
 double lead_m_per_rad(const Joint& joint) { return joint.lead_m / (2 * std::numbers::pi); }
 
-/// Two markers of which one says where the other is at the start.
+/// Two markers, the pose of one of which gives that of the other at the start.
 struct Link {
   std::size_t marker_i, marker_j;
-  Pose step;  ///< j in i's axes
-  // How j moves along and about an axis that is the same in both markers' axes.
+  Pose step;  ///< pose of j in i's axes
+  // Motion of j along and about an axis that has the same components in both markers' axes.
   Vector3d axis = Vector3d::UnitX();
   double speed_m_s = 0;
   double rate_rad_s = 0;
@@ -84,11 +84,11 @@ Link link_of(const Joint& joint, const JointStart& start) {
           joint.axis,
           start.speed_m_s.value_or(0) + lead * rate,
           rate,
-          // A motor's is held by the motor, wherever the bodies go.
+          // A motor keeps its rate however the bodies move.
           joint.motors.empty() && (start.speed_m_s.has_value() || start.rate_rad_s.has_value())};
 }
 
-/// Joints, then sections, which begin without load.
+/// Links of joints, then of sections, which start without load.
 std::vector<Link> links_of(const Model& model, const std::vector<JointStart>& starts) {
   std::vector<Link> links;
   for (std::size_t k = 0; k < model.joints.size(); ++k)
@@ -99,7 +99,7 @@ std::vector<Link> links_of(const Model& model, const std::vector<JointStart>& st
   return links;
 }
 
-/// Calls visit(link, from, to) along the links, from what is done to what is not.
+/// Calls visit(link, from, to) along the links, from finished bodies to unfinished ones.
 template <class Visit>
 void walk(const Model& model, const std::vector<Link>& links, std::vector<bool>& done,
           const Visit& visit) {

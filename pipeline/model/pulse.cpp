@@ -39,7 +39,7 @@ FittedPulse fitted_pulse(const std::vector<double>& times_s,
     time = times_s.front() + (time - times_s.front()) * pulse.duration_factor;
   pulse.deceleration_m_s2 = deceleration_m_s2;
   for (double& value : pulse.deceleration_m_s2) value *= pulse.amplitude_factor;
-  // What scaling leaves is rounding.
+  // For a scaled pulse the remainder is rounding error.
   if (fit == PulseFit::none) pulse.velocity_left_m_s = velocity_m_s - pulse.area_m_s;
   return pulse;
 }

@@ -25,7 +25,7 @@ void Relaxation::apply(const multibody::Section::Stiffness& relaxing,
 
 namespace {
 
-/// By what relaxation times at the reference temperature are multiplied.
+/// Factor on the relaxation times at the reference temperature.
 double shift_factor(const StudyTable& shift) {
   const double temperature_K = shift.quantity("temperature");
   const double low_K = shift.quantity("from");
@@ -43,7 +43,7 @@ double shift_factor(const StudyTable& shift) {
   return factor;
 }
 
-/// Branches by their times and shares.
+/// Branches given by their times and shares.
 Relaxation given_branches(const StudyTable& table) {
   Relaxation relaxation;
   if (table.has("relaxation_times"))

@@ -13,21 +13,21 @@
 
 namespace flexneck::pipeline {
 
-/// Maxwell branches of a [[section]]: of each, its relaxation time and the share of the stiffness
-/// that it takes with it.
+/// Maxwell branches of a [[section]]: for each, its relaxation time and the fraction of the
+/// stiffness that relaxes with it.
 struct Relaxation {
   std::vector<double> times_s, shares;
-  std::string fit;  ///< what they were fitted to, and how well; empty if they were given
-  /// Frequencies between which the study says that they stand for the rubber, Hz.
+  std::string fit;  ///< data of their fit, and its quality; empty if they were given
+  /// Frequency range in which, by the study, they represent the rubber, Hz.
   std::optional<std::pair<double, double>> band_Hz;
 
   double sum_of_shares() const;
-  /// Splits the section's stiffness, that of quick motions, into that of slow ones and branches.
-  /// @param relaxing  what of it relaxes
+  /// Splits the section's stiffness, the instantaneous one, into the long-term one and branches.
+  /// @param relaxing  the part of it that relaxes
   void apply(const multibody::Section::Stiffness& relaxing, multibody::Section& section) const;
 };
 
-/// Of the temperature: Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955) 3701.
+/// Keys of the temperature shift: Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955) 3701.
 inline constexpr Key kShiftKeys[] = {
     Key::quantity("temperature", "K", kRequired, "Temperature of the rubber"),
     Key::quantity("reference", "K", kRequired, "Temperature at which the relaxation times hold"),
@@ -54,8 +54,8 @@ inline constexpr auto kRelaxationKeys = std::to_array<Key>({
     Key::table("shift", "How temperature shifts the relaxation times", kShiftKeys),
 });
 
-/// The keys kRelaxationKeys. @throws InputError at the key that makes no sense, and for a
-/// temperature outside of the shift's range
+/// Reads the keys kRelaxationKeys. @throws InputError at an invalid key, and for a temperature
+/// outside of the shift's range
 Relaxation read_relaxation(const StudyTable& section);
 
 }  // namespace flexneck::pipeline

@@ -41,7 +41,7 @@ std::complex<double> fractional_ratio(double share, double time_s, double order,
 
 namespace {
 
-/// Relaxation times of branches, evenly by their logarithm; of one the middle.
+/// Relaxation times of branches, spaced evenly by their logarithm; a single one is in the middle.
 std::vector<double> spread(double first_s, double last_s, int count) {
   std::vector<double> times;
   for (int k = 0; k < count; ++k) {
@@ -51,13 +51,13 @@ std::vector<double> spread(double first_s, double last_s, int count) {
   return times;
 }
 
-/// What a law says at a number of points, over the modulus of quick motions: that what is lost of
-/// it is the sum over branches of share times basis.
+/// Values of a law at a number of points, over the instantaneous modulus: the relaxed part is the
+/// sum over branches of share times basis.
 struct Points {
   MatrixXd basis;  ///< (rows, branches)
-  VectorXd lost;   ///< (rows)
-  VectorXd size;   ///< (rows), of the modulus there, for errors
-  /// Rows that are parts of one modulus: one, or two, storage and loss, those of loss behind.
+  VectorXd lost;   ///< (rows), relaxed part
+  VectorXd size;   ///< (rows), magnitude of the modulus there, for errors
+  /// Number of rows per modulus: one, or two for storage and loss, the rows of loss following.
   Index parts = 1;
 };
 
@@ -97,13 +97,13 @@ Points relaxation_points(const std::vector<double>& law_times_s, const std::vect
   return points;
 }
 
-/// Shares that are not negative and whose sum is at most one.
+/// Nonnegative shares whose sum is at most one.
 VectorXd fitted_shares(const Points& points) {
   const MatrixXd A = points.size.cwiseInverse().asDiagonal() * points.basis;
   const VectorXd b = points.lost.cwiseQuotient(points.size);
   VectorXd shares = nonnegative_least_squares(A, b);
   if (shares.sum() <= 1) return shares;
-  // Then the sum is one: a row that outweighs the others.
+  // The sum is then one, by a row with a dominant weight.
   const double weight = 1e6 * A.norm();
   MatrixXd with_sum(A.rows() + 1, A.cols());
   with_sum << A, Eigen::RowVectorXd::Constant(A.cols(), weight);
@@ -113,7 +113,7 @@ VectorXd fitted_shares(const Points& points) {
   return shares / shares.sum();
 }
 
-/// Largest distance of the moduli, over the law's.
+/// Largest error of the moduli, relative to the law's.
 double largest_error(const Points& points, const VectorXd& shares) {
   const VectorXd misses = (points.basis * shares - points.lost).cwiseQuotient(points.size);
   return misses.reshaped(misses.size() / points.parts, points.parts).rowwise().norm().maxCoeff();
@@ -140,7 +140,7 @@ Relaxation fitted(const StudyTable& law, const Points& points, const std::vector
   return branches;
 }
 
-/// Of one list of a table, as long as another, over the modulus of quick motions.
+/// Moduli of a list, with the length of another, over the instantaneous modulus.
 std::vector<double> ratios_of(const StudyTable& law, const std::string& key, std::size_t count) {
   std::vector<double> moduli = law.quantities(key, count);
   const double modulus = law.quantity("modulus");
@@ -154,7 +154,7 @@ std::vector<double> ratios_of(const StudyTable& law, const std::string& key, std
   return moduli;
 }
 
-/// Positive and increasing, two or more.
+/// Values that are positive and increasing, at least two.
 std::vector<double> places(const StudyTable& law, const std::string& key) {
   std::vector<double> all = law.quantities(key);
   if (all.size() < 2) law.refuse(key, "expected two or more");
@@ -193,7 +193,7 @@ Relaxation of_fractional(const StudyTable& law, int count) {
     frequencies_Hz.push_back(low_Hz * std::pow(high_Hz / low_Hz, place));
     ratios.push_back(fractional_ratio(share, time_s, order, frequencies_Hz.back()));
   }
-  // Of order one it is a branch, whose time need not lie in the band.
+  // A law of order one is a branch, whose time need not lie in the band.
   const std::vector<double> times_s =
       order == 1 ? std::vector{time_s}
                  : spread(1 / (2 * pi * high_Hz), 1 / (2 * pi * low_Hz), count);

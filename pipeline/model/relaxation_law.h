@@ -10,17 +10,17 @@ namespace flexneck::pipeline {
 
 struct Relaxation;
 
-/// The modulus at an angular frequency over that of quick motions, by Maxwell branches.
+/// Complex modulus at a frequency over the instantaneous modulus, for Maxwell branches.
 std::complex<double> modulus_ratio(const Relaxation& branches, double frequency_Hz);
-/// The modulus at a time after a sudden strain, likewise.
+/// Modulus at a time after a sudden strain over the instantaneous modulus, for Maxwell branches.
 double relaxed_ratio(const Relaxation& branches, double time_s);
 
-/// The fractional Zener model over its modulus of quick motions: 1 - share / (1 + (i w tau)^order).
+/// The fractional Zener model over its instantaneous modulus: 1 - share / (1 + (i w tau)^order).
 std::complex<double> fractional_ratio(double share, double time_s, double order,
                                       double frequency_Hz);
 
-/// A law of relaxation that branches are fitted to by least squares, their shares not negative,
-/// their times spread evenly by their logarithm over those of the law.
+/// Keys of a relaxation law to which branches are fitted by least squares, with nonnegative shares
+/// and relaxation times spaced evenly by their logarithm over those of the law.
 inline constexpr auto kRelaxationLawKeys = std::to_array<Key>({
     Key::number("share", kNone,
                 "Of a fractional Zener model 1 - share / (1 + (i w time)^order): the share of the "
@@ -49,9 +49,8 @@ inline constexpr auto kRelaxationLawKeys = std::to_array<Key>({
                 {.range = {.low = 0, .high = 1, .has_low = false}}),
 });
 
-/// Branches by the keys kRelaxationLawKeys, and how well they follow the law.
-/// @throws InputError at the key that makes no sense, and for branches that miss the law by more
-/// than is allowed
+/// Reads branches by the keys kRelaxationLawKeys, and the quality of their fit to the law.
+/// @throws InputError at an invalid key, and for branches that miss the law by more than is allowed
 Relaxation read_relaxation_law(const StudyTable& law);
 
 }  // namespace flexneck::pipeline

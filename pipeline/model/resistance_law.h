@@ -12,7 +12,7 @@
 
 namespace flexneck::pipeline {
 
-/// SI units of a resistance: of lengths and forces, or of angles and moments.
+/// SI units of a resistance: lengths and forces, or angles and moments.
 struct ResistanceUnits {
   std::string deflection, load;
   std::string over(const std::string& power) const { return load + "/" + deflection + power; }
@@ -21,7 +21,7 @@ struct ResistanceUnits {
 inline const ResistanceUnits kLinearUnits = {"m", "N"};
 inline const ResistanceUnits kAngularUnits = {"rad", "N*m"};
 
-/// Of one direction; beside kCsvKeys.
+/// Keys of one direction, besides kCsvKeys.
 inline constexpr auto kResistanceSideKeys = std::to_array<Key>({
     Key::quantity("stiffness", "N/m | N*m/rad", "0", "Load over deflection"),
     Key::quantity("quadratic", "N/m^2 | N*m/rad^2", "0", "Load over the square of the deflection"),
@@ -43,7 +43,7 @@ inline constexpr auto kResistanceSideKeys = std::to_array<Key>({
 
 inline constexpr auto kResistanceOneSideKeys = joined(kResistanceSideKeys, kCsvKeys);
 
-/// Beside kCsvKeys.
+/// Keys of a resistance, besides kCsvKeys.
 inline constexpr auto kResistanceKeys = joined(
     std::to_array<Key>({
         Key::table("positive", "Resistance in the one direction only", kResistanceOneSideKeys),
@@ -56,13 +56,13 @@ inline constexpr auto kResistanceKeys = joined(
     }),
     kResistanceSideKeys);
 
-/// One direction: stiffness with quadratic and cubic or locks_at, or deflections with loads or a
-/// table; stop, unloading_ratio. A table that is read is appended to `files`.
+/// Reads one direction: stiffness with quadratic and cubic or locks_at, or deflections with loads
+/// or a table, whose file is recorded by FilesRead; stop, unloading_ratio.
 multibody::ResistanceSide read_resistance_side(const StudyTable& table,
                                                const ResistanceUnits& units);
 
-/// Curves of the table itself hold for both directions, those of its sub-tables positive and
-/// negative for one; damping, friction and full_rate for both.
+/// Reads a resistance. Curves of the table itself apply to both directions, those of its sub-tables
+/// positive and negative to one; damping, friction and full_rate apply to both.
 multibody::Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& units);
 
 }  // namespace flexneck::pipeline

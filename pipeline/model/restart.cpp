@@ -23,7 +23,7 @@ using multibody::PrescribedBody;
 
 namespace {
 
-/// Outputs are at multiples of an interval, but for rounding.
+/// Tolerance of times: outputs are at multiples of an interval, up to rounding.
 constexpr double kSameTime = 1e-9;
 
 Index output_at(const StudyTable& table, const History& history, double time_s) {
@@ -58,7 +58,7 @@ void take_state(const BodyHistory& state, Index at, Body& body) {
   deformable->initial_modal_rate = state.modal_rate.col(at);
 }
 
-/// Tells whether inertias differ by more than rounding of numbers in a file.
+/// True if inertias differ by more than the rounding of numbers in a file.
 bool differ(const VectorXd& there, const VectorXd& here) {
   if (there.size() == 0) return false;
   constexpr double kRounding = 1e-9;
@@ -69,7 +69,7 @@ bool differ(const VectorXd& there, const VectorXd& here) {
          change.tail<6>().norm() > kRounding * moments;
 }
 
-/// The turns that angles have counted by then.
+/// Restores the angles with the full turns counted up to the output.
 void take_angles(const StudyTable& table, const multibody::StateHistory& state, Index at,
                  multibody::Model& model) {
   const auto angle = [&](const std::string& name) -> std::optional<double> {

@@ -16,8 +16,8 @@ inline constexpr std::array<Key, 2> kRestartKeys = {{
                   {.range = at_least(0)}),
 }};
 
-/// Gives the bodies of a model the state of an output of a history, and the model its time: keys
-/// kRestartKeys. To `warnings` it adds which bodies have other masses.
+/// Gives the bodies of a model the state of an output of a history, and the model its time, by the
+/// keys kRestartKeys. Bodies with other masses are reported in `warnings`.
 /// @throws InputError if the history has no states, other bodies or modes, or no such output.
 void read_restart(const StudyTable& table, multibody::Model& model,
                   std::vector<std::string>& warnings);

@@ -8,10 +8,10 @@
 
 namespace flexneck::pipeline {
 
-/// Of the key kind of bodies.
+/// Former texts of the key `kind` of bodies.
 inline constexpr FormerText kFormerBodyKinds[] = {{"driven", "prescribed"}};
 
-/// Mass, centre and inertia; of rigid bodies only, so that no other has to have them.
+/// Keys of mass, centre and inertia, needed for rigid bodies only.
 inline constexpr std::array<Key, 3> kRigidBodyKeys = {{
     Key::quantity("mass", "kg", kNone, "Of a rigid body: its mass"),
     Key::quantities("center", "m", kNone, "Centre of mass in the body's frame", {.size = 3}),
@@ -24,7 +24,7 @@ inline constexpr std::array<Key, 3> kRigidBodyKeys = {{
 /// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the
 /// first three: the products carry the tensor's sign, Ixz = -int x z dm.
 Eigen::Matrix3d read_inertia(const StudyTable& table, const std::string& key);
-/// The keys kRigidBodyKeys.
+/// Reads the keys kRigidBodyKeys.
 multibody::RigidBody read_rigid(const StudyTable& body);
 
 }  // namespace flexneck::pipeline

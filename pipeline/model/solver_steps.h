@@ -37,7 +37,7 @@ inline constexpr auto kStepKeys = std::to_array<Key>({
                {.range = at_least(1), .formerly = "most_steps"}),
 });
 
-/// How a run steps through time: the keys kStepKeys.
+/// Reads the settings of time integration, the keys kStepKeys.
 void read_steps(const StudyTable& solver, multibody::SolverOptions& options);
 
 }  // namespace flexneck::pipeline

@@ -32,7 +32,7 @@ std::string text(const Vector3d& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0], v[1], v[2]);
 }
 
-/// How j stands and moves against i, along and about the joint's axis.
+/// Pose and velocity of j relative to i, along and about the joint's axis.
 JointStart found_start(const Model& model, const Joint& joint) {
   const Marker& marker_i = model.markers[joint.marker_i];
   const Marker& marker_j = model.markers[joint.marker_j];
@@ -52,7 +52,7 @@ JointStart found_start(const Model& model, const Joint& joint) {
           (velocity(body_j, j) - velocity(body_i, i)).dot(axis), (j.w - i.w).dot(axis)};
 }
 
-/// What the file says that makes it so: the keys of one of the joint's bodies with their values.
+/// Text naming the source of the joint's pose: the keys of one of its bodies with their values.
 std::string pose_keys(const Assembly& assembly, const Joint& joint) {
   for (const std::size_t marker : {joint.marker_j, joint.marker_i}) {
     const std::size_t b = assembly.model.markers[marker].body;
@@ -97,7 +97,7 @@ void check_joint(const Assembly& assembly, std::size_t index) {
       refuse(joint, "angle", *given.angle_rad, "rad", pose_keys(assembly, joint),
              *given.angle_rad + off);
   }
-  // Motors' rates are seen to with those of all joints.
+  // Rates of motors are checked with those of all joints.
   if (!joint.motors.empty()) return;
   if (given.speed_m_s && differ(*given.speed_m_s, *found.speed_m_s))
     refuse(joint, "speed", *given.speed_m_s, "m/s", velocity_keys(assembly, joint),
@@ -107,7 +107,8 @@ void check_joint(const Assembly& assembly, std::size_t index) {
            *found.rate_rad_s);
 }
 
-/// @param rest  the key that says so
+/// Fails if initial values contradict a start at rest.
+/// @param rest  the key that asks for it
 void check_rest(const Assembly& assembly, const std::string& rest) {
   const std::string but =
       ", but " + rest +
@@ -128,7 +129,7 @@ void check_rest(const Assembly& assembly, const std::string& rest) {
     if (deformable->initial_modal_rate.size() > 0)
       throw InputError("body '" + body.name + "': modal_rates are given" + but);
   }
-  // As all bodies move if none is said to.
+  // Velocities that all bodies have if none are given.
   Model carried = assembly.model;
   carry_bodies(carried, assembly.starts, std::vector<bool>(carried.bodies.size(), false));
   for (std::size_t b = 0; b < carried.bodies.size(); ++b) {

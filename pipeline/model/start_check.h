@@ -7,12 +7,12 @@
 
 namespace flexneck::pipeline {
 
-/// Where a model says twice how it starts, both must say the same: joints' distances, angles and
-/// their rates beside bodies' poses and velocities or other joints, and velocities beside a start
-/// at rest. Differences of rounding, 1e-6, are none.
-/// @param assembly  with its bodies placed and moving
-/// @param rest      what says that the model starts at rest against its prescribed bodies, such as
-///                  "[solver] has start = \"equilibrium\""; empty if it may move
+/// Checks that initial values given twice agree: joints' distances, angles and their rates with
+/// bodies' poses and velocities or other joints, and velocities with a start at rest. Differences
+/// up to 1e-6 count as rounding.
+/// @param assembly  with the poses and velocities of its bodies set
+/// @param rest      the key by which the model starts at rest relative to its prescribed bodies,
+/// such as "[solver] has start = \"equilibrium\""; empty if it may move
 /// @throws InputError naming both keys and their values.
 void check_starts(const Assembly& assembly, const std::string& rest);
 

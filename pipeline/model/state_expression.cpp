@@ -23,7 +23,7 @@ const std::vector<std::string>& variables() {
 struct StateExpression::Impl {
   std::array<std::optional<Expression>, 6> components;
   bool takes_rotation_vector = false;
-  std::mutex mutex;  ///< of the parsers
+  std::mutex mutex;  ///< guards the parsers
 };
 
 StateExpression::StateExpression(const Texts& texts)

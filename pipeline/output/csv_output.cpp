@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// In quotes where the text would be taken for several cells.
+/// Cell of a CSV file, in quotes if the text would be read as several cells.
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";

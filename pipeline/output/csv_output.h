@@ -12,26 +12,26 @@
 
 namespace flexneck::pipeline {
 
-/// Channels as comma-separated values: a line with names and units, then one line per time, block
-/// by block. Numbers have as many digits as it takes to read them back exactly. Without commit()
-/// nothing is left.
+/// Writer of channels as comma-separated values: a line with names and units, then one line per
+/// time, block by block. Numbers have as many digits as are needed to read them back exactly.
+/// Without commit() no file remains.
 class CsvWriter {
  public:
   /// @param first  name and unit of the first column
   /// @throws InputError if the file cannot be written.
   explicit CsvWriter(const std::filesystem::path& path, std::string first = "time [s]");
 
-  /// Lines that follow those before, of the same channels.
+  /// Appends lines of the same channels.
   void append(const Eigen::VectorXd& time_s, const std::vector<multibody::Channel>& channels);
-  /// @throws ComputationError if writing has failed.
+  /// Completes the file. @throws ComputationError if writing has failed.
   void commit() { file_.commit(Durability::none); }
 
  private:
   OutputFile file_;
-  std::string first_;  ///< until the line of names is written
+  std::string first_;  ///< name and unit, until the line of names is written
 };
 
-/// All at once. @throws as CsvWriter.
+/// Writes a whole file. @throws as CsvWriter.
 void write_csv(const std::filesystem::path& path, const Eigen::VectorXd& time_s,
                const std::vector<multibody::Channel>& channels,
                const std::string& first = "time [s]");

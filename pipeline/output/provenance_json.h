@@ -7,11 +7,11 @@
 
 namespace flexneck::pipeline {
 
-/// Program, sources and input files, as every JSON file of ours has them; the values stand in the
-/// HDF5 files.
+/// Program, sources and input files in the form of all JSON files of flexneck; the values are in
+/// the HDF5 files.
 nlohmann::ordered_json json_of(const Provenance& provenance);
 
-/// @throws nlohmann::json::exception if a member is missing or of another type.
+/// Reads a provenance. @throws nlohmann::json::exception if a member is missing or of another type.
 Provenance provenance_of_json(const nlohmann::ordered_json& json);
 
 }  // namespace flexneck::pipeline

@@ -9,33 +9,34 @@
 
 namespace flexneck::pipeline {
 
-/// A table of results as people read it: every cell is the text that is printed, so that the
-/// console, the files and the report show the same figures.
+/// A table of results as text: every cell is the text that is printed, so that the console, the
+/// files and the report show the same figures.
 struct ResultTable {
   struct Column {
     std::string name;
     std::string unit;  ///< such as "deg"; empty for texts and pure numbers
   };
-  std::string name;   ///< by which programs find it, such as "peaks"
-  std::string title;  ///< for people
+  std::string name;   ///< name for programs, such as "peaks"
+  std::string title;  ///< title for readers
   std::vector<Column> columns;
-  std::vector<std::vector<std::string>> rows;  ///< a cell for each column
+  std::vector<std::vector<std::string>> rows;  ///< one cell per column
   std::vector<std::string> notes;              ///< origins, contradictions, warnings: sentences
 };
 
-/// Title, columns with their units, rows and notes. No line break at the end.
+/// Text with title, columns with their units, rows and notes. No line break at the end.
 std::string printed(const ResultTable& table);
 
-/// The tables of a file with what they were made from, less the parameters.
+/// The tables of a file with their provenance, without the parameters.
 struct TableFile {
   std::vector<ResultTable> tables;
   Provenance provenance;
 };
 
-/// Whether a file says that it holds tables of ours.
+/// Returns whether a file claims to hold tables of flexneck.
 bool holds_tables(const std::filesystem::path& path);
 
-/// @throws InputError if the file is missing, is none of ours or has a row of another length.
+/// Reads tables. @throws InputError if the file is missing, is not one of flexneck or has a row of
+/// the wrong length.
 TableFile read_tables(const std::filesystem::path& path);
 
 /// Writes tables as JSON, under a temporary name that is renamed: "format" is "flexneck tables",

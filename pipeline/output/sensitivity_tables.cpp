@@ -23,7 +23,7 @@ bool is_frequency(const Quantity& quantity) {
   return quantity.kind != QuantityKind::mass && quantity.kind != QuantityKind::static_stiffness;
 }
 
-/// What a table of relative derivatives has columns of.
+/// Quantities that have columns in a table of relative derivatives.
 struct Selection {
   const char* name;
   const char* title;
@@ -37,7 +37,7 @@ constexpr std::array<Selection, 3> kSelections = {
      {"relative sensitivities, stiffness and mass", "Static stiffness and mass",
       [](const Quantity& each) { return !is_frequency(each); }}}};
 
-/// So many digits behind the point, and no sign of a zero.
+/// Number with a given count of digits behind the point; zero without a sign.
 std::string relative_text(double value, int digits) {
   const bool is_zero = std::abs(value) < 0.5 * std::pow(10.0, -digits);
   return is_zero ? fmt::format("{:.{}f}", 0.0, digits) : fmt::format("{:+.{}f}", value, digits);
@@ -77,7 +77,7 @@ ResultTable relative_table(const Selection& selection, const Sensitivities& foun
   return table;
 }
 
-/// "Hz/m"; by a pure number the quantity's own.
+/// Unit of a derivative such as "Hz/m"; by a pure number the quantity's own unit.
 std::string quotient(const std::string& unit, const std::string& by) {
   if (by == "1") return unit;
   return unit + "/" + (by.find('/') == std::string::npos ? by : "(" + by + ")");
@@ -115,7 +115,8 @@ struct ShortColumn {
   std::size_t quantity;
 };
 
-/// The first frequencies that have room, the first with a body attached, the mass.
+/// Columns of the short table: the first frequencies that have room, the first with a body
+/// attached, the mass.
 std::vector<ShortColumn> short_columns(const Sensitivities& found) {
   constexpr std::size_t kWidth = 8;  // two blanks and six digits
   std::size_t widest = 0;

@@ -11,21 +11,22 @@
 namespace flexneck::pipeline {
 
 /// Name of a table with relative derivatives, a row for each input and a column for each quantity.
-/// @param which 0: of frequencies, 1: of those with bodies attached, 2: of stiffness and mass
+/// @param which 0: frequencies, 1: frequencies with bodies attached, 2: stiffness and mass
 const char* relative_table_name(std::size_t which);
 /// Name of the table with all derivatives, a row for each quantity and input.
 inline constexpr const char* kSensitivityTable = "sensitivities";
 
-/// Whether a table is one of these.
+/// True if a table is one of these.
 bool is_of_sensitivities(const ResultTable& table);
 
 /// The tables of sensitivities.json: those of relative derivatives that have a column, then the
-/// list of all.
-/// @param notes  on the whole, such as what is left out
+/// complete list.
+/// @param notes  general notes, such as the inputs left out
 std::vector<ResultTable> sensitivity_tables(const fe_modal::Sensitivities& found,
                                             const std::vector<std::string>& notes);
 
-/// The first frequencies, the first one with a body attached and the mass, within the console.
+/// Table of the first frequencies, the first one with a body attached and the mass, within the
+/// console's width.
 std::string short_sensitivities(const fe_modal::Sensitivities& found);
 
 }  // namespace flexneck::pipeline

@@ -45,7 +45,7 @@ SimulatedOutput::Block SimulatedOutput::derived(const History& outputs) {
   Block block{outputs, {}};
   keep_named(block.history.markers, model_.output.markers);
   keep_named(block.history.joints, model_.output.joints);
-  // Chosen channels may need any marker; without a choice, all that is written is shown.
+  // Chosen channels may need any marker; by default the written markers and joints are shown.
   const bool is_chosen = !model_.output.channels.empty();
   const History& source = is_chosen ? outputs : block.history;
   if (specs_.empty()) specs_ = all_channels(source);
@@ -62,7 +62,7 @@ SimulatedOutput::Block SimulatedOutput::derived(const History& outputs) {
 }
 
 void SimulatedOutput::require_room(const Block& first) const {
-  constexpr double kTextOfNumber = 20;  // bytes in the table, with the comma
+  constexpr double kTextOfNumber = 20;  // bytes in the table, including the comma
   const auto outputs = static_cast<double>(outputs_);
   const auto shown = static_cast<double>(1 + rows_of(first.channels));
   const auto stored = static_cast<double>(multibody::numbers_per_output(first.history)) + shown;

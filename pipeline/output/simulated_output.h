@@ -13,24 +13,26 @@
 
 namespace flexneck::pipeline {
 
-/// Writes what a model's run leaves as it comes: the history and the channels as HDF5, the channels
-/// as a table. Blocks of outputs go to the files and are forgotten; where a channel is filtered,
-/// the channels are kept to the end, for the filter runs over all times in both directions.
+/// Writes the output of a model's run as it is computed: the history and the channels as HDF5, the
+/// channels as a table. Blocks of outputs are written and released; if a channel is filtered, all
+/// channels are kept to the end, since the filter runs over all times in both directions.
 class SimulatedOutput {
  public:
-  /// @param history, table  the files; without any, empty, what finish() returns is all there is
-  /// @param outputs how many there will be
+  /// @param history, table  the files; if empty, nothing is written and finish() returns all
+  /// results
+  /// @param outputs total number of outputs
   /// @throws InputError if the folder cannot be written.
   SimulatedOutput(const ModelFile& model, std::filesystem::path history,
                   const std::filesystem::path& table, Eigen::Index outputs);
 
-  /// Outputs that follow those before.
-  /// @throws InputError at the first if the disk, or memory for filtered channels, will not take
-  /// all of them.
+  /// Appends outputs.
+  /// @throws InputError at the first block if the disk, or memory for filtered channels, cannot
+  /// take all outputs.
   void append(const multibody::History& outputs);
 
-  /// The last outputs, with what belongs to the run as a whole; the files take their places.
-  /// @return what the file says of the run
+  /// Completes the output with the last block and the data of the whole run; the files are put in
+  /// place.
+  /// @return the content of the file
   multibody::HistoryFile finish(const multibody::History& last,
                                 std::optional<multibody::LinearisationRecord> linearisation);
 
@@ -38,15 +40,15 @@ class SimulatedOutput {
 
  private:
   struct Block {
-    multibody::History history;  ///< of the markers and joints that are written
+    multibody::History history;  ///< history of the markers and joints that are written
     std::vector<multibody::Channel> channels;
   };
 
-  /// With the channels not filtered yet.
+  /// Block with the channels not filtered yet.
   Block derived(const multibody::History& outputs);
   void require_room(const Block& first) const;
   void keep(const Block& block);
-  /// The channels of all outputs, filtered.
+  /// Returns the channels of all outputs, filtered.
   std::vector<multibody::Channel> take_kept();
   void show(const Eigen::VectorXd& time_s, const std::vector<multibody::Channel>& channels);
 
@@ -56,9 +58,11 @@ class SimulatedOutput {
   std::optional<multibody::HistoryWriter> history_;
   std::optional<CsvWriter> table_;
   PeakTable peaks_;
-  std::vector<ChannelSpec> specs_;  ///< of the channels, once the first block has come
+  /// Specifications of the channels, once the first block is known.
+  std::vector<ChannelSpec> specs_;
   bool has_filters_ = false;
-  std::vector<Eigen::VectorXd> last_;  ///< values of each channel, which the next ones follow
+  /// Last values of each channel, with which the next ones are made continuous.
+  std::vector<Eigen::VectorXd> last_;
   Eigen::VectorXd kept_time_s_;
   std::vector<multibody::Channel> kept_;
 };

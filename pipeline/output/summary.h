@@ -8,16 +8,17 @@
 
 namespace flexneck::pipeline {
 
-/// What a run took and how well its constraints held, for reading.
+/// Text with the cost of a run and the accuracy of its constraints.
 std::string run_summary(const multibody::History& history);
 
-/// Frequencies and damping of the linearised model, and which marker of each mode moves most.
+/// Text with frequencies and damping of the linearised model, and each mode's marker of largest
+/// motion.
 std::string mode_summary(const multibody::LinearisationRecord& linearisation);
 
-/// The smallest and the largest value of every curve with their times, gathered block by block.
+/// Minimum and maximum of every curve with their times, gathered block by block.
 class PeakTable {
  public:
-  /// Values that follow those before, of the same channels.
+  /// Takes subsequent values of the same channels.
   void append(const Eigen::VectorXd& time_s, const std::vector<multibody::Channel>& channels);
   std::string text() const;
 

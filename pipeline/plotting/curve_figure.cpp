@@ -10,8 +10,8 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Distinct in colour without colour vision, and in grey by their dashes; what exceeds these is
-/// drawn wider.
+/// Line style of a curve: distinguishable in colour without colour vision, and in grey by dashes;
+/// further curves are drawn wider.
 std::string style_of(std::size_t curve) {
   constexpr std::array<const char*, 4> kStyles = {"lc rgb '#0072b2'", "dt (8,4) lc rgb '#d55e00'",
                                                   "dt (2,4) lc rgb '#009e73'",
@@ -27,7 +27,7 @@ bool have_same_x(const std::vector<FigureCurve>& curves) {
   });
 }
 
-/// In quotes: titles may hold commas.
+/// Heading in quotes, since titles may contain commas.
 std::string heading(const std::string& title, const std::string& label) {
   return "\"" + (title.empty() ? label : title + ": " + label) + "\"";
 }
@@ -56,7 +56,7 @@ std::string csv_of(const CurvePlot& plot, bool shares_x) {
   return csv + "\n";
 }
 
-/// The upper end of the y axis: the bands belong to the picture.
+/// Upper end of the y axis, which includes the bands.
 std::string top_of(const std::vector<FigureBand>& bands) {
   double top = 0;
   for (const FigureBand& band : bands) top = std::max(top, band.high);

@@ -15,7 +15,7 @@ struct FigureCurve {
   Eigen::VectorXd x, y;  ///< in the units of the axes
 };
 
-/// A range behind the curves.
+/// A shaded range behind the curves.
 struct FigureBand {
   std::string label;
   double left = 0, right = 0, low = 0, high = 0;
@@ -25,7 +25,7 @@ struct CurvePlot {
   std::string x_label, y_label;  ///< with their units: "time [ms]"
   std::vector<FigureCurve> curves;
   std::vector<FigureBand> bands = {};
-  /// At the foot of the picture.
+  /// Note at the foot of the picture.
   std::string note = "No reference curve: the paper's curves are not in its text";
 };
 

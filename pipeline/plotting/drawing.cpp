@@ -9,7 +9,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr double kMargin = 0.04;  ///< of the larger extent, on each side
+constexpr double kMargin = 0.04;  ///< fraction of the larger extent, on each side
 
 std::string csv_of(const Drawing& drawing) {
   std::string csv = fmt::format("shape,x [{0}],y [{0}]\n", drawing.unit);
@@ -23,7 +23,7 @@ std::string csv_of(const Drawing& drawing) {
   return csv;
 }
 
-/// What the drawing covers, a margin around it.
+/// Range of the drawing, including a margin.
 Eigen::Matrix2d range_of(const Drawing& drawing) {
   Eigen::Matrix2d range;  // columns: low, high
   range.col(0).setConstant(1e300);

@@ -16,7 +16,7 @@ struct Drawing {
   using Points = Eigen::Matrix2Xd;
   struct Shape {
     std::string name;
-    Points points;          ///< closed by the last one if it is filled
+    Points points;          ///< the last point is joined to the first if the shape is filled
     std::string fill = {};  ///< colour; empty: a line
     std::string line = "lw 1.2 lc rgb '#222222'";
   };
@@ -28,9 +28,9 @@ struct Drawing {
   struct Label {
     std::string text;
     Eigen::Vector2d at;
-    std::string side = "left";  ///< of the text that stands at the point: left, center, right
+    std::string side = "left";  ///< alignment of the text at the point: left, center, right
   };
-  std::string unit;  ///< of the coordinates in the CSV
+  std::string unit;  ///< unit of the coordinates in the CSV
   std::vector<Shape> shapes;
   std::vector<Arrow> arrows;
   std::vector<Label> labels;

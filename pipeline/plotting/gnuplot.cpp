@@ -24,8 +24,8 @@ namespace {
 
 constexpr const char* kComplaints = "gnuplot.err";
 
-/// What gnuplot needs of ours. Its own variables (GNUPLOT_LIB, GNUTERM, FIT_SCRIPT …) would have it
-/// read other files.
+/// Environment passed to gnuplot. Its own variables (GNUPLOT_LIB, GNUTERM, FIT_SCRIPT …) would make
+/// it read other files.
 std::vector<std::string> environment() {
   std::vector<std::string> variables = {"LC_ALL=C.UTF-8"};
   for (const char* const name : {"PATH", "LD_LIBRARY_PATH", "TMPDIR"})
@@ -42,7 +42,7 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   actions.open(STDIN_FILENO, "/dev/null", O_RDONLY);
   actions.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
   actions.open(STDERR_FILENO, kComplaints, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  // -d: without the settings of the machine and of the user, which are programs.
+  // -d: skips the settings of the machine and of the user, which are programs.
   std::vector<std::string> arguments = {"gnuplot", "-d", script_name};
   std::vector<std::string> variables = environment();
   pid_t process = 0;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Written so that NaN is refused, too.
+/// Fails if a condition is false; conditions are written so that NaN is refused, too.
 void require(bool is_right, const std::string& expected) {
   if (!is_right) throw InputError("CORA's parameters: expected " + expected);
 }
@@ -35,19 +35,19 @@ void check(const CoraParameters& p) {
           "G_V + G_G + G_P = 1");
 }
 
-/// Sum of squares of the computed curve over the reference's, neither of which overflows.
+/// Sum of squares of the computed curve over the reference's; neither can overflow.
 double energy_ratio(const Overlap& pair) {
   const double ratio = pair.computed.stableNorm() / pair.reference.stableNorm();
   return ratio * ratio;
 }
 
-/// The smaller energy over the larger one.
+/// Rating of the size by the smaller energy over the larger one.
 double size_rating(double ratio, double exponent) {
   if (!(ratio > 0)) return 0;
   return std::pow(std::min(ratio, 1 / ratio), exponent);
 }
 
-/// Where the reference ends its interval.
+/// Last sample of the interval of evaluation.
 Index last_evaluated(const VectorXd& shares, const CoraParameters& p) {
   Index last = shares.size() - 1;
   if (std::abs(shares[last]) < p.end_threshold) {
@@ -78,8 +78,8 @@ CoraRating rate_cora(const VectorXd& reference, const VectorXd& computed,
       std::pow(std::clamp((1 + best.correlation) / 2, 0.0, 1.0), p.progression_exponent);
   rating.energy_ratio = energy_ratio(overlap(reference, computed, best.samples));
   rating.size = size_rating(rating.energy_ratio, p.size_exponent);
-  const double share =
-      static_cast<double>(std::abs(best.samples)) / static_cast<double>(n - 1);  // of t_max - t_min
+  // Fraction of t_max - t_min.
+  const double share = static_cast<double>(std::abs(best.samples)) / static_cast<double>(n - 1);
   rating.phase = std::pow(std::clamp((p.max_shift - share) / (p.max_shift - p.min_shift), 0.0, 1.0),
                           p.phase_exponent);
 

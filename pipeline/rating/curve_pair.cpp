@@ -14,10 +14,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Correlations that rounding alone may part. Without it a periodic curve that is compared with
-/// itself could be found a period late.
+/// Correlations that differ by rounding only. Without this a periodic curve compared with itself
+/// could be found a period late.
 constexpr double kSameCorrelation = 1e-12;
-/// Of a curve's mean square: what is left by rounding where a part of it is constant.
+/// Rounding error of the variation where part of a curve is constant, relative to its mean square.
 constexpr double kNoVariation = 1e-12;
 
 void check_varies(const VectorXd& curve, const std::string& name) {
@@ -50,11 +50,11 @@ class CorrelatedCurve {
         sums_(values_) {}
 
   const VectorXd& values() const { return values_; }
-  /// What the means of both parts take from the sum of products.
+  /// Sum over a part of the curve, which the means subtract from the sum of products; 0 about zero.
   double sum(Index first, Index count) const {
     return is_centred_ ? sums_.values[first + count] - sums_.values[first] : 0;
   }
-  /// Sum of the squares about the mean of the part, or about zero; 0 if that is rounding.
+  /// Sum of the squares about the mean of the part, or about zero; 0 if only rounding remains.
   double energy(Index first, Index count) const {
     const double part = sum(first, count);
     const double energy = sums_.squares[first + count] - sums_.squares[first] -
@@ -68,10 +68,10 @@ class CorrelatedCurve {
   RunningSums sums_;
 };
 
-/// NaN if a part does not vary.
+/// Correlation of the overlap; NaN if a part does not vary.
 double correlation(const CorrelatedCurve& reference, const CorrelatedCurve& computed, Index shift) {
   const Index count = reference.values().size() - std::abs(shift);
-  const Index first = std::max<Index>(-shift, 0);  // of the reference
+  const Index first = std::max<Index>(-shift, 0);  // index in the reference
   const Index other = std::max<Index>(shift, 0);
   const double scale = std::sqrt(reference.energy(first, count) * computed.energy(other, count));
   const double product =

@@ -16,26 +16,26 @@ using Eigen::VectorXd;
 constexpr double kInnerCorridor = 0.05;  ///< half width over the largest |T|
 constexpr double kOuterCorridor = 0.5;
 constexpr double kCorridorExponent = 2;
-constexpr double kMaxShift = 0.2;       ///< of the length, at which the phase counts nothing
-constexpr double kWarpingWindow = 0.1;  ///< of the length that is left by the shift
+constexpr double kMaxShift = 0.2;  ///< fraction of the length at which the phase rating reaches 0
+constexpr double kWarpingWindow = 0.1;  ///< fraction of the length of the shifted curves' overlap
 constexpr double kMaxMagnitudeError = 0.5;
 constexpr double kMaxSlopeError = 2;
 constexpr Index kSlopeHalfWindow = 4;  ///< nine points
-/// Times the largest |T|: whatever lies beyond rates 0, and its square must not overflow.
+/// Bound relative to the largest |T|: values beyond it rate 0, and their squares must not overflow.
 constexpr double kFarAway = 1e100;
 
-/// From 1 without an error linearly to 0.
+/// Rating that falls linearly from 1 without an error to 0 at the maximum error.
 double linear_rating(double error, double max_error) {
   return std::clamp(1 - error / max_error, 0.0, 1.0);
 }
 
-/// Sum of errors over that of references, where there may be nothing to refer to.
+/// Sum of errors over the sum of reference values; infinite if only the latter is zero.
 double relative_error(double error, double reference) {
   return reference > 0 ? error / reference : error > 0 ? HUGE_VAL : 0;
 }
 
-/// Differences per sample: central ones, at the ends to the neighbour; then means over nine points,
-/// over 1, 3, 5 and 7 at the ends.
+/// Slopes per sample: central differences, one-sided at the ends; then means over nine points, over
+/// 1, 3, 5 and 7 at the ends.
 VectorXd smoothed_slopes(const VectorXd& curve) {
   const Index n = curve.size();
   VectorXd slopes(n);

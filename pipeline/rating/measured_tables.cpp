@@ -27,7 +27,7 @@ std::string where(const MeasuredTest& test) {
   return "test." + test.name + ", case " + test.experiment + ": ";
 }
 
-/// Calls make() and says of which test it is what it refuses.
+/// Calls make() and prefixes the test's name to its input errors.
 template <class Make>
 auto of_test(const MeasuredTest& test, const Make& make) {
   try {
@@ -59,7 +59,7 @@ std::vector<std::string> curve_row(const MeasuredRun& run, const MeasuredCurve& 
           fmt::format("{:.3f}", cora)};
 }
 
-/// Of a measured channel of ISO-MME whose class is not that of the computed one; else empty.
+/// Note on a measured channel of ISO-MME whose class differs from the computed one's; else empty.
 std::string filter_difference(const MeasuredRun& run, const MeasuredCurve& measured) {
   if (!measured.curve.filter) return {};
   const MmeFilter& filter = *measured.curve.filter;
@@ -74,7 +74,7 @@ std::string filter_difference(const MeasuredRun& run, const MeasuredCurve& measu
          " as measured, " + text(computed) + " as computed.";
 }
 
-/// Linear between the samples of a curve that reaches so far.
+/// Value interpolated linearly between the samples of a curve that covers the time.
 double value_at(const Curve& curve, double time_s) {
   Index k = 1;
   while (k + 1 < curve.time_s.size() && curve.time_s[k] < time_s) ++k;
@@ -82,10 +82,10 @@ double value_at(const Curve& curve, double time_s) {
   return curve.values[k - 1] + share * (curve.values[k] - curve.values[k - 1]);
 }
 
-/// How a curve keeps to a corridor of its unit, at its own samples.
+/// Agreement of a curve with a corridor of its unit, at the curve's own samples.
 struct CorridorFigures {
   double share_inside = 0;
-  double furthest = 0;  ///< out of it, signed; 0 if nowhere
+  double furthest = 0;  ///< largest distance outside, signed; 0 if always inside
   double furthest_s = 0;
 };
 
@@ -133,7 +133,7 @@ std::vector<std::string> corridor_row(const MeasuredRun& run, const MeasuredCorr
           is_inside ? "pass" : "FAIL"};
 }
 
-/// A figure of a channel in SI units, none if the channel has none.
+/// A figure of a channel in SI units; none if the channel has none.
 std::optional<double> figure_of(const Curve& computed, Figure figure) {
   const multibody::Peak peak = multibody::largest_peak(computed.time_s, computed.values);
   if (figure == Figure::peak) return peak.value;

@@ -10,19 +10,20 @@
 
 namespace flexneck::pipeline {
 
-/// A test with data of the user's own, and the run of its case if there is one.
+/// A test with measured data of the user, and the run of its case if there is one.
 struct MeasuredRun {
   MeasuredTest test;
   std::optional<multibody::HistoryFile> run;
 };
 
-/// "measured curves": the ratings of computed curves against measured ones, a line for each.
-/// @throws InputError for a channel that the run has not, a unit of another dimension, and curves
+/// Table "measured curves": ratings of computed curves against measured ones, a line for each.
+/// @throws InputError for a channel that the run lacks, a unit of another dimension, and curves
 /// that cannot be rated, as resampled().
 ResultTable measured_curve_table(const std::vector<MeasuredRun>& runs);
 
-/// "measured limits": how computed curves keep to corridors, and figures to their limits.
-/// @throws InputError as above, and for a corridor that the run does not cover.
+/// Table "measured limits": agreement of computed curves with corridors, and of figures with their
+/// limits.
+/// @throws InputError as measured_curve_table(), and for a corridor that the run does not cover.
 ResultTable measured_limit_table(const std::vector<MeasuredRun>& runs);
 
 /// A channel of a run as a curve, in SI units.

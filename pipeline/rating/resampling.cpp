@@ -16,7 +16,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Of an interval between samples: how far rounded times may miss each other.
+/// Tolerance for rounded times, relative to the interval between samples.
 constexpr double kSameTime = 1e-6 * kIso18571Interval_s;
 
 double first_time(const Curve& curve) { return curve.time_s[0]; }
@@ -43,7 +43,7 @@ void check_sampling(const Curve& curve, double from_s, double to_s) {
   }
 }
 
-/// Linear between the samples.
+/// Linear interpolation between samples.
 class Interpolation {
  public:
   explicit Interpolation(const Curve& curve) : curve_(curve) {}

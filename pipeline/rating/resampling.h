@@ -9,11 +9,11 @@
 
 namespace flexneck::pipeline {
 
-/// Curves whose samples lie farther apart are not rated: a millisecond is what the slopes of
-/// ISO/TS 18571 are averaged over, so that less would be a rating of the interpolation.
+/// Maximum interval between samples of rated curves: slopes of ISO/TS 18571 are averaged over a
+/// millisecond, so that with longer intervals the interpolation would be rated.
 inline constexpr double kMaxCurveInterval_s = 1e-3;
 
-/// What of the time is rated; without a limit as far as both curves go.
+/// Interval to be rated; without a limit as far as both curves reach.
 struct AskedInterval {
   std::optional<double> from_s, to_s;
 };
@@ -23,13 +23,13 @@ struct ResampledPair {
   Eigen::VectorXd reference, computed;  ///< shape (n)
   double from_s = 0, interval_s = 0;
   double to_s() const { return from_s + interval_s * static_cast<double>(reference.size() - 1); }
-  bool is_interpolated = false;  ///< samples of one of them were at other times
+  bool is_interpolated = false;  ///< true if one curve had samples at other times
 };
 
-/// Both curves at the interval of ISO/TS 18571, interpolated linearly.
-/// @throws InputError with the file for curves that have no time in common, do not cover the time
-/// asked for, have samples that lie farther apart there than kMaxCurveInterval_s, or less or more
-/// of them than a rating takes.
+/// Samples both curves at the interval of ISO/TS 18571, interpolated linearly.
+/// @throws InputError with the file for curves that have no time in common, do not cover the
+/// interval asked for, have sample intervals there larger than kMaxCurveInterval_s, or fewer or
+/// more samples than a rating allows.
 ResampledPair resampled(const Curve& reference, const Curve& computed, const AskedInterval& asked);
 
 }  // namespace flexneck::pipeline

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 constexpr double kUnreachable = std::numeric_limits<double>::infinity();
 
-/// The best path to a pair of samples.
+/// End of the best path to a pair of samples.
 struct PathEnd {
   double cost = kUnreachable;
   WarpedSums sums;
@@ -25,10 +25,10 @@ struct PathEnd {
 WarpedSums warped_sums(const VectorXd& reference, const VectorXd& computed, Index band) {
   const Index count = reference.size();
   band = std::min(band, count);
-  // Place 1 + k holds the pair of samples i of the computed curve and i + k - (band - 1) of the
-  // reference. Until row i overwrites them, places hold row i - 1, moved by one sample: the place
-  // itself is the predecessor on the diagonal, the next one that with the same sample of the
-  // reference. The places at both ends stay unreachable.
+  // Element 1 + k holds the pair of samples i of the computed curve and i + k - (band - 1) of the
+  // reference. Until row i overwrites them, elements hold row i - 1, moved by one sample: the
+  // element itself is the predecessor on the diagonal, the next one that with the same sample of
+  // the reference. The elements at both ends stay unreachable.
   const Index width = 2 * band - 1;
   std::vector<PathEnd> row(static_cast<std::size_t>(width + 2));
   row[static_cast<std::size_t>(band)] = {0, {}};  // before the first pair

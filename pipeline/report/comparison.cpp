@@ -27,7 +27,7 @@ namespace {
 
 constexpr const char* kNone = "-";
 
-/// Rows by their head, in the order of appearance, a cell for each study.
+/// Rows by their first cell, in order of appearance, with one cell for each study.
 class SideBySide {
  public:
   explicit SideBySide(std::size_t studies) : studies_(studies) {}
@@ -55,7 +55,8 @@ ResultTable table_of(const std::string& name, const std::string& title, const st
   return table;
 }
 
-/// Those that all studies have come first: the others are mostly keys of cases that one has not.
+/// Inputs that differ. Those of all studies come first: the others are mostly keys of cases that
+/// one study lacks.
 ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
   SideBySide cells(studies.size());
   for (std::size_t s = 0; s < studies.size(); ++s)
@@ -74,7 +75,7 @@ ResultTable differing_inputs(const std::vector<ComparedStudy>& studies) {
   return table;
 }
 
-/// Whether each study has a quantity once at most.
+/// True if each study has a quantity at most once.
 bool is_unique(const std::string& quantity, const std::vector<ComparedStudy>& studies) {
   return std::all_of(studies.begin(), studies.end(), [&](const ComparedStudy& study) {
     if (!study.results.verification) return true;
@@ -84,8 +85,9 @@ bool is_unique(const std::string& quantity, const std::vector<ComparedStudy>& st
   });
 }
 
-/// A quantity may be met by another detail in another study, the first bending by the lateral mode:
-/// rows go by the quantity. Only where it has several rows does the detail tell them apart.
+/// Verifications by quantity: another study may find the same quantity in another detail, such as
+/// the first bending frequency in the lateral mode. The detail distinguishes rows only if a
+/// quantity has several.
 ResultTable verifications(const std::vector<ComparedStudy>& studies) {
   SideBySide cells(studies.size());
   for (std::size_t s = 0; s < studies.size(); ++s) {
@@ -131,7 +133,7 @@ bool has_same_columns(const ResultTable& one, const ResultTable& other) {
       [](const auto& a, const auto& b) { return a.name == b.name && a.unit == b.unit; });
 }
 
-/// The rows of a table of all studies, those of the same head together.
+/// Rows of a table from all studies, those with the same first cell next to one another.
 ResultTable merged(const ResultTable& first, const std::vector<ComparedStudy>& studies) {
   ResultTable table{first.name, first.title, first.columns, {}, first.notes};
   table.columns.insert(table.columns.begin() + 1, {"study", ""});
@@ -153,7 +155,7 @@ ResultTable merged(const ResultTable& first, const std::vector<ComparedStudy>& s
   return table;
 }
 
-/// First cells of a folder's tables: its cases in the order of its study, which is not there.
+/// First cells of a folder's tables: its cases in the order of its study, which is not available.
 std::vector<std::string> cases_in_order(const Results& results) {
   std::vector<std::string> names;
   for (const ResultTable& table : results.tables)
@@ -161,7 +163,7 @@ std::vector<std::string> cases_in_order(const Results& results) {
   return names;
 }
 
-/// All runs in the order of the first study; those of the others as variants of its cases.
+/// All runs in the order of the first study; runs of other studies become variants of its cases.
 Results all_runs(const std::vector<ComparedStudy>& studies) {
   const std::vector<std::string> order = cases_in_order(studies.front().results);
   Results all;
@@ -181,7 +183,7 @@ Results all_runs(const std::vector<ComparedStudy>& studies) {
   return all;
 }
 
-/// How many points of a run are shown where several studies share a page, which is to stay small.
+/// Number of points shown of a run if several studies share a page, to keep the page small.
 Eigen::Index share_of(Eigen::Index alone, const std::vector<ComparedStudy>& studies) {
   constexpr Eigen::Index kLeast = 100;
   return std::max(kLeast, alone / static_cast<Eigen::Index>(studies.size()));
@@ -201,7 +203,8 @@ std::vector<ResultTable> compared_tables(const std::vector<ComparedStudy>& studi
   std::vector<ResultTable> tables = {differing_inputs(studies), verifications(studies),
                                      frequencies(studies)};
   for (const ResultTable& table : studies.front().results.tables) {
-    if (table.name == kSensitivityTable) continue;  // those of relative ones are for people
+    // The tables of relative sensitivities are for readers.
+    if (table.name == kSensitivityTable) continue;
     const bool is_shared =
         std::any_of(studies.begin() + 1, studies.end(), [&](const ComparedStudy& study) {
           const ResultTable* const other = find_table(study.results, table.name);
@@ -237,7 +240,7 @@ void write_comparison(const std::filesystem::path& path,
                 texts);
   add_section("warnings", "Warnings", kWarningsTitle, warnings_of(studies), texts);
   std::vector<ResultTable> tables = compared_tables(studies);
-  // What differs comes before all curves.
+  // Differences come before all curves.
   const auto add_table = [&](const ResultTable& table) {
     std::string id = "table-" + table.name;
     std::replace_if(id.begin(), id.end(), std::not_fn(is_letter_or_digit), '-');

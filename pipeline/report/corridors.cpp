@@ -13,7 +13,8 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Rules have angles in the direction of flight, channels are negative in extension.
+/// Limits with the sign of the channel: rules measure angles in the direction of flight, channels
+/// are negative in extension.
 Limits in_channel(const Limits& limits, CertificationTest::Direction direction) {
   if (direction == CertificationTest::Direction::flexion) return limits;
   return {-limits.high, -limits.low};
@@ -39,7 +40,7 @@ void add_corridors(const TestSection& test, std::vector<Corridor>& corridors) {
   }
 }
 
-/// Each once: several cases may be judged by the same.
+/// Tests by pulse, each once, since several cases may be judged by the same test.
 std::map<std::string, const CertificationTest*> tests_of_pulses(const Study& study) {
   std::map<std::string, const CertificationTest*> tests;
   for (const TestSection& test : study.tests)

@@ -38,7 +38,7 @@ Json channels_json(const Experiment& experiment, Eigen::Index stride) {
   return channels;
 }
 
-/// Every value shown is one of the file's.
+/// Curves of a run, thinned: every value shown is one of the file's.
 Json run_json(const Experiment& experiment, Eigen::Index most_samples) {
   const Eigen::VectorXd& time_s = experiment.file.history.time_s;
   const Eigen::Index stride = (time_s.size() + most_samples - 1) / most_samples;
@@ -50,7 +50,7 @@ Json run_json(const Experiment& experiment, Eigen::Index most_samples) {
           {"channels", channels_json(experiment, stride)}};
 }
 
-/// For each kind of experiment and SI unit: what both systems show it as.
+/// Display units for each kind of experiment and SI unit, in both systems.
 Json units_json(const Results& results) {
   Json units = {{"pendulum", Json::object()}, {"static", Json::object()}};
   for (const Experiment& experiment : results.experiments)
@@ -67,7 +67,7 @@ const Experiment* run_of(const Results& results, const std::string& name) {
   return found == results.experiments.end() ? nullptr : &*found;
 }
 
-/// Measured curves, as runs of the case with one channel each: name "<case>-<test>".
+/// Measured curves as runs of the case with one channel each, named "<case>-<test>".
 Json measured_json(const Results& results, const Study& study) {
   Json runs = Json::array();
   for (const MeasuredTest& test : study.measured) {
@@ -88,7 +88,7 @@ Json measured_json(const Results& results, const Study& study) {
   return runs;
 }
 
-/// Between a lower and an upper curve.
+/// Measured corridors as bands between a lower and an upper curve.
 Json bands_json(const Results& results, const Study& study) {
   Json bands = Json::array();
   for (const MeasuredTest& test : study.measured) {

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 struct Row {
-  const char* unit;  ///< of a file or a table
+  const char* unit;  ///< unit in a file or a table
   const char* customary;
   const char* metric;
 };

@@ -7,18 +7,18 @@
 
 namespace flexneck::pipeline {
 
-/// A unit as people write it: "lbf·ft", "kg·m²", "g" of an acceleration.
+/// A unit as it is written in text: "lbf·ft", "kg·m²", "g" for an acceleration.
 std::string unit_label(const std::string& unit);
 
-/// What a unit is shown as in the page's two systems: {"customary": {"name", "factor"}, "metric":
-/// {"name", "factor"}}, US customary units and SI with mm, deg, ms, kN and g. Null for one that
-/// both show as it is, such as Hz.
+/// Display of a unit in the page's two systems: {"customary": {"name", "factor"}, "metric":
+/// {"name", "factor"}}, US customary units and SI with mm, deg, ms, kN and g. Null for a unit that
+/// both leave unchanged, such as Hz.
 nlohmann::ordered_json display_unit(const std::string& unit);
 
-/// The same with a customary unit of one's own, such as "in*lbf" where the table has "lbf*ft".
+/// Display with a customary unit other than the default, such as "in*lbf" instead of "lbf*ft".
 nlohmann::ordered_json display_unit(const std::string& unit, const std::string& customary);
 
-/// All of them, by unit.
+/// Displays of all units, keyed by unit.
 nlohmann::ordered_json display_units();
 
 }  // namespace flexneck::pipeline

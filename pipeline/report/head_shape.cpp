@@ -31,7 +31,7 @@ Eigen::Matrix2Xd outline_along_y(const HeadShape& shape, const Eigen::Matrix3d& 
   const Eigen::Matrix3d axes = head_to_view * shape.rotation.toRotationMatrix();
   const Eigen::Matrix3d square =
       axes * shape.semi_axes_m.cwiseAbs2().asDiagonal() * axes.transpose();
-  // The shadow of the ellipsoid x^T S^-1 x = 1 has the matching rows and columns of S.
+  // The projection of the ellipsoid x^T S^-1 x = 1 has the matching rows and columns of S.
   Eigen::Matrix2d shadow;
   shadow << square(0, 0), square(0, 2), square(2, 0), square(2, 2);
   const Eigen::Matrix2d root = shadow.llt().matrixL();

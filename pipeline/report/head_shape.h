@@ -10,18 +10,18 @@
 
 namespace flexneck::pipeline {
 
-/// What stands for the head where it is drawn: the ellipsoid of even density that has its mass and
-/// inertia. Axes of the head, origin at the occipital condyles.
+/// Ellipsoid drawn for the head: of uniform density, with the head's mass and inertia. Axes of the
+/// head, origin at the occipital condyles.
 struct HeadShape {
   Eigen::Vector3d centre_m;
   Eigen::Vector3d semi_axes_m;
-  Eigen::Quaterniond rotation;  ///< its principal axes to the head's
+  Eigen::Quaterniond rotation;  ///< rotation from its principal axes to the head's
 };
 
-/// Of the study's rigid body "head"; none without one.
+/// Shape of the study's rigid body "head"; none without that body.
 std::optional<HeadShape> head_shape(const Study& study);
 
-/// The outline of the shape as it is seen along y: points (x, z) about its centre.
+/// Outline of the shape seen along y: points (x, z) about its centre.
 Eigen::Matrix2Xd outline_along_y(const HeadShape& shape, const Eigen::Matrix3d& head_to_view);
 
 }  // namespace flexneck::pipeline

@@ -7,7 +7,7 @@
 
 namespace flexneck::pipeline {
 
-/// A word in a frame with a sign of its own, so that it does not need its colour.
+/// A framed word with a sign of its own, so that its meaning does not depend on colour.
 /// @param kind  a class of page/report.css
 std::string badge(const std::string& kind, const std::string& sign, const std::string& word);
 

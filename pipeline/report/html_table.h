@@ -10,30 +10,30 @@ namespace flexneck::pipeline {
 struct HtmlTable {
   struct Column {
     std::string title;       ///< plain text
-    bool is_number = false;  ///< set to the right
-    /// Of its numbers, which the page shows in either system of units: kOfRow where another column
-    /// of the row names it; empty for none.
+    bool is_number = false;  ///< aligned right
+    /// Unit of the column's numbers, which the page shows in either system: kOfRow if another
+    /// column of the row names it; empty for none.
     std::string unit = {};
-    bool names_unit = false;  ///< of the row
+    bool names_unit = false;  ///< contains the unit of its row
   };
-  /// Cells are HTML: plain text has gone through html_text().
+  /// Cells are HTML: plain text must have passed through html_text().
   struct Row {
     std::vector<std::string> cells;
-    std::string attributes = {};  ///< of the <tr>, such as "data-origin=\"published\""
+    std::string attributes = {};  ///< attributes of the <tr>, such as "data-origin=\"published\""
   };
   std::string caption;  ///< plain text
   std::vector<Column> columns;
   std::vector<Row> rows;
-  std::string name = {};  ///< for data-table, by which tests and scripts find it
+  std::string name = {};  ///< value of data-table, for tests and scripts
 };
 
-/// For HtmlTable::Column::unit.
+/// Value of HtmlTable::Column::unit for a unit given in the row.
 inline constexpr const char* kOfRow = "row";
 
-/// In a box of its own that scrolls where the page is narrow.
+/// HTML of a table in a box of its own that scrolls if the page is narrow.
 std::string html_of(const HtmlTable& table);
 
-/// "<ul>…</ul>" of plain texts; empty without any.
+/// HTML list "<ul>…</ul>" of plain texts; empty without any.
 std::string html_list(const std::vector<std::string>& items);
 
 }  // namespace flexneck::pipeline

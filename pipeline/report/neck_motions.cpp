@@ -18,11 +18,11 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// A run with what is known of it.
+/// A run with its case and sampling.
 struct Run {
   const Experiment& experiment;
-  const CaseSection* section;  ///< of the study; null if it is not there
-  Index stride;                ///< of the times shown
+  const CaseSection* section;  ///< case in the study; null if it is not there
+  Index stride;                ///< stride of the times shown
 
   const multibody::History& history() const { return experiment.file.history; }
   const multibody::MarkerHistory* marker(const std::string& name) const {
@@ -31,14 +31,14 @@ struct Run {
                                     [&](const auto& each) { return each.name == name; });
     return found == markers.end() ? nullptr : &*found;
   }
-  /// Every so many-th time, the first and the last included.
+  /// Columns of every n-th time, the first and the last included.
   Eigen::MatrixXd shown(const Eigen::MatrixXd& columns) const {
     std::vector<Index> times;
     for (Index k = 0; k < columns.cols() - 1; k += stride) times.push_back(k);
     times.push_back(columns.cols() - 1);
     return columns(Eigen::all, times);
   }
-  /// Position and quaternion (w, x, y, z), seven numbers a frame.
+  /// Poses of a marker as base64: position and quaternion (w, x, y, z), seven numbers a frame.
   std::string poses(const multibody::MarkerHistory& marker) const {
     Eigen::MatrixXd poses(7, marker.position_m.cols());
     poses << marker.position_m, marker.rotation;
@@ -46,7 +46,7 @@ struct Run {
   }
 };
 
-/// The case of the study that a run is, or that a chain of pieces stands for.
+/// The case of the study that a run belongs to, also if the run is of a chain of submeshes.
 const CaseSection* section_of(const Study& study, const std::string& name) {
   const auto found = std::find_if(study.cases.begin(), study.cases.end(), [&](const auto& each) {
     return each.name == name || each.name + "-chain" == name;
@@ -54,7 +54,7 @@ const CaseSection* section_of(const Study& study, const std::string& name) {
   return found == study.cases.end() ? nullptr : &*found;
 }
 
-/// The model's forces: name, and for each frame where the load acts and its components, N.
+/// The model's forces: name, and for each frame the point of application and the components, N.
 Json loads_json(const Run& run) {
   Json loads = Json::array();
   if (run.section == nullptr) return loads;
@@ -72,7 +72,8 @@ Json loads_json(const Run& run) {
   return loads;
 }
 
-/// What all motions have; `base` is where the frame of the mesh is, and the arm unless it says so.
+/// Data common to all motions; `base` gives the pose of the mesh's frame, and of the arm unless
+/// that is given separately.
 Json shared_json(const Run& run, const multibody::MarkerHistory& base) {
   const bool is_pendulum = run.experiment.kind == Experiment::Kind::pendulum;
   Json motion = {{"name", run.experiment.name},
@@ -97,7 +98,7 @@ Json plates_json(const Run& run, const std::optional<Plates>& plates) {
   return motion;
 }
 
-/// Places of the run's modes among the body's; none if one of them is not there.
+/// Indices of the run's modes among the body's; none if one is missing.
 std::optional<std::vector<Index>> places_of(const multibody::ModalHistory& modal,
                                             const fe_modal::ModalBody& body) {
   const std::vector<std::string> names = names_of(body.modes);
@@ -110,7 +111,7 @@ std::optional<std::vector<Index>> places_of(const multibody::ModalHistory& modal
   return places;
 }
 
-/// Of the neck as one deformable body; null for one whose motion these modes do not tell.
+/// Motion of the neck as one deformable body; null if these modes do not describe it.
 Json modal_json(const Run& run, const fe_modal::ModalBody& body) {
   const auto* const base = run.marker("neck.base");
   const std::vector<multibody::ModalHistory>& modal = run.history().modal;
@@ -131,7 +132,7 @@ bool has_rigid_neck(const CaseSection& section) {
          });
 }
 
-/// Of a rigid neck, which the undeformed one is drawn for: its top is that of the mesh.
+/// Motion of a rigid neck, drawn with the undeformed mesh: its top is that of the mesh.
 Json rigid_json(const Run& run, const fe_modal::ModalBody& body) {
   const auto* const top = run.marker("neck.top");
   const auto interface = std::find_if(body.interfaces.begin(), body.interfaces.end(),

@@ -9,11 +9,11 @@
 
 namespace flexneck::pipeline {
 
-/// How neck, head, arm and loads move in each run, as page/body.js reads it: the neck by its modes,
-/// as a rigid body, or as plates between which its surface is drawn evenly (pieces as sections, and
-/// a chain of bodies). A run of anything else is left out.
-/// @param most_frames of a run
-/// @pre mesh and modes are there and belong together
+/// Motions of neck, head, arm and loads in each run, in the form that page/body.js reads: the neck
+/// by its modes, as a rigid body, or as plates with an interpolated surface between them (submeshes
+/// as sections, and a chain of bodies). Runs of other models are left out.
+/// @param most_frames  maximum number of frames of a run
+/// @pre mesh and modes exist and belong together
 nlohmann::ordered_json motions_of(const Results& results, const Study& study,
                                   const mesher::Surface& surface, Eigen::Index most_frames);
 

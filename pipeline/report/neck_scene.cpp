@@ -26,7 +26,7 @@ constexpr std::size_t kMaxTriangles = 10'000;
 
 using Chains = std::vector<std::vector<std::int32_t>>;
 
-/// Chains of vertices as pairs, a line each.
+/// Chains of vertices as pairs, one pair for each line.
 std::vector<std::uint32_t> segments_of(const Chains& chains) {
   std::vector<std::uint32_t> pairs;
   for (const auto& chain : chains) {
@@ -57,7 +57,7 @@ Json surface_json(const mesher::Mesh& mesh, const mesher::Surface& surface,
           {"outlines", base64_of(segments_of(surface.outlines))}};
 }
 
-/// A shape in 16 bits for each component: its largest is 32767 times `scale`.
+/// A shape with 16 bits for each component: its largest is 32767 times `scale`.
 Json shape_json(const mesher::Surface& surface, const Eigen::Matrix3Xd& shape) {
   const Eigen::MatrixX3d values = surface.value * shape.transpose();
   constexpr double kMost = std::numeric_limits<std::int16_t>::max();

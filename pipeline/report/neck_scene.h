@@ -8,13 +8,14 @@
 
 namespace flexneck::pipeline {
 
-/// Of a run alone on its page: more than a screen shows at a tenth of the real speed.
+/// Maximum number of frames of a run alone on its page: more than a screen shows at a tenth of real
+/// speed.
 inline constexpr Eigen::Index kMaxFrames = 400;
 
-/// What the page shows in three dimensions, as page/scene.js reads it: the boundary of the mesh,
-/// the mode shapes on it, and how neck and head move in each run whose modes are among them. Null
-/// without a mesh and its modes.
-/// @param most_frames of a run
+/// Data of the page's three-dimensional scene, in the form that page/scene.js reads: the boundary
+/// of the mesh, the mode shapes on it, and the motion of neck and head in each run whose modes are
+/// among them. Null without a mesh and its modes.
+/// @param most_frames  maximum number of frames of a run
 nlohmann::ordered_json scene_of(const Results& results, const Study& study,
                                 Eigen::Index most_frames = kMaxFrames);
 

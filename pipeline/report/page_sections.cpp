@@ -51,14 +51,15 @@ std::string verification_html(const Results& results, const Study& study) {
   return note(html_text(verification_summary(*results.verification))) + html_of(table);
 }
 
-/// Numbers begin with a digit or a sign before one, and no word follows.
+/// True if a text begins with a digit, or a sign and a digit, and contains no word after the
+/// number.
 bool looks_like_number(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+- ");
   return first != std::string::npos && text[first] >= '0' && text[first] <= '9' &&
          text.find(' ', first) == std::string::npos;
 }
 
-/// This one has a section of its own.
+/// True for the table of verdicts, which has a section of its own.
 bool is_verdicts(const ResultTable& table) { return table.name == "verdicts"; }
 
 std::string certification_html(const Results& results, const Study& study) {
@@ -85,7 +86,7 @@ std::string tables_html(const Results& results, const Study& study) {
   return note("There are no tables of experiments in this folder yet.");
 }
 
-/// The list of all derivatives is for programs.
+/// HTML of the sensitivities without the list of all derivatives, which is for programs.
 std::string sensitivities_html(const Results& results) {
   std::string html;
   for (const ResultTable& table : results.tables) {

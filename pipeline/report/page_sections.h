@@ -9,11 +9,10 @@
 
 namespace flexneck::pipeline {
 
-/// A table of results for the page.
+/// Converts a table of results to a table of the page.
 HtmlTable html_table_of(const ResultTable& result);
 
-/// The parts of the page that are text and tables, as HTML, by the names that page/report.html has
-/// for them.
+/// The page's parts that are text and tables, as HTML, keyed by their names in page/report.html.
 std::map<std::string, std::string> page_sections(const Results& results, const Study& study,
                                                  const std::vector<std::string>& paper_remarks);
 

@@ -18,7 +18,7 @@ std::string counted(std::size_t count, const std::string& one, const std::string
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-/// "10 modes from 35.9 to 310 Hz, 24 runs of the pendulum, 3 static tests"
+/// Text such as "10 modes from 35.9 to 310 Hz, 24 runs of the pendulum, 3 static tests".
 std::string what_was_run(const Results& results) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
@@ -65,7 +65,7 @@ std::string cell(const ResultTable& table, const std::vector<std::string>& row,
   return {};
 }
 
-/// A line for each test of a regulation.
+/// HTML list items, one for each test of a regulation.
 std::string certification_items(const Results& results) {
   std::string html;
   for (const ResultTable& table : results.tables) {

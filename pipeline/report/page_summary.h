@@ -7,10 +7,10 @@
 
 namespace flexneck::pipeline {
 
-/// "All 6 figures that are judged agree. …"
+/// Text such as "All 6 figures that are judged agree. …".
 std::string verification_summary(const VerificationTable& table);
 
-/// What the page's first screen says beside the moving neck: what was run, and each verdict.
+/// HTML of the page's first screen beside the moving neck: the computations, and each verdict.
 std::string summary_html(const Results& results, const Study& study);
 
 }  // namespace flexneck::pipeline

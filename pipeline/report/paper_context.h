@@ -10,11 +10,11 @@
 
 namespace flexneck::pipeline {
 
-/// The table of keys of a file with what the report says of the paper.
+/// Table of keys of a file with the report's remarks on the paper.
 std::span<const Key> context_keys();
 
-/// Where the paper contradicts itself or says too little.
-/// @throws InputError if the file does not say what it must.
+/// Reads the remarks on contradictions and omissions of the paper.
+/// @throws InputError if the file lacks required data.
 std::vector<std::string> read_paper_remarks(const std::filesystem::path& path);
 
 }  // namespace flexneck::pipeline

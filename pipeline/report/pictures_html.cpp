@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Kinds of pictures in the order of the page, and what they show.
+/// Kinds of pictures in the order of the page, and their content.
 struct PictureKind {
   const char* prefix;
   const char* what;

@@ -6,11 +6,11 @@
 
 namespace flexneck::pipeline {
 
-/// The pictures that `flexneck sweep` has left in a folder, for the page; empty if there are none.
+/// HTML of the pictures by `flexneck sweep` in a folder; empty if there are none.
 std::string sweep_pictures_html(const std::filesystem::path& folder);
-/// Those that `flexneck fit` has left.
+/// HTML of the pictures by `flexneck fit` in a folder; empty if there are none.
 std::string fit_pictures_html(const std::filesystem::path& folder);
-/// mesh.png of a folder, for readers whose browser shows no motion; empty if it is not there.
+/// HTML of a folder's mesh.png, for browsers that show no motion; empty if it does not exist.
 std::string mesh_picture_html(const std::filesystem::path& folder, const std::string& label);
 
 }  // namespace flexneck::pipeline

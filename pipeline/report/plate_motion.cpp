@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-/// Between which heights a piece changes its shape.
+/// Heights between which a submesh deforms.
 struct Rubber {
   double low_m = std::numeric_limits<double>::infinity();
   double high_m = -std::numeric_limits<double>::infinity();
@@ -23,7 +23,7 @@ bool holds(const PieceSection& piece, const std::string& part) {
   return std::find(piece.parts.begin(), piece.parts.end(), part) != piece.parts.end();
 }
 
-/// Where the softest part of a piece begins and ends along z.
+/// Range along z of the softest material of a submesh.
 Rubber rubber_of(const PieceSection& piece, const mesher::Mesh& mesh) {
   Rubber rubber;
   double softest_Pa = std::numeric_limits<double>::infinity();
@@ -41,7 +41,8 @@ Rubber rubber_of(const PieceSection& piece, const mesher::Mesh& mesh) {
   return rubber;
 }
 
-/// Each piece is made of parts: which vertex rides between which two markers, and how far up.
+/// Plates and the vertices between them. Each submesh is made of parts: a vertex belongs to the two
+/// markers of its submesh, and its height gives their weights.
 Plates plates_at(std::vector<std::string> markers, const std::vector<PieceSection>& pieces,
                  const mesher::Mesh& mesh, const mesher::Surface& surface) {
   Plates plates{std::move(markers), {}, {}};
@@ -67,7 +68,7 @@ Plates plates_at(std::vector<std::string> markers, const std::vector<PieceSectio
   return plates;
 }
 
-/// Whether every block of the mesh belongs to a piece.
+/// True if every block of the mesh belongs to a submesh.
 bool cover(const std::vector<PieceSection>& pieces, const mesher::Mesh& mesh) {
   return std::all_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const auto& block) {
     return std::any_of(pieces.begin(), pieces.end(),

@@ -25,9 +25,9 @@ namespace {
 /// A section of the page.
 struct PageSection {
   const char* id;
-  const char* link;  ///< in the navigation
+  const char* link;  ///< text of the link in the navigation
   const char* title;
-  const char* content;  ///< name of its text
+  const char* content;  ///< name of its content
 };
 constexpr std::array<PageSection, 14> kSections = {
     {{"view", "Overview", "Overview", "overview"},

@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// End of the digits that begin at a place.
+/// Index behind the digits that begin at an index.
 std::size_t end_of_number(const std::string& text, std::size_t place) {
   while (place < text.size() && is_digit(text[place])) ++place;
   return place;
 }
 
-/// The files of a folder by name.
+/// Names of the files in a folder, in order.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   if (!fs::exists(folder)) return names;
@@ -115,7 +115,7 @@ class Reader {
     }
   }
 
-  /// Files that different programs made need not belong together.
+  /// Warns if different programs made the files, which then may not belong together.
   void compare_versions() {
     std::set<std::string> programs;
     for (const ResultFile& file : results_.files) {
@@ -144,7 +144,7 @@ class Reader {
  private:
   using ReadFile = std::function<Provenance(const fs::path&)>;
 
-  /// Place among the study's cases of the one that a run is, or varies; of others, after them.
+  /// Index among the study's cases of the run's case, or of its base case; other runs come last.
   std::size_t place_of(const Experiment& run) const {
     const bool is_pendulum = run.kind == Experiment::Kind::pendulum;
     const auto found =
@@ -184,8 +184,8 @@ class Reader {
       results_.run_warnings.push_back(name + ": the run ended early: " + history.incomplete);
   }
 
-  /// Whether a file was made from those that the folder has, and they from theirs; else it is left
-  /// out. Files come after those that they are made from.
+  /// Returns whether a file was made from the folder's current files, and these from theirs; else
+  /// it is left out. Files are read after those that they are made from.
   bool belongs(const std::string& name, const Provenance& provenance) {
     std::string source = replaced_source(folder_ / name, provenance);
     for (const InputFile& input : provenance.inputs)
@@ -204,7 +204,8 @@ class Reader {
   fs::path folder_;
   const Study& study_;
   Results results_;
-  std::map<std::string, std::vector<std::string>> left_out_;  ///< by what was replaced
+  /// Files left out, keyed by the replaced file.
+  std::map<std::string, std::vector<std::string>> left_out_;
 };
 
 }  // namespace

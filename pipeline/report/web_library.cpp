@@ -18,7 +18,7 @@ namespace {
 
 struct Place {
   std::string package;
-  std::vector<std::string> files;  ///< the first that is there
+  std::vector<std::string> files;  ///< candidates, of which the first existing one is taken
 };
 
 Place place_of(WebLibrary library) {

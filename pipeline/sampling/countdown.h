@@ -9,13 +9,13 @@
 
 namespace flexneck::pipeline {
 
-/// "3 h 12 min", "45 s"
+/// Text such as "3 h 12 min" or "45 s".
 std::string duration_text(double seconds);
 
-/// Tells every few seconds how many of some things are done, and how long the rest will take.
+/// Reports every few seconds the number of finished things and the remaining time.
 class Countdown {
  public:
-  /// @param things  what they are called, such as "rows"
+  /// @param things  name of the things, such as "rows"
   /// @param tell    may be empty; outlives this
   Countdown(std::uint64_t due, std::string things, const Progress& tell);
 

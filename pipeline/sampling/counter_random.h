@@ -5,8 +5,8 @@
 
 namespace flexneck::pipeline {
 
-// Random numbers that depend on nothing but the seed and on what they are for, so that a row of a
-// table is the same whoever computes it and in whatever order.
+// Random numbers that depend only on the seed and their purpose, so that a row of a table is the
+// same whoever computes it and in whatever order.
 
 /// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): each bit depends on all bits.
 constexpr std::uint64_t mixed(std::uint64_t bits) {
@@ -17,7 +17,7 @@ constexpr std::uint64_t mixed(std::uint64_t bits) {
 }
 
 /// 64 random bits.
-/// @param stream  what they are for, such as a dimension
+/// @param stream  purpose of the bits, such as a dimension
 constexpr std::uint64_t random_bits(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
   return mixed(mixed(mixed(seed) ^ stream) ^ index);
 }

@@ -11,12 +11,13 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Errors as NaN or infinity: a probability is never 0 or 1 here.
+/// Policy that returns errors as NaN or infinity: a probability is never 0 or 1 here.
 using NoThrow = boost::math::policies::policy<
     boost::math::policies::domain_error<boost::math::policies::ignore_error>,
     boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
 
-/// Phi(low) + p (Phi(high) - Phi(low)), from the side where the differences keep their digits.
+/// Quantile of a truncated normal distribution, at Phi(low) + p (Phi(high) - Phi(low)), computed in
+/// the tail in which the differences keep their digits.
 double cut_normal_quantile(const SweepDistribution& normal, double probability) {
   const double low = (normal.low - normal.mean) / normal.standard_deviation;
   const double high = (normal.high - normal.mean) / normal.standard_deviation;

@@ -9,12 +9,12 @@
 
 namespace flexneck::pipeline {
 
-/// Tells whether files are still as they were when they were read. Each is looked at once, so that
-/// all that one object calls the same is of one state.
+/// Checks whether files are unchanged since they were read. Each is examined once, so that all
+/// answers of one object refer to one state.
 class FilesNow {
  public:
   bool is_same(const FileRead& file);
-  /// All that were looked at, as they are.
+  /// All files examined, in their current state.
   std::vector<FileRead> files() const;
 
  private:

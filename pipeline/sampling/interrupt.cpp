@@ -5,7 +5,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-// A handler of signals reaches nothing else.
+// The only objects that the signal handler uses.
 std::atomic<bool> asked = false;
 struct sigaction usual {};
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -20,7 +20,7 @@ void ask(int /*signal*/) {
 Interrupt::Interrupt() {
   asked = false;
   ::sigaction(SIGINT, nullptr, &before_);
-  if (before_.sa_handler == SIG_IGN) return;  // as of a command in the background
+  if (before_.sa_handler == SIG_IGN) return;  // ignored, for instance in a background command
   usual = before_;
   struct sigaction action {};
   action.sa_handler = ask;

@@ -6,8 +6,8 @@
 
 namespace flexneck::pipeline {
 
-/// While it lives, the first Ctrl-C asks to stop instead of ending the process; the second one ends
-/// it as usual. One at a time.
+/// During its lifetime, the first Ctrl-C requests a stop instead of ending the process; the second
+/// one ends it as usual. At most one object at a time.
 class Interrupt {
  public:
   Interrupt();

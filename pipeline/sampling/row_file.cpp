@@ -31,8 +31,8 @@ constexpr std::string_view kFiles = "files";
 
 std::string heading(const RowFormat& format) { return "flexneck rows 2," + format.definition; }
 
-/// "files", and of each a tab, its hash, a blank and its path. One whose path has characters that
-/// are spelt out is never found again: its rows are computed again.
+/// Line "files", followed for each file by a tab, its hash, a blank and its path. A path with
+/// characters that must be spelt out cannot be found again: its rows are computed again.
 std::string line_of(const std::vector<FileRead>& files) {
   std::string line(kFiles);
   for (const FileRead& file : files) line += '\t' + file.hash + ' ' + printable(file.path);
@@ -49,7 +49,7 @@ std::string hash_of(const std::string& files, const std::string& line, const std
   return hash_of_text(files + '\n' + line + '\n' + curves).substr(0, kHashDigits);
 }
 
-/// A number up to a comma, which goes, too.
+/// Removes a number and the comma after it from a text.
 template <class Number>
 bool take(std::string_view& text, Number& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -177,7 +177,7 @@ void RowWriter::append(const RowResult& result) {
   line += printable(result.problem);
   const std::string curves = bytes_of(result.curves);
   const std::string files = line_of(result.reads);
-  // The curves first: a row is there once its line is.
+  // The curves are written first, since a row exists once its line does.
   if (curves_) write(curves_, curves);
   const std::string before = files == files_ ? "" : files + "\n";
   write(lines_, before + line + "|" + hash_of(files, line, curves) + "\n");

@@ -32,7 +32,7 @@ class Run {
   }
 
  private:
-  /// A row on its way; the first of the queue is the next to be handed over.
+  /// A row being computed; the first of the queue is the next to be passed on.
   struct Place {
     RowResult result;
     bool is_done = false;
@@ -55,7 +55,7 @@ class Run {
     changed_.notify_all();
   }
 
-  /// Waits where the threads are far ahead of what is handed over.
+  /// Returns a place for the next row; waits while the threads are far ahead of the rows passed on.
   Place* next_place() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return is_ended_ || queue_.size() < kAhead * run_.threads; });
@@ -86,13 +86,13 @@ class Run {
     changed_.notify_all();
   }
 
-  static constexpr std::size_t kAhead = 16;  ///< rows of a thread that wait for one before them
+  static constexpr std::size_t kAhead = 16;  ///< rows per thread that may wait for an earlier one
 
   const RowRun& run_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::unique_ptr<Place>> queue_;
-  unsigned ended_ = 0;  ///< threads
+  unsigned ended_ = 0;  ///< number of finished threads
   bool is_ended_ = false;
   bool was_stopped_ = false;
   std::exception_ptr failure_;

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What random numbers are for; the dimension comes on top.
+/// Streams of random numbers by purpose; the dimension is added.
 constexpr std::uint64_t kSample = 1ULL << 32U;
 constexpr std::uint64_t kJitter = 2ULL << 32U;
 constexpr std::uint64_t kOrder = 3ULL << 32U;
@@ -81,7 +81,7 @@ VectorXd UnitPoints::point(std::uint64_t row) const {
 VectorXd shifted_sobol_point(std::uint64_t index, int dimensions, std::uint64_t seed) {
   const auto count = static_cast<std::uint64_t>(dimensions);
   boost::random::sobol sequence(count);
-  // Boost leaves out the origin, the first point, without which the others are not evenly spread.
+  // Boost omits the origin, the first point, without which the others are not evenly spread.
   if (index > 1) sequence.discard((index - 1) * count);
   VectorXd point(dimensions);
   for (int k = 0; k < dimensions; ++k) {

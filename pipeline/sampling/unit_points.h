@@ -9,15 +9,16 @@
 
 namespace flexneck::pipeline {
 
-/// Points of the unit cube, each a function of its row: any of them can be had without those before
-/// it, and is the same whoever asks. All coordinates lie in the open interval (0, 1).
+/// Points of the unit cube, each a function of its row: any of them can be computed without the
+/// previous ones, and is always the same. All coordinates lie in the open interval (0, 1).
 struct UnitPoints {
   SweepPlan plan = SweepPlan::random;  ///< neither grid nor list
   std::uint32_t samples = 0;
   int dimensions = 0;
   std::uint64_t seed = 1;
 
-  /// Rows of a sample: those that estimates of indices take together; 1 of plans without indices.
+  /// Number of rows of a sample, which estimates of indices need together; 1 for plans without
+  /// indices.
   /// - sobol_indices: A, B and, for each dimension, A with that coordinate of B (Saltelli et al.
   ///   2010, table 1, "A_B^(i)"), d + 2.
   std::uint64_t rows_per_sample() const;

@@ -17,7 +17,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Of "m | kg" each.
+/// Adds the units in a text such as "m | kg".
 void add_units(std::string_view units, std::set<std::string>& found) {
   while (!units.empty()) {
     const std::size_t bar = units.find(" | ");
@@ -33,7 +33,7 @@ void add_all_units(std::span<const Key> keys, std::set<std::string>& found) {
   }
 }
 
-/// The SI units that a key may have; of a variable, which is put in place of others, any.
+/// SI units that a key may have; for a variable, which is substituted for other values, any.
 std::set<std::string> si_units_of(const std::string& key) {
   std::set<std::string> units;
   const Key* const row = find_dotted_key(study_keys(), key).key;
@@ -45,7 +45,7 @@ std::set<std::string> si_units_of(const std::string& key) {
   return units;
 }
 
-/// The study with one setting. @param problem  why it is refused, if it is
+/// Reads the study with one setting. @param problem  reason of a refusal
 std::unique_ptr<const Study> study_with(Evaluator& evaluator, const std::string& setting,
                                         std::string& problem) {
   try {
@@ -114,7 +114,7 @@ void check_varied(Evaluator& evaluator, const std::vector<TwoSettings>& all,
 }
 
 std::string definition_of(const Study& study) {
-  // A line break ends each field: keys, values and names have none.
+  // A line break ends each field: keys, values and names contain none.
   std::string text = build_id() + '\n';
   for (const std::vector<Parameter>* const list : {&study.parameters, &study.defaults})
     for (const Parameter& each : *list) text += each.key + '\n' + each.value + '\n';

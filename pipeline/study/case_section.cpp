@@ -66,7 +66,8 @@ constexpr auto kVariantKeys = std::to_array<Key>({
               "name if the key is not there"),
 });
 
-/// Head below the arm: the neck's z is the world's -z, x stays.
+/// Rotation of a hanging neck, the head below the arm: the neck's z is the world's -z, x is
+/// unchanged.
 Eigen::Quaterniond hanging() { return {0, 1, 0, 0}; }
 
 void read_direction(const StudyTable& table, CaseSection& experiment) {
@@ -120,15 +121,15 @@ void read_pendulum(const StudyTable& table, CaseSection& experiment) {
         "its pivots turn about one axis; expected direction flexion, extension or lateral");
 }
 
-/// The tables that may hold a case's own bodies, joints and forces.
+/// A case's tables, which may contain its own bodies, joints and forces.
 struct CaseSource {
-  StudyTable table;  ///< with all keys of the case
+  StudyTable table;  ///< all keys of the case
   CaseTables tables;
 };
 
 Assembly read_model(const CaseSource& source, const CaseSection& experiment,
                     const StudyModels& models) {
-  // Their elements are read table by table.
+  // Marked as known here; their elements are read table by table.
   for (const Key& row : model_table_keys()) source.table.has(std::string(row.name));
   Assembly begun;
   begun.end_time_s = experiment.duration_s;
@@ -145,7 +146,7 @@ Assembly read_model(const CaseSource& source, const CaseSection& experiment,
   return model;
 }
 
-/// Without its model.
+/// Reads a case without its model.
 CaseSection read_case(CaseSource& source) {
   const StudyTable& table = source.table;
   CaseSection experiment;
@@ -159,7 +160,7 @@ CaseSection read_case(CaseSource& source) {
   return experiment;
 }
 
-/// Cases with what they are made of.
+/// Cases and the tables that they are read from.
 struct ReadCases {
   std::vector<CaseSource> sources;
   std::vector<CaseSection> cases;
@@ -170,8 +171,8 @@ struct ReadCases {
   }
 };
 
-/// The cases that a variant makes, in the order of those it is made of.
-/// @param own  how many cases are no variants
+/// Adds the cases of a variant, in the order of their base cases.
+/// @param own  number of cases that are not variants
 void add_variants(const StudyTable& variant, std::size_t own, ReadCases& all) {
   std::vector<CaseSection>& cases = all.cases;
   const std::string name = variant.text("name");

@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// A table of a section, with those that stand below it.
+/// A table of a section, merged with those below it.
 struct Element {
   std::string name;
   StudyTable table;
@@ -26,7 +26,7 @@ std::string name_in(const std::string& section, const StudyTable& table) {
   return section == "marker" ? table.text("body") + "." + table.text("name") : table.text("name");
 }
 
-/// Of a table that others stand over, whose reader therefore does not see all of it.
+/// Checks the keys of a table that others override, since its reader then does not see all of it.
 void require_known_keys(const StudyTable& table) {
   for (const std::string& key : table.keys())
     if (find_key(table.key_rows(), key) == nullptr) table.refuse(key, "unknown key");
@@ -56,7 +56,7 @@ std::vector<Element> elements(const std::string& section, const std::vector<Stud
 /// The part of a marker's name before the dot.
 std::string body_of(const std::string& marker) { return marker.substr(0, marker.find('.')); }
 
-/// Whether an element of the study belongs to a case that has read the sections before its own.
+/// True if an element of the study belongs to a case whose preceding sections have been read.
 bool is_taken(const std::string& section, const Element& element, const CaseTables& experiment,
               const multibody::Model& model) {
   const StudyTable& table = element.table;
@@ -73,6 +73,7 @@ bool is_taken(const std::string& section, const Element& element, const CaseTabl
   return is_named(experiment.forces, element.name);
 }
 
+/// Checks the names of bodies or forces.
 /// @throws InputError for a name that no element of the kind has.
 void require_names(const CaseTables& experiment, const std::string& key,
                    const std::vector<std::string>& names, const std::vector<std::string>& all) {

@@ -10,31 +10,32 @@
 
 namespace flexneck::pipeline {
 
-/// What a case takes of a study's bodies, joints and forces, and what it says of them itself.
+/// The study's bodies and forces that a case uses, and its own tables of them.
 struct CaseTables {
-  std::vector<StudyTable> layers;   ///< that may hold such tables, each over those before it
-  std::vector<std::string> bodies;  ///< of the study's; empty: all
-  std::vector<std::string> forces;  ///< of the study's; those in the layers act in any case
+  /// Tables that may contain such tables, each overriding those before it.
+  std::vector<StudyTable> layers;
+  std::vector<std::string> bodies;  ///< names of the study's bodies; empty: all
+  std::vector<std::string> forces;  ///< names of the study's forces; those in the layers always act
 };
 
 /// The tables of the model language in a study (model_sections.h): bodies, markers, joints, motors
-/// and forces, of which each case makes a model.
+/// and forces, from which each case makes a model.
 class StudyModels {
  public:
-  /// @param interfaces  of the study's structure
+  /// @param interfaces  names of the interfaces of the study's structure
   StudyModels(const StudyTable& root, std::vector<std::string> interfaces);
 
-  /// All that stands in the study itself, which need not make a model: joints of several cases may
-  /// hold the same body.
-  /// @param end_time_s  that motions over time have to cover
-  /// @param resolution_s  of expressions of time
+  /// All tables of the study itself, which need not form a model: joints of several cases may hold
+  /// the same body.
+  /// @param end_time_s  time that motions over time have to cover
+  /// @param resolution_s  sampling interval of expressions of time
   Assembly whole(double end_time_s, double resolution_s) const;
 
-  /// The study's tables that a case takes, with those of its layers: one of the same name has the
-  /// keys that it gives in place of the study's, another one is added. Joints and markers are taken
-  /// with their bodies, motors with their joints.
-  /// @param begun  what holds for the case: how its prescribed bodies move, its length
-  /// @throws InputError naming file, line and key for what cannot be.
+  /// The model of a case from the study's tables and those of its layers: a table with a name of
+  /// the study's replaces the keys that it gives, another one is added. Joints and markers are
+  /// included with their bodies, motors with their joints.
+  /// @param begun  settings of the case: the source of its prescribed bodies' motion, its duration
+  /// @throws InputError naming file, line and key for an error in the tables.
   Assembly of_case(const CaseTables& experiment, Assembly begun) const;
 
  private:

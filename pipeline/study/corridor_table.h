@@ -9,13 +9,13 @@
 
 namespace flexneck::pipeline {
 
-/// Where a curve should run: a lower and an upper one at the same times and in the same unit,
-/// linear between these.
+/// A corridor of a curve: a lower and an upper curve at the same times and in the same unit, linear
+/// between these.
 struct CurveCorridor {
   Curve lower, upper;
 };
 
-/// As several sections of a study name it.
+/// Keys of a corridor in several sections of a study.
 inline constexpr auto kCorridorKeys = std::to_array<Key>({
     Key::file("table", kNone,
               "CSV file with the columns \"lower\" and \"upper\"; in place of times, lower, upper"),
@@ -25,8 +25,8 @@ inline constexpr auto kCorridorKeys = std::to_array<Key>({
     Key::text("unit", kNone, "Unit of the values, where no file names it"),
 });
 
-/// Its file, if there is one, is appended to `files`.
-/// @throws InputError with file, line and key, also for a corridor that crosses itself.
+/// Reads a corridor. Its file, if there is one, is recorded by FilesRead.
+/// @throws InputError with file, line and key, also if the lower curve exceeds the upper one.
 CurveCorridor read_corridor(const StudyTable& table);
 
 }  // namespace flexneck::pipeline

@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// The unit of the file, or of the key where the file names none.
+/// Sets the curve's unit: the file's, or the key's if the file names none.
 void set_unit(const StudyTable& table, Curve& curve) {
   const std::string unit = table.text("unit");
   if (!unit.empty() && !curve.unit.empty())
@@ -22,7 +22,7 @@ void set_unit(const StudyTable& table, Curve& curve) {
   if (!unit.empty()) curve.unit = unit;
 }
 
-/// The interval of samples that a filter can take.
+/// Interval of samples, which a filter needs to be constant.
 double sample_interval_s(const Curve& curve) {
   const Eigen::Index n = curve.time_s.size();
   const double interval_s = (curve.time_s[n - 1] - curve.time_s[0]) / static_cast<double>(n - 1);
@@ -34,7 +34,7 @@ double sample_interval_s(const Curve& curve) {
   return interval_s;
 }
 
-/// By the key "filter".
+/// Filters the curve by the key "filter".
 void filter_as_asked(const StudyTable& table, Curve& curve) {
   const multibody::ChannelClass wanted = read_channel_class(table, "filter");
   at_key(table, "filter", [&] {

@@ -12,7 +12,7 @@
 
 namespace flexneck::pipeline {
 
-// A curve of a file, as several sections of a study name it: the key "table" and these.
+// A curve of a file in several sections of a study: the key "table" and the following keys.
 
 constexpr Key curve_file_key(std::string_view fallback) {
   return Key::file(
@@ -32,12 +32,12 @@ inline constexpr auto kCurveTableKeys = std::to_array<Key>({
     Key::quantity("time_zero", "s", "0", "Time in the file that is the case's zero"),
 });
 
-/// The curve over the time of the case, filtered as asked, in the file's unit. Its file is appended
-/// to `files`.
+/// Reads the curve over the time of the case, filtered as asked, in the file's unit. Its file is
+/// recorded by FilesRead.
 /// @throws InputError with file, line and key, or as read_curve() does.
 Curve read_curve_table(const StudyTable& table);
 
-/// A column of the file as it stands there: by "table" and "unit" alone.
+/// Reads a column of the file unfiltered, by "table" and "unit" alone.
 Curve read_curve_column(const StudyTable& table, const std::string& column);
 
 }  // namespace flexneck::pipeline

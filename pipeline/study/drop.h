@@ -7,15 +7,15 @@
 
 namespace flexneck::pipeline {
 
-/// How far a pendulum of length one falls from an angle to its lowest point.
+/// Height lost by a pendulum of unit length from an angle to its lowest point.
 inline double fall(double angle_rad) { return 1 - std::cos(angle_rad); }
 
-/// The velocity at the lowest point of a point mass that has swung down on a length, from rest.
+/// Velocity at the lowest point of a point pendulum released from rest at an angle.
 inline double drop_velocity(double length_m, double angle_rad) {
   return std::sqrt(2 * kStandardGravity_m_s2 * length_m * fall(angle_rad));
 }
 
-/// The length that makes it that velocity.
+/// Length of the point pendulum that reaches a velocity.
 inline double drop_length(double velocity_m_s, double angle_rad) {
   return velocity_m_s * velocity_m_s / (2 * kStandardGravity_m_s2 * fall(angle_rad));
 }

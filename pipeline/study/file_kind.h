@@ -5,15 +5,15 @@
 
 namespace flexneck::pipeline {
 
-/// What a TOML file of ours is for.
+/// Kinds of flexneck's TOML files.
 enum class FileKind { study, model };
 
-/// By its tables, those of files that it includes too: one that only studies have makes a study,
-/// such as [geometry], and else [[body]] a model. Nothing is read of what they say.
+/// Kind of a file by its tables, those of included files too: a table that only studies have, such
+/// as [geometry], makes a study, and otherwise [[body]] a model. The tables' content is not read.
 /// @throws InputError for a file that is missing or does not parse.
 FileKind kind_of_file(const std::filesystem::path& path);
 
-/// Of a file that a command refuses. @throws InputError if it is of the other kind, with the
+/// Explains why a command refuses a file. @throws InputError if it is of the other kind, naming the
 /// command that takes it, or if it is a mesh or a shape.
 void refuse_other_kind(const std::filesystem::path& path, FileKind expected);
 

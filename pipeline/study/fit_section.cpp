@@ -114,7 +114,7 @@ FitParameter read_parameter(const StudyTable& table) {
   return parameter;
 }
 
-/// What the curve should be. @return the times that it covers
+/// Reads the wanted curve. @return the times that it covers
 const Eigen::VectorXd& read_wanted_curve(const StudyTable& table, FitCurve& curve) {
   if (table.has("corridor")) {
     table.refuse_given({"table", "column", "unit", "filter", "time_zero", "rating"},
@@ -149,7 +149,7 @@ FitCurve read_fit_curve(const StudyTable& table) {
   return curve;
 }
 
-/// A value with its deviation, or a window.
+/// Reads a wanted value with its deviation, or a window.
 void read_wanted(const StudyTable& table, FitTarget& target) {
   target.value = table.text("value");
   target.low = table.text("low");
@@ -254,7 +254,7 @@ FitSection read_fit(const StudyTable& table) {
 FitSection read_fit(const std::filesystem::path& study, const std::vector<std::string>& settings) {
   FilesRead reads;
   const StudyDocument document(study, settings, study_keys());
-  reads.forget();  // values tell them apart; files of targets count
+  reads.forget();  // the values identify the study; files of targets are recorded
   if (!document.root().has(kFitSection))
     throw InputError(study.string() +
                      ": expected [fit] with [[fit.parameter]] and [[fit.target]], found none; "

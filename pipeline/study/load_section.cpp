@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What a kind of load is read by.
+/// Name of a kind of load and the function that reads it.
 struct LoadKind {
   std::string_view name;
   decltype(fe_modal::Load::kind) (*read)(const StudyTable& load);
@@ -27,7 +27,7 @@ std::optional<Vector3d> position(const StudyTable& load) {
   return quantity_vector(load, "position");
 }
 
-/// The set that a load is on; the one of its name if the key is not there.
+/// Name of the set that a load acts on; the load's name if the key is absent.
 std::string set_of(const StudyTable& load) { return load.text_or("set", load.text("name")); }
 
 void require_one_of(const StudyTable& load, const std::string& one, const std::string& other) {

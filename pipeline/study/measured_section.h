@@ -14,32 +14,33 @@
 
 namespace flexneck::pipeline {
 
-/// [[test.curve]]: what was measured of a channel.
+/// Content of [[test.curve]]: a measured curve of a channel.
 struct MeasuredCurve {
-  std::string channel;           ///< of the case's run
-  Curve curve;                   ///< over the time of the case, filtered, in the file's unit
-  std::optional<double> from_s;  ///< what of it is rated; all that both curves have
+  std::string channel;  ///< channel of the case's run
+  Curve curve;          ///< over the time of the case, filtered, in the file's unit
+  /// Limits of the interval that is rated; by default the overlap of both curves.
+  std::optional<double> from_s;
   std::optional<double> to_s;
 };
 
-/// [[test.corridor]]: where a channel should run.
+/// Content of [[test.corridor]]: a corridor of a channel.
 struct MeasuredCorridor : CurveCorridor {
-  std::string channel;  ///< of the case's run
+  std::string channel;  ///< channel of the case's run
 };
 
-/// [[test.limit]]: where a figure of a channel should lie.
+/// Content of [[test.limit]]: limits of a figure of a channel.
 struct MeasuredLimit {
   enum class Figure { peak, time_of_peak, first_zero_crossing };
   std::string channel;
   Figure figure = Figure::peak;
   std::string low, high;  ///< with their units; empty: no limit
-  StudyTable table;       ///< that says so; for messages
+  StudyTable table;       ///< the limit's table, for messages
 };
 
-/// A [[test]] with data of the user's own.
+/// A [[test]] with measured data of the user.
 struct MeasuredTest {
   std::string name;
-  std::string experiment;  ///< the case
+  std::string experiment;  ///< name of the case
   std::vector<MeasuredCurve> curves;
   std::vector<MeasuredCorridor> corridors;
   std::vector<MeasuredLimit> limits;
@@ -47,11 +48,11 @@ struct MeasuredTest {
   bool is_empty() const { return curves.empty() && corridors.empty() && limits.empty(); }
 };
 
-/// The tables curve, corridor and limit of a [[test]].
+/// Keys of the tables curve, corridor and limit of a [[test]].
 std::span<const Key> measured_keys();
 
-/// Reads them and their files, which are appended to `files`.
-/// @throws InputError with file, line and key, or file and line of what they name.
+/// Reads these tables and their files, which are recorded by FilesRead.
+/// @throws InputError with file, line and key, or file and line of the named files.
 MeasuredTest read_measured(const StudyTable& test);
 
 }  // namespace flexneck::pipeline

@@ -76,7 +76,7 @@ constexpr Key kKeys[] = {
     Key::tables("point_mass", "Rigid bodies at points", kMassKeys),
 };
 
-/// "xz" to x and z.
+/// Directions named by letters: "xz" means x and z.
 std::array<bool, 3> read_directions(const StudyTable& table, const std::string& key,
                                     std::string_view letters) {
   std::array<bool, 3> directions{};

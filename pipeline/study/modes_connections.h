@@ -12,7 +12,7 @@
 
 namespace flexneck::pipeline {
 
-/// [[modes.coupling]]: nodes that follow a point as a rigid body.
+/// Content of [[modes.coupling]]: nodes that follow a point as a rigid body.
 struct CouplingSection {
   std::string name;
   std::string set;
@@ -20,11 +20,11 @@ struct CouplingSection {
   std::array<bool, 3> directions = {true, true, true};
 };
 
-/// [[modes.support]]: a node set, or a coupling's point, that does not move in some directions.
+/// Content of [[modes.support]]: fixes a node set, or a coupling's point, in some directions.
 struct SupportSection {
   std::string at;
   std::array<bool, 3> directions{};
-  std::array<bool, 3> turns{};  ///< of a coupling
+  std::array<bool, 3> turns{};  ///< rotations of a coupling
   mesher::AxisSystem axes;
 };
 
@@ -35,31 +35,31 @@ struct ConnectionTerm {
   bool is_rotation = false;
 };
 
-/// [[modes.equation]]: the sum of the terms is zero.
+/// Content of [[modes.equation]]: the sum of the terms is zero.
 struct EquationSection {
   std::string name;
   std::vector<ConnectionTerm> terms;
 };
 
-/// [[modes.spring]]: to ground, or between two.
+/// Content of [[modes.spring]]: to ground, or between two points.
 struct SpringSection {
   std::string name;
   std::vector<std::string> between;
-  std::optional<Eigen::Vector3d> direction;  ///< nothing: along the line between the two
+  std::optional<Eigen::Vector3d> direction;  ///< none: along the line between the two points
   bool is_rotation = false;
   double stiffness = 0;  ///< N/m, or N m/rad
 };
 
-/// [[modes.point_mass]]
+/// Content of [[modes.point_mass]].
 struct PointMassSection {
   std::string name;
   std::string at;
   double mass_kg = 0;
-  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();       ///< from there
+  Eigen::Vector3d center_m = Eigen::Vector3d::Zero();       ///< relative to that point
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();  ///< about the centre
 };
 
-/// What [modes] holds, joins and loads the structure with, beside sets that are fixed.
+/// Supports, couplings and loads of [modes], besides the sets that are fixed.
 struct ModesConnections {
   std::vector<CouplingSection> couplings;
   std::vector<SupportSection> supports;

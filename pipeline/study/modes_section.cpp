@@ -64,7 +64,7 @@ constexpr Key kModesKeys[] = {
     Key::text("attached_to", kNone, "That interface; the first if the key is not there"),
 };
 
-/// left = "x", bottom = "yz"
+/// Reads directions in which sets are fixed, such as left = "x", bottom = "yz".
 std::map<std::string, std::array<bool, 3>> read_fixed_directions(const StudyTable& table) {
   std::map<std::string, std::array<bool, 3>> fixed;
   for (const std::string& set : table.keys()) {

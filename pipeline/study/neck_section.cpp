@@ -16,7 +16,7 @@ namespace {
 
 std::vector<std::string> slit_edges() { return {"ring", "chord"}; }
 
-/// Besides the dimensions.
+/// Keys of [geometry] besides the dimensions.
 constexpr auto kGeometryKeys = std::to_array<Key>({
     Key::texts(
         "slit_parts", kNone,
@@ -96,11 +96,11 @@ geometry::NeckDivisions read_divisions(const StudyTable& table) {
   return divisions;
 }
 
-/// Where the head's joint is put, which the fits were made with.
+/// Name of the interface with the head's joint, whose position the fits used.
 constexpr const char* kHeadJoint = "top";
 
-/// Whether a file of another folder than that of the fit gives a dimension, a material or the
-/// head's joint: the fit was to the values that stand beside it.
+/// True if a file of another folder than the fit's gives a dimension, a material or the head's
+/// joint: the fit used the values in its own folder.
 bool has_values_from_elsewhere(const StudyTable& root) {
   const StudyTable geometry = root.table("geometry");
   const std::filesystem::path folder = geometry.folder_of("fitted_to");
@@ -116,7 +116,7 @@ bool has_values_from_elsewhere(const StudyTable& root) {
   return false;
 }
 
-/// Whether it is a dimension or a material.
+/// True for a dimension or a material.
 bool is_dimension_or_material(const Parameter& parameter) {
   const std::string& key = parameter.key;
   return key.starts_with("geometry.") && !key.ends_with(".script") &&
@@ -124,28 +124,29 @@ bool is_dimension_or_material(const Parameter& parameter) {
          !key.starts_with("geometry.slit");
 }
 
-/// Whether it is the user's own. Slits change a structure only when they are open, which they are
-/// said to be by one key.
+/// True for a geometric value of the user's own. Slits change a structure only when they are open,
+/// which one key states.
 bool is_own_geometry(const Parameter& parameter) {
   if (parameter.origin != Origin::synthetic) return false;
   if (parameter.key == "geometry.slits") return parameter.value.find("open") != std::string::npos;
   return is_dimension_or_material(parameter);
 }
 
-/// Whether a fit of the neck is made with a value.
+/// True if a fit of the neck depends on a value.
 bool is_of_fit(const Parameter& parameter) {
   return parameter.key == std::string("interface.") + kHeadJoint + ".position" ||
          is_dimension_or_material(parameter);
 }
 
-/// Whether a value of the user's own is one that the fit was made with.
+/// True for a value of the user's own on which the fit depends.
 bool is_changed(const Parameter& parameter) {
   return is_of_fit(parameter) && parameter.origin == Origin::synthetic;
 }
 
 bool is_another_neck(const StudyTable& root, const std::vector<Parameter>& parameters,
                      const NeckSection& neck) {
-  if (neck.slits.state == geometry::SlitState::open) return true;  // others change nothing
+  // Slits in other states change nothing.
+  if (neck.slits.state == geometry::SlitState::open) return true;
   if (!neck.fitted_values.empty()) return neck.fitted_values != neck_values_hash(parameters);
   return has_values_from_elsewhere(root) ||
          std::any_of(parameters.begin(), parameters.end(), is_changed);
@@ -216,7 +217,8 @@ void check_neck(const StudyTable& root, const NeckSection& neck) {
 }
 
 std::string neck_values_hash(const std::vector<Parameter>& parameters) {
-  std::map<std::string, std::string> values;  // in an order of their own
+  // Values sorted by key, independently of their order in the files.
+  std::map<std::string, std::string> values;
   for (const Parameter& each : parameters)
     if (is_of_fit(each)) values[each.key] = each.value;
   std::string text;

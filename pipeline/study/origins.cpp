@@ -8,7 +8,7 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// Names have no origin worth telling.
+/// False for texts such as names, whose origin is not reported.
 bool is_figure(const std::string& key) {
   const Key* const row = find_dotted_key(study_keys(), key).key;
   return row == nullptr || (row->type != KeyType::text && row->type != KeyType::texts);

@@ -25,7 +25,7 @@ PulseSection read_pulse(const StudyTable& table) {
   pulse.name = table.text("name");
   TableColumns columns = read_columns(table, {"times", "s", "deceleration", "m/s^2"});
   const char* const key = table.has("table") ? "table" : "times";
-  // The table itself knows what times must be.
+  // The table itself checks the times.
   at_key(table, key, [&] {
     return multibody::TimeTable(columns.x, columns.y, multibody::TimeTable::Outside::zero);
   });

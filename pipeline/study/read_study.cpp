@@ -54,7 +54,7 @@ void read_output(const StudyTable& table, Study& study) {
   table.finish();
 }
 
-/// What concerns several sections; these messages name no line.
+/// Checks that concern several sections; these messages name no line.
 void check_sections(const StudyTable& root, const Study& study) {
   if (study.neck() == nullptr) return;
   try {
@@ -64,7 +64,7 @@ void check_sections(const StudyTable& root, const Study& study) {
   }
 }
 
-/// Loads act on a mesh, and a prestress is of loads.
+/// Checks the loads, which act on a mesh, and the prestress, which requires loads.
 void check_loads(const StudyTable& root, const Study& study) {
   if (!study.loads.empty() && !study.structure)
     root.refuse("load", "acts on a mesh, but there is no [geometry]");
@@ -72,7 +72,7 @@ void check_loads(const StudyTable& root, const Study& study) {
     root.table("modes").refuse("prestress", "there is no [[load]]");
 }
 
-/// What matrices, which have neither elements nor sets, leave without effect.
+/// Refuses keys that have no effect with matrices, which have neither elements nor sets.
 void refuse_keys_of_meshes(const StudyTable& root) {
   const std::string why = "has no effect with [matrices], which have no mesh";
   root.refuse_given({"substructures"}, why);
@@ -82,7 +82,7 @@ void refuse_keys_of_meshes(const StudyTable& root) {
       modes.refuse_given({key}, why);
 }
 
-/// Names that one part of the study uses and another must define.
+/// Checks that names used in one part of the study are defined in another.
 void check_references(const Study& study) {
   const auto require = [&](const std::string& who, const std::vector<std::string>& names,
                            const std::string& name, const std::string& kind) {
@@ -110,7 +110,7 @@ void check_references(const Study& study) {
   }
 }
 
-/// Bodies, joints and forces, and the cases that are made of them.
+/// Reads bodies, joints and forces, and the cases that use them.
 void read_experiments(const StudyTable& root, CasesRead which, Study& study) {
   const FilesRead reads;
   study.pulses = read_all(root, "pulse", read_pulse);
@@ -160,6 +160,7 @@ const multibody::RigidBody& Study::rigid_body(const std::string& name) const {
 
 namespace {
 
+/// Reads a study from its document.
 /// @param known  tests of an earlier reading
 Study study_of(const StudyDocument& document, const std::filesystem::path& path,
                const std::vector<std::string>& settings, CasesRead which = CasesRead::all,
@@ -188,7 +189,7 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   read_all_tests(root, known, which, study);
   read_solver(root.table("solver"), study);
   read_output(root.table("output"), study);
-  // For what is wrong with them.
+  // Read to check for errors.
   if (root.has("sweep")) read_sweep(root.table("sweep"));
   if (root.has("fit")) {
     const FilesRead reads;
@@ -208,7 +209,7 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   return study;
 }
 
-/// Whether a setting takes part in others, or is made of variables.
+/// True if a setting affects others, or is made of variables.
 bool concerns_variables(const std::string& setting) {
   return setting.starts_with("variables.") || setting.starts_with("assembly.") ||
          setting.find('$') != std::string::npos;
@@ -237,7 +238,7 @@ Study StudyReader::read(const std::vector<std::string>& more) {
   if (!document_ || keys != keys_ || std::ranges::any_of(more, concerns_variables)) {
     FilesRead reads;
     document_.emplace(path_, all, study_keys());
-    reads.forget();  // values tell them apart
+    reads.forget();  // the values identify the study
     keys_ = std::move(keys);
   } else {
     for (const std::string& setting : more) document_->set(setting);

@@ -12,15 +12,15 @@
 
 namespace flexneck::pipeline {
 
-// What the sections may say.
+// Keys of the sections.
 std::span<const Key> geometry_keys();
 std::span<const Key> materials_keys();
 std::span<const Key> mesh_keys();
 std::span<const Key> matrices_keys();
 std::span<const Key> interface_keys();
-/// [modes], with those of its tables.
+/// Keys of [modes], including those of its tables.
 std::span<const Key> modes_keys();
-/// [[modes.coupling]], [[modes.support]], …
+/// Keys of [[modes.coupling]], [[modes.support]], …
 std::span<const Key> modes_connection_keys();
 std::span<const Key> load_keys();
 std::span<const Key> pulse_keys();
@@ -33,37 +33,38 @@ StructureSection read_structure(const StudyTable& geometry, const StudyTable& me
 MatricesSection read_matrices(const StudyTable& matrices);
 InterfaceSection read_interface(const StudyTable& interface);
 fe_modal::Load read_load(const StudyTable& load);
-/// The key slits. @throws InputError if there is none of that name.
+/// Reads the key slits. @throws InputError for an unknown state.
 geometry::SlitState read_slit_state(const StudyTable& geometry);
-/// [geometry.materials]
+/// Reads [geometry.materials].
 MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
                               std::map<std::string, std::string>& material_of_part);
-/// The keys partitions and node_order of [mesh].
+/// Reads the keys partitions and node_order of [mesh].
 MeshOrders read_mesh_orders(const StudyTable& mesh);
-/// The key formulation. @throws InputError if there is none of that name.
+/// Reads the key formulation. @throws InputError for an unknown formulation.
 fe_modal::Formulation read_formulation(const StudyTable& table);
 ModesSection read_modes(const StudyTable& modes);
 ModesConnections read_modes_connections(const StudyTable& modes);
-/// The keys table, a CSV file, or times and deceleration. A file read is appended to `files`.
+/// Reads a pulse: a CSV file by the key table, which is recorded by FilesRead, or times and
+/// deceleration.
 PulseSection read_pulse(const StudyTable& pulse);
-/// The tables [[body]], [[marker]], … as a study has them.
+/// Keys of the tables [[body]], [[marker]], … in a study.
 std::vector<Key> model_table_keys();
-/// Which cases of a study get their models and are checked whole, with the tests that judge them.
+/// Cases of a study whose models and tests are read and checked completely.
 enum class CasesRead {
   all,
-  chosen  ///< by the key cases: for what has been read whole before
+  chosen  ///< chosen by the key cases, if the whole study has been read before
 };
-/// [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
+/// Reads [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
 std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models,
                                     CasesRead which);
-/// Whether a name is that of a pattern, whose end may be a *.
+/// Returns whether a name matches a pattern, which may end in a *.
 bool fits(const std::string& name, const std::string& pattern);
-/// Names of the cases that the key cases chooses, with those that variants are made of; all without
-/// the key. @throws InputError for a name that no case has.
+/// Names of the cases that the key cases chooses, including base cases of variants; all without the
+/// key. @throws InputError for a name that no case has.
 std::set<std::string> chosen_cases(const StudyTable& root, const std::vector<CaseSection>& cases);
-/// Leaves the study the cases chosen, and the tests that judge them.
+/// Removes from the study the cases not chosen, and their tests.
 void select_cases(const StudyTable& root, Study& study);
-/// [dummy] and [[test]] of the cases that have been read.
+/// Reads [dummy] and [[test]] for the cases that have been read.
 /// @param known  tests of an earlier reading of the study, whose regulations are not read again
 void read_tests(const StudyTable& root, const std::vector<TestSection>& known, CasesRead which,
                 Study& study);

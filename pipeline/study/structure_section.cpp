@@ -45,7 +45,7 @@ constexpr Key kSetKeys[] = {
     Key::quantities("to", "m", kRequired, "Opposite corner", {.size = 3}),
 };
 
-/// Besides those of the neck.
+/// Keys of [geometry] besides those of the neck.
 constexpr auto kKeys = std::to_array<Key>({
     Key::file("script", kNone, "gmsh script that draws and meshes the structure"),
     Key::file("file", kNone, "In place of a script: a mesh or a shape to be meshed"),
@@ -90,7 +90,7 @@ constexpr Key kInterfaceKeys[] = {
     Key::quantities("position", "m", kRequired, "Point that other bodies attach to", {.size = 3}),
 };
 
-/// A constant of a script: a pure number, or a length, which the script gets in its own unit.
+/// Reads the constants of a script: pure numbers, or lengths, which are converted to its own unit.
 std::map<std::string, double> read_constants(const StudyTable& table, double length_unit_m) {
   std::map<std::string, double> constants;
   for (const std::string& key : table.keys()) {
@@ -134,7 +134,7 @@ mesher::ElementKind read_element(const StudyTable& table) {
   return kKinds.at(table.choice("element"));
 }
 
-/// The slits of a script that does not draw the neck.
+/// Reads the slits of a script that does not draw the neck.
 void read_slit_faces(const StudyTable& geometry, mesher::ScriptMeshOptions& options) {
   const geometry::SlitState state = read_slit_state(geometry);
   const std::vector<std::string> faces = geometry.texts("slit_faces");
@@ -150,7 +150,7 @@ void read_slit_faces(const StudyTable& geometry, mesher::ScriptMeshOptions& opti
   options.slits_tied = state == geometry::SlitState::closed;
 }
 
-/// The dimensions of the neck are constants of its script, in m.
+/// Reads a script; dimensions of the neck are constants of its script, in m.
 mesher::ScriptMeshOptions read_script(const StudyTable& geometry, const StudyTable& mesh,
                                       std::optional<NeckSection>& neck) {
   mesher::ScriptMeshOptions options;

@@ -17,19 +17,19 @@
 
 namespace flexneck::pipeline {
 
-/// What [geometry.materials.<name>] says beyond the mesh.
+/// Data of [geometry.materials.<name>] that are not part of the mesh.
 struct MaterialModel {
-  std::optional<fe_modal::Formulation> formulation;  ///< in place of that of [modes]
+  std::optional<fe_modal::Formulation> formulation;  ///< overrides that of [modes]
   double static_modulus_ratio = 1;  ///< Young's modulus in static tests over that of the modes
 };
-/// By the materials' names.
+/// Models keyed by the materials' names.
 using MaterialModels = std::map<std::string, MaterialModel>;
 
-/// [geometry] and [mesh]: a gmsh script, or a file.
+/// Content of [geometry] and [mesh]: a gmsh script, or a file.
 struct StructureSection {
   std::variant<mesher::ScriptMeshOptions, mesher::ImportOptions> source;
   MaterialModels material_models;
-  std::optional<NeckSection> neck;  ///< of a script that draws it
+  std::optional<NeckSection> neck;  ///< present if the script draws the neck
 
   const std::filesystem::path& file() const;
 };
@@ -37,14 +37,15 @@ struct StructureSection {
 /// Volumes and masses of the neck in closed form. @pre structure.neck
 geometry::NeckMeasures measure_neck(const StructureSection& structure);
 
-/// [matrices]: K and M in place of a mesh. The files' endings tell their formats.
+/// Content of [matrices]: K and M in place of a mesh. The files' extensions determine their
+/// formats.
 struct MatricesSection {
-  std::filesystem::path stiffness;  ///< (3n, 3n), N/m, without what is fixed
-  std::filesystem::path mass;       ///< likewise, kg
+  std::filesystem::path stiffness;  ///< (3n, 3n), N/m, without fixed degrees of freedom
+  std::filesystem::path mass;       ///< (3n, 3n), kg, without fixed degrees of freedom
   std::filesystem::path nodes;      ///< (n, 3), m
 };
 
-/// [[interface]]: where other bodies attach.
+/// Content of [[interface]]: a place where other bodies attach.
 struct InterfaceSection {
   std::string name;
   std::string set;  ///< a face set, or a fixed set

@@ -38,8 +38,8 @@ std::vector<Key> model_table_keys() {
 
 namespace {
 
-/// Of the study itself: bodies and what joins them belong to all cases, forces to those that say
-/// so.
+/// Keys of the study's own bodies, joints and forces: bodies and their connections are used by all
+/// cases, forces by those that name them.
 std::vector<Key> shared_model_keys() {
   std::vector<Key> keys = model_table_keys();
   const std::size_t forces = force_sections().size();

@@ -11,25 +11,25 @@
 
 namespace flexneck::pipeline {
 
-/// Reads a study that read_study() has read and checked again and again with other values of the
-/// same keys: its files are parsed once, unless the values are of variables. The studies are those
-/// of read_study(), but that cases which the study's key `cases` does not choose are not looked at
-/// again, nor recorded among the parameters. For one thread.
+/// Repeatedly reads a study that read_study() has read and checked, with other values of the same
+/// keys: its files are parsed once, unless the values are of variables. The studies are those of
+/// read_study(), except that cases not chosen by the study's key `cases` are neither checked again
+/// nor recorded among the parameters. For one thread.
 class StudyReader {
  public:
-  /// @param settings  that hold every time
+  /// @param settings  settings common to all readings
   StudyReader(std::filesystem::path path, std::vector<std::string> settings);
 
-  /// @param more  "key=value"; other keys than the last time have the files parsed again
+  /// @param more  "key=value"; if the keys differ from the last reading, the files are parsed again
   /// @throws InputError as read_study() does.
   Study read(const std::vector<std::string>& more);
 
  private:
   std::filesystem::path path_;
   std::vector<std::string> settings_;
-  std::vector<std::string> keys_;  ///< that the document has been given values of
+  std::vector<std::string> keys_;  ///< keys whose values were set in the document
   std::optional<StudyDocument> document_;
-  std::vector<TestSection> tests_;  ///< of an earlier reading: their regulations stay
+  std::vector<TestSection> tests_;  ///< tests of an earlier reading, whose regulations are kept
 };
 
 }  // namespace flexneck::pipeline

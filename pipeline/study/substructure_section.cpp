@@ -41,7 +41,7 @@ PieceSection read_piece(const StudyTable& table) {
   return piece;
 }
 
-/// Parts in every piece, or a plane in every one but the last.
+/// Checks that each submesh has parts, or that each but the last has a plane.
 void check_pieces(const StudyTable& table, const SubstructuresSection& section) {
   for (std::size_t p = 0; p < section.pieces.size(); ++p) {
     const PieceSection& piece = section.pieces[p];

@@ -13,20 +13,23 @@
 
 namespace flexneck::pipeline {
 
-/// [[substructures.piece]]: made of parts, or of what lies below a plane and above the one before.
+/// Content of [[substructures.piece]]: a submesh made of parts, or of the structure between its
+/// plane and the one before.
 struct PieceSection {
   std::string name;
   std::vector<std::string> parts;
-  std::optional<double> up_to_m;  ///< along the normal; none for the last piece
+  /// Position of its plane along the normal, m; none for the last submesh.
+  std::optional<double> up_to_m;
 };
 
-/// [substructures]: bodies that the structure is cut into.
+/// Content of [substructures]: submeshes into which the structure is cut.
 struct SubstructuresSection {
   std::vector<PieceSection> pieces;  ///< none: the structure stays one body
   bool by_planes = false;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  fe_modal::SlitMotions slit_motions = fe_modal::SlitMotions::none;  ///< where pieces have slits
-  int modes = 0;  ///< of each piece with its ends fixed, besides the static shapes of the ends
+  fe_modal::SlitMotions slit_motions = fe_modal::SlitMotions::none;  ///< for submeshes with slits
+  /// Number of modes of each submesh with its ends fixed, besides the static shapes of the ends.
+  int modes = 0;
 };
 
 std::span<const Key> substructures_keys();

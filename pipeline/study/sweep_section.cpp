@@ -95,7 +95,7 @@ std::vector<double> read_weights(const StudyTable& table, std::size_t count) {
 void check_normal(const StudyTable& table, const SweepDistribution& found) {
   if (found.kind == Kind::lognormal && !(found.mean > 0))
     table.refuse("mean", "expected a positive one of a lognormal distribution");
-  // Further out there are no numbers to tell the quantiles apart.
+  // Further out the quantiles cannot be distinguished in floating point.
   constexpr double kFarthest = 8;
   const double center = found.mean;
   const double reach = kFarthest * found.standard_deviation;

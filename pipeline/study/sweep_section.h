@@ -13,7 +13,7 @@
 
 namespace flexneck::pipeline {
 
-/// How the rows of a sweep are chosen.
+/// Choice of the rows of a sweep.
 enum class SweepPlan {
   grid,             ///< each value of a parameter with each of the others; the last varies fastest
   list,             ///< the first values of all parameters, then the second ones, …
@@ -25,24 +25,25 @@ enum class SweepPlan {
 };
 std::vector<std::string> sweep_plan_names();
 
-/// How a parameter is distributed; numbers in its unit.
+/// Distribution of a parameter; numbers in its unit.
 struct SweepDistribution {
   enum class Kind { uniform, log_uniform, normal, lognormal, triangular, discrete };
   Kind kind = Kind::uniform;
-  double low = -std::numeric_limits<double>::infinity();  ///< a normal one may be cut off
+  /// Bounds; a normal distribution may be truncated.
+  double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  double mode = 0;  ///< most likely value of a triangular one
-  double mean = 0;  ///< of the value itself, of a lognormal one too
+  double mode = 0;  ///< most likely value of a triangular distribution
+  double mean = 0;  ///< mean of the value itself, also for a lognormal distribution
   double standard_deviation = 0;
-  std::vector<double> weights;  ///< of the values of a discrete one; sum 1
+  std::vector<double> weights;  ///< weights of a discrete distribution's values; sum 1
 };
 
-/// [[sweep.parameter]]
+/// Content of [[sweep.parameter]].
 struct SweepParameter {
-  std::string name;  ///< of its column
-  std::string key;   ///< dotted, of the study
-  std::string unit;  ///< of its numbers; empty for pure ones
-  /// What it takes on, unless it is distributed continuously: numbers, or texts.
+  std::string name;  ///< name of its column
+  std::string key;   ///< dotted key in the study
+  std::string unit;  ///< unit of its numbers; empty for pure ones
+  /// Values, unless the distribution is continuous: numbers, or texts.
   std::vector<double> values;
   std::vector<std::string> texts;
   std::optional<SweepDistribution> distribution;  ///< none in a grid or a list
@@ -51,30 +52,30 @@ struct SweepParameter {
   bool is_continuous() const { return level_count() == 0; }
 };
 
-/// [[sweep.correlation]]: of the normal scores of two parameters (a Gaussian copula), which is that
-/// of the parameters themselves if both are normal.
+/// Content of [[sweep.correlation]]: correlation of the normal scores of two parameters (a Gaussian
+/// copula), which is that of the parameters themselves if both are normal.
 struct SweepCorrelation {
   std::array<std::size_t, 2> parameters{};
   double coefficient = 0;
 };
 
-/// [sweep]
+/// Content of [sweep].
 struct SweepSection {
   SweepPlan plan = SweepPlan::grid;
-  int samples = 0;  ///< of all plans but grid and list
+  int samples = 0;  ///< for all plans except grid and list
   int seed = 1;
   std::vector<std::string> outputs;
-  std::vector<std::string> curves;  ///< whose percentile bands are wanted
+  std::vector<std::string> curves;  ///< curves whose percentile bands are wanted
   std::vector<SweepParameter> parameters;
   std::vector<SweepCorrelation> correlations;
 };
 
 std::span<const Key> sweep_keys();
 
-/// @throws InputError for keys that the plan has no use for, too.
+/// Reads [sweep]. @throws InputError also for keys that the plan does not use.
 SweepSection read_sweep(const StudyTable& table);
 
-/// [sweep] of a study. @throws InputError if it has none.
+/// Reads [sweep] of a study. @throws InputError if it has none.
 SweepSection read_sweep(const std::filesystem::path& study,
                         const std::vector<std::string>& settings);
 

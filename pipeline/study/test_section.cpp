@@ -22,7 +22,8 @@ constexpr Key kTestKeys[] = {
     Key::text("case", kRequired, "Case that is judged; by a regulation one of the pendulum"),
 };
 
-/// @param known  of an earlier reading, whose files need not be read again
+/// Rules of a test.
+/// @param known  tests of an earlier reading, whose files need not be read again
 ShippedTest rules_of(const StudyTable& table, const std::string& test_name,
                      const std::vector<TestSection>& known) {
   const std::string name = table.text("regulation");
@@ -52,7 +53,7 @@ void check_direction(const StudyTable& table, const Study& study, const TestSect
                              "', found '" + test.experiment + "'");
 }
 
-/// By a regulation.
+/// Reads a test of a regulation.
 void read_certification(const StudyTable& table, const std::vector<TestSection>& known,
                         Study& study) {
   TestSection test;

@@ -9,11 +9,11 @@
 
 namespace flexneck::pipeline {
 
-/// Phi of each, in the open interval (0, 1).
+/// Phi of each score, in the open interval (0, 1).
 Eigen::VectorXd probabilities(const Eigen::VectorXd& scores);
 
 /// Correlation of normal scores, a Gaussian copula: u = Phi(z) with z normal and correlated has
-/// each coordinate uniform, so each parameter keeps its own distribution.
+/// uniform coordinates, so each parameter keeps its own distribution.
 class Correlation {
  public:
   /// @throws InputError if the coefficients contradict each other: no positive definite matrix.
@@ -21,13 +21,13 @@ class Correlation {
 
   bool is_none() const { return is_none_; }
   const Eigen::MatrixXd& matrix() const { return matrix_; }
-  /// Independent coordinates of the open unit cube to correlated ones.
+  /// Converts independent coordinates of the open unit cube to correlated ones.
   Eigen::VectorXd correlated(const Eigen::VectorXd& independent) const;
-  /// Correlated scores of which those at `free` are drawn anew, given the others.
+  /// Redraws the scores at `free`, given the others.
   /// @param normal  independent standard normal numbers, as many as scores
   Eigen::VectorXd redrawn(const Eigen::VectorXd& scores, const std::vector<Eigen::Index>& free,
                           const Eigen::VectorXd& normal) const;
-  /// L of L L^T = matrix().
+  /// Factor L with L L^T = matrix().
   const Eigen::MatrixXd& factor() const { return factor_; }
 
  private:

@@ -10,25 +10,25 @@
 
 namespace flexneck::pipeline {
 
-/// Part `index` of `count` of the rows of a sweep, from 1: neighbouring rows, which share stages.
+/// Part `index` of `count` of a sweep's rows, from 1: adjacent rows, which share stages.
 struct Shard {
   std::uint64_t index = 1;
   std::uint64_t count = 1;
 
   std::uint64_t first(std::uint64_t rows) const { return rows * (index - 1) / count; }
   std::uint64_t end(std::uint64_t rows) const { return rows * index / count; }
-  /// "2-of-8"
+  /// Name such as "2-of-8".
   std::string name() const { return std::to_string(index) + "-of-" + std::to_string(count); }
 };
 
-/// Where the rows of shards are kept: <folder>/sweep-shards/2-of-8/rows.txt
+/// Folder and file of a shard's rows: <folder>/sweep-shards/2-of-8/rows.txt.
 std::filesystem::path folder_of_shard(const std::filesystem::path& results, const Shard& shard);
 std::filesystem::path rows_of_shard(const std::filesystem::path& results, const Shard& shard);
 
-/// The files of all shards that there are, of whatever definition and division.
+/// Files of all existing shards, of any definition and division.
 std::vector<std::filesystem::path> row_files(const std::filesystem::path& results);
 
-/// The rows of several files, ascending, each once.
+/// Merges the rows of several files, ascending, each once.
 class MergedRows {
  public:
   MergedRows(const std::vector<std::filesystem::path>& files, const RowFormat& format);
@@ -39,7 +39,7 @@ class MergedRows {
  private:
   struct Source {
     std::unique_ptr<RowReader> reader;
-    RowResult first;  ///< that was not handed over yet
+    RowResult first;  ///< next row, not passed on yet
     bool has_first = false;
   };
   std::vector<Source> sources_;

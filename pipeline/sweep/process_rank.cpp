@@ -26,7 +26,7 @@ std::optional<std::uint64_t> number_in(const char* variable) {
 }  // namespace
 
 std::optional<Shard> shard_of_process() {
-  // Open MPI; MPICH and whatever starts processes by PMI.
+  // Variables of Open MPI; those of MPICH and other launchers by PMI.
   constexpr std::array<std::array<const char*, 2>, 2> kVariables = {
       {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, {"PMI_RANK", "PMI_SIZE"}}};
   for (const auto& [rank_name, size_name] : kVariables) {

@@ -7,15 +7,16 @@
 
 namespace flexneck::pipeline {
 
-/// Which of the processes that mpirun or a batch system has started this one is; none if it is
-/// alone. Known without MPI.
+/// Index of this process among those that mpirun or a batch system has started; none if it is
+/// alone. Determined without MPI.
 std::optional<Shard> shard_of_process();
 
-/// Tells whether all these processes were started by one command line, as far as Open MPI tells.
+/// Returns whether all these processes were started by one command line, as far as Open MPI reports
+/// it.
 bool have_one_command_line();
 
-/// Has this process forget the others: what uses MPI in it runs alone. Shards of a sweep need
-/// nothing of each other but their files. Before any thread begins.
+/// Makes this process run alone under MPI, since shards of a sweep need only each other's files. To
+/// be called before any thread begins.
 void forget_other_processes();
 
 }  // namespace flexneck::pipeline

@@ -19,8 +19,8 @@ constexpr std::uint64_t kOuter = 6ULL << 32U;
 constexpr std::uint64_t kInnerStream = 7ULL << 32U;
 constexpr std::uint64_t kOrder = 8ULL << 32U;
 
-/// What each input adds to the variance, a column for each sample, but for the whole variance,
-/// which is the last input's and stands in the last row by itself: see effects_of().
+/// Increments of the variance by each input, a column for each sample. The last input's lacks the
+/// whole variance, which effects_of() adds.
 MatrixXd increments(const MatrixXd& values, const std::vector<std::uint64_t>& samples,
                     const ShapleyPoints& points, std::vector<Index>& last_inputs) {
   constexpr Index kInner = ShapleyPoints::kInner;
@@ -54,7 +54,7 @@ VectorXd ShapleyPoints::normal(std::uint64_t stream, std::uint64_t index) const 
 std::vector<Index> ShapleyPoints::order(std::uint64_t sample) const {
   std::vector<Index> inputs(static_cast<std::size_t>(dimensions_));
   std::iota(inputs.begin(), inputs.end(), 0);
-  for (std::size_t k = inputs.size(); k > 1; --k)  // Fisher and Yates
+  for (std::size_t k = inputs.size(); k > 1; --k)  // shuffle of Fisher and Yates
     std::swap(inputs[k - 1], inputs[random_bits(seed_, kOrder + k, sample) % k]);
   return inputs;
 }
@@ -64,7 +64,7 @@ VectorXd ShapleyPoints::point(std::uint64_t row) const {
   const std::uint64_t within = row % rows_per_sample();
   if (within == 0)
     return probabilities(correlation_.factor() * normal(kOuter, sample * rows_per_sample()));
-  const std::uint64_t count = (within - 1) / kInner + 1;  // of inputs that are drawn anew
+  const std::uint64_t count = (within - 1) / kInner + 1;  // number of inputs that are redrawn
   std::vector<Index> redrawn = order(sample);
   redrawn.resize(count);
   const VectorXd outer = correlation_.factor() * normal(kOuter, sample * rows_per_sample() + count);

@@ -13,8 +13,8 @@ namespace flexneck::pipeline {
 
 /// The rows of an estimate of Shapley effects after Song, Nelson and Staum (2016), SIAM/ASA J.
 /// Uncertainty Quantification 4, algorithm 1, with a random order of the inputs for each sample,
-/// one outer and three inner points, as they recommend. A sample has a point by itself, for the
-/// variance, and for each beginning of the order but the whole three points that differ in these
+/// one outer and three inner points, as they recommend. A sample has a separate point for the
+/// variance, and for each beginning of the order except the whole three points that differ in these
 /// inputs only, drawn given the others.
 class ShapleyPoints {
  public:
@@ -27,7 +27,7 @@ class ShapleyPoints {
   std::uint64_t rows_per_sample() const {
     return 1 + kInner * static_cast<std::uint64_t>(dimensions_ - 1);
   }
-  /// In the open unit cube, correlated.
+  /// The point of a row in the open unit cube, correlated.
   Eigen::VectorXd point(std::uint64_t row) const;
   /// The inputs of a sample in their random order.
   std::vector<Eigen::Index> order(std::uint64_t sample) const;
@@ -40,11 +40,11 @@ class ShapleyPoints {
   const Correlation& correlation_;
 };
 
-/// Shares of an output's variance, correlated or not, that sum to 1: the mean over all orders of
-/// the inputs of what each adds to the variance that remains when those after it are known. NaN if
-/// the output does not vary.
+/// Shapley effects: fractions of an output's variance, for correlated inputs too, that sum to 1:
+/// the mean over all orders of the inputs of each one's increment of the variance that remains when
+/// those after it are known. NaN if the output does not vary.
 /// @param values  (rows_per_sample, n), a column for each sample
-/// @param samples which they are, n of them
+/// @param samples numbers of the samples, n of them
 std::vector<Estimate> shapley_effects(const Eigen::MatrixXd& values,
                                       const std::vector<std::uint64_t>& samples,
                                       const ShapleyPoints& points, std::uint64_t seed);

@@ -11,8 +11,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// What the estimates are sums of, a column for each sample: mean and mean square of A and B, the
-/// products of the first-order indices, the squares of the total ones.
+/// Terms whose means give the estimates, a column for each sample: mean and mean square of A and B,
+/// the products of the first-order indices, the squares of the total ones.
 ArrayXXd terms_of(const MatrixXd& values) {
   const Index inputs = values.rows() - 2;
   const double mean = values.topRows(2).mean();

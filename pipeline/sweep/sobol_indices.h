@@ -10,7 +10,7 @@
 
 namespace flexneck::pipeline {
 
-/// Shares of an output's variance that an independent input has: by itself, and with all
+/// Fractions of an output's variance due to an independent input: by itself, and with all
 /// interactions that it takes part in.
 struct SobolIndex {
   Estimate first;

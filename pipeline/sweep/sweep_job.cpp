@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// After its last row, so that the writer goes on there.
+/// Reads all rows, so that the writer continues after the last, which is returned.
 std::optional<std::uint64_t> read_to_end(RowReader& reader) {
   std::optional<std::uint64_t> last;
   for (RowResult row; reader.next(row);) last = row.row;
@@ -89,7 +89,7 @@ RowResult SweepJob::computed(std::uint64_t row) {
     result.figures = std::move(evaluation.figures);
     result.problem = std::move(evaluation.problem);
   } catch (const std::bad_alloc&) {
-    throw;  // is no matter of the row
+    throw;  // concerns the whole process, not the row
   } catch (const std::exception& error) {
     result.problem = error.what();
     result.curves.setConstant(kUnknown);
@@ -125,7 +125,7 @@ bool SweepJob::compute(const SweepShare& share, const Progress& tell) {
     tell(own.string() + ": " + reader.changed() + " has changed since; its rows are begun anew");
   const std::optional<std::uint64_t> first_due = decltype(due)(due)();
   if (last && first_due && *first_due < *last) {
-    // Rows before those here were in a file that is gone: a file is in ascending order.
+    // Earlier rows were in a file that no longer exists, and a file is in ascending order.
     fs::remove(own);
     return compute(share, tell);
   }

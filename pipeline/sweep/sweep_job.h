@@ -16,37 +16,37 @@
 
 namespace flexneck::pipeline {
 
-/// How the rows of a sweep are shared out.
+/// Share of a sweep's rows for one process.
 struct SweepShare {
-  std::optional<Shard> shard;  ///< none: all rows that no shard has left behind
+  std::optional<Shard> shard;  ///< none: all rows that shards have not computed
   unsigned threads = 1;
-  const std::atomic<bool>* is_stopped = nullptr;  ///< by the user; null: never
+  const std::atomic<bool>* is_stopped = nullptr;  ///< set by the user; null: never
 };
 
-/// The rows of a sweep in a folder of results: which are there, which are due, and how they are
-/// computed. A row that fails is recorded with the reason. What is there stays however the process
-/// ends, and the table is the same whoever has computed its rows.
+/// The rows of a sweep in a folder of results: those that exist, those that are due, and their
+/// computation. A row that fails is recorded with the reason. Existing rows remain however the
+/// process ends, and the table is the same whoever has computed its rows.
 class SweepJob {
  public:
-  /// Finds the outputs, and the times of curves by the base study's own.
+  /// Finds the outputs, and the times of curves by the base study.
   /// @param evaluator, sweep  outlive this
   /// @throws InputError as Evaluator::wanted(), Evaluator::require_produced() and
   /// check_varied() do.
   SweepJob(Evaluator& evaluator, const SweepRows& sweep, std::filesystem::path results);
 
-  /// Computes the rows that are due. @param tell takes a line now and then about what is left
-  /// @return whether all were done, none stopped
+  /// Computes the rows that are due. @param tell takes a line now and then about the remaining rows
+  /// @return true if all were computed, false if the user stopped it
   /// @throws ComputationError if they cannot be written.
   bool compute(const SweepShare& share, const Progress& tell);
 
-  /// Whether all rows of the sweep are there.
+  /// True if all rows of the sweep exist.
   bool is_complete() const;
-  /// Names the files of rows that do not count, since what they were made from is another by now, a
-  /// line each; for a shard, those of other studies beside it, too.
+  /// Lists the files of rows that are invalid because their source files have changed, a line each;
+  /// for a shard, also files of other studies beside it.
   std::vector<std::string> outdated(const Shard& shard) const;
-  /// The files that the rows are made from, once all are there.
+  /// The files that the rows depend on, once all rows exist.
   std::vector<FileRead> files() const { return format_.files->files(); }
-  /// How many rows of a range are there.
+  /// Number of existing rows in a range.
   std::uint64_t rows_done(const Shard& shard) const;
 
   MergedRows rows() const { return {row_files(results_), format_}; }

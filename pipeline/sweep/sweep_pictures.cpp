@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr Index kMaxPoints = 2000;
-constexpr int kPanels = 3;  ///< side by side
+constexpr int kPanels = 3;  ///< number of panels side by side
 
 VectorXd ranks_of(const VectorXd& values) {
   std::vector<Index> order(static_cast<std::size_t>(values.size()));
@@ -44,7 +44,7 @@ std::string label_of(const std::string& name, const std::string& unit) {
   return gnuplot_text(unit == "1" ? name : name + " [" + unit + "]");
 }
 
-/// Evenly over all rows.
+/// Numbers of the rows shown, spaced evenly over all rows.
 std::vector<std::uint64_t> shown_rows(std::uint64_t count) {
   const std::uint64_t step = (count + kMaxPoints - 1) / kMaxPoints;
   std::vector<std::uint64_t> rows;
@@ -52,7 +52,7 @@ std::vector<std::uint64_t> shown_rows(std::uint64_t count) {
   return rows;
 }
 
-/// Pictures on their way: one script for all.
+/// Pictures being drawn: one script for all.
 class Drawing {
  public:
   explicit Drawing(const SweepPictures& of) : of_(of), rows_(shown_rows(of.sweep.count())) {
@@ -132,7 +132,7 @@ class Drawing {
         label_of(of_.curves[curve].name, of_.curves[curve].unit), stem);
   }
 
-  /// @return the names of the pictures, which are then in the folder
+  /// @return the names of the pictures written to the folder
   std::vector<std::string> draw(const fs::path& folder) const {
     if (names_.empty()) return {};
     write_text(files_.path() / "sweep.gnuplot", script_, Durability::none);
@@ -155,7 +155,7 @@ class Drawing {
                                             : "rank correlation with parameters";
   }
 
-  /// The largest at the top.
+  /// Bars of an output, the largest at the top.
   std::vector<Bar> bars_of(std::size_t output) const {
     const SweepPlan plan = of_.sweep.section().plan;
     if (plan == SweepPlan::grid || plan == SweepPlan::list) return {};
@@ -201,7 +201,7 @@ class Drawing {
 
   const SweepPictures& of_;
   std::vector<std::uint64_t> rows_;
-  MatrixXd inputs_;  ///< of these rows
+  MatrixXd inputs_;  ///< inputs of these rows
   TemporaryFolder files_;
   std::string script_;
   std::vector<std::string> names_;

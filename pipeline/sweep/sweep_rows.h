@@ -15,8 +15,8 @@
 
 namespace flexneck::pipeline {
 
-/// What the rows of a sweep set in the study: each a function of its number alone, so that any row
-/// can be had by anyone and is the same.
+/// Settings of a sweep's rows in the study: each a function of its number alone, so that any
+/// process can compute any row with the same result.
 class SweepRows {
  public:
   static constexpr std::uint64_t kMaxRows = 1'000'000'000;
@@ -28,24 +28,24 @@ class SweepRows {
   SweepRows& operator=(const SweepRows&) = delete;
 
   std::uint64_t count() const { return count_; }
-  /// That a sample of indices takes together; 1 of other plans.
+  /// Number of rows of a sample, which indices need together; 1 for other plans.
   std::uint64_t rows_per_sample() const;
   const SweepSection& section() const { return section_; }
   /// SI unit of each parameter; "1" for pure numbers and texts.
   const std::vector<std::string>& units() const { return units_; }
 
-  /// "key=value" for each parameter.
+  /// Settings "key=value", one for each parameter.
   std::vector<std::string> settings(std::uint64_t row) const;
-  /// Values in SI units; of a text its position.
+  /// Values in SI units; for a text its index.
   Eigen::VectorXd numbers(std::uint64_t row) const;
-  /// Two different settings of one parameter; of one with a single value that one twice.
+  /// Two different settings of one parameter; for one with a single value that one twice.
   TwoSettings two_settings(std::size_t parameter) const;
 
   /// @pre plan shapley
   const ShapleyPoints& shapley() const { return shapley_; }
 
  private:
-  /// What parameters take on: a number in their own unit, or the position of a text.
+  /// Values of the parameters: a number in their own unit, or the index of a text.
   std::vector<double> values(std::uint64_t row) const;
   double value_at(const SweepParameter& parameter, double probability) const;
   static std::string setting(const SweepParameter& parameter, double value);
@@ -56,7 +56,7 @@ class SweepRows {
   UnitPoints points_;
   std::uint64_t count_ = 0;
   std::vector<std::string> units_;
-  std::vector<double> factors_;  ///< to SI
+  std::vector<double> factors_;  ///< factors to SI units
 };
 
 }  // namespace flexneck::pipeline

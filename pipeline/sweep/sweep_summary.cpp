@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Of one output, the samples of which no row is without it, a column each.
+/// Samples in which every row has the output, a column each.
 struct CompleteSamples {
   MatrixXd values;
   std::vector<std::uint64_t> numbers;
@@ -34,7 +34,7 @@ CompleteSamples complete_samples(const VectorXd& figures, Index rows_per_sample)
 }
 
 Sensitivity sensitivity_of(const SweepRows& sweep, const VectorXd& figures) {
-  constexpr std::size_t kLeast = 2;  // a variance takes two
+  constexpr std::size_t kLeast = 2;  // minimum number of samples for a variance
   const SweepSection& section = sweep.section();
   const auto seed = static_cast<std::uint64_t>(section.seed);
   const CompleteSamples complete =
@@ -126,7 +126,7 @@ ResultTable shapley_table() {
   return table;
 }
 
-/// A row for each output and parameter.
+/// Table with a row for each output and parameter.
 ResultTable sensitivity_table(const SweepRows& sweep, const std::vector<OutputColumn>& outputs,
                               const std::vector<Sensitivity>& sensitivity) {
   const bool is_sobol = sweep.section().plan == SweepPlan::sobol_indices;

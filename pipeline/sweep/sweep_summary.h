@@ -10,18 +10,18 @@
 
 namespace flexneck::pipeline {
 
-/// What an output says of the parameters; empty where the plan is not for it.
+/// Dependence of an output on the parameters; empty if the plan does not provide it.
 struct Sensitivity {
-  std::vector<SobolIndex> sobol;  ///< one for each parameter
-  std::vector<Estimate> shapley;  ///< likewise
-  std::uint64_t left_out = 0;     ///< samples of which a row has no such output
+  std::vector<SobolIndex> sobol;  ///< one per parameter
+  std::vector<Estimate> shapley;  ///< one per parameter
+  std::uint64_t left_out = 0;     ///< number of samples in which a row lacks the output
 };
 
-/// One for each output. A sample of which a row failed takes no part.
+/// Sensitivities, one for each output. Samples with a failed row are excluded.
 std::vector<Sensitivity> sensitivities(const SweepRows& sweep, const SweepTable& table);
 
-/// "percentiles": of each output over all rows that have it; "sobol indices" or "shapley effects";
-/// "failures" if there are any.
+/// Tables "percentiles" of each output over all rows that have it; "sobol indices" or "shapley
+/// effects"; "failures" if there are any.
 std::vector<ResultTable> sweep_tables(const SweepRows& sweep,
                                       const std::vector<OutputColumn>& outputs,
                                       const SweepTable& table,

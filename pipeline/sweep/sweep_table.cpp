@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// As CSV has a text: in quotes where it needs them.
+/// Text as a cell of CSV: in quotes if needed.
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
@@ -53,7 +53,7 @@ std::string text_line(const SweepRows& sweep, const VectorXd& inputs, const RowR
   return line + "," + quoted(result.problem) + "\n";
 }
 
-/// Columns of numbers that go into the file block by block.
+/// Columns of numbers that are written to the file block by block.
 class Columns {
  public:
   Columns(Hdf5Writer& file, std::string group, std::vector<OutputColumn> names)
@@ -93,7 +93,7 @@ void write_texts(Hdf5Writer& file, const SweepRows& sweep) {
     if (!each.texts.empty()) file.write("/texts/" + each.name, each.texts);
 }
 
-/// Rows that failed, and why.
+/// Rows that failed, with the reasons.
 struct Failures {
   std::vector<double> rows;
   std::vector<std::string> problems;
@@ -150,7 +150,7 @@ std::vector<MatrixXd> percentile_bands(const std::vector<CurveColumn>& curves,
                                        std::uint64_t row_count) {
   Index total = 0;
   for (const CurveColumn& each : curves) total += each.time_s.size();
-  constexpr double kMaxNumbers = 8e6;  // 64 MB at a time
+  constexpr double kMaxNumbers = 8e6;  // numbers in memory, 64 MB at a time
   const auto block = std::max<Index>(
       1,
       static_cast<Index>(kMaxNumbers / static_cast<double>(std::max<std::uint64_t>(1, row_count))));

@@ -24,37 +24,37 @@ struct OutputColumn {
   std::string unit;
 };
 
-/// A curve whose rows are all at the same times.
+/// A curve with the same times in all rows.
 struct CurveColumn {
   std::string name;
   std::string unit;
   Eigen::VectorXd time_s;
 };
 
-/// What is known of a table once it has been written.
+/// Data of a table that has been written.
 struct SweepTable {
-  Eigen::MatrixXd figures;  ///< (outputs, rows), SI; NaN where there is none
+  Eigen::MatrixXd figures;  ///< (outputs, rows), SI; NaN where there is no value
   std::uint64_t failed = 0;
-  /// Rows by why they failed, of the first kMaxReasons reasons.
+  /// Number of failed rows by reason, for the first kMaxReasons reasons.
   std::map<std::string, std::uint64_t> reasons;
   static constexpr std::size_t kMaxReasons = 1000;
 };
 
 /// Writes the table of all rows: a line of text each, and the same columns as datasets
-/// /inputs/<name>, /outputs/<name>, and /failed/rows with /failed/problems. Of a parameter with
-/// texts the CSV has the text, the dataset its position in the attribute "texts" joined by line
-/// breaks.
-/// @param rows  of the whole sweep
-/// @throws InputError or ComputationError if a file cannot be written; what was there stays then.
+/// /inputs/<name>, /outputs/<name>, and /failed/rows with /failed/problems. For a parameter with
+/// texts the CSV has the text, the dataset its index in the attribute "texts", whose texts are
+/// joined by line breaks.
+/// @param rows  rows of the whole sweep
+/// @throws InputError or ComputationError if a file cannot be written; existing files remain then.
 SweepTable write_sweep_table(const std::filesystem::path& csv, const std::filesystem::path& hdf5,
                              const SweepRows& sweep, const std::vector<OutputColumn>& outputs,
                              MergedRows& rows, const Provenance& provenance);
 
-/// Shares whose values percentile bands tell.
+/// Probabilities of the percentile bands.
 inline constexpr double kBandShares[] = {0.05, 0.25, 0.5, 0.75, 0.95};
 
-/// Of each curve, the percentiles of all rows that have it at each of its times, (5, times).
-/// @param rows  a new reading of all rows; as many readings as memory needs
+/// For each curve, the percentiles of all rows that have it at each of its times, (5, times).
+/// @param rows  starts a new reading of all rows; called as often as memory requires
 std::vector<Eigen::MatrixXd> percentile_bands(const std::vector<CurveColumn>& curves,
                                               const std::function<MergedRows()>& rows,
                                               std::uint64_t row_count);

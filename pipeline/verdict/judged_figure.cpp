@@ -25,7 +25,7 @@ ShownUnit shown_unit(const JudgedFigure& figure, const CertificationTest& test) 
   return {test.moment_unit, 1};
 }
 
-/// Numbers of a figure in the unit that they are shown in.
+/// Numbers of a figure in its display unit.
 class Shown {
  public:
   Shown(const JudgedFigure& figure, const CertificationTest& test)

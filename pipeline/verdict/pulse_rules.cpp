@@ -21,7 +21,7 @@ std::string at_time(const char* what, double time_s) {
   return fmt::format("{} at {:g} ms", what, time_s * 1e3);
 }
 
-/// From time zero; none beyond the samples.
+/// Velocity lost from time zero on; none beyond the samples.
 std::optional<double> velocity_lost(const PulseCurve& pulse, double until_s) {
   const std::optional<double> at_start = value_at(pulse.time_s, pulse.deceleration_m_s2, 0);
   const std::optional<double> at_end = value_at(pulse.time_s, pulse.deceleration_m_s2, until_s);

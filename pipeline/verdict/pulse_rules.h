@@ -9,17 +9,17 @@
 
 namespace flexneck::pipeline {
 
-/// Of the pendulum at its accelerometer, filtered as the test says.
+/// Deceleration of the pendulum at its accelerometer, filtered as the test requires.
 struct PulseCurve {
-  Eigen::VectorXd time_s;  ///< from the first contact, strictly increasing
+  Eigen::VectorXd time_s;  ///< counted from the first contact, strictly increasing
   Eigen::VectorXd deceleration_m_s2;
 };
 
-/// What a test has limits for of the pulse.
-/// @throws std::invalid_argument for times that do not increase, or curves of other lengths.
+/// Figures of the pulse for which a test has limits.
+/// @throws std::invalid_argument for times that do not increase, or curves of unequal lengths.
 std::vector<JudgedFigure> judged_pulse(const CertificationTest& test, const PulseCurve& pulse);
 
-/// The impact velocity and the pulse. They are conditions of the test, no results of it.
+/// The impact velocity and the pulse, which are conditions of the test and not its results.
 /// @throws as judged_pulse()
 std::vector<JudgedFigure> judged_conditions(const CertificationTest& test,
                                             double impact_velocity_m_s, const PulseCurve& pulse);

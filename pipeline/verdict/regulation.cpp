@@ -151,7 +151,8 @@ std::variant<DecelerationPulse, VelocityPulse> read_test_pulse(const StudyTable&
   return rule;
 }
 
-/// @param common  what all tests of the file share
+/// Reads a test.
+/// @param common  data shared by all tests of the file
 CertificationTest read_test(const StudyTable& table, CertificationTest common) {
   CertificationTest test = std::move(common);
   test.name += " " + table.text("name");
@@ -164,7 +165,7 @@ CertificationTest read_test(const StudyTable& table, CertificationTest common) {
   return test;
 }
 
-/// The shipped files by name.
+/// The shipped files of regulations, sorted by name.
 std::vector<fs::path> shipped_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(shipped_file("pipeline/regulations")))

@@ -11,21 +11,21 @@
 
 namespace flexneck::pipeline {
 
-/// The table of keys of a file with the tests of a regulation.
+/// Table of keys of a file with the tests of a regulation.
 std::span<const Key> regulation_keys();
 
-/// The tests of a file; their names begin with the regulation's.
-/// @throws InputError with file, line, column and key for everything that is not right.
+/// Reads the tests of a file; their names begin with the regulation's.
+/// @throws InputError with file, line, column and key for any error.
 std::vector<CertificationTest> read_regulation(const std::filesystem::path& path);
 
-/// A test with the file that it stands in.
+/// A test and the file that contains it.
 struct ShippedTest {
   CertificationTest test;
   std::filesystem::path file;
 };
 
-/// The test of that name among the shipped regulations.
-/// @throws InputError with the names there are.
+/// The test with a given name among the shipped regulations.
+/// @throws InputError with the known names.
 ShippedTest shipped_test(const std::string& name);
 
 }  // namespace flexneck::pipeline

@@ -18,7 +18,7 @@ using multibody::Peak;
 
 namespace {
 
-/// The largest positive value, where the signal turns within the record.
+/// The largest positive value, if the signal has its maximum within the record.
 std::optional<Peak> upward_peak(const VectorXd& time_s, const VectorXd& signal) {
   Index k = 0;
   const double largest = signal.maxCoeff(&k);
@@ -30,8 +30,8 @@ const char* no_peak_text(const VectorXd& signal) {
   return signal.maxCoeff() > 0 ? "no peak within the record" : "never in the test's direction";
 }
 
-/// The part of the samples k - 1 and k, as shares of the time between them, that a signal spends
-/// within limits; none if the second is less than the first.
+/// The part of the interval between samples k - 1 and k, as fractions, in which a signal is within
+/// limits; none if the end precedes the start.
 std::pair<double, double> share_inside(const VectorXd& signal, Index k, const Limits& limits) {
   const double start = signal[k - 1];
   const double rise = signal[k] - start;
@@ -42,7 +42,7 @@ std::pair<double, double> share_inside(const VectorXd& signal, Index k, const Li
   return {std::max(from, 0.0), std::min(to, 1.0)};
 }
 
-/// The largest value of a signal during the time that another is within limits.
+/// The largest value of a signal while another is within limits.
 std::optional<Peak> peak_while_inside(const VectorXd& time_s, const VectorXd& signal,
                                       const VectorXd& other, const Limits& limits) {
   std::optional<Peak> found;
@@ -83,7 +83,8 @@ void add_rotation(const RotationRule& rule, const VectorXd& time_s, const Vector
                       peak ? "not within the record" : problem));
 }
 
-/// @param sense  of the test's moments, by which the curve is positive
+/// Adds the figures of the moment.
+/// @param sense  sign of the test's moments, by which the curve is positive
 void add_moment(const CertificationTest& test, const ResponseCurves& curves,
                 const VectorXd& rotation, const VectorXd& moment, double sense,
                 std::vector<JudgedFigure>& figures) {

@@ -9,17 +9,17 @@
 
 namespace flexneck::pipeline {
 
-/// What a test measures of head and neck, a sample each at strictly increasing times.
+/// Measured curves of head and neck, sampled at strictly increasing times.
 struct ResponseCurves {
-  Eigen::VectorXd time_s;        ///< from the first contact
-  Eigen::VectorXd rotation_rad;  ///< of plane D, positive in the direction of flight
-  Eigen::VectorXd moment_Nm;  ///< about the occipital condyles by the test's definition, SAE J211
+  Eigen::VectorXd time_s;        ///< counted from the first contact
+  Eigen::VectorXd rotation_rad;  ///< rotation of plane D, positive in the direction of flight
+  Eigen::VectorXd moment_Nm;     ///< moment about the condyles by the test's definition, SAE J211
 };
 
-/// The figures of rotation and moment that a test has limits for. Peaks are those of parabolas
-/// through the largest sample and its neighbours, crossings are interpolated linearly. A peak at
-/// the end of the record is none.
-/// @throws std::invalid_argument for times that do not increase, or curves of other lengths.
+/// Figures of rotation and moment for which a test has limits. Peaks are those of parabolas through
+/// the largest sample and its neighbours, crossings are interpolated linearly. A maximum at the end
+/// of the record is not a peak.
+/// @throws std::invalid_argument for times that do not increase, or curves of unequal lengths.
 std::vector<JudgedFigure> judged_response(const CertificationTest& test,
                                           const ResponseCurves& curves);
 

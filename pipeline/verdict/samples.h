@@ -7,15 +7,16 @@
 
 namespace flexneck::pipeline {
 
-/// @throws std::invalid_argument unless there are two samples or more, one per time, all finite, at
-/// strictly increasing times.
+/// Checks a sampled signal.
+/// @throws std::invalid_argument unless there are at least two samples, one per time, all finite,
+/// at strictly increasing times.
 void check_samples(const Eigen::VectorXd& time_s, const Eigen::VectorXd& signal);
 
-/// Linear between samples; none beyond them.
+/// Value interpolated linearly between samples; none beyond them.
 std::optional<double> value_at(const Eigen::VectorXd& time_s, const Eigen::VectorXd& signal,
                                double at_s);
 
-/// When a signal that is above a level falls to it for the first time from a time on, linear
+/// Time at which a signal above a level first falls to it after a given time, interpolated linearly
 /// between samples.
 std::optional<double> first_fall(const Eigen::VectorXd& time_s, const Eigen::VectorXd& signal,
                                  double level, double from_s);

@@ -9,27 +9,29 @@
 
 namespace flexneck::pipeline {
 
-/// What a test measures, SI units.
+/// Curves that a test measures, SI units.
 struct TestCurves {
   ResponseCurves response;
   PulseCurve pulse;
   double impact_velocity_m_s = 0;  ///< at the pendulum's accelerometer
 };
 
-/// What a test says of curves. Conditions that are not met, velocity or pulse, are warned of and
-/// fail nothing.
+/// Verdict of a test on curves. Conditions that are not met, velocity or pulse, cause warnings and
+/// no failure.
 struct Verdict {
   std::vector<JudgedFigure> figures;
   std::vector<JudgedFigure> conditions;
 
   bool passed() const;
   std::size_t passed_count() const;
-  /// The figure that is furthest from the middle of its limits; one that was not found counts most.
+  /// The figure furthest from the middle of its limits; a figure without a value counts as
+  /// furthest.
   const JudgedFigure& furthest() const;
   std::vector<JudgedFigure> unmet_conditions() const;
 };
 
-/// @throws std::invalid_argument for times that do not increase, or curves of other lengths.
+/// Judges curves.
+/// @throws std::invalid_argument for times that do not increase, or curves of unequal lengths.
 Verdict judged(const CertificationTest& test, const TestCurves& curves);
 
 }  // namespace flexneck::pipeline

@@ -9,13 +9,13 @@
 
 namespace flexneck::pipeline {
 
-/// Kinds of motion that a mode may be named after: "bending", "torsion", "axial".
+/// Kinds of motion by which modes are named: "bending", "torsion", "axial".
 std::vector<std::string> mode_kinds();
 
-/// That of a mode: one of these, or "other".
+/// Kind of a mode: one of these, or "other".
 std::string kind_of(const fe_modal::ModeRecord& mode);
 
-/// Modes of a kind in ascending order of frequency, as positions in the body's list.
+/// Indices of the modes of a kind in the body's list, by ascending frequency.
 std::vector<std::size_t> modes_of_kind(const fe_modal::ModalBody& body, const std::string& kind);
 
 }  // namespace flexneck::pipeline

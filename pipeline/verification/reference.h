@@ -10,9 +10,9 @@
 
 namespace flexneck::pipeline {
 
-/// Figures of the neck to compare with, published ones as a rule, SI units.
+/// Reference figures of the neck, usually published ones, in SI units.
 struct Reference {
-  std::string origins = "published";  ///< what the file says of them
+  std::string origins = "published";  ///< origin of the figures as the file states it
   double tolerance_percent = 0;
   std::vector<double> bending_Hz, torsion_Hz;  ///< ascending
   std::vector<std::string> mode_order;         ///< kinds in the order of frequency
@@ -22,10 +22,10 @@ struct Reference {
   double effective_damping = 0;
 };
 
-/// The table of keys of such a file.
+/// Table of keys of a file with reference figures.
 std::span<const Key> reference_keys();
 
-/// @throws InputError if the file does not say what it must.
+/// Reads reference figures. @throws InputError if the file lacks required data.
 Reference read_reference(const std::filesystem::path& path);
 
 }  // namespace flexneck::pipeline

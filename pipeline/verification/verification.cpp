@@ -25,13 +25,14 @@ bool is_fitted(const Study& study, const std::string& what) {
 
 double percent_off(double value, double reference) { return 100 * (value / reference - 1); }
 
-/// Of frequencies a fit names all of them, or some by kind and rank or by the mode.
+/// True if the frequency is a target of the fit, which names all frequencies, or some by kind and
+/// rank or by the mode.
 bool is_fitted_frequency(const Study& study, const VerificationRow& row) {
   return is_fitted(study, "frequencies") || is_fitted(study, row.quantity) ||
          is_fitted(study, row.detail);
 }
 
-/// Not judged yet.
+/// Adds the frequencies, not judged yet.
 void add_frequencies(VerificationTable& table, const Study& study, const fe_modal::ModalBody& body,
                      const std::string& kind, const std::vector<double>& references_Hz) {
   const std::vector<std::size_t> modes = modes_of_kind(body, kind);
@@ -54,7 +55,7 @@ void add_frequencies(VerificationTable& table, const Study& study, const fe_moda
   }
 }
 
-/// A frequency that was not found has failed.
+/// Judges the frequencies; one that was not found has failed.
 void judge_frequencies(VerificationTable& table, double tolerance_percent) {
   for (VerificationRow& row : table.rows) {
     if (row.status != Status::unjudged) continue;
@@ -63,14 +64,14 @@ void judge_frequencies(VerificationTable& table, double tolerance_percent) {
   }
 }
 
-/// "b b t" for bending, bending, torsion.
+/// Initials such as "b b t" for bending, bending, torsion.
 std::string initials(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word.substr(0, 1);
   return text;
 }
 
-/// Order of the modes, and the twist that the paper sees in the second.
+/// Adds the order of the modes, and the twist that the paper finds in the second.
 void add_mode_character(VerificationTable& table, const fe_modal::ModalBody& body,
                         const Reference& reference) {
   std::vector<std::string> order;
@@ -110,14 +111,14 @@ VerificationRow compared(const std::string& quantity, const std::string& detail,
   return row;
 }
 
-/// How a small motion was found.
+/// Text on how a small motion was found.
 std::string eigenvalue_text(const std::string& plane, const multibody::SystemMode& mode,
                             const std::string& gravity) {
   return plane + ", eigenvalue, " + gravity +
          (mode.kink.empty() ? "" : ", of the mean stiffness at a kink");
 }
 
-/// Small motions in a plane: system frequency, its ratio to the neck's, damping.
+/// Adds the small motions in a plane: system frequency, its ratio to the neck's, damping.
 void add_small_motions(VerificationTable& table, const PendulumEvidence& evidence,
                        const fe_modal::ModalBody& body, const Reference& reference, bool fitted) {
   const multibody::SystemMode& mode = evidence.with_gravity;
@@ -135,7 +136,7 @@ void add_small_motions(VerificationTable& table, const PendulumEvidence& evidenc
                                 reference.effective_damping, false));
 }
 
-/// The free motion of a run after its pulse.
+/// Adds the free motion of a run after its pulse.
 void add_run(VerificationTable& table, const PendulumEvidence& evidence,
              const Reference& reference) {
   if (!evidence.run) return;
@@ -161,7 +162,7 @@ void add_system(VerificationTable& table, const Study& study, const fe_modal::Mo
   }
   std::set<std::string> planes;
   for (const PendulumEvidence& evidence : pendulum) {
-    // The fit was to the fore-aft motion.
+    // The fit used the fore-aft motion.
     if (planes.insert(evidence.plane).second) {
       add_small_motions(table, evidence, body, reference, fitted && evidence.plane == "fore-aft");
     }

@@ -15,14 +15,15 @@
 
 namespace flexneck::pipeline {
 
-/// One figure beside its reference, published as a rule.
+/// A figure and its reference, usually a published one.
 struct VerificationRow {
-  /// What is compared has no tolerance; what is unjudged has one, but the table is not judged.
+  /// `compared` means that there is no tolerance; `unjudged` that there is one, but the table is
+  /// not judged.
   enum class Status { passed, failed, compared, unjudged };
   std::string quantity;  ///< "bending 1", "weight", …
-  std::string detail;    ///< which mode, which method
+  std::string detail;    ///< name of the mode, or the method
   std::string unit;      ///< of value and reference: "Hz", "lb", "1", or empty for texts
-  std::string value;     ///< as printed
+  std::string value;     ///< value as printed
   std::string reference;
   std::optional<double> error_percent;
   Status status = Status::compared;
@@ -36,40 +37,42 @@ struct VerificationTable {
   bool passed() const;
 };
 
-/// What the pendulum says of one case, as far as it was run.
+/// Results of the pendulum for one case, as far as it was run.
 struct PendulumEvidence {
   std::string case_name;
-  std::string plane;  ///< "fore-aft" or "lateral"; small motions are the same for all cases of it
+  std::string plane;  ///< "fore-aft" or "lateral"; all cases of a plane have the same small motions
   multibody::SystemMode with_gravity, without_gravity;
   std::optional<PendulumResult> run;
 };
 
-// What rows are called, which is how `fitted_to` of a neck names its targets, too.
+// Names of rows, which are also the targets' names in a neck's `fitted_to`.
 inline constexpr const char* kWeightRow = "weight";
 inline constexpr const char* kSystemFrequencyRow = "system frequency";
 
-/// Why published frequencies do not judge a study's structure: a dimension or a material is the
-/// user's own, or a fit made the neck and none of the frequencies is its target. Empty if they do.
-/// @param table  of verify()
+/// Reason why published frequencies do not judge a study's structure: a dimension or a material is
+/// the user's own, or a fit made the neck and none of the frequencies is its target. Empty if they
+/// do.
+/// @param table  result of verify()
 std::string why_unjudged(const Study& study, const VerificationTable& table);
 
-/// The six frequencies, paired by kind and rank, pass or fail; the rest is shown beside. Against
-/// published figures a neck is shown, not judged, where why_unjudged() has a reason.
+/// Compares the results with references. The six frequencies, paired by kind and rank, pass or
+/// fail; other figures are shown without a verdict. If why_unjudged() has a reason, a neck is
+/// compared with published figures but not judged.
 VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,
                          const std::vector<PendulumEvidence>& pendulum, const Reference& reference);
 
 std::string printed(const VerificationTable& table);
 
-/// The table with what it was made from, less its parameters.
+/// The table with its provenance, without the parameters.
 struct VerificationFile {
   VerificationTable table;
   Provenance provenance;
 };
 
-/// @throws InputError if the file is missing or is none of ours.
+/// Reads a table. @throws InputError if the file is missing or not one of flexneck.
 VerificationFile read_verification(const std::filesystem::path& path);
 
-/// JSON, under a temporary name that is renamed.
+/// Writes JSON, under a temporary name that is then renamed.
 void write_verification(const std::filesystem::path& path, const VerificationTable& table,
                         const Provenance& provenance);
 

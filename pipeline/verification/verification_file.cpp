@@ -69,7 +69,7 @@ VerificationFile read_verification(const std::filesystem::path& path) {
     return file_of(nlohmann::ordered_json::parse(text));
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& error) {  // of the parser, of a missing member, or ours
+  } catch (const std::exception& error) {  // parser, missing member, or InputError
     throw InputError(path.string() + ": " + error.what() +
                      "; make it again with 'flexneck verify'");
   }

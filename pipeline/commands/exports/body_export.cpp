@@ -21,17 +21,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a format has no place for, besides what none has.
+/// Data that a certain format cannot hold, besides those that no foreign format can.
 struct Losses {
-  bool node_shapes = true;  ///< of nodes other than interfaces
-  bool names = false;       ///< of modes and their kinds
+  bool node_shapes = true;  ///< shapes at nodes other than interfaces
+  bool names = false;       ///< names of the modes and of their kinds
 };
 
 void add(std::string& list, bool is_there, const std::string& what) {
   if (is_there) list += (list.empty() ? "" : ", ") + what;
 }
 
-/// What of the body does not go into a foreign file; empty if all does.
+/// List of the data of the body that a foreign file loses.
 std::string lost(const fe_modal::ModalBody& body, const Losses& losses) {
   std::string list;
   add(list, losses.node_shapes, fmt::format("shapes at {} nodes", body.nodes_m.cols()));
@@ -46,7 +46,7 @@ std::string lost(const fe_modal::ModalBody& body, const Losses& losses) {
   return list;
 }
 
-/// The body of the file, without rigid motions, which the frame of a floating body has itself.
+/// Reads the body without its rigid modes, since a floating body's frame has these motions itself.
 fe_modal::ModalBody body_to_write(const FileInput& input, const Losses& losses) {
   const fs::path& file = input.files.front();
   fe_modal::ModalBody body = read_modal_body(file).body;

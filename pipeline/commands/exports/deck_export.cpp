@@ -14,8 +14,8 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// A line about materials whose elements have pressures of their own, which a deck cannot say;
-/// empty if there are none.
+/// Line about the materials whose elements have pressure degrees of freedom, which a deck cannot
+/// express; empty if there are none.
 std::string mixed_materials(const mesher::Mesh& mesh, const fe_modal::FormulationChoice& choice) {
   std::string materials;
   for (const mesher::Material& material : mesh.materials) {
@@ -35,7 +35,7 @@ std::vector<std::array<double, 3>> rows_of(const Eigen::Matrix3Xd& columns) {
   return rows;
 }
 
-/// The study's loads as forces and displacements of nodes.
+/// Converts the study's loads to nodal forces and displacements.
 mesher::InpStaticStep static_step_of(const CommandInput& input, mesher::Mesh mesh) {
   const Study& study = input.study;
   const fe_modal::ModalOptions options = modes_options(study, mesh);
@@ -59,7 +59,7 @@ void export_deck(const CommandInput& input, mesher::Mesh& mesh) {
       options.reduced.insert(material.name);
     }
   }
-  // It adds the study's connections to a mesh of its own.
+  // static_step_of() adds the study's connections to its own copy of the mesh.
   if (!study.loads.empty()) options.static_step = static_step_of(input, mesh);
   add_study_connections(study, mesh);
   mesher::write_inp(input.target, mesh, options);

@@ -25,7 +25,7 @@ constexpr std::array<ExportFormat, 14> kFormats = {
      {".h5", "a modal body of .fem or .SID_FEM", nullptr, false, import_body},
      {".fmu", "a model for co-simulation by FMI 3.0", nullptr, false, export_fmu, true}}};
 
-/// Endings of files that hold a run or a body.
+/// Extensions of files that hold a run or a body.
 constexpr std::array<std::string_view, 3> kNoStudies = {".h5", ".fem", ".SID_FEM"};
 
 }  // namespace

@@ -29,14 +29,14 @@ using multibody::SteppedRun;
 
 namespace {
 
-/// Of the shared object, as the standard names it: "x86_64-linux".
+/// Platform of the shared object in the standard's notation: "x86_64-linux".
 std::string platform() {
   utsname machine{};
   uname(&machine);
   return std::string(machine.machine) + "-linux";
 }
 
-/// Takes the texts and puts them into an archive at once, with one time stamp for all.
+/// A zip archive: collects texts and writes them at once, with one time stamp for all.
 class ZipFile {
  public:
   explicit ZipFile(const fs::path& path)
@@ -53,7 +53,7 @@ class ZipFile {
       zip_source_free(source);
       fail();
     }
-    constexpr time_t kNoTime = 315532800;  // 1980, with which zip's times begin
+    constexpr time_t kNoTime = 315532800;  // 1980-01-01, the earliest time in a zip archive
     zip_file_set_mtime(archive_.get(), static_cast<zip_uint64_t>(index), kNoTime, 0);
   }
   void commit() {
@@ -69,7 +69,7 @@ class ZipFile {
   std::unique_ptr<zip_t, decltype(&zip_discard)> archive_;
 };
 
-/// The standard asks for names that differ.
+/// Fails if two variables have the same name, which the standard forbids.
 void check_variable_names(const fs::path& model, FmuModel& fmu) {
   std::set<std::string> names;
   for (const FmuVariable& variable : variables_of(fmu))
@@ -78,7 +78,7 @@ void check_variable_names(const fs::path& model, FmuModel& fmu) {
                        variable.name + "'; call a channel otherwise");
 }
 
-/// The channels without filters, which would need the whole of a run.
+/// The channels, with their filters removed, since a filter needs the whole run.
 std::vector<ChannelSpec> outputs_of(const ModelFile& file, const fs::path& target,
                                     const Console& console) {
   if (file.output.channels.empty()) {
@@ -103,7 +103,7 @@ SteppedRun::Kind kind_of(const ModelFile& file) {
                                                      : SteppedRun::Kind::motion;
 }
 
-/// The file of muParser that this program has loaded.
+/// Path of the muParser library that this program has loaded.
 fs::path parser_file() {
   Dl_info found;
   if (dladdr(reinterpret_cast<const void*>(&mupGetVersion), &found) == 0)
@@ -144,7 +144,7 @@ void write_fmu(const ModelFile& file, const fs::path& target, const Console& con
                          exact_text(file.solver.resolution_s), exact_text(file.end_time_s))
            : ""},
       fmu);
-  // Names in the FMU with what is there.
+  // Names in the FMU with the contents.
   std::vector<std::pair<std::string, std::string>> contents = {
       {"modelDescription.xml", description}, {"resources/model.bin", bytes}};
   const std::string binaries = fmt::format("binaries/{}/", platform());

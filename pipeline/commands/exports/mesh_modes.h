@@ -9,7 +9,7 @@
 
 namespace flexneck::pipeline {
 
-/// The modes of the folder, of this mesh.
+/// Reads the folder's modes of this mesh.
 /// @throws InputError if they were made with other values or belong to another mesh.
 fe_modal::ModalBody modes_of_mesh(const CommandInput& input, const mesher::Mesh& mesh);
 

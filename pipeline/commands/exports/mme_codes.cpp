@@ -17,18 +17,18 @@ using Kind = CaseSection::Kind;
 
 namespace {
 
-/// Test object D is the dummy, P the pendulum, T the test rig; TMON is the total moment, the one at
-/// the condyles; SFAD applies a static force. A direction 1 or 2 is X or Y with another sign than
-/// that of SAE J211, 0 is none of the dummy's own: our rotations are positive towards the side that
-/// the head tips to, which about J211's axes is negative, and its y is to the right, ours to the
-/// left. Moments have the signs of J211.
+/// Row of the table of codes. Test object D is the dummy, P the pendulum, T the test rig; TMON is
+/// the total moment, i.e. the moment at the condyles; SFAD applies a static force. Direction 1 or 2
+/// is X or Y with a sign opposite to SAE J211; 0 is none of the dummy's axes. Rotations here are
+/// positive towards the side that the head tips to, which is negative about the axes of J211; y
+/// points left here, right in J211. Moments have the signs of J211.
 struct CodeRow {
   Kind kind;
   std::string_view channel;
-  std::string_view place;  ///< test object to fine location 2
-  bool has_dummy;          ///< fine location 3; else 00
+  std::string_view place;  ///< codes from the test object to fine location 2
+  bool has_dummy;          ///< fine location 3 is the dummy; else 00
   std::string_view dimension;
-  char fore_aft, lateral;  ///< direction in either plane
+  char fore_aft, lateral;  ///< direction code in each plane
 };
 constexpr std::array<CodeRow, 13> kCodes = {{
     {Kind::pendulum, "head rotation", "D0HEAD0000", true, "AN", '2', '1'},
@@ -74,9 +74,9 @@ bool is_own_code(const multibody::Channel& channel) {
          channel.name.back() == mme_filter_letter(channel.filter);
 }
 
-/// How many of the outputs lie at equal intervals; the last may be nearer.
+/// Number of outputs at equal intervals; the last interval may be shorter.
 Index equal_outputs(const Eigen::VectorXd& time_s) {
-  constexpr double kSame = 1e-6;  // of an interval
+  constexpr double kSame = 1e-6;  // fraction of an interval
   const Index count = time_s.size();
   if (count < 2) throw InputError("expected two outputs or more");
   const double interval_s = time_s[1] - time_s[0];
@@ -100,7 +100,7 @@ std::vector<std::string> mme_codes(const multibody::Channel& channel, const MmeS
   const char filter = mme_filter_letter(channel.filter);
   if (source.experiment != nullptr) {
     const CaseSection& experiment = *source.experiment;
-    // Directions of the standard lie along axes.
+    // The standard has directions along axes only.
     const bool has_code = experiment.direction != CaseSection::Direction::oblique;
     if (const CodeRow* const row = has_code ? row_of(channel, experiment) : nullptr) {
       const bool lateral = experiment.direction == CaseSection::Direction::lateral;

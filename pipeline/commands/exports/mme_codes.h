@@ -10,23 +10,23 @@
 
 namespace flexneck::pipeline {
 
-/// Whose channels a run's are.
+/// Origin of a run's channels.
 struct MmeSource {
-  const CaseSection* experiment = nullptr;  ///< null: a model file's
-  std::string dummy;                        ///< as the study names it
+  const CaseSection* experiment = nullptr;  ///< null for a model file
+  std::string dummy;                        ///< name of the dummy in the study
 };
 
-/// The code of each curve of a channel. Those of a case's channels are a table (mme_codes.cpp); a
-/// channel whose name is a code of its own dimension and filter keeps it; any other has the code of
-/// a laboratory, 00 2nnn 000000 with the running number nnn.
-/// @param number  of the last code of a laboratory, which goes on
-/// @throws InputError for more than 999 of those.
+/// The code of each curve of a channel. The codes of a case's channels are in a table
+/// (mme_codes.cpp); a channel whose name is a code of its own dimension and filter keeps it; any
+/// other gets a laboratory's code, 00 2nnn 000000 with the running number nnn.
+/// @param number  number of the last laboratory's code; advanced by the codes given
+/// @throws InputError for more than 999 laboratory's codes.
 std::vector<std::string> mme_codes(const multibody::Channel& channel, const MmeSource& source,
                                    int& number);
 
-/// The channels of a run in SI units, sample by sample as the run has them.
-/// @param left_out  gets a line for what is not carried over: a last output at a shorter interval
-/// @throws InputError for outputs that are not at equal intervals.
+/// The channels of a run in SI units, with the samples of the run.
+/// @param left_out  gets a line for each loss: a last output at a shorter interval
+/// @throws InputError for outputs at unequal intervals.
 std::vector<MmeChannel> mme_channels(const multibody::HistoryFile& run, const MmeSource& source,
                                      std::vector<std::string>& left_out);
 

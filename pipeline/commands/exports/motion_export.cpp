@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The motion of a run: of the nodes of its deformable body for ParaView, and of what it records as
-// one table.
+// Exports of a run's motion: the nodes of its deformable body for ParaView, and the recorded
+// quantities as one table.
 #include <algorithm>
 
 #include <Eigen/Geometry>
@@ -24,13 +24,13 @@ namespace {
 
 constexpr Index kMaxFrames = 200;
 
-/// How the frame of a deformable body is told from the motion of one of its interfaces.
+/// An interface and its motion, from which the frame of a deformable body is found.
 struct Rider {
   const fe_modal::Interface* interface = nullptr;
   const multibody::MarkerHistory* marker = nullptr;
 };
 
-/// The interface that the modes move least: the fixed nodes' where there is one.
+/// The interface that the modes move least: that of the fixed nodes, if there is one.
 Rider rider_of(const multibody::History& history, const fe_modal::ModalBody& body) {
   const std::string& name = history.modal.front().body;
   Rider best;
@@ -47,7 +47,7 @@ Rider rider_of(const multibody::History& history, const fe_modal::ModalBody& bod
   return best;
 }
 
-/// Places and deformation of all nodes in the world, a column each.
+/// Positions and deformations of all nodes in the world frame, one column each.
 struct Frame {
   Eigen::Matrix3Xd nodes_m, deformation_m;
 };
@@ -81,7 +81,7 @@ multibody::HistoryFile whole_run(const FileInput& input) {
   return run;
 }
 
-/// A vector of three, or a quaternion.
+/// Channel of a vector with three components, or of a quaternion.
 multibody::Channel channel(const std::string& of, const std::string& what, const std::string& unit,
                            const Eigen::MatrixXd& values) {
   const bool is_vector = values.rows() == 3;

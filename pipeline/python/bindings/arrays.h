@@ -10,8 +10,8 @@ namespace flexneck::python {
 
 namespace py = pybind11;
 
-/// A read-only array on numbers that belong to `owner`, which lives as long as the array.
-/// @param shape  of numbers row by row
+/// A read-only array of numbers that belong to `owner`, which lives as long as the array.
+/// @param shape  shape of the numbers, in row-major order
 template <class Number>
 py::array view(const std::vector<py::ssize_t>& shape, const Number* numbers, py::handle owner) {
   py::array array(py::dtype::of<Number>(), shape, numbers, owner);
@@ -19,7 +19,7 @@ py::array view(const std::vector<py::ssize_t>& shape, const Number* numbers, py:
   return array;
 }
 
-/// Eigen's columns are rows here: (3, n) of Eigen is (n, 3) of NumPy, without a copy.
+/// Eigen's columns as NumPy's rows: (3, n) in Eigen is (n, 3) in NumPy, without a copy.
 template <class Matrix>
 py::array rows_view(const Matrix& columns, py::handle owner) {
   static_assert(!Matrix::IsRowMajor || Matrix::IsVectorAtCompileTime);
@@ -31,7 +31,7 @@ py::array rows_view(const Matrix& columns, py::handle owner) {
         columns.data(), owner);
 }
 
-/// A matrix as it is, (rows, columns), copied.
+/// Copy of a matrix with the same shape, (rows, columns).
 inline py::array copied(const Eigen::MatrixXd& matrix) {
   py::array_t<double> array({matrix.rows(), matrix.cols()});
   auto numbers = array.mutable_unchecked<2>();

@@ -39,7 +39,7 @@ py::list shapes(const py::object& self) {
   return list;
 }
 
-/// Names to position (3), translation and rotation of each mode (m, 3).
+/// Dictionary of interface names to position (3), translation and rotation of each mode (m, 3).
 py::dict interfaces(const py::object& self) {
   py::dict all;
   for (const fe_modal::Interface& each : self.cast<const ModalBody&>().interfaces)
@@ -49,7 +49,7 @@ py::dict interfaces(const py::object& self) {
   return all;
 }
 
-/// Matrices of the modes, (m, ...).
+/// Array of the modes' matrices, (m, ...).
 py::array stacked(const std::vector<Eigen::Matrix3d>& matrices,
                   const std::vector<py::ssize_t>& shape) {
   py::array_t<double> array(shape);
@@ -81,11 +81,12 @@ py::dict invariants(const py::object& self) {
   return found;
 }
 
-// What a body that is built in code gives: arrays as the properties above have them.
+// Arrays that define a body built in code, with the shapes of the properties above.
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// @param shape  of the array, checked
+/// Reads an array.
+/// @param shape  required shape of the array
 Numbers given(const py::dict& from, const char* name, const std::vector<py::ssize_t>& shape) {
   if (!from.contains(name)) throw InputError(std::string(name) + ": expected an array, found none");
   Numbers array = Numbers::ensure(from[name]);
@@ -98,7 +99,7 @@ Numbers given(const py::dict& from, const char* name, const std::vector<py::ssiz
                    "), found " + std::string(py::str(array.attr("shape"))));
 }
 
-/// Rows of NumPy are columns of Eigen.
+/// Converts rows of NumPy to columns of Eigen.
 Eigen::Matrix3Xd columns(const Numbers& rows) {
   return Eigen::Map<const Eigen::Matrix3Xd>(rows.data(), 3, rows.size() / 3);
 }

@@ -24,7 +24,7 @@ using namespace pipeline;
 
 namespace {
 
-/// Sweeps and fits look after Ctrl-C themselves, and keep what is done.
+/// True for sweeps and fits, which handle Ctrl-C themselves and keep finished rows.
 bool looks_after_signals(const Command& command) {
   return command.name == "sweep" || command.name == "fit";
 }
@@ -51,7 +51,7 @@ CommandLine line_of(const Request& request) {
   return line;
 }
 
-/// Does a command as the command line does. @return whether it passed, and warnings
+/// Runs a command as the command line does. @return true if it passed, and its warnings
 std::pair<bool, std::vector<std::string>> run(const Request& request) {
   const CommandLine line = line_of(request);
   bool passed = false;
@@ -76,8 +76,8 @@ std::pair<bool, std::vector<std::string>> run(const Request& request) {
   return {passed, warnings};
 }
 
-/// Whether a format of `export` is of a study's mesh and modes; otherwise it is of a file. Of an
-/// ending that is none the command says so.
+/// Returns whether a format of `export` is for a study's mesh and modes; otherwise it is for a
+/// file. Unknown extensions are reported by the command.
 bool exports_study(const std::string& ending) {
   for (const ExportFormat& format : export_formats())
     if (format.ending == ending) return format.write != nullptr;

@@ -14,7 +14,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// The package's own classes (flexneck/errors.py).
+/// Raises an exception of the package's own classes (flexneck/errors.py).
 void raise(const char* name, const char* text) {
   const py::object type = py::module_::import("flexneck.errors").attr(name);
   PyErr_SetString(type.ptr(), text);
@@ -33,7 +33,7 @@ void bind_errors(py::module_& /*module*/) {
     } catch (const std::filesystem::filesystem_error& error) {
       raise(is_of_path(error) ? "InputError" : "ComputationError", text_of(error).c_str());
     } catch (const py::error_already_set&) {
-      throw;  // pybind11's own, and of want of memory Python's
+      throw;  // exceptions of pybind11, and lack of memory as Python's own exception
     } catch (const py::builtin_exception&) {
       throw;
     } catch (const std::bad_alloc&) {

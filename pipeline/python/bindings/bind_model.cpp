@@ -22,7 +22,7 @@ namespace {
 
 using pipeline::ModelFile;
 
-/// A model, which copies of its runs share.
+/// A model, shared by the copies of its runs.
 class Model {
  public:
   Model(const std::string& path, const std::optional<std::string>& text,
@@ -58,6 +58,7 @@ class Model {
     return {std::make_shared<multibody::HistoryFile>(std::move(done.results)), done.problem};
   }
 
+  /// Simulates into files.
   /// @return warnings
   std::vector<std::string> simulate_into(const std::string& folder) const {
     std::vector<std::string> warnings;
@@ -76,6 +77,7 @@ class Model {
     return warnings;
   }
 
+  /// Exports an FMU.
   /// @return warnings
   std::vector<std::string> export_fmu(const std::string& path) const {
     std::vector<std::string> warnings;
@@ -109,7 +111,8 @@ Eigen::Vector3d vector_of(const std::string& who, const py::handle& value) {
                    std::string(py::str(value)));
 }
 
-/// Called with Python's lock, let go by a thread that may not have it.
+/// Python function that is called with the global lock, and released by a thread that may not hold
+/// it.
 struct HeldFunction {
   explicit HeldFunction(py::function function) : call(std::move(function)) {}
   ~HeldFunction() {

@@ -29,7 +29,7 @@ const HistoryFile& of(const py::object& self) { return self.cast<const HistoryFi
 
 py::array time(const py::object& self) { return rows_view(of(self).history.time_s, self); }
 
-/// Names to unit, names of the curves, filter and values (n, curves).
+/// Dictionary of channel names to unit, names of the curves, filter and values (n, curves).
 py::dict channels(const py::object& self) {
   py::dict all;
   for (const multibody::Channel& each : of(self).channels)
@@ -65,7 +65,7 @@ py::dict joints(const py::object& self) {
   return all;
 }
 
-/// Bodies to the names of their modes and coordinates (n, m).
+/// Dictionary of bodies to the names of their modes and coordinates (n, m).
 py::dict modal(const py::object& self) {
   py::dict all;
   for (const multibody::ModalHistory& each : of(self).history.modal)
@@ -98,7 +98,7 @@ py::dict statistics(const HistoryFile& run) {
   return found;
 }
 
-/// Of each mode of small motions: frequency, damping, growth and the complex amplitudes of the
+/// Data of each mode of small motions: frequency, damping, growth and the complex amplitudes of the
 /// markers (markers, 3), copied.
 py::object linearisation(const HistoryFile& run) {
   if (!run.linearisation) return py::none();

@@ -5,8 +5,8 @@
 
 namespace flexneck::python {
 
-// What the module has of each stage; a function a file. The package beside it (flexneck/*.py) is
-// what users see.
+// Bindings of each stage to the module, one function and file for each. Users see the package
+// beside it (flexneck/*.py).
 
 void bind_errors(pybind11::module_& module);
 void bind_commands(pybind11::module_& module);  ///< studies, commands, tables of results

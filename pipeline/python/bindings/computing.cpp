@@ -22,15 +22,15 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook(50);  ///< after signals
+constexpr std::chrono::milliseconds kLook(50);  ///< interval of checks for signals
 
 /// Thrown by a checkpoint; only compute() catches it.
 struct Stopped {};
 
-/// Of the process, as MPI is: begun at the first use, ended by end_solvers().
+/// Solvers of the process, as MPI is per process: started at first use, ended by end_solvers().
 struct Solvers {
   std::optional<fe_modal::PetscSession> session;
-  pipeline::SerialThread thread;  ///< last: it uses the session
+  pipeline::SerialThread thread;  ///< declared last: its work uses the session
 };
 
 std::unique_ptr<Solvers>& solvers() {
@@ -43,7 +43,7 @@ void do_work(Place place, const std::function<void()>& work) {
   solvers()->thread.run(work);
 }
 
-/// Waits with an eye on signals. @return what a signal's handler has raised
+/// Waits while checking for signals. @return the exception raised by a signal's handler
 std::optional<py::error_already_set> wait_for(const std::future<void>& done,
                                               std::atomic<bool>& stop) {
   std::optional<py::error_already_set> raised;
@@ -73,7 +73,7 @@ void compute(Place place, const std::function<void(const Checkpoint&)>& work) {
     const py::gil_scoped_release unlocked;
     std::packaged_task<void()> task([&] {
       do_work(place, [&] {
-        // The thread stays known to Python: calls of its functions are cheap then.
+        // The thread stays known to Python, which makes calls of its functions cheap.
         const py::gil_scoped_acquire known;
         const py::gil_scoped_release free;
         work(checkpoint);
@@ -88,7 +88,7 @@ void compute(Place place, const std::function<void(const Checkpoint&)>& work) {
     } catch (const Stopped&) {
       if (!raised) throw;
     } catch (...) {
-      if (!raised) throw;  // what was raised says more than what came of it
+      if (!raised) throw;  // the handler's exception is more specific than the resulting one
     }
   }
   if (raised) throw std::move(*raised);
@@ -106,7 +106,8 @@ void start_solvers() {
 void end_solvers() {
   if (!solvers()) return;
   const py::gil_scoped_release unlocked;
-  solvers()->thread.run([] { solvers()->session.reset(); });  // where it was begun
+  // The session ends on the thread that started it.
+  solvers()->thread.run([] { solvers()->session.reset(); });
   solvers().reset();
 }
 

@@ -9,26 +9,26 @@
 
 namespace flexneck::python {
 
-/// Throws, once the user has asked to stop.
+/// Function that throws once the user has asked to stop.
 using Checkpoint = std::function<void()>;
 
-/// Where work is done: what gmsh, PETSc and MPI take part in on one thread that the process has for
-/// them, one piece of work after another; any other on a thread of its own.
+/// Thread for some work: gmsh, PETSc and MPI need the single thread that the process reserves for
+/// them, one piece of work after another; other work gets a thread of its own.
 enum class Place { own_thread, solver_thread };
 
-/// Does work without Python's global lock while the caller waits and looks after signals: Ctrl-C
-/// lets the checkpoint throw and comes back as KeyboardInterrupt.
-/// @pre the caller holds the lock
+/// Runs work without Python's global lock while the caller waits and checks for signals: Ctrl-C
+/// makes the checkpoint throw and is raised as KeyboardInterrupt.
+/// @pre the caller holds Python's global lock
 /// @throws what the work throws
 void compute(Place place, const std::function<void(const Checkpoint& checkpoint)>& work);
 
-/// Starts PETSc and MPI if that has not been done yet. To be called on the thread of the solvers.
+/// Starts PETSc and MPI unless they have been started. To be called on the thread of the solvers.
 /// @throws InputError in one of several processes of mpirun.
 void start_solvers();
 /// Ends PETSc and MPI at the end of the interpreter.
 void end_solvers();
 
-/// What a computation tells: warnings are kept for Python, all else is a checkpoint.
+/// Messages of a computation: warnings are kept for Python, all other messages are checkpoints.
 class Messages {
  public:
   explicit Messages(Checkpoint checkpoint);

@@ -42,7 +42,7 @@ results = fn.Study(out / "bar.toml").fit(out / "fit")
 for row in results.tables["fit parameters"].rows():
     print(row)
 
-# The study that the fit has written, with a modulus of origin "calibrated".
+# The study written by the fit, with a modulus of origin "calibrated".
 fitted = fn.Study(results.folder / "fitted.toml")
 key = "geometry.materials.aluminium.youngs_modulus"
 print(fitted.values[key])

@@ -28,13 +28,13 @@ model = fn.Model({
 })
 run = model.simulate()
 
-# Crossings downwards are a period apart.
+# Downward zero crossings are a period apart.
 angle = run["swing"].values
 falls = np.flatnonzero((angle[:-1] > 0) & (angle[1:] <= 0))
 times = run.time[falls] + np.diff(run.time)[falls] * angle[falls] / (angle[falls] - angle[falls + 1])
 period = float(np.diff(times).mean())
 
-# 4 K(sin(ANGLE / 2)) sqrt(LENGTH / GRAVITY), K by the arithmetic-geometric mean.
+# Exact period 4 K(sin(ANGLE / 2)) sqrt(LENGTH / GRAVITY), K by the arithmetic-geometric mean.
 a, b = 1.0, math.cos(ANGLE / 2)
 while abs(a - b) > 1e-15:
     a, b = (a + b) / 2, math.sqrt(a * b)

@@ -16,7 +16,7 @@ from plots import Picture
 out = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 out.mkdir(parents=True, exist_ok=True)
 
-# The geometry, and what it amounts to.
+# The geometry, and some quantities that follow from it.
 study = fn.Study("hybrid3")
 for key in ("geometry.plate_diameter", "geometry.plate_thickness", "geometry.length"):
     value = study.values.get(key) or study.defaults[key]
@@ -30,7 +30,7 @@ picture.curve(section[:, 0] * fn.factor("m", "in"), section[:, 2] * fn.factor("m
               "nodes in the plane of symmetry", ".")
 picture.save(out / "mesh.svg")
 
-# The modes: how the axis of the neck bends in those that move fore and aft.
+# The modes: bending shape of the neck's axis in the fore-aft modes.
 body = mesh.modes()
 nodes = body.nodes
 near = np.argsort(nodes[:, 2] + 1e3 * np.hypot(nodes[:, 0], nodes[:, 1]).round(4))

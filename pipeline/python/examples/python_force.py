@@ -40,7 +40,7 @@ off = np.abs(x - by_formula.markers["block.center"].position[:, 0]).max()
 print(f"the two differ by {off:.1e} m")
 assert off < 1e-9
 
-# What the force gives to the block is work in the books.
+# The energy that the force gives to the block counts as work in the energy balance.
 kinetic, work = by_python.energy["kinetic"], by_python.energy["work"]
 print(f"books of energy: {np.abs(kinetic - work - kinetic[0]).max():.1e} J off")
 assert np.abs(kinetic - work - kinetic[0]).max() < 1e-7

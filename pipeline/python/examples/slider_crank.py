@@ -34,7 +34,7 @@ M = weight * np.array([[0.5, 0, 0, 0], [0, 0.5, 0, 0], [0, 0, 8, 1], [0, 0, 1, 2
 K = np.diag([bend / 24, bend * 2 / 3, 0, 0])
 K[2:, 2:] = spring * np.array([[16, -8], [-8, 7]]) / 3
 
-# Integrals of the modes over the mass, as published: of themselves along x and y, by pairs, by place.
+# Mass integrals of the modes, as published: of themselves along x and y, by pairs, by place.
 S2 = weight * np.array([[0, 2 / PI, 0], [0, 0, 0], [2 / 3, 0, 0], [1 / 6, 0, 0]])
 B = np.zeros((4, 4))
 B[0, 2], B[0, 3], B[1, 3] = -16 / PI**3, 8 / PI**3 - 1 / PI, 1 / (2 * PI)

@@ -11,18 +11,18 @@
 
 namespace flexneck::pipeline {
 
-/// How the neck is bent at a time of a run.
+/// Modal coordinates of the neck at a time of a run.
 struct BentNeck {
-  std::vector<Eigen::Index> modes;  ///< of the run, among the body's
+  std::vector<Eigen::Index> modes;  ///< indices of the run's modes among the body's
   Eigen::VectorXd coordinates;
 };
 
-/// @param time  its place in the history
-/// None if the run has not these modes.
+/// Modal coordinates at a time; none if the body lacks the run's modes.
+/// @param time  index in the history
 std::optional<BentNeck> bent_neck(const multibody::History& history,
                                   const fe_modal::ModalBody& body, Eigen::Index time);
 
-/// Where that puts the joint point, neck frame, m.
+/// Position of the joint point for these coordinates, neck frame, m.
 Eigen::Vector3d joint_of(const fe_modal::ModalBody& body, const BentNeck& bent);
 
 /// Rotation of the joint's frame about y, rad, positive forward.

@@ -44,13 +44,13 @@ void make_folder(const fs::path& folder) {
   if (error) throw InputError(folder.string() + ": cannot be made (" + error.message() + ")");
 }
 
-/// Those of another run.
+/// Removes the files of a figure from an earlier run.
 void remove_files(const fs::path& folder, const Figure& figure) {
   fs::remove(folder / (stem_of(figure) + ".svg"));
   fs::remove(folder / (stem_of(figure) + ".csv"));
 }
 
-/// gnuplot does not tell when its last bytes found no room.
+/// Reads a picture and checks its end, since gnuplot does not report a full disk.
 std::string whole_svg(const fs::path& path) {
   std::string text = text_of_file(path);
   if (text.find("</svg>") == std::string::npos) {
@@ -61,7 +61,7 @@ std::string whole_svg(const fs::path& path) {
   return text;
 }
 
-/// Pictures that stand in for the moving neck where a browser has no WebGL.
+/// True for pictures that replace the moving neck in a browser without WebGL.
 bool shows_neck(const Figure& figure) {
   static constexpr std::array kNumbers = {3, 4, 5, 7};
   return std::find(kNumbers.begin(), kNumbers.end(), figure.number) != kNumbers.end();

@@ -17,11 +17,11 @@ namespace flexneck::pipeline {
 
 namespace {
 
-/// More sides than this make a picture for papers too large; mesh.png shows them.
+/// Maximum number of facets: more make a vector picture too large; mesh.png shows them.
 constexpr std::size_t kMaxFacets = 6000;
-/// Largest displacement of a mode as it is drawn, over the length of the body.
+/// Maximum displacement of a drawn mode, over the length of the body.
 constexpr double kAmplitude = 0.2;
-/// gnuplot's "set view": about the picture's horizontal, then about z, degrees.
+/// Angles of gnuplot's "set view": about the picture's horizontal, then about z, degrees.
 constexpr double kTilt = 68;
 constexpr double kTurn = 35;
 
@@ -31,8 +31,7 @@ Eigen::Vector3d towards_eye() {
   return {std::sin(tilt) * std::sin(turn), -std::sin(tilt) * std::cos(turn), std::cos(tilt)};
 }
 
-/// The corners of a side as gnuplot's surfaces want them, two rows of two; a triangle has one
-/// twice.
+/// Corners of a facet for gnuplot's surfaces, two rows of two; a triangle repeats one.
 std::array<std::int32_t, 4> grid_corners(const mesher::Facet& side) {
   const bool is_triangle = mesher::shape_of(side.kind) == mesher::ReferenceShape::triangle;
   const auto& n = side.nodes;
@@ -44,8 +43,8 @@ struct Boundary {
   std::vector<mesher::Facet> sides;
 };
 
-/// Sides of the boundary that the eye sees, moved, each with a value at its corners.
-/// @param value_of  of a node on a side
+/// CSV of the visible facets of the boundary, displaced, each with a value at its corners.
+/// @param value_of  returns the value of a node on a facet
 template <class ValueOf>
 std::string csv_of(const Boundary& boundary, const Eigen::Matrix3Xd& positions_m,
                    const std::string& what, const ValueOf& value_of) {
@@ -70,7 +69,7 @@ std::string csv_of(const Boundary& boundary, const Eigen::Matrix3Xd& positions_m
   return csv;
 }
 
-/// Axes of equal length about the middle: both figures have the same scale.
+/// Axes of equal length about the middle, so that both figures have the same scale.
 std::string ranges(const Eigen::Matrix3Xd& positions_m) {
   const double inch = factor_from_si("m", "in");
   const Eigen::Vector3d low = inch * positions_m.rowwise().minCoeff();

@@ -56,7 +56,7 @@ void append(std::vector<Drawing::Shape>& to, std::vector<Drawing::Shape> from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-/// Axes of a frame with their names.
+/// Adds the axes of a frame with their names.
 void add_frame(Drawing& drawing, const Vector2d& origin, const Matrix2d& axes, double length,
                const std::string& x, const std::string& z) {
   for (int k = 0; k < 2; ++k) {
@@ -107,7 +107,7 @@ Figure kinematics(const Results& results, const geometry::NeckParameters& neck) 
   return figure;
 }
 
-/// "published 4, inferred 7, …": of the dimensions.
+/// Number of dimensions of each origin: "published 4, inferred 7, …".
 std::string origins_of_dimensions(const Study& study) {
   std::array<int, kOriginNames.size()> counts{};
   for (const geometry::NeckDimension& dimension : geometry::neck_dimensions())
@@ -155,7 +155,7 @@ Figure section(const Study& study) {
   return figure;
 }
 
-/// Whether a static test is loaded as figure 5 draws it.
+/// True if a static test is loaded as in figure 5.
 bool pushes_forward_at_top(const Study& study, const std::string& name) {
   const auto test = std::find_if(study.cases.begin(), study.cases.end(), [&](const auto& each) {
     return each.name == name && each.kind == CaseSection::Kind::static_test;
@@ -202,7 +202,8 @@ Figure static_tester(const Results& results, const Study& study) {
   return figure;
 }
 
-/// The time at which the head is farthest from where it hangs at rest, against the arm.
+/// Index of the time at which the top of the neck, relative to its base, is farthest from its
+/// initial position.
 Eigen::Index farthest(const multibody::History& history) {
   const auto& top = history.marker("neck.top").position_m;
   const auto& base = history.marker("neck.base").position_m;
@@ -212,7 +213,7 @@ Eigen::Index farthest(const multibody::History& history) {
   return time;
 }
 
-/// The pendulum as it hangs: what points up in the neck's frame points down.
+/// Drawing of the hanging pendulum, in which the neck's frame is upside down.
 Drawing pendulum_drawing(const fe_modal::ModalBody& body,
                          const geometry::NeckParameters& dimensions, const BentNeck& bent,
                          const HeadShape& head) {

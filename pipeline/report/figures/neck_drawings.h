@@ -8,8 +8,8 @@
 
 namespace flexneck::pipeline {
 
-/// Figures 1, 2, 5 and 7: what the paper draws, from the study's dimensions and the motions that
-/// were computed. None of them for another structure than the neck.
+/// Figures 1, 2, 5 and 7: the paper's drawings, from the study's dimensions and the computed
+/// motions. None for a structure other than the neck.
 std::vector<Figure> neck_drawings(const Results& results, const Study& study);
 
 }  // namespace flexneck::pipeline

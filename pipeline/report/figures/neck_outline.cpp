@@ -10,7 +10,7 @@ namespace {
 /// Points on each vertical side of a layer, so that it can bend.
 constexpr int kSidePoints = 6;
 
-/// Once around a rectangle, closed.
+/// Closed outline of a rectangle.
 Eigen::Matrix2Xd rectangle(double left, double right, double bottom, double top) {
   Eigen::Matrix2Xd points(2, 2 * kSidePoints + 1);
   for (int k = 0; k < kSidePoints; ++k) {

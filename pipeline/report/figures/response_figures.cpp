@@ -22,7 +22,7 @@ using Kind = Experiment::Kind;
 struct CurveSpec {
   std::string experiment;
   std::string channel;
-  bool is_optional = false;  ///< a variant, left out where it was not run
+  bool is_optional = false;  ///< a variant, left out if it was not run
   std::string title = {};
 };
 
@@ -52,7 +52,7 @@ std::vector<CurveSpec> accelerations(const std::string& experiment) {
   return {{experiment, channel}, {experiment + "-spring", channel, true}};
 }
 
-/// How the text counts the rotations' figures.
+/// Remark with the text's numbering of the rotations' figures.
 std::string rotation_remark(const std::string& in_text) {
   return "Head and neck rotation against the arm. " + in_text;
 }
@@ -105,7 +105,7 @@ const std::vector<ResponseFigure>& response_list() {
   return list;
 }
 
-/// What a run is of, from its history and what the study says of its case.
+/// Name of a run's model, from its history and the study's case.
 std::string model_of(const Experiment& experiment, const Study& study) {
   const auto found =
       std::find_if(study.cases.begin(), study.cases.end(),
@@ -124,19 +124,19 @@ const multibody::Channel* channel_of(const Experiment* experiment, const std::st
   return found == channels.end() || found->values.rows() != 1 ? nullptr : &*found;
 }
 
-/// A channel in the unit in which it is shown.
+/// A channel in its display unit.
 Eigen::VectorXd shown_values(const multibody::Channel& channel, Kind kind) {
   return channel.values.row(0).transpose() *
          factor_from_si(channel.unit, shown_unit(channel.unit, kind));
 }
 
-/// "base moment [in*lbf]"
+/// Axis label such as "base moment [in*lbf]".
 std::string label(const std::string& name, const std::string& si_unit, Kind kind) {
   const std::string unit = shown_unit(si_unit, kind);
   return name + " [" + (unit == "gn" ? "g" : unit) + "]";
 }
 
-/// Corridors behind the figure's curves. @param sources  gets where they are from, each once
+/// Corridors behind the figure's curves. @param sources  gets their sources, each once
 std::vector<FigureBand> bands_of(const ResponseFigure& figure, const Study& study,
                                  std::set<std::string>& sources) {
   std::vector<FigureBand> bands;

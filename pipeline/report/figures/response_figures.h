@@ -8,8 +8,7 @@
 
 namespace flexneck::pipeline {
 
-/// Figures 6 and 8 to 16: what the experiments gave, beside it their variants as far as they were
-/// run.
+/// Figures 6 and 8 to 16: the results of the experiments, with the variants that were run.
 std::vector<Figure> response_figures(const Results& results, const Study& study);
 
 }  // namespace flexneck::pipeline

@@ -14,8 +14,8 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr std::size_t kFrequencies = 6;  ///< panels of frequencies alone
-constexpr std::size_t kBars = 8;         ///< of a panel: the longest
+constexpr std::size_t kFrequencies = 6;  ///< panels with frequencies only
+constexpr std::size_t kBars = 8;         ///< number of bars of a panel, the longest ones
 constexpr int kPanelWidth = 400;
 constexpr int kPanelHeight = 240;
 constexpr int kPanelsAcross = 2;
@@ -30,7 +30,7 @@ struct Panel {
   std::vector<Bar> bars;
 };
 
-/// Of a cell of ours; 0 where it is none.
+/// Number in a cell of a table; 0 if there is none.
 double number_of(const std::string& cell) {
   const char* const first = cell.data() + (cell.starts_with('+') ? 1 : 0);
   double value = 0;
@@ -38,7 +38,7 @@ double number_of(const std::string& cell) {
   return value;
 }
 
-/// The longest bars of a column.
+/// Panel with the longest bars of a column.
 Panel panel_of(const ResultTable& table, std::size_t column) {
   Panel panel{table.columns[column].name, {}};
   for (const std::vector<std::string>& row : table.rows) {
@@ -52,7 +52,7 @@ Panel panel_of(const ResultTable& table, std::size_t column) {
   return panel;
 }
 
-/// Appends the first columns of a table that are wanted.
+/// Appends the first accepted columns of a table as panels.
 void add_panels(const Results& results, std::size_t table, std::size_t count,
                 const std::function<bool(const std::string&)>& is_wanted,
                 std::vector<Panel>& panels) {
@@ -91,7 +91,7 @@ std::string csv_of(const std::vector<Panel>& panels) {
   return csv;
 }
 
-/// Bars below one another, the input's key beside each.
+/// Script of a panel: bars below one another, each beside the key of its input.
 std::string panel_script(const Panel& panel, std::size_t index, double reach,
                          const std::string& file) {
   std::string script =

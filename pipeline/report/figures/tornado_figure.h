@@ -6,8 +6,8 @@
 
 namespace flexneck::pipeline {
 
-/// What each input does to the frequencies, to the first one with a body attached, to a bending
-/// stiffness and to the mass: bars of d ln(quantity) / d ln(input), the longest first, a panel for
+/// Effect of each input on the frequencies, on the first one with a body attached, on a bending
+/// stiffness and on the mass: bars of d ln(quantity) / d ln(input), the longest first, a panel for
 /// each quantity. From the tables of sensitivities.json; missing without them.
 Figure tornado_figure(const Results& results);
 
